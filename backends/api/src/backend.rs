@@ -1,0 +1,242 @@
+//! The trait a backend implements, and the data it speaks in.
+//!
+//! A backend answers what it can do ([`Backend::capabilities`], [`Backend::options`]), then whether it can say a given
+//! program ([`Backend::check`]); the [`Emission`] which that returns is the proof that it can, and is the only thing that
+//! writes. Problems are data ([`BackendIssue`]), never text: the compiler puts them into words and finds the place in
+//! the source.
+
+use crate::bundle::{Sink, SinkError};
+use crate::ir::OpId;
+use crate::number::NotFinite;
+use crate::units::Length;
+use crate::verify::{Capabilities, VerifiedProgram};
+use std::collections::BTreeMap;
+
+/// One output dialect.
+pub trait Backend: Sync {
+    /// The word after `--target`, and the name of its options block in the job.
+    fn id(&self) -> &'static str;
+
+    /// What it is, in one line, for `--help`.
+    fn summary(&self) -> &'static str;
+
+    /// What the dialect can say.
+    fn capabilities(&self) -> Capabilities;
+
+    /// The options it takes.
+    fn options(&self) -> &'static [OptionSpec];
+
+    /// Whether the dialect can say this program with these options, and the writer if it can.
+    ///
+    /// # Errors
+    /// Everything that stands in the way, not only the first thing.
+    fn check<'p>(
+        &self,
+        program: &'p VerifiedProgram,
+        options: &'p Options,
+    ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>>;
+}
+
+/// A program that a backend has found sayable.
+pub trait Emission {
+    /// Writes all files. The same program and options give the same bytes, always.
+    ///
+    /// # Errors
+    /// What the sink reports, or a broken promise of the backend itself.
+    fn write(&self, sink: &mut dyn Sink) -> Result<(), EmitError>;
+}
+
+/// Why a program was not written after all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum EmitError {
+    /// The sink did not take the bytes.
+    Sink(SinkError),
+    /// A value that a verified program cannot hold: a fault in the compiler, not in the job.
+    Internal(&'static str),
+}
+
+impl From<SinkError> for EmitError {
+    fn from(error: SinkError) -> Self {
+        Self::Sink(error)
+    }
+}
+
+impl From<NotFinite> for EmitError {
+    fn from(_: NotFinite) -> Self {
+        Self::Internal("a number to print is not finite")
+    }
+}
+
+/// Why a dialect cannot say a program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BackendIssue {
+    /// The job has no machine block.
+    MissingMachine,
+    /// The machine block lacks something the dialect needs.
+    MissingMachineField {
+        /// The field's name in the language.
+        field: &'static str,
+        /// What it is for.
+        why: &'static str,
+    },
+    /// Two options, or an option and the program, do not go together.
+    OptionConflict {
+        /// The option.
+        key: &'static str,
+        /// Why not.
+        why: String,
+    },
+    /// The dialect has no such op.
+    Unsupported {
+        /// Where.
+        op: OpId,
+        /// What is missing.
+        what: &'static str,
+    },
+    /// A number that the dialect or the controller does not take.
+    OutOfRange {
+        /// Where, if in the program's ops.
+        op: Option<OpId>,
+        /// What it is, such as `X` or `output number`.
+        what: &'static str,
+        /// Its value as text with unit.
+        value: String,
+        /// What is allowed, as text.
+        allowed: String,
+    },
+}
+
+/// One option of a backend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OptionSpec {
+    /// Its key.
+    pub key: &'static str,
+    /// What values it takes.
+    pub kind: OptionKind,
+    /// One sentence for the documentation.
+    pub help: &'static str,
+}
+
+/// What values an option takes, and its default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OptionKind {
+    /// A whole number.
+    Integer {
+        /// Smallest.
+        min: u32,
+        /// Largest.
+        max: u32,
+        /// When not given.
+        default: u32,
+    },
+    /// A length.
+    Length {
+        /// Smallest.
+        min: Length,
+        /// Largest.
+        max: Length,
+        /// When not given.
+        default: Length,
+    },
+    /// Lines of text, none when not given.
+    Lines,
+    /// One of a few words.
+    Choice {
+        /// The words; the first is the default.
+        of: &'static [&'static str],
+    },
+}
+
+/// A value given to an option.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OptionValue {
+    /// A whole number.
+    Integer(u32),
+    /// A length.
+    Length(Length),
+    /// Lines of text.
+    Lines(Vec<String>),
+    /// A word.
+    Choice(&'static str),
+}
+
+/// Options of one backend, complete: what was not given has its default.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    values: BTreeMap<&'static str, OptionValue>,
+}
+
+impl Options {
+    /// All defaults.
+    #[must_use]
+    pub fn defaults(specs: &'static [OptionSpec]) -> Self {
+        let default = |kind: OptionKind| match kind {
+            OptionKind::Integer { default, .. } => OptionValue::Integer(default),
+            OptionKind::Length { default, .. } => OptionValue::Length(default),
+            OptionKind::Lines => OptionValue::Lines(Vec::new()),
+            OptionKind::Choice { of } => OptionValue::Choice(of.first().copied().unwrap_or_default()),
+        };
+        Self {
+            values: specs.iter().map(|spec| (spec.key, default(spec.kind))).collect(),
+        }
+    }
+
+    /// Sets an option to a value that fits its kind.
+    ///
+    /// # Errors
+    /// What the option takes, in words, when the value does not fit.
+    pub fn set(&mut self, spec: &OptionSpec, value: OptionValue) -> Result<(), String> {
+        match (spec.kind, &value) {
+            (OptionKind::Integer { min, max, .. }, OptionValue::Integer(n)) if (min..=max).contains(n) => {}
+            (OptionKind::Integer { min, max, .. }, _) => {
+                return Err(format!("a whole number from {min} to {max}"));
+            }
+            (OptionKind::Length { min, max, .. }, OptionValue::Length(l)) if (min..=max).contains(l) => {}
+            (OptionKind::Length { min, max, .. }, _) => {
+                return Err(format!("a length from {} mm to {} mm", min.to_mm(), max.to_mm()));
+            }
+            (OptionKind::Lines, OptionValue::Lines(_)) => {}
+            (OptionKind::Lines, _) => return Err("text in quotes".to_owned()),
+            (OptionKind::Choice { of }, OptionValue::Choice(word)) if of.contains(word) => {}
+            (OptionKind::Choice { of }, _) => return Err(format!("one of {}", of.join(", "))),
+        }
+        self.values.insert(spec.key, value);
+        Ok(())
+    }
+
+    /// A whole number; 0 for a key that is no such option (a backend only asks for its own).
+    #[must_use]
+    pub fn integer(&self, key: &str) -> u32 {
+        match self.values.get(key) {
+            Some(OptionValue::Integer(n)) => *n,
+            _ => 0,
+        }
+    }
+
+    /// A length; zero for a key that is no such option.
+    #[must_use]
+    pub fn length(&self, key: &str) -> Length {
+        match self.values.get(key) {
+            Some(OptionValue::Length(l)) => *l,
+            _ => Length::ZERO,
+        }
+    }
+
+    /// Lines of text; none for a key that is no such option.
+    #[must_use]
+    pub fn lines(&self, key: &str) -> &[String] {
+        match self.values.get(key) {
+            Some(OptionValue::Lines(lines)) => lines,
+            _ => &[],
+        }
+    }
+
+    /// A word; empty for a key that is no such option.
+    #[must_use]
+    pub fn choice(&self, key: &str) -> &'static str {
+        match self.values.get(key) {
+            Some(OptionValue::Choice(word)) => word,
+            _ => "",
+        }
+    }
+}

@@ -1,0 +1,342 @@
+//! The intermediate program: what the machine does, op by op. See the crate documentation for its meaning.
+//!
+//! The serde form is the exchange format (`--emit ir`); its schema is committed as `docs/schema/ir.json`. A change
+//! that old readers would misread raises [`IR_VERSION`].
+
+use crate::geometry::{Frame, Orientation, Point3};
+use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+use core::num::NonZeroU32;
+use serde::{Deserialize, Serialize};
+
+/// Version of the exchange form that this crate reads and writes.
+pub const IR_VERSION: u32 = 1;
+
+/// A whole program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Program {
+    /// Version of this form, [`IR_VERSION`].
+    pub version: u32,
+    /// The job's name as written by the user.
+    pub name: String,
+    /// The stock the program works on.
+    pub stock: Stock,
+    /// The machine, when the job names one. Without it the program can be checked and shown, not emitted.
+    pub cell: Option<Cell>,
+    /// What the ops belong to, in order of work.
+    pub operations: Vec<Operation>,
+    /// Orientations of T in W that the ops refer to.
+    pub orientations: Vec<Orientation>,
+    /// Tip speeds that the ops refer to.
+    pub feeds: Vec<Speed>,
+    /// Reorientation rates that the ops refer to.
+    pub rates: Vec<AngularSpeed>,
+    /// The ops in the order they are carried out. An op's place in this list is its [`OpId`].
+    pub ops: Vec<Op>,
+}
+
+/// The stock box, with one corner at the origin of W.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Stock {
+    /// Along x, across the cuts.
+    pub width: Length,
+    /// Along y, along the cuts.
+    pub depth: Length,
+    /// Along z.
+    pub height: Length,
+}
+
+/// The machine as far as a program needs it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Cell {
+    /// The name the job gives it.
+    pub name: String,
+    /// What it is.
+    pub kind: MachineKind,
+    /// Model as written in the job, such as `kuka/kr210_r3100`.
+    pub model: String,
+    /// Blade frame T seen from the flange.
+    pub tool: Registered<Frame>,
+    /// Workpiece frame W seen from the robot's world.
+    pub base: Registered<Frame>,
+    /// What the flange carries, when the job states it.
+    pub load: Option<Registered<Load>>,
+    /// Axis angles where the program starts and ends, when the job states them.
+    pub home: Option<[Angle; 6]>,
+    /// Digital output that runs the ultrasonic generator.
+    pub ultrasonic: Option<u32>,
+    /// How the program knows that the blade vibrates.
+    pub ready: Ready,
+}
+
+/// Kinds of machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum MachineKind {
+    /// An articulated arm with six axes.
+    Robot,
+}
+
+/// Data given as values, or by the number under which the controller keeps it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Registered<T> {
+    /// The values themselves.
+    Value(T),
+    /// A number in the controller's own table, counted from 1.
+    Number(u32),
+}
+
+/// What the flange carries.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Load {
+    /// Mass.
+    pub mass: Mass,
+    /// Centre of mass seen from the flange, in mm.
+    pub centre: Point3,
+}
+
+/// How a program knows that the generator is up before the blade enters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Ready {
+    /// A digital input goes high.
+    Input(u32),
+    /// Time enough has passed.
+    After(Duration),
+}
+
+/// One operation of the job, in the user's words.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Operation {
+    /// What is done.
+    pub kind: OperationKind,
+    /// The blade that does it.
+    pub blade: Blade,
+    /// Where the job says so.
+    pub source: SourceRef,
+}
+
+/// Kinds of operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum OperationKind {
+    /// V-shaped roughing with a straight blade.
+    RoughVcut,
+}
+
+/// A straight blade.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Blade {
+    /// Its name in the job.
+    pub name: String,
+    /// Usable edge length from the tip.
+    pub cutting_length: Length,
+    /// Half the apex angle, between edge and tool axis.
+    pub half_apex: Angle,
+    /// Thickness square to the blade plane.
+    pub thickness: Length,
+    /// Which sides cut.
+    pub edges: Edges,
+}
+
+/// Which sides of a blade cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Edges {
+    /// Only the side towards `+x_t`: the blade must be turned half round to cut the other way.
+    Single,
+    /// Both sides.
+    Double,
+}
+
+/// A place in the job's source text, in bytes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SourceRef {
+    /// File as the compiler was told of it.
+    pub file: String,
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+/// Number of an op: its place in [`Program::ops`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct OpId(pub u32);
+
+/// Place in [`Program::operations`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct OperationId(pub u16);
+
+/// Place in [`Program::orientations`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct OrientationId(pub u32);
+
+/// Place in [`Program::feeds`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct FeedId(pub u16);
+
+/// Place in [`Program::rates`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct RateId(pub u16);
+
+/// One op and what of the job it serves.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Op {
+    /// What of the job it serves; leads back to the source.
+    pub site: Site,
+    /// What is done.
+    pub action: Action,
+}
+
+/// What of the job an op serves. Layers and cuts are counted from 1, as people on the shop floor do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Site {
+    /// The program as a whole: its start and end.
+    Program,
+    /// An operation as a whole: its start and end.
+    Operation(OperationId),
+    /// A layer as a whole: getting there and leaving.
+    Layer {
+        /// The operation.
+        operation: OperationId,
+        /// The layer, from the top.
+        layer: NonZeroU32,
+    },
+    /// One V-cut.
+    Cut {
+        /// The operation.
+        operation: OperationId,
+        /// The layer, from the top.
+        layer: NonZeroU32,
+        /// The cut within its layer.
+        cut: NonZeroU32,
+    },
+}
+
+/// What an op does. Every motion starts where the op before it ended.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", tag = "do")]
+pub enum Action {
+    /// All axes to the cell's home angles. The only motion whose path is not a line of the tip.
+    Home,
+    /// Through the air, tip on a line, orientation turning along.
+    Travel {
+        /// Where the tip ends.
+        to: Point3,
+        /// How the blade is held there.
+        orientation: OrientationId,
+        /// Tip speed.
+        feed: FeedId,
+        /// Rate at which the orientation turns at most.
+        rate: RateId,
+    },
+    /// Through the air towards the work, orientation kept; ends in an exact stop.
+    Approach {
+        /// Where the tip ends.
+        to: Point3,
+        /// Tip speed.
+        feed: FeedId,
+    },
+    /// Through the air away from the work, orientation kept.
+    Retract {
+        /// Where the tip ends.
+        to: Point3,
+        /// Tip speed.
+        feed: FeedId,
+    },
+    /// Through the work along y, orientation kept; starts and ends in an exact stop.
+    Cut {
+        /// Which flank of the V this cut makes.
+        flank: Flank,
+        /// Where the tip ends.
+        to: Point3,
+        /// Tip speed.
+        feed: FeedId,
+    },
+    /// Orientation changes while the tip stays where it is.
+    Turn {
+        /// How the blade is held afterwards.
+        to: OrientationId,
+        /// Rate of turning.
+        rate: RateId,
+    },
+    /// The ultrasonic generator is switched, exactly here.
+    Ultrasonic {
+        /// On or off.
+        state: Switch,
+    },
+    /// Waits until the generator is up ([`Cell::ready`]).
+    AwaitReady,
+    /// Waits.
+    Dwell {
+        /// For so long.
+        time: Duration,
+    },
+    /// Reserved: another blade is put in. No program has it yet, and every backend may refuse it.
+    ToolChange {
+        /// Number of the tool in the magazine.
+        tool: u32,
+    },
+}
+
+/// The two flanks of a V, seen looking along +y.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Flank {
+    /// Rises towards -x; the shank leans to -x (swing negative).
+    Left,
+    /// Rises towards +x; the shank leans to +x (swing positive).
+    Right,
+}
+
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Switch {
+    /// Running.
+    On,
+    /// Stopped.
+    Off,
+}
+
+impl Site {
+    /// The operation it belongs to, if to one.
+    #[must_use]
+    pub const fn operation(self) -> Option<OperationId> {
+        match self {
+            Self::Program => None,
+            Self::Operation(operation) | Self::Layer { operation, .. } | Self::Cut { operation, .. } => {
+                Some(operation)
+            }
+        }
+    }
+}

@@ -1,0 +1,587 @@
+//! The verifier: the only way from a [`Program`] to a [`VerifiedProgram`].
+//!
+//! It walks the ops once, carrying what the machine would be doing (where the tip is, how the blade is held, whether
+//! it vibrates), and checks each op against that. What it promises to backends: every table reference is valid, every
+//! number finite, every speed positive, every motion starts from a known pose, the first motion is `Home` where there
+//! is a cell, no rotation is ambiguous, the blade only meets the stock in cuts, and cuts come in pairs.
+
+use crate::geometry::{Orientation, Point3};
+use crate::ir::{
+    Action, Edges, FeedId, Flank, IR_VERSION, Op, OpId, Operation, OperationId, OrientationId, Program,
+    RateId, Ready, Registered, Site, Switch,
+};
+use crate::units::{Angle, Length};
+use core::fmt;
+
+/// A program that has passed [`verify`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerifiedProgram {
+    program: Program,
+    needs: Capabilities,
+}
+
+impl VerifiedProgram {
+    /// The program.
+    #[must_use]
+    pub const fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// What a dialect must be able to say.
+    #[must_use]
+    pub const fn needs(&self) -> Capabilities {
+        self.needs
+    }
+
+    /// The orientation behind an id (the identity for an id of another program).
+    #[must_use]
+    pub fn orientation(&self, id: OrientationId) -> Orientation {
+        self.program
+            .orientations
+            .get(id.0 as usize)
+            .copied()
+            .unwrap_or(Orientation::IDENTITY)
+    }
+
+    /// The ops with their numbers.
+    pub fn ops(&self) -> impl Iterator<Item = (OpId, &Op)> {
+        (0..).map(OpId).zip(&self.program.ops)
+    }
+
+    /// Gives the program back, unverified.
+    #[must_use]
+    pub fn into_program(self) -> Program {
+        self.program
+    }
+}
+
+/// Something a program may need and a dialect may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Capability {
+    /// Straight moves with a turning blade.
+    LinearMove,
+    /// A move of all axes to given angles.
+    JointMove,
+    /// Turning about a still tip.
+    StillTipTurn,
+    /// A digital output.
+    Output,
+    /// Waiting for a digital input.
+    AwaitInput,
+    /// Waiting for some time.
+    Dwell,
+    /// Changing the blade.
+    ToolChange,
+}
+
+impl Capability {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::LinearMove,
+        Self::JointMove,
+        Self::StillTipTurn,
+        Self::Output,
+        Self::AwaitInput,
+        Self::Dwell,
+        Self::ToolChange,
+    ];
+}
+
+/// A set of [`Capability`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Capabilities(u32);
+
+impl Capabilities {
+    /// The set without members.
+    pub const NONE: Self = Self(0);
+
+    /// This set and one more.
+    #[must_use]
+    pub const fn with(self, capability: Capability) -> Self {
+        Self(self.0 | (1 << capability as u32))
+    }
+
+    /// Whether it is in the set.
+    #[must_use]
+    pub const fn has(self, capability: Capability) -> bool {
+        self.0 & (1 << capability as u32) != 0
+    }
+
+    /// Members of this set that `other` lacks.
+    pub fn missing_from(self, other: Self) -> impl Iterator<Item = Capability> {
+        Capability::ALL
+            .into_iter()
+            .filter(move |&c| self.has(c) && !other.has(c))
+    }
+}
+
+/// A broken rule. All faults of a program made by this compiler are faults of the compiler.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The op, where the rule is about one.
+    pub op: Option<OpId>,
+    /// The rule.
+    pub rule: Rule,
+}
+
+/// The rules of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// The program states the version that this crate knows.
+    Version,
+    /// Every id refers to an entry of its table.
+    TableReference,
+    /// Every number is finite, every length, speed and time that must be positive is.
+    Number,
+    /// The first motion is `Home` where there is a cell with a home, else a `Travel`; after `Home` comes a `Travel`.
+    KnownStart,
+    /// `Home` needs a cell with home angles.
+    HomeAngles,
+    /// Rotations between consecutive poses are below [`LARGEST_TURN`].
+    AmbiguousTurn,
+    /// Moves through the air keep the tip out of the stock.
+    AirMoveThroughStock,
+    /// Turns happen with the blade clear of the stock.
+    TurnInStock,
+    /// A cut runs along y through the whole depth of the stock.
+    CutAcrossStock,
+    /// In a cut the shank leans along the feed and to the side of its flank, and a cutting edge leads.
+    CutPosture,
+    /// The blade vibrates while it cuts.
+    SilentCut,
+    /// The generator's readiness is awaited between switching it on and cutting.
+    ReadyNotAwaited,
+    /// The generator is off at the end, and the machine at home where there is one.
+    Ending,
+    /// Every V-cut has one left and one right flank.
+    CutPair,
+    /// Operations and layers come in order.
+    Order,
+}
+
+impl fmt::Display for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Version => "the program is of another version",
+            Self::TableReference => "an id refers to nothing",
+            Self::Number => "a number is not finite or not positive",
+            Self::KnownStart => "a motion starts from an unknown pose",
+            Self::HomeAngles => "the machine has no home angles",
+            Self::AmbiguousTurn => "a rotation of nearly half a turn has two ways round",
+            Self::AirMoveThroughStock => "a move through the air leads through the stock",
+            Self::TurnInStock => "the blade turns within the stock",
+            Self::CutAcrossStock => "a cut does not run along y through the whole stock",
+            Self::CutPosture => "a cut holds the blade wrongly",
+            Self::SilentCut => "a cut without vibration",
+            Self::ReadyNotAwaited => "the generator is not awaited before a cut",
+            Self::Ending => "the program does not end at home with the generator off",
+            Self::CutPair => "a V-cut without exactly one left and one right flank",
+            Self::Order => "operations or layers are out of order",
+        })
+    }
+}
+
+/// Rotations of this size and more are not interpolated in one move: at 180 degrees there are two ways round.
+pub const LARGEST_TURN: Angle = Angle::deg(175.0);
+
+/// Coordinates that should be equal may differ by this: a nanometre, far below any controller's resolution.
+const SAME: f64 = 1e-6;
+
+/// Checks every rule.
+///
+/// # Errors
+/// All broken rules, in the order of the ops.
+pub fn verify(program: Program) -> Result<VerifiedProgram, Vec<Fault>> {
+    let mut walk = Walk::new(&program);
+    walk.tables();
+    for (index, op) in (0..).zip(&program.ops) {
+        walk.op(OpId(index), op);
+    }
+    walk.ending();
+    let Walk { faults, needs, .. } = walk;
+    if faults.is_empty() {
+        Ok(VerifiedProgram { program, needs })
+    } else {
+        Err(faults)
+    }
+}
+
+/// Where the machine is.
+#[derive(Clone, Copy, PartialEq)]
+enum Where {
+    /// Nothing has moved yet.
+    Start,
+    /// At the home angles.
+    Home,
+    /// With the tip at a point, the blade held so.
+    Tip(Point3, OrientationId),
+}
+
+/// State of the generator.
+#[derive(Clone, Copy, PartialEq)]
+enum Generator {
+    Off,
+    Starting,
+    Running,
+}
+
+struct Walk<'p> {
+    program: &'p Program,
+    faults: Vec<Fault>,
+    needs: Capabilities,
+    at: Where,
+    generator: Generator,
+    /// Which flanks of the cuts of the layer at hand are done, by cut number less one.
+    layer: Option<(OperationId, u32)>,
+    flanks: Vec<(bool, bool)>,
+    current: OpId,
+}
+
+impl<'p> Walk<'p> {
+    const fn new(program: &'p Program) -> Self {
+        Self {
+            program,
+            faults: Vec::new(),
+            needs: Capabilities::NONE,
+            at: Where::Start,
+            generator: Generator::Off,
+            layer: None,
+            flanks: Vec::new(),
+            current: OpId(0),
+        }
+    }
+
+    fn fault(&mut self, rule: Rule) {
+        self.faults.push(Fault {
+            op: Some(self.current),
+            rule,
+        });
+    }
+
+    fn require(&mut self, holds: bool, rule: Rule) {
+        if !holds {
+            self.fault(rule);
+        }
+    }
+
+    /// Rules about the program as a whole.
+    fn tables(&mut self) {
+        let p = self.program;
+        let positive = |l: Length| l.is_finite() && l > Length::ZERO;
+        let mut broken = Vec::new();
+        if p.version != IR_VERSION {
+            broken.push(Rule::Version);
+        }
+        let stock = positive(p.stock.width) && positive(p.stock.depth) && positive(p.stock.height);
+        let blades = p.operations.iter().all(|operation| {
+            let blade = &operation.blade;
+            positive(blade.cutting_length) && blade.half_apex.is_finite() && blade.thickness.is_finite()
+        });
+        let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
+            && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
+        let cell = p.cell.as_ref().is_none_or(|cell| {
+            let frames = [cell.tool, cell.base].into_iter().all(|frame| match frame {
+                Registered::Value(frame) => frame.origin.is_finite(),
+                Registered::Number(_) => true,
+            });
+            let load = match cell.load {
+                Some(Registered::Value(load)) => load.mass.is_finite() && load.centre.is_finite(),
+                _ => true,
+            };
+            frames
+                && load
+                && cell
+                    .home
+                    .is_none_or(|home| home.iter().all(|angle| angle.is_finite()))
+        });
+        if !(stock && blades && speeds && cell) {
+            broken.push(Rule::Number);
+        }
+        self.faults
+            .extend(broken.into_iter().map(|rule| Fault { op: None, rule }));
+    }
+
+    fn op(&mut self, id: OpId, op: &Op) {
+        self.current = id;
+        self.site(op.site);
+        match op.action {
+            Action::Home => self.home(),
+            Action::Travel {
+                to,
+                orientation,
+                feed,
+                rate,
+            } => self.travel(to, orientation, feed, rate),
+            Action::Approach { to, feed } | Action::Retract { to, feed } => self.straight(to, feed),
+            Action::Cut { flank, to, feed } => self.cut(op.site, flank, to, feed),
+            Action::Turn { to, rate } => self.turn(op.site, to, rate),
+            Action::Ultrasonic { state } => self.ultrasonic(state),
+            Action::AwaitReady => self.await_ready(),
+            Action::Dwell { time } => {
+                self.needs = self.needs.with(Capability::Dwell);
+                self.require(time.is_finite() && time.to_s() >= 0.0, Rule::Number);
+            }
+            Action::ToolChange { .. } => self.needs = self.needs.with(Capability::ToolChange),
+        }
+    }
+
+    fn site(&mut self, site: Site) {
+        if let Some(operation) = site.operation() {
+            self.require(self.operation(operation).is_some(), Rule::TableReference);
+        }
+        let (Site::Layer { operation, layer } | Site::Cut { operation, layer, .. }) = site else {
+            return;
+        };
+        let here = (operation, layer.get());
+        if self.layer != Some(here) {
+            self.require(self.layer.is_none_or(|before| before < here), Rule::Order);
+            self.finish_layer();
+            self.layer = Some(here);
+        }
+    }
+
+    fn finish_layer(&mut self) {
+        let complete = self.flanks.iter().all(|&(left, right)| left && right);
+        self.flanks.clear();
+        self.require(complete, Rule::CutPair);
+    }
+
+    fn home(&mut self) {
+        self.needs = self.needs.with(Capability::JointMove);
+        let has_home = self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some());
+        self.require(has_home, Rule::HomeAngles);
+        let retracted = match self.at {
+            Where::Tip(tip, _) => self.is_outside(tip),
+            Where::Start | Where::Home => true,
+        };
+        self.require(retracted, Rule::AirMoveThroughStock);
+        self.at = Where::Home;
+    }
+
+    fn travel(&mut self, to: Point3, orientation: OrientationId, feed: FeedId, rate: RateId) {
+        self.needs = self.needs.with(Capability::LinearMove);
+        self.feed(feed);
+        self.rate(rate);
+        self.require(to.is_finite(), Rule::Number);
+        let known = self.orientation(orientation).is_some();
+        self.require(known, Rule::TableReference);
+        match self.at {
+            Where::Tip(from, held) => {
+                self.rotation(held, orientation);
+                self.air(from, to);
+            }
+            Where::Start => {
+                let needs_home = self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some());
+                self.require(!needs_home, Rule::KnownStart);
+            }
+            Where::Home => {}
+        }
+        self.at = Where::Tip(to, orientation);
+    }
+
+    fn straight(&mut self, to: Point3, feed: FeedId) {
+        self.needs = self.needs.with(Capability::LinearMove);
+        self.feed(feed);
+        self.require(to.is_finite(), Rule::Number);
+        match self.at {
+            Where::Tip(from, held) => {
+                self.air(from, to);
+                self.at = Where::Tip(to, held);
+            }
+            Where::Start | Where::Home => self.fault(Rule::KnownStart),
+        }
+    }
+
+    fn cut(&mut self, site: Site, flank: Flank, to: Point3, feed: FeedId) {
+        self.needs = self.needs.with(Capability::LinearMove);
+        self.feed(feed);
+        self.require(to.is_finite(), Rule::Number);
+        let Where::Tip(from, held) = self.at else {
+            self.fault(Rule::KnownStart);
+            return;
+        };
+        self.at = Where::Tip(to, held);
+        self.require(self.crosses_stock(from, to), Rule::CutAcrossStock);
+        if self
+            .program
+            .cell
+            .as_ref()
+            .is_some_and(|cell| cell.ultrasonic.is_some())
+        {
+            match self.generator {
+                Generator::Off => self.fault(Rule::SilentCut),
+                Generator::Starting => self.fault(Rule::ReadyNotAwaited),
+                Generator::Running => {}
+            }
+        }
+        let Site::Cut { operation, cut, .. } = site else {
+            self.fault(Rule::CutPair);
+            return;
+        };
+        if let (Some(operation), Some(orientation)) = (self.operation(operation), self.orientation(held)) {
+            let good = posture_fits(operation, orientation, flank, to.y - from.y);
+            self.require(good, Rule::CutPosture);
+        }
+        self.mark_flank(cut.get() as usize - 1, flank);
+    }
+
+    fn mark_flank(&mut self, cut: usize, flank: Flank) {
+        if self.flanks.len() <= cut {
+            // Cuts of a layer are numbered in order, so the list grows by one at a time; a wild number is a fault.
+            self.require(cut == self.flanks.len(), Rule::Order);
+            self.flanks.push((false, false));
+        }
+        let Some((left, right)) = self.flanks.get_mut(cut) else {
+            return;
+        };
+        let done = match flank {
+            Flank::Left => left,
+            Flank::Right => right,
+        };
+        let first = !*done;
+        *done = true;
+        self.require(first, Rule::CutPair);
+    }
+
+    fn turn(&mut self, site: Site, to: OrientationId, rate: RateId) {
+        self.needs = self.needs.with(Capability::StillTipTurn);
+        self.rate(rate);
+        let Where::Tip(tip, held) = self.at else {
+            self.fault(Rule::KnownStart);
+            return;
+        };
+        self.rotation(held, to);
+        let operation = site.operation().and_then(|id| self.operation(id));
+        let clear = [held, to]
+            .into_iter()
+            .all(|id| match (operation, self.orientation(id)) {
+                (Some(operation), Some(orientation)) => self.is_clear(tip, operation, orientation),
+                _ => true,
+            });
+        self.require(clear, Rule::TurnInStock);
+        self.at = Where::Tip(tip, to);
+    }
+
+    fn ultrasonic(&mut self, state: Switch) {
+        self.needs = self.needs.with(Capability::Output);
+        let wired = self
+            .program
+            .cell
+            .as_ref()
+            .is_some_and(|cell| cell.ultrasonic.is_some());
+        self.require(wired, Rule::TableReference);
+        self.generator = match state {
+            Switch::On => Generator::Starting,
+            Switch::Off => Generator::Off,
+        };
+    }
+
+    fn await_ready(&mut self) {
+        self.require(self.generator == Generator::Starting, Rule::ReadyNotAwaited);
+        self.generator = Generator::Running;
+        let capability = match self.program.cell.as_ref().map(|cell| cell.ready) {
+            Some(Ready::Input(_)) => Capability::AwaitInput,
+            Some(Ready::After(_)) | None => Capability::Dwell,
+        };
+        self.needs = self.needs.with(capability);
+    }
+
+    fn ending(&mut self) {
+        self.finish_layer();
+        let has_home = self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some());
+        let rests = match self.at {
+            Where::Start => true,
+            Where::Home => has_home,
+            Where::Tip(tip, _) => !has_home && self.is_outside(tip),
+        };
+        self.require(rests && self.generator == Generator::Off, Rule::Ending);
+    }
+
+    fn feed(&mut self, id: FeedId) {
+        self.require(
+            self.program.feeds.get(usize::from(id.0)).is_some(),
+            Rule::TableReference,
+        );
+    }
+
+    fn rate(&mut self, id: RateId) {
+        self.require(
+            self.program.rates.get(usize::from(id.0)).is_some(),
+            Rule::TableReference,
+        );
+    }
+
+    fn operation(&self, id: OperationId) -> Option<&'p Operation> {
+        self.program.operations.get(usize::from(id.0))
+    }
+
+    fn orientation(&self, id: OrientationId) -> Option<Orientation> {
+        self.program.orientations.get(id.0 as usize).copied()
+    }
+
+    fn rotation(&mut self, from: OrientationId, to: OrientationId) {
+        match (self.orientation(from), self.orientation(to)) {
+            (Some(from), Some(to)) => self.require(from.angle_to(to) < LARGEST_TURN, Rule::AmbiguousTurn),
+            _ => self.fault(Rule::TableReference),
+        }
+    }
+
+    /// The tip's way through the air stays on one outer side of the stock (which is convex, so both ends tell).
+    fn air(&mut self, from: Point3, to: Point3) {
+        let (depth, height) = (
+            self.program.stock.depth.to_mm(),
+            self.program.stock.height.to_mm(),
+        );
+        let in_front = from.y <= SAME && to.y <= SAME;
+        let behind = from.y >= depth - SAME && to.y >= depth - SAME;
+        let above = from.z >= height - SAME && to.z >= height - SAME;
+        self.require(in_front || behind || above, Rule::AirMoveThroughStock);
+    }
+
+    fn is_outside(&self, tip: Point3) -> bool {
+        let stock = self.program.stock;
+        tip.y <= SAME || tip.y >= stock.depth.to_mm() - SAME || tip.z >= stock.height.to_mm() - SAME
+    }
+
+    fn crosses_stock(&self, from: Point3, to: Point3) -> bool {
+        let depth = self.program.stock.depth.to_mm();
+        let straight = (to.x - from.x).abs() < SAME && (to.z - from.z).abs() < SAME;
+        let (low, high) = (from.y.min(to.y), from.y.max(to.y));
+        straight && low <= SAME && high >= depth - SAME
+    }
+
+    /// Whether the blade, its edge lying over the work, is clear of the stock with its tip at `tip` [Cui 5].
+    fn is_clear(&self, tip: Point3, operation: &Operation, held: Orientation) -> bool {
+        let stock = self.program.stock;
+        let towards_y = -held.matrix()[1][2];
+        // Angle between the tool axis and the work's y; the edge lies half the apex angle nearer to it.
+        let rake = libm::acos(towards_y.abs().min(1.0));
+        let overhang = operation.blade.cutting_length.to_mm()
+            * libm::cos((rake - operation.blade.half_apex.to_rad()).max(0.0));
+        let gap = (-tip.y).max(tip.y - stock.depth.to_mm());
+        let over_work = if tip.y < 0.0 {
+            towards_y > 0.0
+        } else {
+            towards_y < 0.0
+        };
+        tip.z >= stock.height.to_mm() - SAME || gap >= if over_work { overhang - SAME } else { -SAME }
+    }
+}
+
+/// Whether a cut along `dy` holds the blade as its flank wants, with an edge in front.
+fn posture_fits(operation: &Operation, held: Orientation, flank: Flank, dy: f64) -> bool {
+    let m = held.matrix();
+    // Tip to shank is -z_t.
+    let (lean_x, lean_y, lean_z) = (-m[0][2], -m[1][2], -m[2][2]);
+    let to_its_side = match flank {
+        Flank::Left => lean_x < 0.0,
+        Flank::Right => lean_x > 0.0,
+    };
+    let edge_leads = match operation.blade.edges {
+        Edges::Double => true,
+        Edges::Single => m[1][0] * dy > 0.0,
+    };
+    // The blade plane holds the feed direction: its normal y_t is square to y.
+    let in_plane = m[1][1].abs() < 1e-9;
+    to_its_side && lean_y * dy >= -SAME && lean_z > 0.0 && edge_leads && in_plane
+}

@@ -1,0 +1,1 @@
+//! KUKA KRL output.

@@ -1,0 +1,152 @@
+//! The table of codes. A code is given once and never reused; its page is `docs/diagnostics/VCnnnn.md`.
+
+use super::Severity;
+
+macro_rules! codes {
+    ($($(#[$doc:meta])* $name:ident = $number:literal, $severity:ident, $title:literal;)+) => {
+        /// A permanent diagnostic code.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code {
+            $($(#[$doc])* $name,)+
+        }
+
+        impl Code {
+            /// All codes in order.
+            pub const ALL: &[Self] = &[$(Self::$name,)+];
+
+            /// The code as people write it, such as `VC0203`.
+            #[must_use]
+            pub const fn number(self) -> &'static str {
+                match self { $(Self::$name => $number,)+ }
+            }
+
+            /// What it is about, in a few words.
+            #[must_use]
+            pub const fn title(self) -> &'static str {
+                match self { $(Self::$name => $title,)+ }
+            }
+
+            /// How bad it is.
+            #[must_use]
+            pub const fn severity(self) -> Severity {
+                match self { $(Self::$name => Severity::$severity,)+ }
+            }
+
+            /// Its page, in Markdown.
+            #[must_use]
+            pub const fn page(self) -> &'static str {
+                match self {
+                    $(Self::$name => include_str!(concat!("../../docs/diagnostics/", $number, ".md")),)+
+                }
+            }
+
+            /// The code of that number.
+            #[must_use]
+            pub fn from_number(number: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|code| code.number().eq_ignore_ascii_case(number))
+            }
+        }
+    };
+}
+
+codes! {
+    /// The text does not follow the grammar.
+    UnexpectedText = "VC0101", Error, "text that does not belong here";
+    /// A bracket is never closed.
+    UnclosedBracket = "VC0102", Error, "a bracket that is never closed";
+    /// A bracket is closed that was never opened.
+    UnopenedBracket = "VC0103", Error, "a closing bracket without its opening one";
+    /// A text in quotes does not end on its line.
+    UnclosedText = "VC0104", Error, "a text in quotes that does not end";
+    /// Brackets are nested too deeply.
+    NestedTooDeeply = "VC0105", Error, "brackets nested too deeply";
+    /// A number that cannot be held.
+    NumberTooLarge = "VC0106", Error, "a number too large to hold";
+    /// A file is not UTF-8.
+    NotUtf8 = "VC0107", Error, "a file that is no text";
+
+    /// A name that is defined nowhere.
+    UnknownName = "VC0201", Error, "a name that is defined nowhere";
+    /// A name that is defined twice.
+    DefinedTwice = "VC0202", Error, "a name that is defined twice";
+    /// A value of another dimension, or without a unit.
+    WrongDimension = "VC0203", Error, "a value of the wrong dimension, or without its unit";
+    /// A unit that does not exist.
+    UnknownUnit = "VC0204", Error, "a unit that does not exist";
+    /// A field that its block does not have.
+    UnknownField = "VC0205", Error, "a field that its block does not have";
+    /// A field that its block must have.
+    MissingField = "VC0206", Error, "a field that is missing";
+    /// A block that does not exist.
+    UnknownBlock = "VC0207", Error, "a block that does not exist";
+    /// A block that a job must have.
+    MissingBlock = "VC0208", Error, "a block that is missing";
+    /// A word that is none of those a field takes.
+    UnknownChoice = "VC0209", Error, "a word that the field does not take";
+    /// A value outside of its range.
+    OutOfRange = "VC0210", Error, "a value outside of its range";
+    /// Files that use one another in a circle.
+    UseCycle = "VC0211", Error, "files that use one another in a circle";
+    /// A file that cannot be read.
+    FileNotFound = "VC0212", Error, "a file that cannot be read";
+    /// A function that does not exist, or with the wrong arguments.
+    BadCall = "VC0213", Error, "a call of a function that does not fit";
+    /// An expression without a finite value.
+    NotFinite = "VC0214", Error, "an expression without a value";
+    /// A field that is given twice.
+    FieldTwice = "VC0215", Error, "a field that is given twice";
+    /// A `--set` that sets nothing.
+    BadOverride = "VC0216", Error, "a --set that fits no let";
+    /// Names that are defined by one another.
+    LetCycle = "VC0217", Error, "names that are defined by one another";
+    /// Something that is right elsewhere but not here.
+    Misplaced = "VC0218", Error, "something in a place where it does not belong";
+    /// A value of another kind.
+    WrongKind = "VC0219", Error, "a value of the wrong kind";
+    /// A curve that does not exist.
+    ImpossibleCurve = "VC0220", Error, "a curve that does not exist";
+    /// A profile that has two heights at one place.
+    NotSingleValued = "VC0221", Error, "a profile with two heights at one place";
+    /// A profile that does not reach from side to side.
+    ProfileTooShort = "VC0222", Error, "a profile that does not reach across the stock";
+    /// A profile that leaves the stock.
+    ProfileOutsideStock = "VC0223", Error, "a profile that leaves the stock";
+    /// A line of a data file that cannot be read.
+    BadData = "VC0224", Error, "a data file that cannot be understood";
+
+    /// A job that leaves nothing to cut.
+    NothingToCut = "VC0301", Error, "a job that leaves nothing to cut";
+    /// A step that leaves walls between the cuts.
+    StepTooWide = "VC0302", Error, "a step that leaves walls between the cuts";
+    /// More cuts than a program can sensibly hold.
+    TooManyCuts = "VC0303", Error, "more cuts than a program can hold";
+    /// Cuts that do not run out far enough.
+    ExtensionTooShort = "VC0304", Error, "cuts that do not run out far enough";
+    /// A rake at which no edge leads.
+    RakeTooFlat = "VC0305", Error, "a rake at which the edge does not cut";
+
+    /// A chip that is not cut free.
+    ChipNotFreed = "VC0401", Error, "a chip that is not cut free";
+    /// A cut that enters the part.
+    Overcut = "VC0402", Error, "a cut that enters the part";
+    /// Material left standing above the limit.
+    ScallopOverLimit = "VC0403", Error, "more material left standing than the limit allows";
+    /// Uncut material in the way of the blade's body.
+    BladeBlocked = "VC0404", Error, "uncut material in the way of the blade";
+
+    /// A target that needs a machine.
+    MissingMachine = "VC0601", Error, "a target that needs a machine";
+    /// A target that needs more of the machine.
+    MissingMachineField = "VC0602", Error, "a machine that lacks something the target needs";
+    /// An option that the target does not have.
+    UnknownOption = "VC0603", Error, "an option that the target does not have";
+    /// An option with a value that it does not take.
+    BadOption = "VC0604", Error, "an option with a value that it does not take";
+    /// Something that the target cannot say.
+    Unsupported = "VC0605", Error, "something that the target cannot say";
+    /// A number that the target does not take.
+    TargetRange = "VC0606", Error, "a number that the target does not take";
+
+    /// A fault of the compiler.
+    Internal = "VC0901", Error, "a fault of the compiler";
+}

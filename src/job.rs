@@ -1,0 +1,238 @@
+//! The checked job: what a job means, with all names, units and files resolved, and `auto` still open.
+//!
+//! Every value that a later stage may have to complain about knows where it was written.
+
+use crate::geom::profile::Profile;
+use crate::source::Span;
+use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::{Edges, Load, MachineKind, Ready, Registered, Stock};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
+
+/// A value and where it was written; `None` when it is a default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sourced<T> {
+    /// The value.
+    pub value: T,
+    /// Where the value stands (not the field's name).
+    pub span: Option<Span>,
+}
+
+/// A value that may be left to the compiler.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Auto<T> {
+    /// `auto`.
+    Auto,
+    /// Given.
+    Given(T),
+}
+
+/// A job without contradictions in itself. Whether it can be cut is for the planner to say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckedJob {
+    /// The job's name.
+    pub name: String,
+    /// Where the name stands.
+    pub name_span: Span,
+    /// The stock.
+    pub stock: Stock,
+    /// Where the stock's size stands.
+    pub stock_span: Span,
+    /// The part's profile, spanning the stock from side to side and lying within it.
+    pub profile: Profile,
+    /// Where the profile stands.
+    pub profile_span: Span,
+    /// What to do, in order; at least one.
+    pub operations: Vec<Operation>,
+    /// On what; the only one the job defines or uses.
+    pub machine: Option<Machine>,
+}
+
+/// One operation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Operation {
+    /// `rough vcut { ... }`.
+    RoughVcut(RoughVcut),
+}
+
+/// A straight blade.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blade {
+    /// Its name.
+    pub name: String,
+    /// Where it is defined.
+    pub span: Span,
+    /// Usable edge length from the tip; positive.
+    pub cutting_length: Sourced<Length>,
+    /// Half the apex angle; 0 to 90 degrees, both excluded at 90.
+    pub half_apex: Sourced<Angle>,
+    /// Thickness; zero or more.
+    pub thickness: Sourced<Length>,
+    /// Which sides cut.
+    pub edges: Edges,
+}
+
+/// V-shaped roughing. Ranges given here are checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoughVcut {
+    /// Where the whole block stands.
+    pub span: Span,
+    /// Where its head (`rough vcut`) stands: the place for complaints about the operation as a whole.
+    pub head_span: Span,
+    /// The blade.
+    pub blade: Blade,
+    /// How tips are laid out.
+    pub lattice: Sourced<Lattice>,
+    /// Angle between tool axis and feed; above 0 to 90 degrees.
+    pub rake: Sourced<Angle>,
+    /// Half the opening angle of the V; above 0 and below 90 degrees.
+    pub swing: Sourced<Auto<Angle>>,
+    /// Layer spacing; positive.
+    pub layer: Sourced<Auto<Length>>,
+    /// Spacing of tips within a layer; positive.
+    pub step: Sourced<Auto<Length>>,
+    /// Overlap of neighbouring cuts when the step is left open; 0 to below 1. Default 0.
+    pub overlap: Sourced<f64>,
+    /// Bounds.
+    pub limits: Limits,
+    /// Material that must stay on the part, measured along its normal; zero or more. Default 0.
+    pub allowance: Sourced<Length>,
+    /// What becomes of tips that would cut the part. Default `auto`.
+    pub residual: Sourced<Residual>,
+    /// Order of the cuts. Default `point`.
+    pub order: Sourced<Order>,
+    /// Direction of the cuts. Default `alternate`.
+    pub direction: Sourced<Direction>,
+    /// Cutting speed; positive.
+    pub cut_feed: Sourced<Speed>,
+    /// Speed through the air; positive.
+    pub travel_feed: Sourced<Speed>,
+    /// Rate of turning the blade; positive.
+    pub reorient_rate: Sourced<AngularSpeed>,
+    /// Height of the safe plane above the stock; positive.
+    pub clearance: Sourced<Length>,
+    /// How far cuts run out beyond the stock; `auto` is the blade's overhang plus `run_out`.
+    pub extension: Sourced<Auto<Length>>,
+    /// Air between the blade and the stock where it turns; zero or more. Default 2 mm.
+    pub run_out: Sourced<Length>,
+    /// Distance of the blade's middle plane from the material that stays; `auto` is half the blade's thickness.
+    pub standoff: Sourced<Auto<Length>>,
+}
+
+/// Bounds on what the planner may choose and on the result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Largest swing.
+    pub swing: Option<Sourced<Angle>>,
+    /// Largest height of material left standing, along the part's normal.
+    pub scallop: Option<Sourced<Length>>,
+}
+
+/// How tips are laid out [Cui fig. 4].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lattice {
+    /// The same x in every layer.
+    Orthogonal,
+    /// Every other layer shifted by half a step.
+    Interlaced,
+    /// Every layer on its own, its outer tips on the part's profile.
+    Free,
+}
+
+/// What becomes of a tip that would cut the part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Residual {
+    /// It is dropped.
+    Discard,
+    /// It is raised until it clears the part.
+    Lift,
+    /// It slides within its layer until it clears the part.
+    Shift,
+    /// Whichever of these keeps the residual and the blade's reach within limits with the fewest cuts.
+    Auto,
+}
+
+/// Order of the cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// Both flanks of a V, then the next V [Cui].
+    Point,
+    /// All left flanks of a layer, then all its right flanks [Yu].
+    Layer,
+}
+
+/// Direction of the cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// To and fro. A single-edged blade is turned half round in between.
+    Alternate,
+    /// Always towards +y, with a way back through the air.
+    Forward,
+    /// Always towards -y, with a way back through the air.
+    Backward,
+}
+
+/// The machine as the job states it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    /// Its name.
+    pub name: String,
+    /// Where the whole block stands.
+    pub span: Span,
+    /// Where its head stands.
+    pub head_span: Span,
+    /// What it is.
+    pub kind: MachineKind,
+    /// Model as written, such as `kuka/kr210_r3100`.
+    pub model: String,
+    /// Blade frame seen from the flange.
+    pub tool: Sourced<Registered<Frame>>,
+    /// Workpiece frame seen from the world.
+    pub base: Sourced<Registered<Frame>>,
+    /// What the flange carries.
+    pub load: Option<Sourced<Registered<Load>>>,
+    /// Axis angles of the home position.
+    pub home: Option<Sourced<[Angle; 6]>>,
+    /// Output that runs the generator.
+    pub ultrasonic: Option<Sourced<u32>>,
+    /// How readiness is known. Default: 0.5 s after switching on.
+    pub ready: Sourced<Ready>,
+    /// Options for targets: one for each nested block such as `krl { ... }`.
+    pub targets: Vec<TargetOptions>,
+}
+
+/// Options of one target, evaluated but not yet held against what the target takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetOptions {
+    /// The target's name.
+    pub target: String,
+    /// Where the name stands.
+    pub span: Span,
+    /// Keys and values in the order written.
+    pub given: Vec<GivenOption>,
+}
+
+/// One option as given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GivenOption {
+    /// Its key.
+    pub key: String,
+    /// Where the key stands.
+    pub key_span: Span,
+    /// Its value.
+    pub value: GivenValue,
+    /// Where the value stands.
+    pub value_span: Span,
+}
+
+/// The value of an option as given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GivenValue {
+    /// A pure number.
+    Ratio(f64),
+    /// A length.
+    Length(Length),
+    /// A text; options of several lines are given as a tuple of texts.
+    Texts(Vec<String>),
+    /// A bare word.
+    Word(String),
+}

@@ -1,0 +1,199 @@
+//! Source texts and places in them.
+//!
+//! Files are asked of a [`Loader`], so that the compiler itself never touches a disk. Every text that a diagnostic
+//! can point into is a file of the [`SourceMap`], also texts that are no files, such as a `--set` of the command line.
+
+use std::fmt;
+
+/// Number of a file in its [`SourceMap`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FileId(u32);
+
+/// A stretch of bytes in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// The file.
+    pub file: FileId,
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The stretch from the start of this one to the end of `last` (which lies in the same file).
+    #[must_use]
+    pub fn to(self, last: Self) -> Self {
+        Self {
+            end: last.end.max(self.end),
+            ..self
+        }
+    }
+
+    /// The empty stretch behind this one.
+    #[must_use]
+    pub const fn after(self) -> Self {
+        Self {
+            start: self.end,
+            ..self
+        }
+    }
+}
+
+/// Something together with where it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spanned<T> {
+    /// The thing.
+    pub node: T,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl<T> Spanned<T> {
+    /// A thing at a place.
+    #[must_use]
+    pub const fn new(node: T, span: Span) -> Self {
+        Self { node, span }
+    }
+
+    /// Another thing at the same place.
+    #[must_use]
+    pub fn map<U>(self, f: impl FnOnce(T) -> U) -> Spanned<U> {
+        Spanned {
+            node: f(self.node),
+            span: self.span,
+        }
+    }
+}
+
+/// One source text.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    /// The name people see, such as `shop/blades.vcut` or `--set width=90mm`.
+    pub name: String,
+    /// The text.
+    pub text: String,
+}
+
+/// All source texts of a run.
+#[derive(Clone, Debug, Default)]
+pub struct SourceMap {
+    files: Vec<SourceFile>,
+}
+
+impl SourceMap {
+    /// Adds a text; the name need not be new.
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
+        let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
+        self.files.push(SourceFile {
+            name: name.into(),
+            text: text.into(),
+        });
+        id
+    }
+
+    /// The text behind an id of this map.
+    #[must_use]
+    pub fn get(&self, id: FileId) -> Option<&SourceFile> {
+        self.files.get(id.0 as usize)
+    }
+
+    /// All files in the order they were added.
+    pub fn iter(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
+        (0..).map(FileId).zip(&self.files)
+    }
+
+    /// The name of a file; empty for an id of another map.
+    #[must_use]
+    pub fn name(&self, id: FileId) -> &str {
+        self.get(id).map_or("", |file| &file.name)
+    }
+
+    /// The text of a span; empty when it does not fit the file.
+    #[must_use]
+    pub fn slice(&self, span: Span) -> &str {
+        let text = self.get(span.file).map_or("", |file| file.text.as_str());
+        text.get(span.start as usize..span.end as usize)
+            .unwrap_or_default()
+    }
+}
+
+/// Gives the compiler the bytes behind a path.
+pub trait Loader {
+    /// The bytes of a file. `path` uses `/`, is free of `.` and inner `..`, and is relative to wherever the root job's
+    /// own path is relative to.
+    ///
+    /// # Errors
+    /// Why not, in the words of whoever holds the files.
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError>;
+}
+
+/// Why a file could not be had.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LoadError {
+    /// There is none of that name.
+    NotFound,
+    /// It is larger than the compiler reads; the limit in bytes.
+    TooLarge(u64),
+    /// Anything else, in words.
+    Other(String),
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFound => f.write_str("there is no such file"),
+            Self::TooLarge(limit) => write!(f, "it is larger than {limit} bytes"),
+            Self::Other(reason) => f.write_str(reason),
+        }
+    }
+}
+
+/// Largest source file that is read, in bytes: a job of this size would have over a million lines.
+pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// The path that `target`, written in the file `from`, means: relative to that file's folder, with `.` and `..`
+/// resolved where they can be.
+#[must_use]
+pub fn join_path(from: &str, target: &str) -> String {
+    let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let is_absolute = target.starts_with('/');
+    let mut parts: Vec<&str> = Vec::new();
+    let base = if is_absolute { "" } else { folder };
+    for part in base.split('/').chain(target.split('/')) {
+        match part {
+            "" | "." => {}
+            ".." if parts.last().is_some_and(|&last| last != "..") => {
+                parts.pop();
+            }
+            _ => parts.push(part),
+        }
+    }
+    let root = if is_absolute || folder.starts_with('/') {
+        "/"
+    } else {
+        ""
+    };
+    format!("{root}{}", parts.join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_relative_to_the_file_that_names_them() {
+        assert_eq!(
+            join_path("jobs/rib.vcut", "shop/blades.vcut"),
+            "jobs/shop/blades.vcut"
+        );
+        assert_eq!(
+            join_path("jobs/rib.vcut", "../shop/blades.vcut"),
+            "shop/blades.vcut"
+        );
+        assert_eq!(join_path("rib.vcut", "./blades.vcut"), "blades.vcut");
+        assert_eq!(join_path("rib.vcut", "../blades.vcut"), "../blades.vcut");
+        assert_eq!(join_path("/a/rib.vcut", "b.vcut"), "/a/b.vcut");
+        assert_eq!(join_path("a/rib.vcut", "/b.vcut"), "/b.vcut");
+    }
+}

@@ -1,0 +1,255 @@
+//! The syntax tree: what the text says, before anybody asks what it means.
+//!
+//! Blocks are kept general (words, then entries), so that a new kind of block or field needs no new grammar; only the
+//! profile's curves have a form of their own. Every node knows where it stands.
+
+use crate::source::{Span, Spanned};
+
+/// One source file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ast {
+    /// What stands in it, in order. Text that could not be read is left out (and has been reported).
+    pub items: Vec<Item>,
+}
+
+/// What can stand at the top of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// `job "name"`.
+    Job {
+        /// The name.
+        name: Spanned<String>,
+        /// All of it.
+        span: Span,
+    },
+    /// `use "path"`.
+    Use {
+        /// The path.
+        path: Spanned<String>,
+        /// All of it.
+        span: Span,
+    },
+    /// `let name = value`.
+    Let {
+        /// The name.
+        name: Spanned<String>,
+        /// The value.
+        value: Spanned<Expr>,
+        /// All of it.
+        span: Span,
+    },
+    /// `head { entries }`.
+    Block(Block),
+}
+
+/// `head { entries }`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// The words before the brace: `stock`, `blade dagger`, `rough vcut`, `machine cell = robot "kuka/kr210"`.
+    pub head: Vec<Spanned<HeadPart>>,
+    /// What stands between the braces.
+    pub entries: Vec<Entry>,
+    /// From the first word to the closing brace.
+    pub span: Span,
+}
+
+/// A piece of a block's head.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum HeadPart {
+    /// A word.
+    Word(String),
+    /// A text in quotes.
+    Text(String),
+    /// `=`.
+    Equals,
+}
+
+/// What can stand in a block.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    /// `name = value`.
+    Field {
+        /// The name.
+        name: Spanned<String>,
+        /// The value.
+        value: Spanned<Expr>,
+        /// All of it.
+        span: Span,
+    },
+    /// `name <= value` or `name >= value`.
+    Limit {
+        /// The name.
+        name: Spanned<String>,
+        /// Which way it binds.
+        relation: Spanned<Relation>,
+        /// The bound.
+        value: Spanned<Expr>,
+        /// All of it.
+        span: Span,
+    },
+    /// `z(x) = value`.
+    Formula {
+        /// The function's name.
+        name: Spanned<String>,
+        /// Its variable.
+        variable: Spanned<String>,
+        /// What it is.
+        value: Spanned<Expr>,
+        /// All of it.
+        span: Span,
+    },
+    /// A piece of a profile.
+    Curve {
+        /// The piece.
+        curve: Curve,
+        /// All of it.
+        span: Span,
+    },
+    /// A block within the block.
+    Block(Block),
+}
+
+/// Which way a limit binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// `<=`.
+    AtMost,
+    /// `>=`.
+    AtLeast,
+}
+
+/// A point `(x, z)` of a profile, as written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Along x.
+    pub x: Spanned<Expr>,
+    /// Along z.
+    pub z: Spanned<Expr>,
+    /// All of it, brackets too.
+    pub span: Span,
+}
+
+/// A piece of a profile. All but [`Curve::Start`] begin where the piece before ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// `start (x, z)`.
+    Start(Point),
+    /// `line to (x, z)`.
+    Line {
+        /// Where it ends.
+        to: Point,
+    },
+    /// `arc to (x, z) radius r`, `... center (x, z)` or `... through (x, z)`.
+    Arc {
+        /// Where it ends.
+        to: Point,
+        /// What else is known of it.
+        by: ArcBy,
+    },
+    /// `bezier (x, z) ... to (x, z)`: inner control points, then the end.
+    Bezier {
+        /// Inner control points, any number.
+        control: Vec<Point>,
+        /// Where it ends.
+        to: Point,
+    },
+    /// `spline (x, z) ... to (x, z)`: points it passes through, then the end.
+    Spline {
+        /// Points on the way.
+        through: Vec<Point>,
+        /// Where it ends.
+        to: Point,
+    },
+    /// `polyline (x, z) ... to (x, z)`.
+    Polyline {
+        /// Corners on the way.
+        through: Vec<Point>,
+        /// Where it ends.
+        to: Point,
+    },
+    /// `points "file.csv"`, optionally with `{ fields }`.
+    Points {
+        /// The file.
+        path: Spanned<String>,
+        /// Fields in braces behind it.
+        options: Vec<Entry>,
+    },
+    /// `airfoil "file.dat"`, optionally with `{ fields }`.
+    Airfoil {
+        /// The file.
+        path: Spanned<String>,
+        /// Fields in braces behind it.
+        options: Vec<Entry>,
+    },
+}
+
+/// What determines an arc besides its ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ArcBy {
+    /// `radius r`: positive curves up over the chord (a hill), negative down (a hollow); the shorter arc.
+    Radius(Spanned<Expr>),
+    /// `center (x, z)`.
+    Center(Point),
+    /// `through (x, z)`.
+    Through(Point),
+}
+
+/// A value as written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expr {
+    /// `4.4 mm`, `3`, `30 %`.
+    Number {
+        /// The number.
+        value: f64,
+        /// Its unit as written, such as `mm/s`.
+        unit: Option<Spanned<String>>,
+    },
+    /// `"text"`.
+    Text(String),
+    /// `width`, `orthogonal`, `auto`, `pi`.
+    Name(String),
+    /// `max(a, b)`, `frame(x = 0 mm, ...)`.
+    Call {
+        /// The function.
+        function: Spanned<String>,
+        /// Its arguments.
+        arguments: Vec<Argument>,
+    },
+    /// `-a`.
+    Negate(Box<Spanned<Self>>),
+    /// `a + b`.
+    Binary {
+        /// The operator.
+        operator: Spanned<Operator>,
+        /// Left of it.
+        left: Box<Spanned<Self>>,
+        /// Right of it.
+        right: Box<Spanned<Self>>,
+    },
+    /// `(a, b, c)`: two or more values.
+    Tuple(Vec<Spanned<Self>>),
+}
+
+/// An argument of a call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Argument {
+    /// `name =` before it.
+    pub name: Option<Spanned<String>>,
+    /// The value.
+    pub value: Spanned<Expr>,
+}
+
+/// An operator between two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+    /// `^`
+    Power,
+}
