@@ -1,0 +1,2 @@
+pub mod blade_reach;
+pub mod time_model;
