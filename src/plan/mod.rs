@@ -14,8 +14,11 @@ pub mod parameters;
 pub mod residual;
 pub mod time_model;
 
+#[cfg(test)]
+pub(crate) mod tests;
+
 use crate::diag::{Code, Diagnostic};
-use crate::geom::cone::Clearance;
+use crate::geom::cone;
 use crate::geom::curve::Point2;
 use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
@@ -119,7 +122,7 @@ fn plan_vcut(
 ) -> Option<PlannedVcut> {
     let parameters = parameters::resolve(asked, diagnostics)?;
     let bound = offset_up(&job.profile, asked.allowance.value);
-    let clearance = Clearance::new(&bound, parameters.flanks.slope);
+    let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, asked.lattice.value, &parameters, &clearance);
     if layout.most_tips() > MOST_CUTS {
         diagnostics.push(too_many_cuts(asked, &parameters, layout.most_tips()));
@@ -142,9 +145,9 @@ fn nothing_to_cut(
     job: &CheckedJob,
     asked: &RoughVcut,
     parameters: &VcutParameters,
-    clearance: &Clearance,
+    clearance: &Profile,
 ) -> Diagnostic {
-    let lowest = clearance.lowest() + parameters.drop.to_mm();
+    let lowest = clearance.lowest().z + parameters.drop.to_mm();
     let depth = job.stock.height.to_mm() - lowest;
     let message = "this operation leaves nothing to cut";
     let diagnostic = Diagnostic::new(Code::NothingToCut, message, asked.head_span, "no tip fits between part and stock")

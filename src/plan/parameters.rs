@@ -46,8 +46,7 @@ impl VcutParameters {
     /// Whether the blade reaches what the lattice needs far from the part.
     #[must_use]
     pub fn lattice_fits(&self, lattice: Lattice) -> bool {
-        let needed = blade_reach::needed_reach(lattice, self.layer, self.step, self.flanks.slope);
-        needed <= self.flanks.reach + Length::mm(1e-6)
+        fits(lattice, self.layer, self.step, &self.flanks)
     }
 
     /// What was left open and how it was decided, in the order of the language reference.
@@ -189,22 +188,54 @@ fn resolve_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Le
 
 /// Layer and step, as far as they are open: the largest layer that blade and scallop limit allow, the widest step.
 fn resolve_layer_and_step(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> (Length, Length) {
-    let lattice = asked.lattice.value;
-    let overlap = asked.overlap.value;
+    let widest = |layer| widest_step(asked.lattice.value, layer, asked.overlap.value, flanks);
     match (asked.layer.value, asked.step.value) {
         (Auto::Given(layer), Auto::Given(step)) => (layer, step),
-        (Auto::Given(layer), Auto::Auto) => (layer, widest_step(lattice, layer, overlap, flanks)),
+        (Auto::Given(layer), Auto::Auto) => (layer, widest(layer)),
         (Auto::Auto, Auto::Given(step)) => (largest_layer_at(asked, step, flanks, drop), step),
         (Auto::Auto, Auto::Auto) => {
             let layer = largest_layer(asked, flanks, drop);
-            (layer, widest_step(lattice, layer, overlap, flanks))
+            (layer, widest(layer))
         }
     }
 }
 
-/// Room for the rounding of tips to the grid: a tip may be off by half a spacing each way in x and z.
-fn reach_on_grid(flanks: &Flanks) -> Length {
-    flanks.reach - Length::mm(2.0 * grid::SPACING * (1.0 + flanks.slope))
+/// Whether a blade reaches what a lattice needs, wherever rounding puts its tips.
+fn fits(lattice: Lattice, layer: Length, step: Length, flanks: &Flanks) -> bool {
+    let needed = |layer: Length, step: Length| blade_reach::needed_reach(lattice, layer, step, flanks.slope);
+    let layers = around(layer, grid::SPACING);
+    let steps = around(step, grid::SPACING * tips_per_step(lattice));
+    let worst = layers.iter().flat_map(|&layer| steps.iter().map(move |&step| needed(layer, step)));
+    worst.fold(Length::ZERO, Length::max) <= flanks.reach + Length::mm(1e-6)
+}
+
+/// The spacings that tips rounded to the grid really have: the value itself where it is a multiple of the unit, else up to a
+/// grid spacing more or less.
+fn around(value: Length, unit: f64) -> [Length; 3] {
+    let multiple = value.to_mm() / unit;
+    let off = if (multiple - multiple.round()).abs() < 1e-6 { 0.0 } else { grid::SPACING };
+    [-off, 0.0, off].map(|off| (value + Length::mm(off)).max(Length::mm(grid::SPACING)))
+}
+
+/// Interlaced rows lie half a step apart, so half a step must be on the grid for all tips to be.
+const fn tips_per_step(lattice: Lattice) -> f64 {
+    match lattice {
+        Lattice::Interlaced => 2.0,
+        Lattice::Orthogonal | Lattice::Free => 1.0,
+    }
+}
+
+/// The largest layer on the grid, starting from a closed form, that fits with the step it gets: rounding may cost a few
+/// spacings.
+fn largest_fitting(lattice: Lattice, closed_form: Length, flanks: &Flanks, step: impl Fn(Length) -> Length) -> Length {
+    let mut layer = on_grid(closed_form);
+    for _ in 0..1000 {
+        if layer.to_mm() <= grid::SPACING || fits(lattice, layer, step(layer), flanks) {
+            break;
+        }
+        layer = on_grid(layer - Length::mm(grid::SPACING));
+    }
+    layer
 }
 
 /// What of the scallop limit is left for the lattice: allowance and standoff stand on the part anyway.
@@ -217,24 +248,26 @@ fn scallop_room(asked: &RoughVcut, drop: Length) -> Option<Length> {
 #[must_use]
 pub fn largest_layer(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> Length {
     let (lattice, overlap) = (asked.lattice.value, asked.overlap.value);
-    let by_reach = blade_reach::largest_layer(lattice, overlap, reach_on_grid(flanks));
+    let by_reach = blade_reach::largest_layer(lattice, overlap, flanks.reach);
     let by_scallop = scallop_room(asked, drop)
         .map(|room| blade_reach::largest_layer_for_scallop(lattice, overlap, flanks.slope, room));
-    on_grid(by_scallop.map_or(by_reach, |layer| layer.min(by_reach)))
+    let closed_form = by_scallop.map_or(by_reach, |layer| layer.min(by_reach));
+    largest_fitting(lattice, closed_form, flanks, |layer| widest_step(lattice, layer, overlap, flanks))
 }
 
 /// The largest layer at a given step.
 #[must_use]
 pub fn largest_layer_at(asked: &RoughVcut, step: Length, flanks: &Flanks, drop: Length) -> Length {
     let lattice = asked.lattice.value;
-    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, reach_on_grid(flanks));
+    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach);
     let by_scallop = scallop_room(asked, drop)
         .map(|room| blade_reach::largest_layer_for_scallop_at_step(lattice, step, flanks.slope, room));
     let by_reach = by_reach.unwrap_or(Length::ZERO);
-    on_grid(match by_scallop {
+    let closed_form = match by_scallop {
         None => by_reach,
         Some(layer) => by_reach.min(layer.unwrap_or(Length::ZERO)),
-    })
+    };
+    largest_fitting(lattice, closed_form, flanks, |_| step)
 }
 
 /// Rounded down to the grid, and at least one spacing.
@@ -242,21 +275,18 @@ fn on_grid(layer: Length) -> Length {
     Length::mm(grid::down(layer.to_mm()).max(grid::SPACING))
 }
 
-/// The widest step at an overlap [Cui 7]. Interlaced lattices without overlap round up to an even grid step, so that every
-/// flank passes its older neighbour's tip on the upper side, never a hair below it.
+/// The widest step at an overlap [Cui 7], on the grid. Rounded down, unless that hair makes flanks pass below the older
+/// tips they are meant to pass through, which takes far more reach: interlaced lattices without overlap, and others at
+/// overlaps like a half, are then rounded up.
 fn widest_step(lattice: Lattice, layer: Length, overlap: f64, flanks: &Flanks) -> Length {
-    let step = 2.0 * (1.0 - overlap) * layer.to_mm() / flanks.slope;
-    match lattice {
-        Lattice::Interlaced if overlap <= 0.0 => {
-            // A layer off the grid lets tips differ in height by up to a spacing more than it says.
-            let slack = if (grid::nearest(layer.to_mm()) - layer.to_mm()).abs() < 1e-9 { 0.0 } else { grid::SPACING };
-            let half = (layer.to_mm() + slack) / flanks.slope;
-            Length::mm(2.0 * grid::up(half))
-        }
-        Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free => {
-            Length::mm(grid::down(step).max(grid::SPACING))
-        }
-    }
+    let unit = grid::SPACING * tips_per_step(lattice);
+    let [_, _, layer] = around(layer, grid::SPACING);
+    let ideal = 2.0 * (1.0 - overlap) * layer.to_mm() / flanks.slope / unit;
+    let steps = [ideal.floor(), ideal.ceil()].map(|count| Length::mm(count.max(1.0) * unit));
+    let [narrow, wide] = steps.map(|step| blade_reach::needed_reach(lattice, layer, step, flanks.slope));
+    let jump = Length::mm(unit * (1.0 + flanks.slope));
+    let [down, up] = steps;
+    if narrow > wide + jump { up } else { down }
 }
 
 /// A number for people: up to three decimals, without trailing zeros.
