@@ -8,6 +8,7 @@ pub mod lower;
 pub mod plan;
 pub mod registry;
 pub mod sim;
+pub mod sema;
 pub mod source;
 pub mod summary;
 pub mod syntax;

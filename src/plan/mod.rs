@@ -12,6 +12,7 @@ pub mod grid;
 pub mod lattice;
 pub mod parameters;
 pub mod residual;
+pub mod show;
 pub mod time_model;
 
 #[cfg(test)]
