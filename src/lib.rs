@@ -1,5 +1,7 @@
 //! vcutc.
 
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod diag;
 pub mod driver;
 pub mod geom;
