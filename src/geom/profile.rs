@@ -10,6 +10,7 @@ mod nearest;
 
 use super::point::Point2;
 use blocks::Blocks;
+use core::cmp::Ordering;
 use vcutc_backend_api::units::{Area, Length};
 
 /// How far outside its span a profile may be asked to reach, in mm: rounding of what users compute.
@@ -143,7 +144,7 @@ impl Profile {
     /// counts negative. Beyond its ends the profile goes on at their height.
     #[must_use]
     pub fn area_below(&self, from_x: f64, to_x: f64) -> Area {
-        if !(from_x < to_x) {
+        if from_x.partial_cmp(&to_x) != Some(Ordering::Less) {
             return Area::ZERO;
         }
         let mut last = Point2::new(from_x, self.height(from_x));
@@ -203,7 +204,7 @@ impl Profile {
 
 /// The height at x of the segment between two points, clamped to its ends and never beyond their heights.
 fn height_between(left: Point2, right: Point2, x: f64) -> f64 {
-    if !(x > left.x) {
+    if x <= left.x {
         left.z
     } else if x >= right.x {
         right.z
