@@ -4,7 +4,7 @@
 
 use super::args::InnerForm;
 use crate::driver::Outcome;
-use std::fmt::Write as _;
+use crate::plan::show::show;
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 
@@ -21,8 +21,8 @@ pub(super) fn write(
             Some(ast) => text_file(sink, &name, &format!("{ast:#?}\n")),
             None => Ok(Progressed::NotSoFar),
         },
-        InnerForm::Plan => match &outcome.compiled {
-            Some(compiled) => text_file(sink, &name, &lines(&compiled.summary)),
+        InnerForm::Plan => match &outcome.plan {
+            Some(plan) => text_file(sink, &name, &show(plan)),
             None => Ok(Progressed::NotSoFar),
         },
         InnerForm::Ir => match &outcome.compiled {
@@ -62,15 +62,6 @@ fn text_file(sink: &mut dyn Sink, name: &str, text: &str) -> Result<Progressed, 
     sink.file(name)?;
     sink.write(text.as_bytes())?;
     Ok(Progressed::Written)
-}
-
-fn lines(lines: &[String]) -> String {
-    let mut text = String::new();
-    for line in lines {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{line}");
-    }
-    text
 }
 
 /// Streams a value as indented JSON: a program of a million cuts is hundreds of megabytes of text.

@@ -5,6 +5,7 @@
 //! where the cause lies elsewhere, and says what to do.
 
 mod codes;
+pub mod suggest;
 
 pub use codes::Code;
 

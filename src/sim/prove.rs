@@ -285,7 +285,7 @@ impl<'p> Player<'p> {
         let deepest = self
             .bounds
             .iter()
-            .map(|bound| deepest_entry(&corners, bound.part))
+            .map(|bound| deepest_entry(&corners, &below_top(bound.part, self.program.stock.height.to_mm())))
             .min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         let (at, gap) = deepest;
         if gap >= -OVERCUT {
@@ -335,16 +335,34 @@ fn is_longer(a: &Finding, b: &Finding) -> bool {
     needed(a) > needed(b) + 1e-6
 }
 
+/// A part cut off at the stock's top: where the allowance would stand above it there is nothing to keep.
+fn below_top(part: &Profile, top: f64) -> Vec<Point2> {
+    let points = part.points();
+    let mut clipped = Vec::with_capacity(points.len());
+    let mut before: Option<Point2> = None;
+    for &point in points {
+        if let Some(from) = before
+            && (from.z - top) * (point.z - top) < 0.0
+        {
+            let share = (top - from.z) / (point.z - from.z);
+            clipped.push(Point2 { x: from.x + (point.x - from.x) * share, z: top });
+        }
+        clipped.push(Point2 { z: point.z.min(top), ..point });
+        before = Some(point);
+    }
+    clipped
+}
+
 /// Where a surface comes lowest relative to a part, and by how much it stays above it there (negative: within).
 /// Both are straight between their corners, so the lowest point lies over a corner of one of them.
-fn deepest_entry(corners: &[Point2], part: &Profile) -> (Point2, f64) {
+fn deepest_entry(corners: &[Point2], part: &[Point2]) -> (Point2, f64) {
     let mut deepest = (Point2 { x: 0.0, z: 0.0 }, f64::INFINITY);
     let mut look = |x: f64, surface: f64, part: f64| {
         if surface - part < deepest.1 {
             deepest = (Point2 { x, z: surface }, surface - part);
         }
     };
-    merge_heights(corners, part.points(), &mut look);
+    merge_heights(corners, part, &mut look);
     deepest
 }
 
