@@ -46,7 +46,7 @@ const SIGNALS: u32 = 4096;
 const FIXED_INPUTS: [u32; 2] = [1025, 1026];
 
 /// The cell of a program and everything that stands in the way of writing it.
-pub(crate) fn check<'p>(program: &'p VerifiedProgram) -> Result<&'p Cell, Vec<BackendIssue>> {
+pub(crate) fn check(program: &VerifiedProgram) -> Result<&Cell, Vec<BackendIssue>> {
     let Some(cell) = &program.program().cell else {
         return Err(vec![BackendIssue::MissingMachine]);
     };
