@@ -181,7 +181,8 @@ impl Findings {
                     op: None,
                     what: "input number",
                     value: input.to_string(),
-                    allowed: "an input with a wire: 1025 is always on and 1026 always off".to_owned(),
+                    allowed: "1 to 4096 but not 1025 and 1026, which the controller holds on and off"
+                        .to_owned(),
                 },
             );
         }

@@ -74,7 +74,8 @@ fn a_tool_change() {
 
 #[test]
 fn numbers_of_tools_bases_loads_and_signals() {
-    let cases: [(fn(&mut CellRecipe, u32), &str, u32); 5] = [
+    type Set = fn(&mut CellRecipe, u32);
+    let cases: [(Set, &str, u32); 5] = [
         (|cell, n| cell.tool = Registered::Number(n), "tool number", 16),
         (|cell, n| cell.base = Registered::Number(n), "base number", 32),
         (

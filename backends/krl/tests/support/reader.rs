@@ -342,6 +342,7 @@ fn load(text: &str) -> Result<(), String> {
 }
 
 /// X, Y, Z and R = Rz(A) Ry(B) Rx(C), multiplied out by hand.
+#[expect(clippy::disallowed_methods, reason = "another sine than the writer's")]
 fn pose(text: &str) -> Result<Pose, String> {
     let parts = aggregate(text)?;
     let names: Vec<&str> = parts.keys().copied().collect();
