@@ -4,7 +4,7 @@ use super::prove::{Bound, CutFault, replay};
 use super::timing::timing;
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
-use crate::job::{Auto, Operation};
+use crate::job::{Auto, Operation, Residual};
 use crate::lower::lower;
 use crate::plan::tests::{operation, paper_job};
 use crate::plan::{PlannedOperation, choose};
@@ -75,6 +75,8 @@ fn wide_cuts_after_narrow_ones_are_blocked_by_their_walls() {
     wide.swing.value = Auto::Given(Angle::deg(45.0));
     wide.layer.value = Auto::Given(Length::mm(3.0));
     wide.step.value = Auto::Auto;
+    // `auto` would raise the cuts until they are clear.
+    wide.residual.value = Residual::Discard;
     job.operations.push(Operation::RoughVcut(wide));
     let plan = choose(&job).0.unwrap();
     let findings = prove(&plan, &SourceMap::default()).unwrap().findings;
