@@ -9,7 +9,7 @@
 use super::builder::Builder;
 use super::posture::{Feed, Holder};
 use crate::job::{Direction, Order};
-use crate::plan::{PlannedCut, PlannedVcut};
+use crate::plan::{PlannedCut, PlannedVcut, Way};
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
@@ -57,6 +57,7 @@ struct Pass {
     x: f64,
     z: f64,
     flank: Flank,
+    way: Way,
 }
 
 /// Where the blade is between passes.
@@ -119,25 +120,28 @@ impl<'b> Writer<'b> {
     /// Cuts a layer and leaves it.
     fn layer(&mut self, layer: NonZeroU32, cuts: &[PlannedCut]) {
         let operation = self.operation;
-        let pass = |(index, cut): (u32, &PlannedCut), flank| {
+        let pass = |(index, cut): (u32, &PlannedCut), flank, way| {
             let number = NonZeroU32::MIN.saturating_add(index);
-            Pass { site: Site::Cut { operation, layer, cut: number }, x: cut.tip.x, z: cut.tip.z, flank }
+            Pass { site: Site::Cut { operation, layer, cut: number }, x: cut.tip.x, z: cut.tip.z, flank, way }
         };
         let numbered = || (0_u32..).zip(cuts);
         match self.order {
             Order::Point => {
                 for cut in numbered() {
-                    self.pass(pass(cut, Flank::Left));
-                    self.pass(pass(cut, Flank::Right));
+                    self.pass(pass(cut, Flank::Left, cut.1.way));
+                    self.pass(pass(cut, Flank::Right, Way::Beside));
                 }
             }
             Order::Layer => {
                 for cut in numbered() {
-                    self.pass(pass(cut, Flank::Left));
+                    self.pass(pass(cut, Flank::Left, cut.1.way));
                 }
+                // On the way back, a cut is reached by the way that led from it to the next one.
                 let back: Vec<_> = numbered().collect();
+                let mut way = Way::Beside;
                 for &cut in back.iter().rev() {
-                    self.pass(pass(cut, Flank::Right));
+                    self.pass(pass(cut, Flank::Right, way));
+                    way = cut.1.way;
                 }
             }
         }
@@ -151,11 +155,11 @@ impl<'b> Writer<'b> {
             (Direction::Alternate | Direction::Forward, _) => Feed::Forward,
             (Direction::Backward, _) => Feed::Backward,
         };
-        let one_way = match self.direction {
-            Direction::Alternate => false,
+        let over = match self.direction {
+            Direction::Alternate => pass.way == Way::Over,
             Direction::Forward | Direction::Backward => true,
         };
-        if one_way && self.at != Place::Above {
+        if over && self.at != Place::Above {
             self.retract(pass.site);
         }
         match self.at {

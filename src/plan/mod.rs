@@ -75,6 +75,17 @@ pub struct PlannedCut {
     pub tip: Point2,
     /// How the tip came to be where it is.
     pub origin: TipOrigin,
+    /// How the blade gets there from the cut before in the same layer.
+    pub way: Way,
+}
+
+/// The way between two neighbouring cuts of a layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Beside the work at working height.
+    Beside,
+    /// Over the safe plane: material in between stands so high that the leaning blade would meet it.
+    Over,
 }
 
 /// How a tip came to be where it is.

@@ -31,6 +31,8 @@ pub struct VcutParameters {
     pub drop: Length,
     /// Slope and reach of the flanks.
     pub flanks: Flanks,
+    /// How high above the tip material may stand while the blade moves or turns beside it: the blade leans over the work.
+    pub clear_height: Length,
 }
 
 /// A parameter that was left to the compiler, and what it came out as.
@@ -97,7 +99,7 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
     let before = diagnostics.len();
     check_rake(asked, diagnostics);
     let swing = resolve_swing(asked, diagnostics);
-    let extension = resolve_extension(asked, diagnostics);
+    check_extension(asked, diagnostics);
     if diagnostics.len() > before {
         return None;
     }
@@ -113,7 +115,53 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
         swing,
     );
     let (layer, step) = resolve_layer_and_step(asked, &flanks, drop);
-    Some(VcutParameters { swing, layer, step, extension, standoff, drop, flanks })
+    let lean = Lean::new(asked, swing);
+    let extension = match asked.extension.value {
+        Auto::Auto => {
+            // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
+            let teeth = layer + step * (flanks.slope / 2.0);
+            lean.overhang(teeth).max(edge_overhang(asked)) + asked.run_out.value
+        }
+        Auto::Given(extension) => extension,
+    };
+    let extension = Length::mm(grid::up(extension.to_mm()));
+    let clear_height = lean.clear_height(extension);
+    Some(VcutParameters { swing, layer, step, extension, standoff, drop, flanks, clear_height })
+}
+
+/// How far the edge lies over the work by its projection on y [Cui 5]; the whole cutting length, as deep cuts use it.
+fn edge_overhang(asked: &RoughVcut) -> Length {
+    asked.blade.cutting_length.value * (asked.rake.value - asked.blade.half_apex.value).cos()
+}
+
+/// How the blade leans over the work while its tip is beside it. Above the cutting length it is taken to go on along the tool
+/// axis as wide as it is there.
+struct Lean {
+    /// Half the blade's width at its full cutting length, measured along y: `L sin(beta) / sin(theta)`.
+    half_width: Length,
+    /// How far the tool axis leans along y for each millimetre of height: `cot(theta) / cos(alpha)`.
+    per_height: f64,
+}
+
+impl Lean {
+    fn new(asked: &RoughVcut, swing: Angle) -> Self {
+        let (blade, rake) = (&asked.blade, asked.rake.value);
+        Self {
+            half_width: blade.cutting_length.value * (blade.half_apex.value.sin() / rake.sin()),
+            per_height: rake.cos().max(0.0) / (rake.sin() * swing.cos()),
+        }
+    }
+
+    /// How far the blade lies over the work at a height above the tip.
+    fn overhang(&self, height: Length) -> Length {
+        self.half_width + height * self.per_height
+    }
+
+    /// The height up to which the blade is clear of the work with its tip that far beside it.
+    fn clear_height(&self, extension: Length) -> Length {
+        let upright = 1e-9;
+        Length::mm((extension - self.half_width).to_mm().max(0.0) / self.per_height.max(upright))
+    }
 }
 
 fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
@@ -156,34 +204,29 @@ fn resolve_swing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Angle 
     }
 }
 
-fn resolve_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Length {
+fn check_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
     let blade = &asked.blade;
-    // The edge lies over the work by its projection on y [Cui 5]; the whole cutting length, as deep cuts use all of it.
-    let overhang = blade.cutting_length.value * (asked.rake.value - blade.half_apex.value).cos();
-    let least = Length::mm(grid::up(overhang.to_mm()));
-    match asked.extension.value {
-        Auto::Auto => Length::mm(grid::up((overhang + asked.run_out.value).to_mm())),
-        Auto::Given(extension) if extension >= least => Length::mm(grid::up(extension.to_mm())),
-        Auto::Given(extension) => {
-            let span = asked.extension.span.unwrap_or(asked.head_span);
-            let least = show(least.to_mm());
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::ExtensionTooShort,
-                    format!("with an extension of {} mm the blade would turn within the work", show(extension.to_mm())),
-                    span,
-                    format!("the edge lies {least} mm over the work"),
-                )
-                .and(
-                    blade.cutting_length.span.unwrap_or(blade.span),
-                    format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
-                )
-                .help(format!("use at least {least} mm, or leave it `auto`"))
-                .fix("let the compiler choose", span, "auto"),
-            );
-            extension
-        }
+    let least = Length::mm(grid::up(edge_overhang(asked).to_mm()));
+    let Auto::Given(extension) = asked.extension.value else { return };
+    if extension >= least {
+        return;
     }
+    let span = asked.extension.span.unwrap_or(asked.head_span);
+    let least = show(least.to_mm());
+    diagnostics.push(
+        Diagnostic::new(
+            Code::ExtensionTooShort,
+            format!("with an extension of {} mm the blade would turn within the work", show(extension.to_mm())),
+            span,
+            format!("the edge lies {least} mm over the work"),
+        )
+        .and(
+            blade.cutting_length.span.unwrap_or(blade.span),
+            format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
+        )
+        .help(format!("use at least {least} mm, or leave it `auto`"))
+        .fix("let the compiler choose", span, "auto"),
+    );
 }
 
 /// Layer and step, as far as they are open: the largest layer that blade and scallop limit allow, the widest step.

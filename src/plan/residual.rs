@@ -11,7 +11,7 @@
 
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
-use super::{PlannedCut, TipOrigin, blade_reach, grid, smallest_gain};
+use super::{PlannedCut, TipOrigin, Way, blade_reach, grid, smallest_gain};
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{Residual, RoughVcut};
@@ -103,10 +103,22 @@ impl<'p> LayerPlanner<'p> {
             return;
         }
         self.layers_cut += 1;
-        for (tip, origin) in tips {
-            self.surface.release(self.vee(tip));
-            self.cuts.push(PlannedCut { layer: self.layers_cut, tip, origin });
+        let mut before: Option<Point2> = None;
+        for &(tip, origin) in &tips {
+            let way = before.map_or(Way::Over, |before| self.way(before, tip));
+            self.cuts.push(PlannedCut { layer: self.layers_cut, tip, origin, way });
+            before = Some(tip);
         }
+        for (tip, _) in tips {
+            self.surface.release(self.vee(tip));
+        }
+    }
+
+    /// How the blade gets from one cut to the next, judged before any chip of the layer is out.
+    fn way(&mut self, from: Point2, to: Point2) -> Way {
+        let highest = from.z.min(to.z) + self.parameters.clear_height.to_mm();
+        let clear = self.surface.corners_between(from.x, to.x).all(|corner| corner.z <= highest);
+        if clear { Way::Beside } else { Way::Over }
     }
 
     /// A tip whose V would enter the part.
@@ -199,14 +211,18 @@ impl<'p> LayerPlanner<'p> {
         Some((at(free), TipOrigin::Relieved))
     }
 
-    /// Whether both flanks come out within the blade's reach, with room for its body.
+    /// Whether both flanks come out within the blade's reach, with room for its body, and the chip is low enough for the blade
+    /// to turn beside it.
     fn comes_free(&mut self, tip: Point2) -> bool {
         let reach = self.parameters.flanks.reach.to_mm();
         let vee = self.vee(tip);
-        [Side::Left, Side::Right].into_iter().all(|side| {
-            let run = self.surface.flank(vee, side);
-            run.reach <= reach && run.blocked_at.is_none()
-        })
+        let runs = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
+        if runs.iter().any(|run| run.reach > reach || run.blocked_at.is_some()) {
+            return false;
+        }
+        let [left, right] = runs;
+        let highest = tip.z + self.parameters.clear_height.to_mm();
+        self.surface.corners_between(left.exit.x, right.exit.x).all(|corner| corner.z <= highest)
     }
 
     fn gains(&mut self, tip: Point2) -> bool {
