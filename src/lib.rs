@@ -1,8 +1,17 @@
 //! vcutc.
 
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod diag;
 pub mod driver;
 pub mod geom;
 pub mod job;
+pub mod lower;
+pub mod plan;
+pub mod registry;
+pub mod sim;
+pub mod sema;
 pub mod source;
+pub mod summary;
 pub mod syntax;
+pub mod verdict;

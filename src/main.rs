@@ -1,2 +1,7 @@
-//! x
-fn main() {}
+//! The command `vcutc`; see [`vcutc::cli`].
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    vcutc::cli::run(&vcutc::registry::backends())
+}

@@ -4,6 +4,7 @@
 //! can point into is a file of the [`SourceMap`], also texts that are no files, such as a `--set` of the command line.
 
 use std::fmt;
+use std::ops::Range;
 
 /// Number of a file in its [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -21,6 +22,23 @@ pub struct Span {
 }
 
 impl Span {
+    /// The stretch of these bytes. Files are far smaller than 4 GB ([`LARGEST_FILE`]); an offset beyond is cut off.
+    #[must_use]
+    pub fn of_bytes(file: FileId, range: Range<usize>) -> Self {
+        let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+        Self {
+            file,
+            start: offset(range.start),
+            end: offset(range.end),
+        }
+    }
+
+    /// The bytes, for slicing a text.
+    #[must_use]
+    pub const fn bytes(self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
     /// The stretch from the start of this one to the end of `last` (which lies in the same file).
     #[must_use]
     pub fn to(self, last: Self) -> Self {
@@ -151,6 +169,16 @@ impl fmt::Display for LoadError {
 
 /// Largest source file that is read, in bytes: a job of this size would have over a million lines.
 pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// The text that a file's bytes are.
+///
+/// A byte order mark stays in the text, so that byte offsets are those of the file; the parser passes over it.
+///
+/// # Errors
+/// The number of bytes before the first that is no UTF-8.
+pub fn text_from_bytes(bytes: Vec<u8>) -> Result<String, usize> {
+    String::from_utf8(bytes).map_err(|error| error.utf8_error().valid_up_to())
+}
 
 /// The path that `target`, written in the file `from`, means: relative to that file's folder, with `.` and `..`
 /// resolved where they can be.

@@ -1,5 +1,71 @@
 //! From text to tree.
 //!
-//! [`parse`] never fails and never panics: what it cannot read it reports and leaves out, and goes on behind it.
+//! [`parse`] never fails and never panics: what it cannot read it reports and leaves out, and goes on behind it. It
+//! works in three steps:
+//!
+//! 1. `brackets` looks at brackets, quotes and comments, reports what is lost there and balances the text;
+//! 2. `grammar` reads the balanced text by `grammar/vcut.pest`, whose rules for bad statements let it always succeed;
+//! 3. `build` turns what was read into the tree, `expression` gives values their shape, and `mistakes` puts bad
+//!    statements into words, with `slips` knowing the usual ones.
+//!
+//! Time and memory are linear in the length of the text, and recursion is bounded by the depth that `brackets` allows.
 
 pub mod ast;
+mod brackets;
+mod build;
+mod expression;
+mod grammar;
+mod lexical;
+mod mistakes;
+mod reports;
+mod slips;
+#[cfg(test)]
+mod tests;
+
+use crate::diag::Diagnostic;
+use crate::source::{FileId, Spanned};
+use ast::{Ast, Expr};
+use build::Builder;
+use grammar::{Mismatch, Rule, read};
+
+/// Reads a file's text. What is wrong is added to `diagnostics`, in the order of the text.
+pub fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Ast {
+    let balanced = brackets::balance(file, text);
+    let mut builder = Builder::new(file, 0, text, balanced.doubtful, balanced.reports);
+    let ast = match read(Rule::file, &balanced.text) {
+        Ok(pairs) => builder.file(pairs),
+        Err(mismatch) => {
+            builder.unreadable(&mismatch);
+            Ast::default()
+        }
+    };
+    diagnostics.extend(builder.finish());
+    ast
+}
+
+/// Reads a single value, such as that of `--set width=90mm`. `text` is the value alone, and `offset` says where it
+/// starts in the text of `file`, in bytes. `None` means that it is wrong, which has then been added to `diagnostics`.
+pub fn parse_expression(
+    file: FileId,
+    text: &str,
+    offset: u32,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Spanned<Expr>> {
+    let balanced = brackets::balance(file, text);
+    let mut builder = Builder::new(file, offset, text, balanced.doubtful, balanced.reports);
+    let value = match read(Rule::only_expression, &balanced.text) {
+        Ok(pairs) => builder.only_expression(pairs),
+        Err(Mismatch::At { position, expected }) => {
+            builder.bad_expression(position, &expected);
+            None
+        }
+        Err(mismatch @ Mismatch::TooMuchWork) => {
+            builder.unreadable(&mismatch);
+            None
+        }
+    };
+    let reports = builder.finish();
+    let is_right = reports.is_empty();
+    diagnostics.extend(reports);
+    value.filter(|_| is_right)
+}

@@ -28,5 +28,7 @@ pub mod geometry;
 pub mod ir;
 pub mod namer;
 pub mod number;
+#[cfg(feature = "testkit")]
+pub mod testkit;
 pub mod units;
 pub mod verify;

@@ -1,1 +1,146 @@
-//! KUKA KRL output.
+//! KUKA KRL output (KSS 5 to 8).
+//!
+//! # The dialect
+//!
+//! A KRL program is a *module*: `NAME.src` holds the instructions of a routine `DEF NAME( )`, `NAME.dat` its data. All
+//! declarations stand in the `.dat`, because one behind an instruction of the `.src` does not compile. All modules of a
+//! controller share one name space; names have at most 24 characters and do not mind case.
+//!
+//! `BAS (#INITMOV,0 )` resets everything motions depend on; tool, base, load, interpolation mode and speeds are set
+//! behind it. The first motion is `PTP` to axis values: it alone says which of the robot's postures is meant (KUKA's
+//! status and turn), and all `LIN` behind it stay on that branch. `LIN` moves the tip on a straight line while A, B and
+//! C change along; with the same X, Y, Z it turns the blade about its still tip, timed by `$VEL.ORI1` and `.ORI2`
+//! instead of `$VEL.CP`. What an aggregate leaves out stays as programmed before, so every target here names all six.
+//!
+//! A move ends at a standstill unless a word such as `C_DIS` follows it. That word appears only in the air, only when
+//! the job asks for it, and only where the shortcut stays beside the stock. `$OUT[n]=TRUE` stops the advance run, so
+//! the output switches where it stands; `CONTINUE`, which would let it switch early, is never written.
+//!
+//! # How an op is said
+//!
+//! | op | KRL |
+//! |---|---|
+//! | `Home` | `PTP XVC_HOME`, the angles being in the `.dat` |
+//! | `Travel`, `Approach`, `Retract`, `Cut` | `LIN {X ..,Y ..,Z ..,A ..,B ..,C ..}` |
+//! | `Turn` | the same with the X, Y, Z of the move before |
+//! | `Ultrasonic` | `$OUT[n]=TRUE`, `$OUT[n]=FALSE` |
+//! | `AwaitReady` | `WAIT FOR $IN[n]` or `WAIT SEC t` |
+//! | `Dwell` | `WAIT SEC t` |
+//! | `ToolChange` | refused |
+//!
+//! `$VEL.CP` and `$VEL.ORI1`, `$VEL.ORI2` are written where they change. With the option `motion = spline` the words
+//! are `SPTP`, `SLIN` and `C_SPL`; the two planners are never mixed in one program.
+//!
+//! # Long programs
+//!
+//! The pendant's editor becomes unusable with some thousands of lines, so a long program is a main module that calls
+//! parts `NAME_p001( )`, `NAME_p002( )`, ... one after the other ([`split`] has the rule). Each part sets everything up
+//! again, and repeats the pose and the state of the generator that the part before it ended with.
+//!
+//! # Sources
+//!
+//! * [K-QG] KUKA, Quickguide KRL-Syntax, KSS 8.x (2012)
+//! * [K-SI] KUKA, KSS 8.3 Operating and Programming Instructions for System Integrators (2015)
+//! * [K-SYS] KUKA, System Variables for KSS 8.1 to 8.4 (2016)
+//! * [K-FOLD], [K-LINES], [K-EXT] articles on industrialmonitordirect.com on folders, file lengths and `EXT`
+//!
+//! No output of this crate has been run on a controller by its authors; `docs/backends/krl.md` says what to check first.
+
+mod attitude;
+mod body;
+mod keywords;
+mod limits;
+mod listing;
+mod module;
+mod options;
+mod split;
+mod state;
+mod text;
+
+use crate::attitude::Attitudes;
+use crate::body::Source;
+use crate::keywords::{MOST_PARTS, main_name};
+use crate::options::{LINES_PER_PART, OPTIONS, Settings};
+use crate::split::Part;
+use crate::text::Text;
+use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
+use vcutc_backend_api::bundle::Sink;
+use vcutc_backend_api::ir::{Cell, Program};
+use vcutc_backend_api::verify::{Capabilities, Capability, VerifiedProgram};
+
+/// The KRL backend.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Krl;
+
+impl Backend for Krl {
+    fn id(&self) -> &'static str {
+        "krl"
+    }
+
+    fn summary(&self) -> &'static str {
+        "KUKA KRL: NAME.src and NAME.dat, in parts when long (KSS 5 to 8)"
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::NONE
+            .with(Capability::LinearMove)
+            .with(Capability::JointMove)
+            .with(Capability::StillTipTurn)
+            .with(Capability::Output)
+            .with(Capability::AwaitInput)
+            .with(Capability::Dwell)
+    }
+
+    fn options(&self) -> &'static [OptionSpec] {
+        OPTIONS
+    }
+
+    fn check<'p>(
+        &self,
+        program: &'p VerifiedProgram,
+        options: &'p Options,
+    ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
+        let settings = Settings::read(options);
+        let cell = limits::check(program)?;
+        let program = program.program();
+        let parts = split::split(&program.ops, settings.lines_per_part);
+        if parts.len() > MOST_PARTS {
+            return Err(vec![too_many_parts(parts.len())]);
+        }
+        Ok(Box::new(KrlEmission {
+            program,
+            cell,
+            settings,
+            parts,
+        }))
+    }
+}
+
+fn too_many_parts(count: usize) -> BackendIssue {
+    BackendIssue::OptionConflict {
+        key: LINES_PER_PART,
+        why: format!("the program would need {count} parts, and part names have room for {MOST_PARTS}"),
+    }
+}
+
+/// A program that KRL can say, and how.
+struct KrlEmission<'p> {
+    program: &'p Program,
+    cell: &'p Cell,
+    settings: Settings<'p>,
+    parts: Vec<Part>,
+}
+
+impl Emission for KrlEmission<'_> {
+    fn write(&self, sink: &mut dyn Sink) -> Result<(), EmitError> {
+        let attitudes = Attitudes::new(&self.program.orientations, self.settings.angles)?;
+        let source = Source {
+            program: self.program,
+            cell: self.cell,
+            settings: &self.settings,
+            attitudes: &attitudes,
+        };
+        let name = main_name(&self.program.name);
+        module::write(source, &name, &self.parts, &mut Text::new(sink))
+    }
+}

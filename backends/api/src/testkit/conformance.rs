@@ -1,0 +1,163 @@
+//! What every backend promises.
+
+use super::samples;
+use crate::backend::{Backend, BackendIssue, EmitError, OptionKind, OptionSpec, Options};
+use crate::bundle::{Bundle, Sink, SinkError};
+use crate::ir::{Action, Op, Site};
+use crate::verify::{Capability, VerifiedProgram, verify};
+use std::collections::BTreeSet;
+
+/// Checks the promises of the trait on the sample programs:
+///
+/// * options have unique keys and sound defaults;
+/// * a program without a machine is refused as [`BackendIssue::MissingMachine`];
+/// * an op that needs a capability the backend lacks is refused, not written;
+/// * the same program gives the same files, in plain ASCII, under plain names that differ in more than case;
+/// * a sink that fails is reported.
+///
+/// # Errors
+/// The first promise that is broken, in words.
+pub fn conformance(backend: &dyn Backend) -> Result<(), String> {
+    options(backend.options())?;
+    for (name, program) in samples()? {
+        sample(backend, &program).map_err(|problem| format!("{}, sample {name}: {problem}", backend.id()))?;
+    }
+    Ok(())
+}
+
+fn options(specs: &'static [OptionSpec]) -> Result<(), String> {
+    let mut keys = BTreeSet::new();
+    let mut options = Options::defaults(specs);
+    for spec in specs {
+        if !keys.insert(spec.key) {
+            return Err(format!("option {} is there twice", spec.key));
+        }
+        if spec.help.is_empty() {
+            return Err(format!("option {} has no help", spec.key));
+        }
+        let default = match spec.kind {
+            OptionKind::Integer { default, .. } => crate::backend::OptionValue::Integer(default),
+            OptionKind::Length { default, .. } => crate::backend::OptionValue::Length(default),
+            OptionKind::Lines => crate::backend::OptionValue::Lines(Vec::new()),
+            OptionKind::Choice { of } => {
+                let first = of.first().ok_or("a choice of nothing")?;
+                crate::backend::OptionValue::Choice(first)
+            }
+        };
+        options
+            .set(spec, default)
+            .map_err(|range| format!("the default of option {} is not {range}", spec.key))?;
+    }
+    Ok(())
+}
+
+fn sample(backend: &dyn Backend, program: &VerifiedProgram) -> Result<(), String> {
+    let options = Options::defaults(backend.options());
+    let bundle = emitted(backend, program, &options)?;
+    files(&bundle)?;
+    if emitted(backend, program, &options)? != bundle {
+        return Err("two runs gave different bytes".to_owned());
+    }
+    without_machine(backend, program, &options)?;
+    beyond_capabilities(backend, program, &options)?;
+    full_disk(backend, program, &options)
+}
+
+fn emitted(backend: &dyn Backend, program: &VerifiedProgram, options: &Options) -> Result<Bundle, String> {
+    let mut bundle = Bundle::default();
+    backend
+        .check(program, options)
+        .map_err(|issues| format!("refused: {issues:?}"))?
+        .write(&mut bundle)
+        .map_err(|error| format!("not written: {error:?}"))?;
+    Ok(bundle)
+}
+
+fn files(bundle: &Bundle) -> Result<(), String> {
+    if bundle.files().is_empty() {
+        return Err("no files".to_owned());
+    }
+    let mut names = BTreeSet::new();
+    for (name, bytes) in bundle.files() {
+        let plain = name
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '-'));
+        if !plain || name.starts_with('.') {
+            return Err(format!("{name:?} is not a plain file name"));
+        }
+        if !names.insert(name.to_ascii_lowercase()) {
+            return Err(format!("two files are called {name}"));
+        }
+        if !bytes.is_ascii() {
+            return Err(format!("{name} is not ASCII"));
+        }
+    }
+    Ok(())
+}
+
+fn without_machine(
+    backend: &dyn Backend,
+    program: &VerifiedProgram,
+    options: &Options,
+) -> Result<(), String> {
+    let mut plain = program.program().clone();
+    plain.cell = None;
+    plain.ops.clear();
+    let plain = verify(plain).map_err(|faults| format!("{faults:?}"))?;
+    match backend.check(&plain, options) {
+        Err(issues) if issues.contains(&BackendIssue::MissingMachine) => Ok(()),
+        Err(issues) => Err(format!("no machine, but {issues:?}")),
+        Ok(_) => Err("a program without a machine was accepted".to_owned()),
+    }
+}
+
+/// A tool change behind the last op: no program of the compiler has one, so a backend that lacks it must say so.
+fn beyond_capabilities(
+    backend: &dyn Backend,
+    program: &VerifiedProgram,
+    options: &Options,
+) -> Result<(), String> {
+    if backend.capabilities().has(Capability::ToolChange) {
+        return Ok(());
+    }
+    let mut changed = program.program().clone();
+    changed.ops.push(Op {
+        site: Site::Program,
+        action: Action::ToolChange { tool: 2 },
+    });
+    let changed = verify(changed).map_err(|faults| format!("{faults:?}"))?;
+    match backend.check(&changed, options) {
+        Err(issues)
+            if issues
+                .iter()
+                .any(|issue| matches!(issue, BackendIssue::Unsupported { .. })) =>
+        {
+            Ok(())
+        }
+        Err(issues) => Err(format!("a tool change gave {issues:?}")),
+        Ok(_) => Err("a tool change was accepted without the capability".to_owned()),
+    }
+}
+
+/// Takes files, but no bytes.
+struct FullDisk;
+
+impl Sink for FullDisk {
+    fn file(&mut self, _name: &str) -> Result<(), SinkError> {
+        Ok(())
+    }
+
+    fn write(&mut self, _bytes: &[u8]) -> Result<(), SinkError> {
+        Err(SinkError("full".to_owned()))
+    }
+}
+
+fn full_disk(backend: &dyn Backend, program: &VerifiedProgram, options: &Options) -> Result<(), String> {
+    let emission = backend
+        .check(program, options)
+        .map_err(|issues| format!("refused: {issues:?}"))?;
+    match emission.write(&mut FullDisk) {
+        Err(EmitError::Sink(_)) => Ok(()),
+        other => Err(format!("a sink that failed gave {other:?}")),
+    }
+}

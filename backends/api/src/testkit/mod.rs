@@ -1,0 +1,83 @@
+//! Programs to test backends with, and the check that every backend must pass (feature `testkit`).
+//!
+//! [`Recipe`] describes a program by a few numbers, all of which give a program that [`verify`] accepts, so that a
+//! property test can draw recipes at random. [`samples`] is a fixed set with the corner cases. [`conformance`] is what
+//! the trait [`Backend`](crate::backend::Backend) promises, checked against those samples.
+
+mod conformance;
+mod recipe;
+
+pub use conformance::conformance;
+pub use recipe::{CellRecipe, Passes, Recipe};
+
+use crate::ir::{Edges, Ready, Registered};
+use crate::units::Duration;
+use crate::verify::{VerifiedProgram, verify};
+
+/// Sample programs with a name each: from an empty one to one with several operations.
+///
+/// # Errors
+/// The name of a recipe that gave a program with faults (a fault of this module).
+pub fn samples() -> Result<Vec<(&'static str, VerifiedProgram)>, String> {
+    let plain = Recipe::default();
+    let recipes = [
+        (
+            "empty",
+            Recipe {
+                layers: 0,
+                ..plain.clone()
+            },
+        ),
+        (
+            "one_cut",
+            Recipe {
+                layers: 1,
+                cuts: 1,
+                ..plain.clone()
+            },
+        ),
+        ("still_tip_turns", plain.clone()),
+        (
+            "layer_by_layer",
+            Recipe {
+                passes: Passes::Layer,
+                ..plain.clone()
+            },
+        ),
+        (
+            "single_edge",
+            Recipe {
+                edges: Edges::Single,
+                ..plain.clone()
+            },
+        ),
+        (
+            "several_operations",
+            Recipe {
+                operations: 3,
+                dwell: Some(Duration::s(0.25)),
+                ..plain.clone()
+            },
+        ),
+        (
+            "numbered_cell",
+            Recipe {
+                cell: CellRecipe {
+                    tool: Registered::Number(3),
+                    base: Registered::Number(2),
+                    load: Some(Registered::Number(1)),
+                    ready: Ready::Input(7),
+                    ..CellRecipe::default()
+                },
+                ..plain
+            },
+        ),
+    ];
+    recipes
+        .into_iter()
+        .map(|(name, recipe)| match verify(recipe.program()) {
+            Ok(program) => Ok((name, program)),
+            Err(faults) => Err(format!("sample {name}: {faults:?}")),
+        })
+        .collect()
+}

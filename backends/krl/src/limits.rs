@@ -1,0 +1,266 @@
+//! What a controller does not take, found before anything is written.
+//!
+//! Sources: [K-SI] KUKA, KSS 8.3 Operating and Programming Instructions for System Integrators; [K-SYS] KUKA, System
+//! Variables for KSS 8.1 to 8.4. Of each kind of problem the first is told, with its op: a stock placed too far away
+//! would otherwise be told a million times.
+
+use crate::text::trimmed_text;
+use std::collections::BTreeSet;
+use vcutc_backend_api::backend::BackendIssue;
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{
+    Action, Cell, FeedId, Load, MachineKind, OpId, Program, RateId, Ready, Registered,
+};
+use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::verify::VerifiedProgram;
+
+/// Largest coordinate, in mm. KRL's `REAL` has seven digits, so beyond this a hundredth of a millimetre is lost; no
+/// robot reaches a tenth of it.
+const FARTHEST_MM: f64 = 99_999.0;
+
+/// Largest axis angle, in degrees. Arms with six axes end at 350 or before.
+const LARGEST_AXIS_DEG: f64 = 360.0;
+
+/// Tip speed `$VEL.CP` in m/s: zero is refused, and `$VEL_MA.CP` is 3 as delivered [K-SYS].
+const TIP_SPEED: (f64, f64) = (0.000_001, 3.0);
+
+/// Rates `$VEL.ORI1` and `$VEL.ORI2` in deg/s: `$VEL_MA.ORI1` and `.ORI2` are 400 as delivered [K-SYS].
+const RATE: (f64, f64) = (0.000_001, 400.0);
+
+/// `WAIT SEC` in s; a day.
+const LONGEST_WAIT_S: f64 = 86_400.0;
+
+/// `$LOAD.M` in kg; the largest arm is rated for 1300.
+const LOAD_MASS_KG: (f64, f64) = (0.001, 1300.0);
+
+/// `TOOL_DATA[16]` and `LOAD_DATA[16]` [K-SYS].
+const TOOLS: u32 = 16;
+
+/// `BASE_DATA[32]` [K-SYS].
+const BASES: u32 = 32;
+
+/// `$IN[4096]` and `$OUT[4096]` [K-SYS].
+const SIGNALS: u32 = 4096;
+
+/// Inputs that the controller itself holds at TRUE and FALSE: the one never waits, the other waits for ever.
+const FIXED_INPUTS: [u32; 2] = [1025, 1026];
+
+/// The cell of a program and everything that stands in the way of writing it.
+pub(crate) fn check<'p>(program: &'p VerifiedProgram) -> Result<&'p Cell, Vec<BackendIssue>> {
+    let Some(cell) = &program.program().cell else {
+        return Err(vec![BackendIssue::MissingMachine]);
+    };
+    let mut findings = Findings::default();
+    findings.cell(cell);
+    findings.ops(program);
+    if findings.issues.is_empty() {
+        Ok(cell)
+    } else {
+        Err(findings.issues)
+    }
+}
+
+#[derive(Default)]
+struct Findings {
+    issues: Vec<BackendIssue>,
+    /// What was told, so that it is told once.
+    told: BTreeSet<&'static str>,
+}
+
+/// A number with its unit, to be checked.
+struct Number {
+    what: &'static str,
+    value: f64,
+    unit: &'static str,
+}
+
+impl Findings {
+    fn tell(&mut self, what: &'static str, issue: BackendIssue) {
+        if self.told.insert(what) {
+            self.issues.push(issue);
+        }
+    }
+
+    fn range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
+        let &Number { what, value, unit } = number;
+        if (low..=high).contains(&as_printed(value)) {
+            return;
+        }
+        self.tell(
+            what,
+            BackendIssue::OutOfRange {
+                op,
+                what,
+                value: format!("{} {unit}", trimmed_text(value)),
+                allowed: format!("{} to {} {unit}", trimmed_text(low), trimmed_text(high)),
+            },
+        );
+    }
+
+    fn number(&mut self, what: &'static str, value: u32, highest: u32) {
+        if (1..=highest).contains(&value) {
+            return;
+        }
+        self.tell(
+            what,
+            BackendIssue::OutOfRange {
+                op: None,
+                what,
+                value: value.to_string(),
+                allowed: format!("1 to {highest}"),
+            },
+        );
+    }
+
+    fn cell(&mut self, cell: &Cell) {
+        match cell.kind {
+            MachineKind::Robot => {}
+        }
+        match cell.home {
+            Some(home) => {
+                for angle in home {
+                    let number = Number {
+                        what: "home angle",
+                        value: angle.to_deg(),
+                        unit: "deg",
+                    };
+                    self.range(None, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
+                }
+            }
+            None => self.tell(
+                "home",
+                BackendIssue::MissingMachineField {
+                    field: "home",
+                    why: "a KRL program begins with a move of all six axes, which also decides how the wrist is turned \
+                          in every straight move after it",
+                },
+            ),
+        }
+        match cell.tool {
+            Registered::Value(tool) => {
+                self.point(None, ["tool X", "tool Y", "tool Z"], tool.origin);
+            }
+            Registered::Number(number) => self.number("tool number", number, TOOLS),
+        }
+        match cell.base {
+            Registered::Value(base) => {
+                self.point(None, ["base X", "base Y", "base Z"], base.origin);
+            }
+            Registered::Number(number) => self.number("base number", number, BASES),
+        }
+        match cell.load {
+            Some(Registered::Value(load)) => self.load(load),
+            Some(Registered::Number(number)) => self.number("load number", number, TOOLS),
+            None => {}
+        }
+        if let Some(output) = cell.ultrasonic {
+            self.number("output number", output, SIGNALS);
+        }
+        match cell.ready {
+            Ready::Input(input) => self.input(input),
+            Ready::After(time) => self.wait(None, "time until ready", time),
+        }
+    }
+
+    fn load(&mut self, load: Load) {
+        let mass = Number {
+            what: "load mass",
+            value: load.mass.to_kg(),
+            unit: "kg",
+        };
+        self.range(None, &mass, LOAD_MASS_KG);
+        self.point(None, ["load X", "load Y", "load Z"], load.centre);
+    }
+
+    fn input(&mut self, input: u32) {
+        self.number("input number", input, SIGNALS);
+        if FIXED_INPUTS.contains(&input) {
+            self.tell(
+                "input number",
+                BackendIssue::OutOfRange {
+                    op: None,
+                    what: "input number",
+                    value: input.to_string(),
+                    allowed: "an input with a wire: 1025 is always on and 1026 always off".to_owned(),
+                },
+            );
+        }
+    }
+
+    fn ops(&mut self, program: &VerifiedProgram) {
+        let tables = program.program();
+        for (id, op) in program.ops() {
+            match op.action {
+                Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
+                Action::Travel { to, feed, rate, .. } => {
+                    self.target(id, to);
+                    self.feed(id, tables, feed);
+                    self.rate(id, tables, rate);
+                }
+                Action::Approach { to, feed }
+                | Action::Retract { to, feed }
+                | Action::Cut { to, feed, .. } => {
+                    self.target(id, to);
+                    self.feed(id, tables, feed);
+                }
+                Action::Turn { rate, .. } => self.rate(id, tables, rate),
+                Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
+                Action::ToolChange { .. } => {
+                    let what = "a tool change within the program";
+                    self.tell(what, BackendIssue::Unsupported { op: id, what });
+                }
+            }
+        }
+    }
+
+    fn target(&mut self, op: OpId, to: Point3) {
+        self.point(Some(op), ["X", "Y", "Z"], to);
+    }
+
+    fn point(&mut self, op: Option<OpId>, names: [&'static str; 3], point: Point3) {
+        for (what, value) in names.into_iter().zip([point.x, point.y, point.z]) {
+            let number = Number {
+                what,
+                value,
+                unit: "mm",
+            };
+            self.range(op, &number, (-FARTHEST_MM, FARTHEST_MM));
+        }
+    }
+
+    fn feed(&mut self, op: OpId, program: &Program, feed: FeedId) {
+        if let Some(feed) = program.feeds.get(usize::from(feed.0)) {
+            let number = Number {
+                what: "tip speed",
+                value: feed.to_m_per_s(),
+                unit: "m/s",
+            };
+            self.range(Some(op), &number, TIP_SPEED);
+        }
+    }
+
+    fn rate(&mut self, op: OpId, program: &Program, rate: RateId) {
+        if let Some(rate) = program.rates.get(usize::from(rate.0)) {
+            let number = Number {
+                what: "reorientation rate",
+                value: rate.to_deg_per_s(),
+                unit: "deg/s",
+            };
+            self.range(Some(op), &number, RATE);
+        }
+    }
+
+    fn wait(&mut self, op: Option<OpId>, what: &'static str, time: Duration) {
+        let number = Number {
+            what,
+            value: time.to_s(),
+            unit: "s",
+        };
+        self.range(op, &number, (0.0, LONGEST_WAIT_S));
+    }
+}
+
+/// A value as it will be printed at best, with six decimals: 400 deg/s kept in radians comes back a hair above 400.
+fn as_printed(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}

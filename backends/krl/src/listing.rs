@@ -1,0 +1,121 @@
+//! What stands before the line of an op: folds, comments, and speeds that change.
+//!
+//! The same answer serves the writer, which writes it, and the splitter, which counts it.
+
+use core::num::NonZeroU32;
+use vcutc_backend_api::ir::{Action, FeedId, Op, OperationId, RateId, Site};
+
+/// A layer of the job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layer {
+    /// The operation it belongs to.
+    pub(crate) operation: OperationId,
+    /// Its number within the operation.
+    pub(crate) number: NonZeroU32,
+}
+
+/// What a reader at a line of the program knows: headings seen and speeds set so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Modal {
+    operation: Option<OperationId>,
+    layer: Option<Layer>,
+    cut: Option<NonZeroU32>,
+    feed: Option<FeedId>,
+    rate: Option<RateId>,
+}
+
+/// What an op needs before its line, in the order of writing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Lead {
+    /// The fold of this layer ends.
+    pub(crate) close: Option<Layer>,
+    /// This operation begins.
+    pub(crate) operation: Option<OperationId>,
+    /// The fold of this layer begins.
+    pub(crate) open: Option<Layer>,
+    /// This cut of the layer begins.
+    pub(crate) cut: Option<(Layer, NonZeroU32)>,
+    /// The tip speed changes to this.
+    pub(crate) feed: Option<FeedId>,
+    /// The reorientation rate changes to this.
+    pub(crate) rate: Option<RateId>,
+}
+
+impl Modal {
+    /// What the op needs, given what was said before; then it is said.
+    pub(crate) fn lead(&mut self, op: &Op) -> Lead {
+        let (layer, cut) = place(op.site);
+        let (feed, rate) = speeds(&op.action);
+        let mut lead = Lead::default();
+        if layer != self.layer {
+            lead.close = self.layer;
+            lead.open = layer;
+            self.layer = layer;
+            self.cut = None;
+        }
+        if let Some(operation) = op.site.operation() {
+            lead.operation = changed(&mut self.operation, operation);
+        }
+        if let (Some(layer), Some(cut)) = (layer, cut) {
+            lead.cut = changed(&mut self.cut, cut).map(|cut| (layer, cut));
+        }
+        lead.feed = feed.and_then(|feed| changed(&mut self.feed, feed));
+        lead.rate = rate.and_then(|rate| changed(&mut self.rate, rate));
+        lead
+    }
+
+    /// The fold that is still open.
+    pub(crate) const fn open_layer(self) -> Option<Layer> {
+        self.layer
+    }
+}
+
+impl Lead {
+    /// How many lines it takes. The end of a fold is counted where the fold begins, so that a part's count is right
+    /// wherever it stops.
+    pub(crate) const fn lines(self) -> u64 {
+        let fold = if self.open.is_some() { 2 } else { 0 };
+        let rate = if self.rate.is_some() { 2 } else { 0 };
+        fold + rate + self.operation.is_some() as u64 + self.cut.is_some() as u64 + self.feed.is_some() as u64
+    }
+}
+
+/// Sets a value and tells it if it is a new one.
+fn changed<T: Copy + PartialEq>(known: &mut Option<T>, now: T) -> Option<T> {
+    (known.replace(now) != Some(now)).then_some(now)
+}
+
+/// The layer and the cut an op belongs to.
+const fn place(site: Site) -> (Option<Layer>, Option<NonZeroU32>) {
+    match site {
+        Site::Program | Site::Operation(_) => (None, None),
+        Site::Layer { operation, layer } => {
+            let number = layer;
+            (Some(Layer { operation, number }), None)
+        }
+        Site::Cut {
+            operation,
+            layer,
+            cut,
+        } => {
+            let number = layer;
+            (Some(Layer { operation, number }), Some(cut))
+        }
+    }
+}
+
+/// The speeds an action runs at.
+const fn speeds(action: &Action) -> (Option<FeedId>, Option<RateId>) {
+    match *action {
+        Action::Travel { feed, rate, .. } => (Some(feed), Some(rate)),
+        Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
+            (Some(feed), None)
+        }
+        Action::Turn { rate, .. } => (None, Some(rate)),
+        Action::Home
+        | Action::Ultrasonic { .. }
+        | Action::AwaitReady
+        | Action::Dwell { .. }
+        | Action::ToolChange { .. } => (None, None),
+    }
+}

@@ -1,0 +1,212 @@
+//! The options block `krl { ... }` of a job.
+//!
+//! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
+//! crate never asks for a key by its name.
+
+use core::num::NonZeroU32;
+use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
+use vcutc_backend_api::number::FixedDecimal;
+use vcutc_backend_api::units::Length;
+
+const DECIMALS: &str = "decimals";
+pub(crate) const LINES_PER_PART: &str = "lines_per_part";
+const HEADER: &str = "header";
+const APPROXIMATION: &str = "approximation";
+const MOTION: &str = "motion";
+const DECLARE_PARTS: &str = "declare_parts";
+const HOME_SPEED: &str = "home_speed";
+
+const CLASSIC: &str = "classic";
+const SPLINE: &str = "spline";
+const NO: &str = "no";
+const YES: &str = "yes";
+
+/// All options, in the order of the documentation.
+pub(crate) const OPTIONS: &[OptionSpec] = &[
+    OptionSpec {
+        key: DECIMALS,
+        kind: OptionKind::Integer {
+            min: 3,
+            max: 6,
+            default: 3,
+        },
+        help: "Decimals of lengths in mm; angles get one more, up to six.",
+    },
+    OptionSpec {
+        key: LINES_PER_PART,
+        kind: OptionKind::Integer {
+            min: 0,
+            max: 1_000_000,
+            default: 2500,
+        },
+        help: "Lines after which the program is split into parts at the next travel move; 0 never splits.",
+    },
+    OptionSpec {
+        key: HEADER,
+        kind: OptionKind::Lines,
+        help: "Comment lines put at the head of the main program.",
+    },
+    OptionSpec {
+        key: APPROXIMATION,
+        kind: OptionKind::Length {
+            min: Length::ZERO,
+            max: Length::mm(50.0),
+            default: Length::ZERO,
+        },
+        help: "How far from a corner in the air the robot may start rounding it; 0 mm stops at every point.",
+    },
+    OptionSpec {
+        key: MOTION,
+        kind: OptionKind::Choice {
+            of: &[CLASSIC, SPLINE],
+        },
+        help: "Motion planner: classic writes PTP and LIN, spline writes SPTP and SLIN (KSS 8 and later).",
+    },
+    OptionSpec {
+        key: DECLARE_PARTS,
+        kind: OptionKind::Choice { of: &[NO, YES] },
+        help: "Whether the main program declares its parts with EXT lines, as old releases demand.",
+    },
+    OptionSpec {
+        key: HOME_SPEED,
+        kind: OptionKind::Integer {
+            min: 1,
+            max: 100,
+            default: 10,
+        },
+        help: "Axis speed of the moves to home, in percent of the greatest.",
+    },
+];
+
+/// Which motion planner of the controller moves the robot. The two do not blend into each other, so a program keeps
+/// to one [K-SI].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Planner {
+    /// `PTP` and `LIN`.
+    Classic,
+    /// `SPTP` and `SLIN`.
+    Spline,
+}
+
+impl Planner {
+    /// The word of a move by axis values.
+    pub(crate) const fn axes(self) -> &'static str {
+        match self {
+            Self::Classic => "PTP",
+            Self::Spline => "SPTP",
+        }
+    }
+
+    /// The word of a straight move, with the start of its target.
+    pub(crate) const fn straight(self) -> &'static [u8] {
+        match self {
+            Self::Classic => b"LIN {X ",
+            Self::Spline => b"SLIN {X ",
+        }
+    }
+
+    /// The word behind a move that may be rounded.
+    pub(crate) const fn approximate(self) -> &'static [u8] {
+        match self {
+            Self::Classic => b" C_DIS",
+            Self::Spline => b" C_SPL",
+        }
+    }
+}
+
+/// How the main program makes its parts known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PartNames {
+    /// The controller finds them by their file names.
+    Global,
+    /// By `EXT` lines.
+    Declared,
+}
+
+/// The options as types.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings<'p> {
+    /// Format of lengths in mm.
+    pub(crate) lengths: FixedDecimal,
+    /// Format of angles in degrees: 0.001 deg at the end of a 300 mm blade is 5 um, so one decimal more than lengths.
+    pub(crate) angles: FixedDecimal,
+    /// Longest body of a part, when there is a limit.
+    pub(crate) lines_per_part: Option<NonZeroU32>,
+    /// Comment lines at the head.
+    pub(crate) header: &'p [String],
+    /// Rounding of corners in the air, when wanted.
+    pub(crate) approximation: Option<Length>,
+    /// Motion planner.
+    pub(crate) planner: Planner,
+    /// How parts are made known.
+    pub(crate) part_names: PartNames,
+    /// Axis speed of home moves, in percent.
+    pub(crate) home_speed: u32,
+}
+
+impl<'p> Settings<'p> {
+    /// Reads the options of a job.
+    pub(crate) fn read(options: &'p Options) -> Self {
+        let decimals = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
+        let approximation = options.length(APPROXIMATION);
+        Self {
+            lengths: FixedDecimal::new(decimals),
+            angles: FixedDecimal::new(decimals.saturating_add(1)),
+            lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
+            header: options.lines(HEADER),
+            approximation: (approximation > Length::ZERO).then_some(approximation),
+            planner: match options.choice(MOTION) {
+                SPLINE => Planner::Spline,
+                _ => Planner::Classic,
+            },
+            part_names: match options.choice(DECLARE_PARTS) {
+                YES => PartNames::Declared,
+                _ => PartNames::Global,
+            },
+            home_speed: options.integer(HOME_SPEED),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use vcutc_backend_api::backend::OptionValue;
+
+    #[test]
+    fn keys_are_unique() {
+        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
+        assert_eq!(keys.len(), OPTIONS.len());
+    }
+
+    #[test]
+    fn what_is_set_is_read() {
+        let mut options = Options::defaults(OPTIONS);
+        let values = [
+            (DECIMALS, OptionValue::Integer(4)),
+            (LINES_PER_PART, OptionValue::Integer(0)),
+            (APPROXIMATION, OptionValue::Length(Length::mm(2.5))),
+            (MOTION, OptionValue::Choice(SPLINE)),
+            (DECLARE_PARTS, OptionValue::Choice(YES)),
+            (HOME_SPEED, OptionValue::Integer(30)),
+        ];
+        for (key, value) in values {
+            let spec = OPTIONS.iter().find(|spec| spec.key == key).unwrap();
+            options.set(spec, value).unwrap();
+        }
+        let settings = Settings::read(&options);
+        assert_eq!((settings.lengths.decimals(), settings.angles.decimals()), (4, 5));
+        assert_eq!(settings.lines_per_part, None);
+        assert_eq!(settings.approximation, Some(Length::mm(2.5)));
+        assert_eq!(settings.planner, Planner::Spline);
+        assert_eq!(settings.part_names, PartNames::Declared);
+        assert_eq!(settings.home_speed, 30);
+    }
+
+    #[test]
+    fn nothing_is_rounded_unless_asked_for() {
+        let options = Options::defaults(OPTIONS);
+        assert_eq!(Settings::read(&options).approximation, None);
+    }
+}

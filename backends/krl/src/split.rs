@@ -1,0 +1,92 @@
+//! Where a long program is split into parts.
+//!
+//! The rule: a part begins only before a `Travel` that leads to another cut or layer than the op before it. There the
+//! blade is in the air, and the two flanks of a V stay together when they are cut one after the other. A part takes as
+//! many of these stretches as fit into the limit; a stretch longer than the limit is a part of its own.
+
+use crate::listing::Modal;
+use crate::state::State;
+use core::num::NonZeroU32;
+use core::ops::Range;
+use vcutc_backend_api::ir::{Action, Op};
+
+/// A run of ops that makes one module.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Part {
+    /// Places in the program's list.
+    pub(crate) ops: Range<usize>,
+    /// State in which it begins.
+    pub(crate) start: State,
+}
+
+/// The parts of a program, at least one, with at most `limit` lines in the body of each where that can be had.
+pub(crate) fn split(ops: &[Op], limit: Option<NonZeroU32>) -> Vec<Part> {
+    let limit = limit.map_or(u64::MAX, |limit| u64::from(limit.get()));
+    let mut parts = Vec::new();
+    let mut part = Tally::start(0, State::START);
+    // The last place within the part where the next one could begin.
+    let mut border: Option<(usize, State)> = None;
+    let mut at = 0;
+    while let Some(op) = ops.get(at) {
+        if at > part.first && may_begin(ops, at) {
+            border = Some((at, part.state));
+        }
+        let lines = part.take(op);
+        match border {
+            Some((next, state)) if lines > limit => {
+                parts.push(part.until(next));
+                part = Tally::start(next, state);
+                border = None;
+                at = next;
+            }
+            _ => at += 1,
+        }
+    }
+    parts.push(part.until(ops.len()));
+    parts
+}
+
+/// Whether a part may begin at this op.
+fn may_begin(ops: &[Op], at: usize) -> bool {
+    let before = at.checked_sub(1).and_then(|before| ops.get(before));
+    match (before, ops.get(at)) {
+        (Some(before), Some(op)) => matches!(op.action, Action::Travel { .. }) && before.site != op.site,
+        _ => false,
+    }
+}
+
+/// A part being measured.
+struct Tally {
+    first: usize,
+    start: State,
+    state: State,
+    modal: Modal,
+    lines: u64,
+}
+
+impl Tally {
+    fn start(first: usize, state: State) -> Self {
+        Self {
+            first,
+            start: state,
+            state,
+            modal: Modal::default(),
+            lines: 0,
+        }
+    }
+
+    /// Adds an op; the lines so far.
+    fn take(&mut self, op: &Op) -> u64 {
+        let own_line = 1;
+        self.lines += self.modal.lead(op).lines() + own_line;
+        self.state = self.state.after(&op.action);
+        self.lines
+    }
+
+    const fn until(&self, end: usize) -> Part {
+        Part {
+            ops: self.first..end,
+            start: self.start,
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! The arguments, and the help that teaches them.
+
+use super::suggest::nearest;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+
+const EXAMPLES: &str = "\
+Examples:
+  vcutc rib.vcut --target krl -o out      Write the KUKA program of a job into the folder out
+  vcutc rib.vcut --target krl -o - | less Read the program without writing a file
+  vcutc rib.vcut --target krl --set width=90mm --set depth=40mm
+                                          The same job for another stock
+  vcutc check *.vcut                      Look for errors, write nothing
+  vcutc explain VC0203                    Read what an error means and how to mend it
+  vcutc targets                           See what programs can be written, and with which options
+
+Exit status:
+  0  all is well
+  1  a job has errors
+  2  wrong usage, or a file that cannot be read or written";
+
+/// Compiler for V-shaped ultrasonic knife cutting of honeycomb core.
+///
+/// Reads a job file (.vcut), plans the cuts, proves that every chip comes free and that no cut enters the part, and
+/// writes the program for the machine. A job with errors leaves no program behind, neither whole nor in part.
+#[derive(Debug, Parser)]
+#[command(
+    name = "vcutc",
+    version,
+    subcommand_negates_reqs = true,
+    arg_required_else_help = true,
+    override_usage = "vcutc [OPTIONS] <JOB>\n       vcutc [OPTIONS] <COMMAND>",
+    after_help = EXAMPLES,
+    after_long_help = EXAMPLES
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) compile: CompileArgs,
+    #[command(flatten)]
+    pub(super) display: DisplayArgs,
+}
+
+impl Arguments {
+    /// The arguments of this process.
+    ///
+    /// Arguments of a compilation in front of a command are refused here: clap's own rule for it
+    /// (`args_conflicts_with_subcommands`) would also refuse `vcutc --quiet check JOB`.
+    pub(super) fn of_process() -> Result<Self, clap::Error> {
+        let arguments = Self::try_parse().map_err(suggest_command)?;
+        match arguments.compile.first_given() {
+            Some(stray) if arguments.command.is_some() => Err(Self::command().error(
+                ErrorKind::ArgumentConflict,
+                format!("{stray} cannot stand in front of a command"),
+            )),
+            Some(_) | None => Ok(arguments),
+        }
+    }
+
+    /// The command that was most likely meant by a word.
+    pub(super) fn command_near(word: &str) -> Option<String> {
+        let root = Self::command();
+        nearest(word, root.get_subcommands().map(clap::Command::get_name)).map(str::to_owned)
+    }
+}
+
+/// A mistyped command is taken for a job, and what follows it for one argument too many: says what was meant.
+fn suggest_command(mut error: clap::Error) -> clap::Error {
+    if error.kind() == ErrorKind::UnknownArgument {
+        let first_word = std::env::args().skip(1).find(|word| !word.starts_with('-'));
+        if let Some(command) = first_word.and_then(|word| Arguments::command_near(&word)) {
+            error.insert(
+                ContextKind::SuggestedSubcommand,
+                ContextValue::Strings(vec![command]),
+            );
+        }
+    }
+    error
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Look for errors in jobs; write nothing
+    Check(CheckArgs),
+    /// Explain a diagnostic code, or list them all
+    ///
+    /// Every error and warning has a permanent code such as VC0203. Its page says what it means, shows a job that has
+    /// the error, and how to mend it.
+    Explain {
+        /// The code, such as VC0203 (203 will do); without it, the list of all codes
+        code: Option<String>,
+    },
+    /// List the targets and their options
+    Targets,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompileArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    ///
+    /// Files that the job names are looked for beside it; those of a job from standard input in the current folder.
+    #[arg(required = true)]
+    pub(super) job: Option<String>,
+
+    /// Write a program for this kind of machine (see `vcutc targets`)
+    ///
+    /// Without --target and --emit the job is only checked.
+    #[arg(short, long, value_name = "TARGET", conflicts_with = "emit")]
+    pub(super) target: Option<String>,
+
+    /// Where files go: a folder, or - for standard output [default: the current folder]
+    ///
+    /// The folder is made if there is none. Files are written beside their place under passing names and only
+    /// renamed when all of them are complete, so a run that fails leaves earlier versions as they were.
+    ///
+    /// On standard output each file of a program is headed by a line `; file: NAME`.
+    #[arg(short, long, value_name = "DIR|-")]
+    pub(super) output: Option<String>,
+
+    /// Show an inner form of the job instead of writing a program
+    ///
+    /// It goes to standard output, or with -o into a file of the folder. The tree is shown for a job with errors
+    /// too, as far as it could be read.
+    #[arg(long, value_name = "FORM")]
+    pub(super) emit: Option<InnerForm>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
+}
+
+impl CompileArgs {
+    /// One of the arguments that were given, in the words of the user.
+    fn first_given(&self) -> Option<String> {
+        let job = self.job.as_ref().map(|job| format!("the job '{job}'"));
+        let target = self.target.as_ref().map(|_| "--target".to_owned());
+        let output = self.output.as_ref().map(|_| "--output".to_owned());
+        let emit = self.emit.map(|_| "--emit".to_owned());
+        let set = self.overrides.set.first().map(|_| "--set".to_owned());
+        job.or(target).or(output).or(emit).or(set)
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// The job files (.vcut), or - to read one from standard input
+    #[arg(required = true, value_name = "JOB")]
+    pub(super) jobs: Vec<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Overrides {
+    /// Replace the value of a `let` of the job; can be given several times
+    ///
+    /// The value is written as in the job, with its unit: --set width=90mm, --set 'height = 2 in'.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub(super) set: Vec<String>,
+}
+
+/// How to talk to the user.
+#[derive(Debug, Args)]
+pub(super) struct DisplayArgs {
+    /// How diagnostics are written to standard error
+    #[arg(long, value_enum, global = true, default_value_t, value_name = "FORMAT")]
+    pub(super) message_format: MessageFormat,
+
+    /// When to use colours
+    #[arg(long, value_enum, global = true, default_value_t, value_name = "WHEN")]
+    pub(super) color: Color,
+
+    /// Print diagnostics only: no summary, no progress
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(super) quiet: bool,
+
+    /// Print how long each stage took, too
+    #[arg(short, long, global = true)]
+    pub(super) verbose: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum MessageFormat {
+    /// For people
+    #[default]
+    Human,
+    /// For programs: one JSON object a line, the last one of kind "summary"
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Color {
+    /// On a terminal, unless NO_COLOR or CLICOLOR=0 is set
+    #[default]
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+/// What `--emit` shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum InnerForm {
+    /// The syntax tree, for people who work on the compiler
+    Ast,
+    /// What was planned: every `auto` decided, cuts, time
+    Plan,
+    /// The verified intermediate program, as JSON
+    Ir,
+}

@@ -1,0 +1,296 @@
+//! What people and programs get to see.
+//!
+//! Standard output carries what was asked for (pages, lists, programs); everything else goes to standard error, as text
+//! or as JSON lines. A reader that goes away (`| head`) is not an error.
+
+use super::Exit;
+use super::args::{Color, DisplayArgs, MessageFormat};
+use crate::diag::{Diagnostic, Severity, json, render};
+use crate::source::SourceMap;
+use anstream::AutoStream;
+use serde::Serialize;
+use std::io::{self, Write};
+use std::time::Duration;
+
+/// Version of the JSON objects this module writes.
+const SCHEMA: u32 = 1;
+
+/// The way to the user.
+pub(super) struct Console {
+    format: MessageFormat,
+    color: render::ColorChoice,
+    detail: Detail,
+}
+
+/// How much is told besides diagnostics.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// Nothing.
+    DiagnosticsOnly,
+    /// The summary, and progress.
+    Summary,
+    /// How long each stage took, too.
+    Timings,
+}
+
+/// Why nothing could be judged: wrong usage, or a file that could not be read or written.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct Failure {
+    message: String,
+    help: Vec<String>,
+}
+
+impl Failure {
+    /// A failure in one sentence without full stop.
+    pub(super) fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            help: Vec::new(),
+        }
+    }
+
+    /// Says what to do.
+    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+        self.help.push(help.into());
+        self
+    }
+}
+
+/// What came of one job.
+pub(super) struct Summary<'a> {
+    /// The job's path as given.
+    pub(super) job: &'a str,
+    /// What there was to tell.
+    pub(super) diagnostics: &'a [Diagnostic],
+    /// What was planned, a line each.
+    pub(super) lines: &'a [String],
+    /// Files that were written, as people see them.
+    pub(super) files: &'a [String],
+    /// Why there are no files though the job is well, when that needs saying.
+    pub(super) remark: Option<String>,
+    /// Stages with the time each took.
+    pub(super) timings: &'a [(&'static str, Duration)],
+}
+
+/// A JSON line: the kind and version first, then the rest.
+#[derive(Serialize)]
+struct Line<T> {
+    kind: &'static str,
+    schema: u32,
+    #[serde(flatten)]
+    body: T,
+}
+
+#[derive(Serialize)]
+struct SummaryBody<'a> {
+    job: &'a str,
+    errors: usize,
+    warnings: usize,
+    lines: &'a [String],
+    files: &'a [String],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    stages: Vec<StageBody>,
+}
+
+#[derive(Serialize)]
+struct StageBody {
+    stage: &'static str,
+    milliseconds: f64,
+}
+
+impl Console {
+    pub(super) fn new(display: &DisplayArgs) -> Self {
+        Self {
+            format: display.message_format,
+            color: choose_color(display.color),
+            detail: match (display.quiet, display.verbose) {
+                (true, _) => Detail::DiagnosticsOnly,
+                (false, false) => Detail::Summary,
+                (false, true) => Detail::Timings,
+            },
+        }
+    }
+
+    /// Whether a passing progress line may be drawn (if standard error is a terminal).
+    pub(super) fn shows_progress(&self) -> bool {
+        self.format == MessageFormat::Human && self.detail != Detail::DiagnosticsOnly
+    }
+
+    /// Prints a text that was asked for to standard output.
+    pub(super) fn document(&self, text: &str) -> Exit {
+        let mut stdout = io::stdout().lock();
+        let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+        match ignore_broken_pipe(written) {
+            Ok(()) => Exit::Success,
+            Err(error) => self.failure(&Failure::new(format!("cannot write to standard output: {error}"))),
+        }
+    }
+
+    /// Prints diagnostics.
+    pub(super) fn diagnostics(&self, diagnostics: &[Diagnostic], sources: &SourceMap) {
+        if diagnostics.is_empty() {
+            return;
+        }
+        self.stderr(&match self.format {
+            MessageFormat::Human => render::render(diagnostics, sources, self.color),
+            MessageFormat::Json => json::json_lines(diagnostics, sources),
+        });
+    }
+
+    /// Prints why nothing could be judged.
+    pub(super) fn failure(&self, failure: &Failure) -> Exit {
+        match self.format {
+            MessageFormat::Human => {
+                self.stderr(&format!("{} {}\n", self.painted("error:"), failure.message));
+                for help in &failure.help {
+                    self.stderr(&format!("  help: {help}\n"));
+                }
+            }
+            MessageFormat::Json => self.json_line("failure", failure),
+        }
+        Exit::CannotRun
+    }
+
+    /// Prints what came of a job.
+    pub(super) fn summary(&self, summary: &Summary<'_>) {
+        let (errors, warnings) = count(summary.diagnostics);
+        match self.format {
+            MessageFormat::Json => self.json_line(
+                "summary",
+                SummaryBody {
+                    job: summary.job,
+                    errors,
+                    warnings,
+                    lines: summary.lines,
+                    files: summary.files,
+                    stages: self.stage_bodies(summary.timings),
+                },
+            ),
+            MessageFormat::Human if self.detail == Detail::DiagnosticsOnly => {}
+            MessageFormat::Human => self.human_summary(summary, errors, warnings),
+        }
+    }
+
+    fn human_summary(&self, summary: &Summary<'_>, errors: usize, warnings: usize) {
+        let mut text: String = summary.lines.iter().map(|line| format!("{line}\n")).collect();
+        if self.detail == Detail::Timings {
+            for (stage, time) in summary.timings {
+                text += &format!("{stage:<10} {:>9.1} ms\n", milliseconds(*time));
+            }
+        }
+        for file in summary.files {
+            text += &format!("wrote {file}\n");
+        }
+        if errors > 0 {
+            text += &format!(
+                "{}: {}, nothing was written\n",
+                summary.job,
+                tally(errors, warnings)
+            );
+        } else if let Some(remark) = &summary.remark {
+            text += &format!("{}: {}; {remark}\n", summary.job, tally(errors, warnings));
+        } else {
+            text += &format!("{}: {}\n", summary.job, tally(errors, warnings));
+        }
+        self.stderr(&text);
+    }
+
+    fn stage_bodies(&self, timings: &[(&'static str, Duration)]) -> Vec<StageBody> {
+        if self.detail != Detail::Timings {
+            return Vec::new();
+        }
+        timings
+            .iter()
+            .map(|&(stage, time)| StageBody {
+                stage,
+                milliseconds: milliseconds(time),
+            })
+            .collect()
+    }
+
+    fn json_line<T: Serialize>(&self, kind: &'static str, body: T) {
+        let line = Line {
+            kind,
+            schema: SCHEMA,
+            body,
+        };
+        // Strings, counts and finite times: nothing in these bodies can fail to serialize.
+        if let Ok(text) = serde_json::to_string(&line) {
+            self.stderr(&format!("{text}\n"));
+        }
+    }
+
+    fn painted(&self, word: &str) -> String {
+        match self.color {
+            render::ColorChoice::Plain => word.to_owned(),
+            render::ColorChoice::Ansi => format!("\u{1b}[1;31m{word}\u{1b}[0m"),
+        }
+    }
+
+    /// The text holds escape sequences exactly when colours were chosen, so they go through as they are (or become
+    /// console calls on an old Windows console).
+    #[allow(clippy::unused_self, reason = "a console is what may write to standard error")]
+    fn stderr(&self, text: &str) {
+        let mut stderr = AutoStream::always(io::stderr().lock());
+        // Nobody is left to tell when standard error itself is gone.
+        let _ = stderr.write_all(text.as_bytes());
+    }
+}
+
+fn choose_color(color: Color) -> render::ColorChoice {
+    let wanted = match color {
+        Color::Always => return render::ColorChoice::Ansi,
+        Color::Never => return render::ColorChoice::Plain,
+        Color::Auto => AutoStream::choice(&io::stderr()),
+    };
+    match wanted {
+        anstream::ColorChoice::Auto | anstream::ColorChoice::Never => render::ColorChoice::Plain,
+        anstream::ColorChoice::Always | anstream::ColorChoice::AlwaysAnsi => render::ColorChoice::Ansi,
+    }
+}
+
+/// A reader that has seen enough is no fault.
+pub(super) fn ignore_broken_pipe(result: io::Result<()>) -> io::Result<()> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+fn count(diagnostics: &[Diagnostic]) -> (usize, usize) {
+    let errors = diagnostics
+        .iter()
+        .filter(|d| d.severity() == Severity::Error)
+        .count();
+    (errors, diagnostics.len() - errors)
+}
+
+/// `2 errors and 1 warning`, `no errors`.
+fn tally(errors: usize, warnings: usize) -> String {
+    let plural = |n: usize, word: &str| match n {
+        0 => format!("no {word}s"),
+        1 => format!("1 {word}"),
+        _ => format!("{n} {word}s"),
+    };
+    match warnings {
+        0 => plural(errors, "error"),
+        _ => format!("{} and {}", plural(errors, "error"), plural(warnings, "warning")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tallies_read_as_sentences() {
+        assert_eq!(tally(0, 0), "no errors");
+        assert_eq!(tally(1, 0), "1 error");
+        assert_eq!(tally(0, 1), "no errors and 1 warning");
+        assert_eq!(tally(2, 3), "2 errors and 3 warnings");
+    }
+}

@@ -1,0 +1,139 @@
+//! Job files on the real file system.
+
+use crate::source::{LARGEST_FILE, LoadError, Loader};
+use std::fs::{File, Metadata};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// How a job from standard input is called in messages.
+const STDIN_NAME: &str = "<stdin>";
+
+/// Files below the current folder, and the job itself when it came from standard input.
+pub(super) struct Disk {
+    job: String,
+    from_stdin: Option<Result<Vec<u8>, LoadError>>,
+}
+
+impl Disk {
+    /// The files around a job; `-` reads the job from standard input.
+    pub(super) fn around(job: &str) -> Self {
+        if job == "-" {
+            Self {
+                job: STDIN_NAME.to_owned(),
+                from_stdin: Some(read_bounded(io::stdin().lock())),
+            }
+        } else {
+            Self {
+                job: with_forward_slashes(job),
+                from_stdin: None,
+            }
+        }
+    }
+
+    /// The job's path, as the compiler knows it and as people see it.
+    pub(super) fn job(&self) -> &str {
+        &self.job
+    }
+}
+
+impl Loader for Disk {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        match &self.from_stdin {
+            Some(text) if path == STDIN_NAME => text.clone(),
+            Some(_) | None => load_file(Path::new(path)),
+        }
+    }
+}
+
+fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
+    // Asked before opening: opening a named pipe would wait for somebody to write into it.
+    let metadata = std::fs::metadata(path).map_err(|error| load_error(&error))?;
+    refuse_special(&metadata)?;
+    if metadata.len() > LARGEST_FILE {
+        return Err(LoadError::TooLarge(LARGEST_FILE));
+    }
+    read_bounded(File::open(path).map_err(|error| load_error(&error))?)
+}
+
+fn refuse_special(metadata: &Metadata) -> Result<(), LoadError> {
+    if metadata.is_dir() {
+        Err(LoadError::Other("it is a folder".to_owned()))
+    } else if metadata.is_file() {
+        Ok(())
+    } else {
+        Err(LoadError::Other(
+            "it is a device or a pipe; use `-` to read a job from standard input".to_owned(),
+        ))
+    }
+}
+
+/// Reads to the end, but not beyond the limit: files can grow, and some report no length.
+fn read_bounded(reader: impl Read) -> Result<Vec<u8>, LoadError> {
+    let mut bytes = Vec::new();
+    reader
+        .take(LARGEST_FILE + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| load_error(&error))?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        Err(LoadError::TooLarge(LARGEST_FILE))
+    } else {
+        Ok(bytes)
+    }
+}
+
+fn load_error(error: &io::Error) -> LoadError {
+    match error.kind() {
+        io::ErrorKind::NotFound => LoadError::NotFound,
+        _ => LoadError::Other(error.to_string()),
+    }
+}
+
+/// The compiler joins paths with `/`, which Windows takes too; elsewhere `\` is a letter like any other.
+fn with_forward_slashes(path: &str) -> String {
+    if cfg!(windows) {
+        path.replace('\\', "/")
+    } else {
+        path.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_file_is_told_from_an_unreadable_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = folder.path().join("none.vcut");
+        assert_eq!(load_file(&missing), Err(LoadError::NotFound));
+        assert_eq!(
+            load_file(folder.path()),
+            Err(LoadError::Other("it is a folder".to_owned()))
+        );
+    }
+
+    #[test]
+    fn a_file_above_the_limit_is_refused_without_reading_it() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        file.as_file().set_len(LARGEST_FILE + 1).unwrap();
+        assert_eq!(load_file(file.path()), Err(LoadError::TooLarge(LARGEST_FILE)));
+    }
+
+    #[test]
+    fn a_reader_without_end_is_stopped_at_the_limit() {
+        assert_eq!(
+            read_bounded(io::repeat(b' ')),
+            Err(LoadError::TooLarge(LARGEST_FILE))
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_is_refused_before_it_is_opened() {
+        let result = load_file(Path::new("/dev/zero"));
+        assert!(
+            matches!(&result, Err(LoadError::Other(why)) if why.contains("device")),
+            "{result:?}"
+        );
+    }
+}

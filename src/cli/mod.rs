@@ -1,0 +1,95 @@
+//! The command line: the only part of the compiler that touches disks, terminals, the environment and the clock.
+//!
+//! What goes where:
+//!
+//! | What | Where |
+//! | --- | --- |
+//! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
+//! | `--emit ast`, `plan`, `ir` | standard output, or a file in the folder of `-o` |
+//! | pages of `explain`, list of `targets`, help | standard output |
+//! | diagnostics, summary, timings, progress | standard error |
+//!
+//! A run ends with 0 when all is well, with 1 when a job has errors, and with 2 when there was nothing to judge: a
+//! wrong command line, or a file that could not be read or written. A run that does not end with 0 leaves no program
+//! behind, neither whole nor in part.
+//!
+//! Someone who brings a backend of their own links it into a binary of a few lines:
+//!
+//! ```ignore
+//! fn main() -> std::process::ExitCode {
+//!     let mut targets = vcutc::registry::backends();
+//!     targets.push(&my_backend::MyBackend);
+//!     vcutc::cli::run(&targets)
+//! }
+//! ```
+#![allow(
+    clippy::disallowed_methods,
+    reason = "the command line is where files, terminal, environment and clock belong"
+)]
+
+mod args;
+mod compile;
+mod console;
+mod explain;
+mod files;
+mod inner;
+mod output;
+mod progress;
+mod suggest;
+mod targets;
+
+use args::{Arguments, Command};
+use console::Console;
+use std::process::ExitCode;
+use vcutc_backend_api::backend::Backend;
+
+/// How a run ended. Later ones outrank earlier ones when several jobs are judged in one run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Exit {
+    /// All is well.
+    Success,
+    /// A job has errors.
+    JobHasErrors,
+    /// There was nothing to judge: wrong usage, or a file that cannot be read or written.
+    CannotRun,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        match exit {
+            Exit::Success => Self::SUCCESS,
+            Exit::JobHasErrors => Self::from(1),
+            Exit::CannotRun => Self::from(2),
+        }
+    }
+}
+
+/// The targets that a run can write programs for.
+type Targets = [&'static dyn Backend];
+
+/// Runs the command line of this process with these targets.
+#[must_use]
+pub fn run(targets: &Targets) -> ExitCode {
+    let arguments = match Arguments::of_process() {
+        Ok(arguments) => arguments,
+        Err(error) => return refuse(&error),
+    };
+    let console = Console::new(&arguments.display);
+    let exit = match &arguments.command {
+        Some(Command::Check(check)) => compile::check(check, &console),
+        Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
+        Some(Command::Targets) => targets::list(targets, &console),
+        None => compile::compile(&arguments.compile, targets, &console),
+    };
+    exit.into()
+}
+
+/// Prints what clap has to say: help and version on standard output, refusals on standard error.
+fn refuse(error: &clap::Error) -> ExitCode {
+    // Nobody is left to tell when the terminal itself is gone.
+    let _ = error.print();
+    match error.exit_code() {
+        0 => Exit::Success.into(),
+        _ => Exit::CannotRun.into(),
+    }
+}

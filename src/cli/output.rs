@@ -1,0 +1,406 @@
+//! Where programs go: a folder, or standard output. All files or none.
+//!
+//! A [`Folder`] writes every file under a passing name beside its place and renames them all once the last byte of the
+//! last one is on the disk. What it guarantees:
+//!
+//! * A run that fails before the renames (a full disk, a fault in the backend) changes nothing.
+//! * Each rename is atomic: a reader sees the old file or the new one, whole.
+//! * When a rename fails, the files renamed before it get their earlier versions back, and those that had none are
+//!   removed. Should even that fail, the message names the copy that holds the earlier version.
+//! * It does not guarantee that several files change in the same instant (no file system does): a power cut between two
+//!   renames can leave a new file beside an old one, and a killed run can leave `.vcutc-*` files behind.
+
+use super::console::ignore_broken_pipe;
+use std::fs::{self, Permissions};
+use std::io::{self, BufWriter, Seek, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile, SpooledTempFile, TempPath};
+use vcutc_backend_api::bundle::{Sink, SinkError};
+
+/// Programs up to this size wait in memory for their way to standard output, in bytes.
+const SPOOL_IN_MEMORY: usize = 8 << 20;
+
+/// Where files go.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Destination {
+    /// Into a folder.
+    Folder(PathBuf),
+    /// To standard output.
+    Stdout(Headings),
+}
+
+/// Whether files on standard output are headed by a line `; file: NAME`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Headings {
+    /// They are.
+    Shown,
+    /// They are not: there is one file only, and its format is not ours to add to.
+    Omitted,
+}
+
+/// Files on their way.
+pub(super) enum Output {
+    /// Into a folder.
+    Folder(Folder),
+    /// To standard output.
+    Stdout(Spool),
+}
+
+impl Output {
+    /// Opens a destination; makes the folder if there is none.
+    pub(super) fn open(destination: &Destination) -> Result<Self, String> {
+        match destination {
+            Destination::Folder(folder) => Folder::open(folder).map(Self::Folder),
+            Destination::Stdout(headings) => Ok(Self::Stdout(Spool::new(*headings))),
+        }
+    }
+
+    /// Lets the files appear, all of them or none. Returns their paths as people see them; standard output has none.
+    pub(super) fn publish(self) -> Result<Vec<String>, String> {
+        match self {
+            Self::Folder(folder) => folder.publish(),
+            Self::Stdout(spool) => spool.publish().map(|()| Vec::new()),
+        }
+    }
+}
+
+impl Sink for Output {
+    fn file(&mut self, name: &str) -> Result<(), SinkError> {
+        match self {
+            Self::Folder(folder) => folder.start(name),
+            Self::Stdout(spool) => spool.start(name),
+        }
+        .map_err(SinkError)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), SinkError> {
+        match self {
+            Self::Folder(folder) => folder.append(bytes),
+            Self::Stdout(spool) => spool.append(bytes),
+        }
+        .map_err(SinkError)
+    }
+}
+
+/// Files on their way into a folder.
+pub(super) struct Folder {
+    path: PathBuf,
+    current: Option<(String, BufWriter<NamedTempFile>)>,
+    complete: Vec<Staged>,
+}
+
+/// A complete file under its passing name.
+struct Staged {
+    name: String,
+    passing: TempPath,
+}
+
+/// A file that has taken its place, and the version before it.
+struct Published {
+    path: PathBuf,
+    earlier: Option<TempPath>,
+}
+
+impl Folder {
+    fn open(path: &Path) -> Result<Self, String> {
+        fs::create_dir_all(path)
+            .map_err(|error| format!("cannot make the folder {}: {error}", path.display()))?;
+        Ok(Self {
+            path: path.to_owned(),
+            current: None,
+            complete: Vec::new(),
+        })
+    }
+
+    fn start(&mut self, name: &str) -> Result<(), String> {
+        self.finish_current()?;
+        if !is_plain_file_name(name) {
+            return Err(format!("{name:?} is no plain file name"));
+        }
+        // Some file systems take RIB.SRC and rib.src for the same.
+        if self
+            .complete
+            .iter()
+            .any(|file| file.name.eq_ignore_ascii_case(name))
+        {
+            return Err(format!("file {name} is written twice"));
+        }
+        let file = passing_file(&self.path)
+            .map_err(|error| format!("cannot write into {}: {error}", self.path.display()))?;
+        self.current = Some((name.to_owned(), BufWriter::new(file)));
+        Ok(())
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
+        match &mut self.current {
+            Some((name, writer)) => writer
+                .write_all(bytes)
+                .map_err(|error| format!("cannot write {name}: {error}")),
+            None => Err("bytes before the first file".to_owned()),
+        }
+    }
+
+    fn finish_current(&mut self) -> Result<(), String> {
+        let Some((name, writer)) = self.current.take() else {
+            return Ok(());
+        };
+        let failed = |error: io::Error| format!("cannot write {name}: {error}");
+        let file = writer.into_inner().map_err(|error| failed(error.into_error()))?;
+        file.as_file().sync_all().map_err(failed)?;
+        self.complete.push(Staged {
+            passing: file.into_temp_path(),
+            name,
+        });
+        Ok(())
+    }
+
+    fn publish(mut self) -> Result<Vec<String>, String> {
+        self.finish_current()?;
+        let mut published = Vec::with_capacity(self.complete.len());
+        for staged in self.complete {
+            match replace(&self.path.join(&staged.name), staged.passing) {
+                Ok(file) => published.push(file),
+                Err(reason) => return Err(take_back(published, reason)),
+            }
+        }
+        Ok(published
+            .iter()
+            .map(|file| file.path.display().to_string())
+            .collect())
+    }
+}
+
+/// Puts a complete file in its place, keeping the version before it.
+fn replace(path: &Path, passing: TempPath) -> Result<Published, String> {
+    let failed = |error: io::Error| format!("cannot write {}: {error}", path.display());
+    let earlier = keep_earlier(path).map_err(failed)?;
+    passing.persist(path).map_err(|error| failed(error.error))?;
+    Ok(Published {
+        path: path.to_owned(),
+        earlier,
+    })
+}
+
+/// A second name for the version that is there now, so that it can be put back: a hard link where the file system has
+/// them, else a copy. The file itself stays in its place all the while.
+fn keep_earlier(path: &Path) -> io::Result<Option<TempPath>> {
+    match fs::symlink_metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(error),
+        Ok(metadata) if metadata.is_file() || metadata.is_symlink() => {}
+        Ok(_) => return Err(io::Error::other("something that is no file has this name")),
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut builder = Builder::new();
+    builder.prefix(".vcutc-earlier-");
+    if let Ok(link) = builder.make_in(folder, |name| fs::hard_link(path, name)) {
+        return Ok(Some(link.into_temp_path()));
+    }
+    let copy = builder.tempfile_in(folder)?.into_temp_path();
+    fs::copy(path, &copy)?;
+    Ok(Some(copy))
+}
+
+/// Undoes renames after one has failed; returns what to tell.
+fn take_back(published: Vec<Published>, reason: String) -> String {
+    let mut message = reason;
+    for Published { path, earlier } in published.into_iter().rev() {
+        match earlier {
+            None => {
+                if let Err(error) = fs::remove_file(&path) {
+                    message += &format!("; {} is new and could not be removed: {error}", path.display());
+                }
+            }
+            Some(earlier) => {
+                if let Err(failure) = earlier.persist(&path) {
+                    message += &left_behind(&path, failure.path);
+                }
+            }
+        }
+    }
+    message
+}
+
+fn left_behind(path: &Path, earlier: TempPath) -> String {
+    let place = earlier.to_path_buf();
+    match earlier.keep() {
+        Ok(kept) => format!(
+            "; {} is new, its earlier version is {}",
+            path.display(),
+            kept.display()
+        ),
+        Err(error) => format!(
+            "; {} is new, its earlier version may be in {}: {error}",
+            path.display(),
+            place.display()
+        ),
+    }
+}
+
+/// A file that others may read, as the user's umask allows (temporary files are private otherwise).
+fn passing_file(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(".vcutc-");
+    if let Some(permissions) = ordinary_permissions() {
+        builder.permissions(permissions);
+    }
+    builder.tempfile_in(folder)
+}
+
+#[cfg(unix)]
+#[allow(clippy::unnecessary_wraps, reason = "other platforms have none")]
+fn ordinary_permissions() -> Option<Permissions> {
+    use std::os::unix::fs::PermissionsExt;
+    Some(Permissions::from_mode(0o666))
+}
+
+#[cfg(not(unix))]
+fn ordinary_permissions() -> Option<Permissions> {
+    None
+}
+
+fn is_plain_file_name(name: &str) -> bool {
+    let is_special = matches!(name, "" | "." | "..");
+    !is_special && !name.contains(['/', '\\', ':', '\0'])
+}
+
+/// Files on their way to standard output, held back until all are complete.
+pub(super) struct Spool {
+    headings: Headings,
+    content: SpooledTempFile,
+    has_file: bool,
+}
+
+impl Spool {
+    fn new(headings: Headings) -> Self {
+        Self {
+            headings,
+            content: SpooledTempFile::new(SPOOL_IN_MEMORY),
+            has_file: false,
+        }
+    }
+
+    fn start(&mut self, name: &str) -> Result<(), String> {
+        self.has_file = true;
+        match self.headings {
+            Headings::Shown => self.append(format!("; file: {name}\n").as_bytes()),
+            Headings::Omitted => Ok(()),
+        }
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
+        if !self.has_file {
+            return Err("bytes before the first file".to_owned());
+        }
+        self.content
+            .write_all(bytes)
+            .map_err(|error| format!("cannot hold the output: {error}"))
+    }
+
+    fn publish(mut self) -> Result<(), String> {
+        let mut stdout = io::stdout().lock();
+        let copied = self
+            .content
+            .rewind()
+            .and_then(|()| io::copy(&mut self.content, &mut stdout))
+            .and_then(|_| stdout.flush());
+        ignore_broken_pipe(copied).map_err(|error| format!("cannot write to standard output: {error}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder_with(path: &Path, files: &[(&str, &str)]) -> Folder {
+        let mut folder = Folder::open(path).unwrap();
+        for (name, text) in files {
+            folder.start(name).unwrap();
+            folder.append(text.as_bytes()).unwrap();
+        }
+        folder
+    }
+
+    fn names(path: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(path)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn files_appear_only_when_published() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("new/deep");
+        let folder = folder_with(&path, &[("a.src", "A"), ("a.dat", "D")]);
+        assert!(names(&path).iter().all(|name| name.starts_with(".vcutc-")));
+        let written = folder.publish().unwrap();
+        assert_eq!(written.len(), 2);
+        assert_eq!(names(&path), ["a.dat", "a.src"]);
+        assert_eq!(fs::read_to_string(path.join("a.src")).unwrap(), "A");
+    }
+
+    #[test]
+    fn a_dropped_folder_leaves_nothing() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("a.src"), "old").unwrap();
+        drop(folder_with(root.path(), &[("a.src", "new"), ("b.src", "new")]));
+        assert_eq!(names(root.path()), ["a.src"]);
+        assert_eq!(fs::read_to_string(root.path().join("a.src")).unwrap(), "old");
+    }
+
+    #[test]
+    fn a_failing_rename_takes_the_ones_before_it_back() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("a.src"), "old").unwrap();
+        // A folder of that name stands in the way of the third file.
+        fs::create_dir(root.path().join("c.src")).unwrap();
+        let folder = folder_with(
+            root.path(),
+            &[("a.src", "new"), ("b.src", "new"), ("c.src", "new")],
+        );
+        let message = folder.publish().unwrap_err();
+        assert!(message.contains("c.src"), "{message}");
+        assert_eq!(names(root.path()), ["a.src", "c.src"]);
+        assert_eq!(fs::read_to_string(root.path().join("a.src")).unwrap(), "old");
+    }
+
+    #[test]
+    fn earlier_versions_are_replaced_without_a_trace() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("a.src"), "old").unwrap();
+        folder_with(root.path(), &[("a.src", "new")]).publish().unwrap();
+        assert_eq!(names(root.path()), ["a.src"]);
+        assert_eq!(fs::read_to_string(root.path().join("a.src")).unwrap(), "new");
+    }
+
+    #[test]
+    fn names_that_leave_the_folder_are_refused() {
+        let root = tempfile::tempdir().unwrap();
+        let mut folder = Folder::open(root.path()).unwrap();
+        for name in ["", ".", "..", "../a", "a/b", "/a", "a\\b", "C:a", "a\0b"] {
+            assert!(folder.start(name).is_err(), "{name:?}");
+        }
+    }
+
+    #[test]
+    fn a_name_is_taken_once_whatever_its_case() {
+        let root = tempfile::tempdir().unwrap();
+        let mut folder = folder_with(root.path(), &[("rib.src", "")]);
+        assert!(folder.start("RIB.SRC").is_err());
+        assert!(folder.start("rib.src").is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn files_are_as_readable_as_any_other_file_of_the_user() {
+        use std::os::unix::fs::PermissionsExt;
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("ordinary"), "").unwrap();
+        folder_with(root.path(), &[("a.src", "")]).publish().unwrap();
+        let mode = |name: &str| fs::metadata(root.path().join(name)).unwrap().permissions().mode();
+        assert_eq!(mode("a.src"), mode("ordinary"));
+    }
+}

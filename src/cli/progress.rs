@@ -1,0 +1,133 @@
+//! What the compiler is doing just now, and how long each stage took.
+//!
+//! Most jobs are done before anybody could read a word, so a progress line appears only when a run takes longer than
+//! [`PATIENCE`], and only on a terminal. It is drawn by a thread of its own; the pipeline only says which stage begins.
+
+use crate::driver::Stage;
+use indicatif::ProgressBar;
+use std::io::{self, IsTerminal};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// How long a run may take before a progress line appears.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// How often the progress line moves.
+const TICK: Duration = Duration::from_millis(100);
+
+/// Follows a run through its stages.
+pub(super) struct Progress {
+    line: Option<ProgressLine>,
+    running: Option<(Stage, Instant)>,
+    timings: Vec<(&'static str, Duration)>,
+}
+
+impl Progress {
+    /// Follows a run; draws if it may and standard error is a terminal.
+    pub(super) fn start(may_draw: bool) -> Self {
+        let draws = may_draw && io::stderr().is_terminal();
+        Self {
+            line: draws.then(ProgressLine::start),
+            running: None,
+            timings: Vec::new(),
+        }
+    }
+
+    /// A stage begins, and the one before it is over.
+    pub(super) fn enter(&mut self, stage: Stage) {
+        self.leave();
+        self.running = Some((stage, Instant::now()));
+        if let Some(line) = &self.line {
+            line.show(stage);
+        }
+    }
+
+    /// The run is over: the line vanishes. Returns the stages with the time each took.
+    pub(super) fn finish(mut self) -> Vec<(&'static str, Duration)> {
+        self.leave();
+        self.timings
+    }
+
+    fn leave(&mut self) {
+        if let Some((stage, since)) = self.running.take() {
+            self.timings.push((name(stage), since.elapsed()));
+        }
+    }
+}
+
+/// The line on the terminal; vanishes when dropped.
+struct ProgressLine {
+    stages: Option<Sender<Stage>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl ProgressLine {
+    fn start() -> Self {
+        let (stages, receiver) = mpsc::channel();
+        Self {
+            stages: Some(stages),
+            thread: Some(thread::spawn(move || draw(&receiver))),
+        }
+    }
+
+    fn show(&self, stage: Stage) {
+        if let Some(stages) = &self.stages {
+            // Without a line there is nothing to show it on.
+            let _ = stages.send(stage);
+        }
+    }
+}
+
+impl Drop for ProgressLine {
+    fn drop(&mut self) {
+        // The closed channel ends the thread, which clears the line before it goes.
+        self.stages = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn draw(stages: &Receiver<Stage>) {
+    let Some(stage) = wait_patiently(stages) else {
+        return;
+    };
+    let line = ProgressBar::new_spinner();
+    line.enable_steady_tick(TICK);
+    line.set_message(words(stage));
+    while let Ok(stage) = stages.recv() {
+        line.set_message(words(stage));
+    }
+    line.finish_and_clear();
+}
+
+/// The stage at work when patience ends; none when the run ends before.
+fn wait_patiently(stages: &Receiver<Stage>) -> Option<Stage> {
+    let start = Instant::now();
+    let mut stage = Stage::Reading;
+    loop {
+        match stages.recv_timeout(PATIENCE.saturating_sub(start.elapsed())) {
+            Ok(next) => stage = next,
+            Err(RecvTimeoutError::Timeout) => return Some(stage),
+            Err(RecvTimeoutError::Disconnected) => return None,
+        }
+    }
+}
+
+const fn name(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Reading => "reading",
+        Stage::Planning => "planning",
+        Stage::Proving => "proving",
+        Stage::Emitting => "emitting",
+    }
+}
+
+const fn words(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Reading => "reading the job",
+        Stage::Planning => "choosing the cuts",
+        Stage::Proving => "proving that every chip comes free and no cut enters the part",
+        Stage::Emitting => "writing the program",
+    }
+}

@@ -1,0 +1,163 @@
+//! The pipeline as one call: from a path and a loader to a checked program and its report, and from there to files.
+//!
+//! Pure: what it needs it asks of the [`Loader`], what it finds out it returns, and what a backend writes goes into the
+//! caller's [`Sink`].
+
+mod target;
+
+use crate::diag::{Code, Diagnostic, has_errors};
+use crate::job::CheckedJob;
+use crate::plan::{self, PlannedJob};
+use crate::sema;
+use crate::sim::report::Report;
+use crate::source::{Loader, SourceMap};
+use crate::summary::summary;
+use crate::syntax::ast::Ast;
+use crate::verdict;
+use vcutc_backend_api::backend::{Backend, EmitError};
+use vcutc_backend_api::bundle::Sink;
+use vcutc_backend_api::verify::{Fault, VerifiedProgram};
+
+/// What to compile.
+#[derive(Clone, Copy)]
+pub struct Request<'a> {
+    /// Path of the job, as the loader knows it and as people see it.
+    pub path: &'a str,
+    /// Where files come from.
+    pub loader: &'a dyn Loader,
+    /// `name=value` texts that replace `let`s.
+    pub overrides: &'a [String],
+}
+
+/// The stage that is at work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Reading and understanding the text.
+    Reading,
+    /// Choosing the cuts.
+    Planning,
+    /// Proving that every chip comes free and no cut enters the part.
+    Proving,
+    /// Writing the program.
+    Emitting,
+}
+
+/// What came of a run.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// All texts that diagnostics point into.
+    pub sources: SourceMap,
+    /// What there is to tell, in the order of the source.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The root file's tree, when it could be loaded.
+    pub ast: Option<Ast>,
+    /// The checked job, when it has no errors of meaning.
+    pub job: Option<CheckedJob>,
+    /// The plan, when one could be made.
+    pub plan: Option<PlannedJob>,
+    /// The program, when the job is without errors.
+    pub compiled: Option<Compiled>,
+}
+
+/// A job that can be emitted.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The program.
+    pub program: VerifiedProgram,
+    /// Its figures.
+    pub report: Report,
+    /// The figures for people, a line each.
+    pub summary: Vec<String>,
+}
+
+/// Why nothing was compiled at all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RequestError {
+    /// The job file itself cannot be read.
+    Unreadable(String),
+}
+
+/// Compiles a job as far as it goes.
+///
+/// # Errors
+/// When the job file itself cannot be read; everything else is in the outcome's diagnostics.
+pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<Outcome, RequestError> {
+    progress(Stage::Reading);
+    let mut outcome = Outcome::default();
+    let Request { path, loader, overrides } = request;
+    let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
+    let (ast, job) = sema::check(path, loader, overrides, sources, diagnostics)
+        .map_err(|error| RequestError::Unreadable(error.to_string()))?;
+    outcome.ast = ast;
+    if let Some(job) = &job {
+        outcome.diagnostics.extend(target::unknown_targets(job));
+    }
+    outcome.job = job;
+    if !has_errors(&outcome.diagnostics) {
+        plan_and_prove(&mut outcome, progress);
+    }
+    Ok(outcome)
+}
+
+fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
+    let Some(job) = &outcome.job else { return };
+    progress(Stage::Planning);
+    let (plan, diagnostics) = plan::choose(job);
+    outcome.diagnostics.extend(diagnostics);
+    let Some(plan) = plan else { return };
+    progress(Stage::Proving);
+    match verdict::prove(&plan, &outcome.sources) {
+        Ok(proven) => {
+            outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
+            if !has_errors(&outcome.diagnostics) {
+                let summary = summary(&plan, &proven.report);
+                outcome.compiled = Some(Compiled { program: proven.program, report: proven.report, summary });
+            }
+        }
+        Err(faults) => outcome.diagnostics.push(internal(job, &faults)),
+    }
+    outcome.plan = Some(plan);
+}
+
+/// A program that breaks a rule of its own form is the compiler's fault, whatever the job says.
+fn internal(job: &CheckedJob, faults: &[Fault]) -> Diagnostic {
+    let mut diagnostic = Diagnostic::new(
+        Code::Internal,
+        "the program made from this job breaks a rule, which is a fault of the compiler",
+        job.name_span,
+        "made from this job",
+    );
+    for fault in faults.iter().take(3) {
+        let place = fault.op.map_or(String::new(), |op| format!("op {}: ", op.0));
+        diagnostic = diagnostic.note(format!("{place}{}", fault.rule));
+    }
+    diagnostic.help("nothing was written; please report the job together with this message")
+}
+
+/// Writes the program of an outcome with a backend. An outcome without a program writes nothing.
+///
+/// # Errors
+/// Diagnostics when the target cannot say the program, or the sink's own words.
+pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Result<(), EmitFailure> {
+    let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else { return Ok(()) };
+    let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
+    let emission = backend.check(&compiled.program, &options).map_err(|issues| {
+        EmitFailure::Diagnostics(target::diagnose(job, backend, compiled.program.program(), &issues))
+    })?;
+    emission.write(sink).map_err(|error| match error {
+        EmitError::Sink(error) => EmitFailure::Sink(error.0),
+        EmitError::Internal(what) => EmitFailure::Diagnostics(vec![
+            Diagnostic::new(Code::Internal, what, job.name_span, "while writing this job's program")
+                .help("nothing was written; please report the job together with this message"),
+        ]),
+    })
+}
+
+/// Why no files were written.
+#[derive(Debug)]
+pub enum EmitFailure {
+    /// The job and the target do not go together.
+    Diagnostics(Vec<Diagnostic>),
+    /// The sink failed.
+    Sink(String),
+}

@@ -1,0 +1,160 @@
+//! Between a job and a target: options held against what the target takes, and the target's objections in words.
+
+use crate::diag::suggest::nearest;
+use crate::diag::{Code, Diagnostic};
+use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, TargetOptions};
+use crate::registry;
+use crate::source::Span;
+use vcutc_backend_api::backend::{Backend, BackendIssue, OptionKind, OptionSpec, OptionValue, Options};
+use vcutc_backend_api::ir::{OpId, Program};
+
+/// Blocks in the machine that are meant for a target that does not exist.
+pub(super) fn unknown_targets(job: &CheckedJob) -> Vec<Diagnostic> {
+    let known: Vec<&str> = registry::backends().iter().map(|backend| backend.id()).collect();
+    let blocks = job.machine.iter().flat_map(|machine| &machine.targets);
+    blocks.filter(|block| !known.contains(&block.target.as_str())).map(|block| unknown_target(block, &known)).collect()
+}
+
+fn unknown_target(block: &TargetOptions, known: &[&str]) -> Diagnostic {
+    let message = format!("a machine has no block `{}`, and there is no target of that name", block.target);
+    let diagnostic = Diagnostic::new(Code::UnknownBlock, message, block.span, "neither a field nor a target")
+        .help(format!("targets are: {}", known.join(", ")));
+    match nearest(&block.target, known.iter().copied()).first() {
+        Some(near) => diagnostic.fix(format!("use `{near}`"), block.span, *near),
+        None => diagnostic,
+    }
+}
+
+/// The options of a backend as the job gives them.
+pub(super) fn options(job: &CheckedJob, backend: &dyn Backend) -> Result<Options, Vec<Diagnostic>> {
+    let specs = backend.options();
+    let mut options = Options::defaults(specs);
+    let mut diagnostics = Vec::new();
+    let blocks = job.machine.iter().flat_map(|machine| &machine.targets);
+    for given in blocks.filter(|block| block.target == backend.id()).flat_map(|block| &block.given) {
+        match specs.iter().find(|spec| spec.key == given.key) {
+            Some(spec) => {
+                if let Err(allowed) = set(&mut options, spec, &given.value) {
+                    diagnostics.push(bad_option(given, &allowed, spec));
+                }
+            }
+            None => diagnostics.push(unknown_option(given, backend)),
+        }
+    }
+    if diagnostics.is_empty() { Ok(options) } else { Err(diagnostics) }
+}
+
+fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(), String> {
+    // What cannot be converted is set to a value of another kind, so that the refusal is worded in one place.
+    let none = OptionValue::Lines(Vec::new());
+    let value = match (spec.kind, given) {
+        (OptionKind::Integer { .. }, GivenValue::Ratio(ratio)) => whole(*ratio).map_or(none, OptionValue::Integer),
+        (OptionKind::Length { .. }, GivenValue::Length(length)) => OptionValue::Length(*length),
+        (OptionKind::Lines, GivenValue::Texts(lines)) => OptionValue::Lines(lines.clone()),
+        (OptionKind::Choice { of }, GivenValue::Word(word)) => {
+            of.iter().find(|known| *known == word).map_or(none, |known| OptionValue::Choice(known))
+        }
+        (OptionKind::Lines, GivenValue::Ratio(_) | GivenValue::Length(_) | GivenValue::Word(_)) => {
+            return Err("text in quotes".to_owned());
+        }
+        (OptionKind::Integer { .. } | OptionKind::Length { .. } | OptionKind::Choice { .. }, _) => none,
+    };
+    options.set(spec, value)
+}
+
+/// A number without fraction that fits.
+fn whole(ratio: f64) -> Option<u32> {
+    let fits = ratio.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&ratio);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked on the line above")]
+    let number = ratio as u32;
+    fits.then_some(number)
+}
+
+fn bad_option(given: &GivenOption, allowed: &str, spec: &OptionSpec) -> Diagnostic {
+    let message = format!("option `{}` takes {allowed}", given.key);
+    Diagnostic::new(Code::BadOption, message, given.value_span, "not one of these").note(spec.help)
+}
+
+fn unknown_option(given: &GivenOption, backend: &dyn Backend) -> Diagnostic {
+    let keys: Vec<&str> = backend.options().iter().map(|spec| spec.key).collect();
+    let message = format!("target `{}` has no option `{}`", backend.id(), given.key);
+    let diagnostic = Diagnostic::new(Code::UnknownOption, message, given.key_span, "no such option")
+        .help(format!("its options are: {}", keys.join(", ")));
+    match nearest(&given.key, keys.iter().copied()).first() {
+        Some(near) => diagnostic.fix(format!("use `{near}`"), given.key_span, *near),
+        None => diagnostic,
+    }
+}
+
+/// A target's objections in words.
+pub(super) fn diagnose(
+    job: &CheckedJob,
+    backend: &dyn Backend,
+    program: &Program,
+    issues: &[BackendIssue],
+) -> Vec<Diagnostic> {
+    issues.iter().map(|issue| objection(job, backend.id(), program, issue)).collect()
+}
+
+fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendIssue) -> Diagnostic {
+    let machine = job.machine.as_ref().map_or(job.name_span, |machine| machine.head_span);
+    match issue {
+        BackendIssue::MissingMachine => Diagnostic::new(
+            Code::MissingMachine,
+            format!("target `{target}` needs a machine, this job has none"),
+            job.name_span,
+            "no `machine` block in this job or the files it uses",
+        )
+        .help("add a block such as `machine cell = robot \"kuka/kr210_r3100\" { ... }`, or `use` a file that has one"),
+        BackendIssue::MissingMachineField { field, why } => Diagnostic::new(
+            Code::MissingMachineField,
+            format!("target `{target}` needs the machine's `{field}`"),
+            machine,
+            format!("no `{field}` here"),
+        )
+        .note(*why)
+        .help(format!("add `{}` to this block", example(field))),
+        BackendIssue::OptionConflict { key, why } => {
+            let span = option_span(job.machine.as_ref(), target, key).unwrap_or(machine);
+            Diagnostic::new(Code::BadOption, format!("option `{key}` does not fit: {why}"), span, "this option")
+        }
+        BackendIssue::Unsupported { op, what } => Diagnostic::new(
+            Code::Unsupported,
+            format!("target `{target}` cannot say this: {what}"),
+            place_of(job, program, *op),
+            "needed by this operation",
+        )
+        .help("choose another target, or change the operation"),
+        BackendIssue::OutOfRange { op, what, value, allowed } => Diagnostic::new(
+            Code::TargetRange,
+            format!("target `{target}` does not take {what} {value}"),
+            op.map_or(machine, |op| place_of(job, program, op)),
+            format!("{value} comes from here"),
+        )
+        .note(format!("{what} may be {allowed}"))
+        .help(format!("change the job so that {what} is {allowed}")),
+    }
+}
+
+/// A line to add for a field of the machine.
+fn example(field: &str) -> String {
+    let value = match field {
+        "home" => "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
+        "ultrasonic" => "output(12)",
+        "tool" | "base" => "frame(x = 0 mm, y = 0 mm, z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)",
+        _ => "...",
+    };
+    format!("{field} = {value}")
+}
+
+fn option_span(machine: Option<&Machine>, target: &str, key: &str) -> Option<Span> {
+    let blocks = machine?.targets.iter().filter(|block| block.target == target);
+    blocks.flat_map(|block| &block.given).find(|given| given.key == key).map(|given| given.value_span)
+}
+
+/// Where the job asks for an op: the operation it belongs to, or the job as a whole.
+fn place_of(job: &CheckedJob, program: &Program, op: OpId) -> Span {
+    let operation = program.ops.get(op.0 as usize).and_then(|op| op.site.operation());
+    let asked = operation.and_then(|id| job.operations.get(usize::from(id.0)));
+    asked.map_or(job.name_span, |crate::job::Operation::RoughVcut(vcut)| vcut.head_span)
+}

@@ -1,0 +1,87 @@
+//! Collects the ops of a program and the tables they refer to.
+
+use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::ir::{
+    Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, RateId, Site, Stock,
+};
+use vcutc_backend_api::units::{AngularSpeed, Speed};
+
+/// A program in the making.
+pub(super) struct Builder {
+    program: Program,
+}
+
+impl Builder {
+    pub(super) fn new(name: &str, stock: Stock, cell: Option<Cell>) -> Self {
+        Self {
+            program: Program {
+                version: IR_VERSION,
+                name: name.to_owned(),
+                stock,
+                cell,
+                operations: Vec::new(),
+                orientations: Vec::new(),
+                feeds: Vec::new(),
+                rates: Vec::new(),
+                ops: Vec::new(),
+            },
+        }
+    }
+
+    pub(super) const fn stock(&self) -> Stock {
+        self.program.stock
+    }
+
+    /// Appends an op; leaves out what the cell does not have (home angles, a generator).
+    pub(super) fn op(&mut self, site: Site, action: Action) {
+        let cell = self.program.cell.as_ref();
+        let exists = match action {
+            Action::Home => cell.is_some_and(|cell| cell.home.is_some()),
+            Action::Ultrasonic { .. } | Action::AwaitReady => cell.is_some_and(|cell| cell.ultrasonic.is_some()),
+            Action::Travel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. }
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => true,
+        };
+        if exists {
+            self.program.ops.push(Op { site, action });
+        }
+    }
+
+    pub(super) fn operation(&mut self, operation: Operation) -> OperationId {
+        self.program.operations.push(operation);
+        OperationId(id(self.program.operations.len() - 1))
+    }
+
+    pub(super) fn orientation(&mut self, orientation: Orientation) -> OrientationId {
+        let place = find_or_push(&mut self.program.orientations, orientation);
+        OrientationId(u32::from(id(place)))
+    }
+
+    pub(super) fn feed(&mut self, feed: Speed) -> FeedId {
+        FeedId(id(find_or_push(&mut self.program.feeds, feed)))
+    }
+
+    pub(super) fn rate(&mut self, rate: AngularSpeed) -> RateId {
+        RateId(id(find_or_push(&mut self.program.rates, rate)))
+    }
+
+    pub(super) fn finish(self) -> Program {
+        self.program
+    }
+}
+
+/// A handful of entries each: a job has few operations, each with few postures and speeds.
+fn id(place: usize) -> u16 {
+    u16::try_from(place).unwrap_or(u16::MAX)
+}
+
+fn find_or_push<T: PartialEq>(table: &mut Vec<T>, entry: T) -> usize {
+    table.iter().position(|known| *known == entry).unwrap_or_else(|| {
+        table.push(entry);
+        table.len() - 1
+    })
+}

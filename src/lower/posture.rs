@@ -1,0 +1,158 @@
+//! How the blade is held: the postures of V-cutting as rotations of the blade frame T in the workpiece frame W.
+//!
+//! `R(alpha, sigma) = Ry(alpha) Rx(-sigma (90 deg - theta)) R0` with `R0 = [+Y +X -Z]` (process reference, section 1):
+//! swing `alpha` leans the shank towards +x, rake `theta` leans it along the feed, `sigma` is the sense of the feed
+//! along y. A double-edged blade keeps `x_t` towards +y on both ways; a single-edged one is turned half round about its
+//! own axis when it cuts towards -y.
+
+use glam::{DMat3, DQuat, DVec3};
+use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::ir::{Edges, Flank};
+use vcutc_backend_api::units::Angle;
+
+/// Sense of the feed along y.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feed {
+    /// Towards +y (`sigma = +1`).
+    Forward,
+    /// Towards -y (`sigma = -1`).
+    Backward,
+}
+
+impl Feed {
+    /// The other sense.
+    #[must_use]
+    pub const fn reversed(self) -> Self {
+        match self {
+            Self::Forward => Self::Backward,
+            Self::Backward => Self::Forward,
+        }
+    }
+
+    const fn sigma(self) -> f64 {
+        match self {
+            Self::Forward => 1.0,
+            Self::Backward => -1.0,
+        }
+    }
+}
+
+/// What the postures of an operation have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Holder {
+    /// Half the opening angle of the V.
+    pub swing: Angle,
+    /// Angle between tool axis and feed.
+    pub rake: Angle,
+    /// Which sides of the blade cut.
+    pub edges: Edges,
+}
+
+impl Holder {
+    /// The posture that cuts a flank while feeding that way.
+    #[must_use]
+    pub fn cutting(self, flank: Flank, feed: Feed) -> Orientation {
+        let alpha = match flank {
+            Flank::Left => -self.swing.to_rad(),
+            Flank::Right => self.swing.to_rad(),
+        };
+        let lean = -feed.sigma() * (core::f64::consts::FRAC_PI_2 - self.rake.to_rad());
+        let held = DQuat::from_rotation_y(alpha) * DQuat::from_rotation_x(lean) * upright();
+        let about_its_axis = match (self.edges, feed) {
+            (Edges::Double, Feed::Forward | Feed::Backward) | (Edges::Single, Feed::Forward) => DQuat::IDENTITY,
+            (Edges::Single, Feed::Backward) => DQuat::from_rotation_z(core::f64::consts::PI),
+        };
+        orientation(held * about_its_axis)
+    }
+
+    /// The posture by way of which a turn of nearly half a revolution is made, so that there is only one way round each
+    /// half: upright, and for a single edge a quarter turned about the blade's own axis. There and back go the same way, so
+    /// that no turn winds up the blade's cable.
+    #[must_use]
+    pub fn between(self) -> Orientation {
+        let quarter = match self.edges {
+            Edges::Double => DQuat::IDENTITY,
+            Edges::Single => DQuat::from_rotation_z(core::f64::consts::FRAC_PI_2),
+        };
+        orientation(upright() * quarter)
+    }
+}
+
+/// `R0`: blade over the work, tip down, leading side towards +y.
+fn upright() -> DQuat {
+    DQuat::from_mat3(&DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::NEG_Z))
+}
+
+fn orientation(q: DQuat) -> Orientation {
+    // Products of unit quaternions are never zero.
+    Orientation::from_quaternion(q.w, q.x, q.y, q.z).unwrap_or(Orientation::IDENTITY)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, Rotation3, Vector3};
+    use proptest::prelude::*;
+
+    const PAPER: Holder = Holder { swing: Angle::deg(34.16), rake: Angle::deg(60.0), edges: Edges::Double };
+
+    /// The formula of the process reference, by another crate.
+    fn by_matrices(alpha: f64, theta: f64, sigma: f64) -> Matrix3<f64> {
+        let r0 = Matrix3::from_columns(&[Vector3::y(), Vector3::x(), -Vector3::z()]);
+        let about_x = Rotation3::from_axis_angle(&Vector3::x_axis(), -sigma * (core::f64::consts::FRAC_PI_2 - theta));
+        let about_y = Rotation3::from_axis_angle(&Vector3::y_axis(), alpha);
+        about_y.matrix() * about_x.matrix() * r0
+    }
+
+    proptest! {
+        #[test]
+        fn follows_the_formula(swing in 1.0..80.0_f64, rake in 10.0..=90.0_f64, right: bool, forward: bool) {
+            let holder = Holder { swing: Angle::deg(swing), rake: Angle::deg(rake), edges: Edges::Double };
+            let (flank, alpha) = if right { (Flank::Right, swing) } else { (Flank::Left, -swing) };
+            let (feed, sigma) = if forward { (Feed::Forward, 1.0) } else { (Feed::Backward, -1.0) };
+            let ours = holder.cutting(flank, feed).matrix();
+            let theirs = by_matrices(alpha.to_radians(), rake.to_radians(), sigma);
+            for (row, ours) in ours.iter().enumerate() {
+                for (column, ours) in ours.iter().enumerate() {
+                    prop_assert!((ours - theirs[(row, column)]).abs() < 1e-12);
+                }
+            }
+        }
+
+        #[test]
+        fn turns_by_the_angle_of_the_paper(swing in 1.0..80.0_f64, rake in 10.0..=90.0_f64) {
+            // [Cui 9]: 2 acos(cos(alpha) sin(theta)).
+            let (swing, rake) = (Angle::deg(swing), Angle::deg(rake));
+            let holder = Holder { swing, rake, edges: Edges::Double };
+            let turn = holder.cutting(Flank::Left, Feed::Forward).angle_to(holder.cutting(Flank::Right, Feed::Backward));
+            let paper = 2.0 * libm::acos(swing.cos() * rake.sin());
+            prop_assert!((turn.to_rad() - paper).abs() < 1e-7);
+        }
+
+        #[test]
+        fn turns_by_way_of_the_posture_between_are_unambiguous(swing in 1.0..80.0_f64, rake in 10.0..=90.0_f64, single: bool) {
+            let edges = if single { Edges::Single } else { Edges::Double };
+            let holder = Holder { swing: Angle::deg(swing), rake: Angle::deg(rake), edges };
+            for flank in [Flank::Left, Flank::Right] {
+                for feed in [Feed::Forward, Feed::Backward] {
+                    prop_assert!(holder.cutting(flank, feed).angle_to(holder.between()).to_deg() < 170.0);
+                }
+            }
+        }
+
+        #[test]
+        fn single_edges_lead_both_ways(swing in 1.0..80.0_f64, rake in 10.0..=90.0_f64) {
+            let holder = Holder { swing: Angle::deg(swing), rake: Angle::deg(rake), edges: Edges::Single };
+            // The leading side points along the feed both ways.
+            for (feed, sign) in [(Feed::Forward, 1.0), (Feed::Backward, -1.0)] {
+                prop_assert!(holder.cutting(Flank::Left, feed).matrix()[1][0] * sign > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn the_papers_turn_is_88_4_degrees() {
+        let turn = PAPER.cutting(Flank::Left, Feed::Forward).angle_to(PAPER.cutting(Flank::Right, Feed::Backward));
+        assert!((turn.to_deg() - 88.4).abs() < 0.05, "{}", turn.to_deg());
+    }
+}

@@ -1,0 +1,248 @@
+//! The moves of V-cutting (process reference, section 2).
+//!
+//! Cuts start and end an extension away from the stock, where the blade may turn. In `point` order both flanks of a V are
+//! cut before the next one: there with the shank leaning left, turn about the still tip, back with the shank leaning right,
+//! and over to the next V while turning back [Cui]. In `layer` order all left flanks of a layer come first, to and fro,
+//! then all right flanks on the way back [Yu]. With one feed direction only, every cut is followed by a way back over the
+//! safe plane.
+
+use super::builder::Builder;
+use super::posture::{Feed, Holder};
+use crate::job::{Direction, Order};
+use crate::plan::{PlannedCut, PlannedVcut};
+use core::num::NonZeroU32;
+use vcutc_backend_api::geometry::{Orientation, Point3};
+use vcutc_backend_api::ir::{
+    Action, Blade, FeedId, Flank, Operation, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
+};
+use vcutc_backend_api::units::Angle;
+
+/// Turns up to this are made at once. Beyond it the two ways round come too near to one another for comfort: the program
+/// would depend on the last digits of the angles.
+const LARGEST_SINGLE_TURN: Angle = Angle::deg(150.0);
+
+/// Appends the ops of one operation.
+pub(super) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut Builder) {
+    let asked = &planned.asked;
+    let operation = builder.operation(Operation {
+        kind: OperationKind::RoughVcut,
+        blade: Blade {
+            name: asked.blade.name.clone(),
+            cutting_length: asked.blade.cutting_length.value,
+            half_apex: asked.blade.half_apex.value,
+            thickness: asked.blade.thickness.value,
+            edges: asked.blade.edges,
+        },
+        source,
+    });
+    let mut writer = Writer::new(planned, operation, builder);
+    for (layer, cuts) in layers(&planned.cuts) {
+        writer.layer(layer, cuts);
+    }
+    writer.builder.op(Site::Operation(operation), Action::Ultrasonic { state: Switch::Off });
+}
+
+/// The cuts layer by layer.
+fn layers(cuts: &[PlannedCut]) -> impl Iterator<Item = (NonZeroU32, &[PlannedCut])> {
+    cuts.chunk_by(|a, b| a.layer == b.layer).filter_map(|layer| {
+        let number = NonZeroU32::new(layer.first()?.layer)?;
+        Some((number, layer))
+    })
+}
+
+/// One pass of the blade: which flank of which V.
+#[derive(Clone, Copy)]
+struct Pass {
+    site: Site,
+    x: f64,
+    z: f64,
+    flank: Flank,
+}
+
+/// Where the blade is between passes.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    /// Above the work, at the safe plane or wherever the program begins.
+    Above,
+    /// Beside the work, the tip at working height, about to cut this way if it goes on.
+    Beside(Feed),
+}
+
+struct Writer<'b> {
+    builder: &'b mut Builder,
+    operation: OperationId,
+    holder: Holder,
+    order: Order,
+    direction: Direction,
+    cut_feed: FeedId,
+    travel_feed: FeedId,
+    rate: RateId,
+    /// y of the tip before the stock and behind it.
+    front: f64,
+    back: f64,
+    safe: f64,
+    at: Place,
+    tip: Point3,
+    held: Option<Orientation>,
+    running: Switch,
+}
+
+impl<'b> Writer<'b> {
+    fn new(planned: &PlannedVcut, operation: OperationId, builder: &'b mut Builder) -> Self {
+        let asked = &planned.asked;
+        let stock = builder.stock();
+        let extension = planned.parameters.extension.to_mm();
+        let holder =
+            Holder { swing: planned.parameters.swing, rake: asked.rake.value, edges: asked.blade.edges };
+        let (cut_feed, travel_feed) = (builder.feed(asked.cut_feed.value), builder.feed(asked.travel_feed.value));
+        let rate = builder.rate(asked.reorient_rate.value);
+        let safe = (stock.height + asked.clearance.value).to_mm();
+        Self {
+            builder,
+            operation,
+            holder,
+            order: asked.order.value,
+            direction: asked.direction.value,
+            cut_feed,
+            travel_feed,
+            rate,
+            front: -extension,
+            back: stock.depth.to_mm() + extension,
+            safe,
+            at: Place::Above,
+            tip: Point3::new(0.0, -extension, safe),
+            held: None,
+            running: Switch::Off,
+        }
+    }
+
+    /// Cuts a layer and leaves it.
+    fn layer(&mut self, layer: NonZeroU32, cuts: &[PlannedCut]) {
+        let operation = self.operation;
+        let pass = |(index, cut): (u32, &PlannedCut), flank| {
+            let number = NonZeroU32::MIN.saturating_add(index);
+            Pass { site: Site::Cut { operation, layer, cut: number }, x: cut.tip.x, z: cut.tip.z, flank }
+        };
+        let numbered = || (0_u32..).zip(cuts);
+        match self.order {
+            Order::Point => {
+                for cut in numbered() {
+                    self.pass(pass(cut, Flank::Left));
+                    self.pass(pass(cut, Flank::Right));
+                }
+            }
+            Order::Layer => {
+                for cut in numbered() {
+                    self.pass(pass(cut, Flank::Left));
+                }
+                let back: Vec<_> = numbered().collect();
+                for &cut in back.iter().rev() {
+                    self.pass(pass(cut, Flank::Right));
+                }
+            }
+        }
+        self.retract(Site::Layer { operation, layer });
+    }
+
+    /// Cuts one flank, from wherever the blade is.
+    fn pass(&mut self, pass: Pass) {
+        let feed = match (self.direction, self.at) {
+            (Direction::Alternate, Place::Beside(feed)) => feed,
+            (Direction::Alternate | Direction::Forward, _) => Feed::Forward,
+            (Direction::Backward, _) => Feed::Backward,
+        };
+        let one_way = match self.direction {
+            Direction::Alternate => false,
+            Direction::Forward | Direction::Backward => true,
+        };
+        if one_way && self.at != Place::Above {
+            self.retract(pass.site);
+        }
+        match self.at {
+            Place::Above => self.descend(pass, feed),
+            Place::Beside(_) => self.go_beside(pass, feed),
+        }
+        let end = Point3 { y: self.far(feed), ..self.tip };
+        self.builder.op(pass.site, Action::Cut { flank: pass.flank, to: end, feed: self.cut_feed });
+        self.tip = end;
+        self.at = Place::Beside(feed.reversed());
+    }
+
+    /// From above the work to the start of a cut.
+    fn descend(&mut self, pass: Pass, feed: Feed) {
+        let layer = match pass.site {
+            Site::Cut { operation, layer, .. } => Site::Layer { operation, layer },
+            Site::Program | Site::Operation(_) | Site::Layer { .. } => pass.site,
+        };
+        let above = Point3::new(pass.x, self.near(feed), self.safe);
+        self.travel(layer, above, self.holder.cutting(pass.flank, feed));
+        if self.running == Switch::Off {
+            // The generator starts at the safe plane over the first cut and runs until the program's end: it must be up
+            // before the blade enters, and idling between layers costs nothing but waiting for it again would.
+            let operation = Site::Operation(self.operation);
+            self.builder.op(operation, Action::Ultrasonic { state: Switch::On });
+            self.builder.op(operation, Action::AwaitReady);
+            self.running = Switch::On;
+        }
+        let start = Point3 { z: pass.z, ..above };
+        self.builder.op(pass.site, Action::Approach { to: start, feed: self.travel_feed });
+        self.tip = start;
+    }
+
+    /// From beside the work to the start of a cut on the same side.
+    fn go_beside(&mut self, pass: Pass, feed: Feed) {
+        let start = Point3::new(pass.x, self.near(feed), pass.z);
+        let posture = self.holder.cutting(pass.flank, feed);
+        if start == self.tip {
+            self.pass_between(pass.site, posture);
+            self.turn(pass.site, posture);
+        } else {
+            self.travel(pass.site, start, posture);
+        }
+    }
+
+    fn travel(&mut self, site: Site, to: Point3, posture: Orientation) {
+        self.pass_between(site, posture);
+        let orientation = self.builder.orientation(posture);
+        let action = Action::Travel { to, orientation, feed: self.travel_feed, rate: self.rate };
+        self.builder.op(site, action);
+        self.tip = to;
+        self.held = Some(posture);
+    }
+
+    /// A turn that comes near half a revolution goes by way of the posture in between.
+    fn pass_between(&mut self, site: Site, posture: Orientation) {
+        if self.held.is_some_and(|held| held.angle_to(posture) > LARGEST_SINGLE_TURN) {
+            self.turn(site, self.holder.between());
+        }
+    }
+
+    fn turn(&mut self, site: Site, posture: Orientation) {
+        if self.held != Some(posture) {
+            let to = self.builder.orientation(posture);
+            self.builder.op(site, Action::Turn { to, rate: self.rate });
+            self.held = Some(posture);
+        }
+    }
+
+    /// Straight up to the safe plane.
+    fn retract(&mut self, site: Site) {
+        let to = Point3 { z: self.safe, ..self.tip };
+        self.builder.op(site, Action::Retract { to, feed: self.travel_feed });
+        self.tip = to;
+        self.at = Place::Above;
+    }
+
+    /// Where a cut with that feed starts.
+    const fn near(&self, feed: Feed) -> f64 {
+        match feed {
+            Feed::Forward => self.front,
+            Feed::Backward => self.back,
+        }
+    }
+
+    /// Where a cut with that feed ends.
+    const fn far(&self, feed: Feed) -> f64 {
+        self.near(feed.reversed())
+    }
+}

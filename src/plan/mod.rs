@@ -1,0 +1,188 @@
+//! From a checked job to the cuts that carry it out.
+//!
+//! [`choose`] resolves every `auto` ([`parameters`]), lays tips out layer by layer ([`lattice`]), decides what becomes of
+//! tips that would cut the part ([`residual`]), and keeps a surface of its own while it goes, because whether a tip can be
+//! cut depends on what has been cut before. It promises nothing: the cuts are proven later, from the program.
+//!
+//! Tips lie on a grid of a micrometre ([`grid`]), so that a program printed with three decimals says exactly what was
+//! planned and proven.
+
+pub mod blade_reach;
+pub mod grid;
+pub mod lattice;
+pub mod parameters;
+pub mod residual;
+pub mod show;
+pub mod time_model;
+
+#[cfg(test)]
+pub(crate) mod tests;
+
+use crate::diag::{Code, Diagnostic};
+use crate::geom::cone;
+use crate::geom::curve::Point2;
+use crate::geom::offset::offset_up;
+use crate::geom::profile::Profile;
+use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
+use crate::sim::surface::Surface;
+use parameters::VcutParameters;
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::{Duration, Length};
+
+/// A job with every choice made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedJob {
+    /// The job's name.
+    pub name: String,
+    /// The stock.
+    pub stock: Stock,
+    /// The part's profile.
+    pub profile: Profile,
+    /// The machine, if the job has one.
+    pub machine: Option<Machine>,
+    /// The operations in order.
+    pub operations: Vec<PlannedOperation>,
+}
+
+/// One operation with every choice made.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlannedOperation {
+    /// V-shaped roughing.
+    RoughVcut(PlannedVcut),
+}
+
+/// V-shaped roughing with every choice made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedVcut {
+    /// What the job asks for.
+    pub asked: RoughVcut,
+    /// What it came out as.
+    pub parameters: VcutParameters,
+    /// The part with its allowance: no cut's material side may go below.
+    pub bound: Profile,
+    /// The mean-value estimate of the time [Cui 11].
+    pub estimate: Duration,
+    /// The cuts, layer by layer, each layer from left to right.
+    pub cuts: Vec<PlannedCut>,
+}
+
+/// One V-cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedCut {
+    /// The layer it belongs to, counted from 1 at the top. A layer that cuts nothing has no number.
+    pub layer: u32,
+    /// Where the blade's tip runs, in the x-z plane.
+    pub tip: Point2,
+    /// How the tip came to be where it is.
+    pub origin: TipOrigin,
+}
+
+/// How a tip came to be where it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TipOrigin {
+    /// A point of the lattice.
+    Lattice,
+    /// Raised to clear the part.
+    Lifted,
+    /// Moved sideways to clear the part.
+    Shifted,
+    /// Raised because the blade does not reach the full depth at once.
+    Relieved,
+}
+
+/// Most cuts that a job may have. A cut takes seconds, so a program of this size runs for weeks.
+pub const MOST_CUTS: usize = 4_000_000;
+
+/// Makes every choice. Without errors there is a plan.
+#[must_use]
+pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    let mut diagnostics = Vec::new();
+    let mut surface = Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm());
+    let mut operations = Vec::new();
+    for operation in &job.operations {
+        let planned = match operation {
+            Operation::RoughVcut(asked) => plan_vcut(job, asked, &mut surface, &mut diagnostics),
+        };
+        operations.extend(planned.map(PlannedOperation::RoughVcut));
+    }
+    let planned = (operations.len() == job.operations.len()).then(|| PlannedJob {
+        name: job.name.clone(),
+        stock: job.stock,
+        profile: job.profile.clone(),
+        machine: job.machine.clone(),
+        operations,
+    });
+    (planned, diagnostics)
+}
+
+fn plan_vcut(
+    job: &CheckedJob,
+    asked: &RoughVcut,
+    surface: &mut Surface,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<PlannedVcut> {
+    let parameters = parameters::resolve(asked, diagnostics)?;
+    let bound = offset_up(&job.profile, asked.allowance.value);
+    let clearance = cone::clearance(&bound, parameters.flanks.slope);
+    let layout = lattice::Layout::new(job.stock, asked.lattice.value, &parameters, &clearance);
+    if layout.most_tips() > MOST_CUTS {
+        diagnostics.push(too_many_cuts(asked, &parameters, layout.most_tips()));
+        return None;
+    }
+    let mut planner = residual::LayerPlanner::new(&layout, asked, &parameters, &job.profile, surface);
+    for layer in 1..=layout.layers() {
+        planner.layer(layer);
+    }
+    let cuts = planner.finish();
+    if cuts.is_empty() {
+        diagnostics.push(nothing_to_cut(job, asked, &parameters, &clearance));
+        return None;
+    }
+    let estimate = parameters.time_model(job, asked).estimate(parameters.swing, parameters.layer, parameters.step);
+    Some(PlannedVcut { asked: asked.clone(), parameters, bound, estimate, cuts })
+}
+
+fn nothing_to_cut(
+    job: &CheckedJob,
+    asked: &RoughVcut,
+    parameters: &VcutParameters,
+    clearance: &Profile,
+) -> Diagnostic {
+    let lowest = clearance.lowest().z + parameters.drop.to_mm();
+    let depth = job.stock.height.to_mm() - lowest;
+    let message = "this operation leaves nothing to cut";
+    let diagnostic = Diagnostic::new(Code::NothingToCut, message, asked.head_span, "no tip fits between part and stock")
+        .and(job.profile_span, format!("the lowest tip that clears the part lies at z {lowest:.3} mm"))
+        .and(job.stock_span, format!("the stock ends at z {:.3} mm", job.stock.height.to_mm()));
+    if depth > 0.0 {
+        diagnostic
+            .note(format!(
+                "the depth of {depth:.3} mm is less than one layer of {:.3} mm, and tips are not raised",
+                parameters.layer.to_mm()
+            ))
+            .help("set `residual = lift` or `residual = auto`, or a smaller `layer`")
+    } else {
+        diagnostic.help("make the stock higher or the part lower, or reduce `allowance`")
+    }
+}
+
+fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, count: usize) -> Diagnostic {
+    let span = asked.layer.span.or(asked.step.span).unwrap_or(asked.head_span);
+    Diagnostic::new(
+        Code::TooManyCuts,
+        format!("this operation would take up to {count} cuts, a program may have {MOST_CUTS}"),
+        span,
+        format!(
+            "layers of {:.3} mm and steps of {:.3} mm over this stock",
+            parameters.layer.to_mm(),
+            parameters.step.to_mm()
+        ),
+    )
+    .help("use a larger `layer` and `step`, or leave both `auto`")
+}
+
+/// Smallest gain in depth for which a tip is moved: cuts that take less are not worth their time.
+#[must_use]
+pub fn smallest_gain(layer: Length) -> Length {
+    layer * 0.05
+}

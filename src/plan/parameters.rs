@@ -1,0 +1,298 @@
+//! What the open parameters come out as.
+//!
+//! This is the one place where `auto` is decided: swing, layer and step by closed form (the paper's 45 degrees, the
+//! largest layer the blade and the scallop limit allow, the widest step at the asked overlap), extension and standoff
+//! from the blade. A search for the fastest parameters would replace [`resolve`] and nothing else.
+
+use super::blade_reach::{self, Flanks};
+use super::grid;
+use super::time_model::TimeModel;
+use crate::diag::{Code, Diagnostic};
+use crate::job::{Auto, CheckedJob, Lattice, RoughVcut};
+use vcutc_backend_api::units::{Angle, Area, Length};
+
+/// The swing at which a chip of given edge length is largest [Cui 3]; taken when the swing is left open.
+pub const AUTO_SWING: Angle = Angle::deg(45.0);
+
+/// The parameters of one V-cutting operation, all decided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VcutParameters {
+    /// Half the opening angle of the V.
+    pub swing: Angle,
+    /// Layer spacing.
+    pub layer: Length,
+    /// Spacing of tips in a layer; orthogonal layouts may use a little less to fit the width.
+    pub step: Length,
+    /// How far cuts run out beyond the stock.
+    pub extension: Length,
+    /// Distance of the blade's middle plane from the material that stays.
+    pub standoff: Length,
+    /// How much higher the tip runs than the V its material side makes: `standoff / sin(swing)`.
+    pub drop: Length,
+    /// Slope and reach of the flanks.
+    pub flanks: Flanks,
+}
+
+/// A parameter that was left to the compiler, and what it came out as.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Its name in the language.
+    pub name: &'static str,
+    /// Its value with unit.
+    pub value: String,
+}
+
+impl VcutParameters {
+    /// Whether the blade reaches what the lattice needs far from the part.
+    #[must_use]
+    pub fn lattice_fits(&self, lattice: Lattice) -> bool {
+        fits(lattice, self.layer, self.step, &self.flanks)
+    }
+
+    /// What was left open and how it was decided, in the order of the language reference.
+    #[must_use]
+    pub fn choices(&self, asked: &RoughVcut) -> Vec<Choice> {
+        let length = |name, open: Auto<Length>, value: Length| match open {
+            Auto::Auto => Some(Choice { name, value: format!("{:.3} mm", value.to_mm()) }),
+            Auto::Given(_) => None,
+        };
+        let swing = match asked.swing.value {
+            Auto::Auto => Some(Choice { name: "swing", value: format!("{:.3} deg", self.swing.to_deg()) }),
+            Auto::Given(_) => None,
+        };
+        [
+            swing,
+            length("layer", asked.layer.value, self.layer),
+            length("step", asked.step.value, self.step),
+            length("extension", asked.extension.value, self.extension),
+            length("standoff", asked.standoff.value, self.standoff),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// The mean-value model of the paper for a job cut with these parameters.
+    #[must_use]
+    pub fn time_model(&self, job: &CheckedJob, asked: &RoughVcut) -> TimeModel {
+        let stock = job.stock;
+        let part = job.profile.area_below(0.0, stock.width.to_mm());
+        TimeModel {
+            width: stock.width,
+            depth: stock.depth,
+            area: Area::mm2(stock.width.to_mm() * stock.height.to_mm()) - part,
+            clearance: asked.clearance.value,
+            extension: self.extension,
+            rake: asked.rake.value,
+            cut_feed: asked.cut_feed.value,
+            travel_feed: asked.travel_feed.value,
+            reorient_rate: asked.reorient_rate.value,
+        }
+    }
+}
+
+/// Decides what is open. None when the operation contradicts itself, which is then reported.
+#[must_use]
+pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<VcutParameters> {
+    let before = diagnostics.len();
+    check_rake(asked, diagnostics);
+    let swing = resolve_swing(asked, diagnostics);
+    let extension = resolve_extension(asked, diagnostics);
+    if diagnostics.len() > before {
+        return None;
+    }
+    let standoff = match asked.standoff.value {
+        Auto::Auto => asked.blade.thickness.value / 2.0,
+        Auto::Given(standoff) => standoff,
+    };
+    let drop = standoff / swing.sin();
+    let flanks = Flanks::new(
+        asked.blade.cutting_length.value,
+        asked.blade.half_apex.value,
+        asked.rake.value,
+        swing,
+    );
+    let (layer, step) = resolve_layer_and_step(asked, &flanks, drop);
+    Some(VcutParameters { swing, layer, step, extension, standoff, drop, flanks })
+}
+
+fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
+    let (rake, half_apex) = (asked.rake.value, asked.blade.half_apex.value);
+    if rake > half_apex {
+        return;
+    }
+    let span = asked.rake.span.unwrap_or(asked.head_span);
+    diagnostics.push(
+        Diagnostic::new(
+            Code::RakeTooFlat,
+            format!("with a rake of {} deg the leading edge does not cut", show(rake.to_deg())),
+            span,
+            format!("the edge leads the feed by rake less half apex, {} deg", show((rake - half_apex).to_deg())),
+        )
+        .and(
+            asked.blade.half_apex.span.unwrap_or(asked.blade.span),
+            format!("half the blade's apex angle is {} deg", show(half_apex.to_deg())),
+        )
+        .help(format!("use a rake well above {} deg, such as 60 deg", show(half_apex.to_deg()))),
+    );
+}
+
+fn resolve_swing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Angle {
+    let limit = asked.limits.swing;
+    match (asked.swing.value, limit) {
+        (Auto::Auto, None) => AUTO_SWING,
+        (Auto::Auto, Some(limit)) => AUTO_SWING.min(limit.value),
+        (Auto::Given(swing), Some(limit)) if swing > limit.value => {
+            let (limit_deg, span) = (show(limit.value.to_deg()), asked.swing.span.unwrap_or(asked.head_span));
+            let message = format!("a swing of {} deg is above its limit of {limit_deg} deg", show(swing.to_deg()));
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message, span, "larger than the limit allows")
+                .and(limit.span.unwrap_or(asked.head_span), "the limit")
+                .help(format!("use at most {limit_deg} deg, or raise the limit"))
+                .fix("use the limit", span, format!("{limit_deg} deg"));
+            diagnostics.push(diagnostic);
+            swing
+        }
+        (Auto::Given(swing), _) => swing,
+    }
+}
+
+fn resolve_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Length {
+    let blade = &asked.blade;
+    // The edge lies over the work by its projection on y [Cui 5]; the whole cutting length, as deep cuts use all of it.
+    let overhang = blade.cutting_length.value * (asked.rake.value - blade.half_apex.value).cos();
+    let least = Length::mm(grid::up(overhang.to_mm()));
+    match asked.extension.value {
+        Auto::Auto => Length::mm(grid::up((overhang + asked.run_out.value).to_mm())),
+        Auto::Given(extension) if extension >= least => Length::mm(grid::up(extension.to_mm())),
+        Auto::Given(extension) => {
+            let span = asked.extension.span.unwrap_or(asked.head_span);
+            let least = show(least.to_mm());
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::ExtensionTooShort,
+                    format!("with an extension of {} mm the blade would turn within the work", show(extension.to_mm())),
+                    span,
+                    format!("the edge lies {least} mm over the work"),
+                )
+                .and(
+                    blade.cutting_length.span.unwrap_or(blade.span),
+                    format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
+                )
+                .help(format!("use at least {least} mm, or leave it `auto`"))
+                .fix("let the compiler choose", span, "auto"),
+            );
+            extension
+        }
+    }
+}
+
+/// Layer and step, as far as they are open: the largest layer that blade and scallop limit allow, the widest step.
+fn resolve_layer_and_step(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> (Length, Length) {
+    let widest = |layer| widest_step(asked.lattice.value, layer, asked.overlap.value, flanks);
+    match (asked.layer.value, asked.step.value) {
+        (Auto::Given(layer), Auto::Given(step)) => (layer, step),
+        (Auto::Given(layer), Auto::Auto) => (layer, widest(layer)),
+        (Auto::Auto, Auto::Given(step)) => (largest_layer_at(asked, step, flanks, drop), step),
+        (Auto::Auto, Auto::Auto) => {
+            let layer = largest_layer(asked, flanks, drop);
+            (layer, widest(layer))
+        }
+    }
+}
+
+/// Whether a blade reaches what a lattice needs, wherever rounding puts its tips.
+fn fits(lattice: Lattice, layer: Length, step: Length, flanks: &Flanks) -> bool {
+    let needed = |layer: Length, step: Length| blade_reach::needed_reach(lattice, layer, step, flanks.slope);
+    let layers = around(layer, grid::SPACING);
+    let steps = around(step, grid::SPACING * tips_per_step(lattice));
+    let worst = layers.iter().flat_map(|&layer| steps.iter().map(move |&step| needed(layer, step)));
+    worst.fold(Length::ZERO, Length::max) <= flanks.reach + Length::mm(1e-6)
+}
+
+/// The spacings that tips rounded to the grid really have: the value itself where it is a multiple of the unit, else up to a
+/// grid spacing more or less.
+fn around(value: Length, unit: f64) -> [Length; 3] {
+    let multiple = value.to_mm() / unit;
+    let off = if (multiple - multiple.round()).abs() < 1e-6 { 0.0 } else { grid::SPACING };
+    [-off, 0.0, off].map(|off| (value + Length::mm(off)).max(Length::mm(grid::SPACING)))
+}
+
+/// Interlaced rows lie half a step apart, so half a step must be on the grid for all tips to be.
+const fn tips_per_step(lattice: Lattice) -> f64 {
+    match lattice {
+        Lattice::Interlaced => 2.0,
+        Lattice::Orthogonal | Lattice::Free => 1.0,
+    }
+}
+
+/// The largest layer on the grid, starting from a closed form, that fits with the step it gets: rounding may cost a few
+/// spacings.
+fn largest_fitting(lattice: Lattice, closed_form: Length, flanks: &Flanks, step: impl Fn(Length) -> Length) -> Length {
+    let mut layer = on_grid(closed_form);
+    for _ in 0..1000 {
+        if layer.to_mm() <= grid::SPACING || fits(lattice, layer, step(layer), flanks) {
+            break;
+        }
+        layer = on_grid(layer - Length::mm(grid::SPACING));
+    }
+    layer
+}
+
+/// What of the scallop limit is left for the lattice: allowance and standoff stand on the part anyway.
+fn scallop_room(asked: &RoughVcut, drop: Length) -> Option<Length> {
+    let smallest = Length::mm(grid::SPACING);
+    asked.limits.scallop.map(|limit| (limit.value - asked.allowance.value - drop).max(smallest))
+}
+
+/// The largest layer with the step left open, for error messages and for `auto`.
+#[must_use]
+pub fn largest_layer(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> Length {
+    let (lattice, overlap) = (asked.lattice.value, asked.overlap.value);
+    let by_reach = blade_reach::largest_layer(lattice, overlap, flanks.reach);
+    let by_scallop = scallop_room(asked, drop)
+        .map(|room| blade_reach::largest_layer_for_scallop(lattice, overlap, flanks.slope, room));
+    let closed_form = by_scallop.map_or(by_reach, |layer| layer.min(by_reach));
+    largest_fitting(lattice, closed_form, flanks, |layer| widest_step(lattice, layer, overlap, flanks))
+}
+
+/// The largest layer at a given step.
+#[must_use]
+pub fn largest_layer_at(asked: &RoughVcut, step: Length, flanks: &Flanks, drop: Length) -> Length {
+    let lattice = asked.lattice.value;
+    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach);
+    let by_scallop = scallop_room(asked, drop)
+        .map(|room| blade_reach::largest_layer_for_scallop_at_step(lattice, step, flanks.slope, room));
+    let by_reach = by_reach.unwrap_or(Length::ZERO);
+    let closed_form = match by_scallop {
+        None => by_reach,
+        Some(layer) => by_reach.min(layer.unwrap_or(Length::ZERO)),
+    };
+    largest_fitting(lattice, closed_form, flanks, |_| step)
+}
+
+/// Rounded down to the grid, and at least one spacing.
+fn on_grid(layer: Length) -> Length {
+    Length::mm(grid::down(layer.to_mm()).max(grid::SPACING))
+}
+
+/// The widest step at an overlap [Cui 7], on the grid. Rounded down, unless that hair makes flanks pass below the older
+/// tips they are meant to pass through, which takes far more reach: interlaced lattices without overlap, and others at
+/// overlaps like a half, are then rounded up.
+fn widest_step(lattice: Lattice, layer: Length, overlap: f64, flanks: &Flanks) -> Length {
+    let unit = grid::SPACING * tips_per_step(lattice);
+    let [_, _, layer] = around(layer, grid::SPACING);
+    let ideal = 2.0 * (1.0 - overlap) * layer.to_mm() / flanks.slope / unit;
+    let steps = [ideal.floor(), ideal.ceil()].map(|count| Length::mm(count.max(1.0) * unit));
+    let [narrow, wide] = steps.map(|step| blade_reach::needed_reach(lattice, layer, step, flanks.slope));
+    let jump = Length::mm(unit * (1.0 + flanks.slope));
+    let [down, up] = steps;
+    if narrow > wide + jump { up } else { down }
+}
+
+/// A number for people: up to three decimals, without trailing zeros.
+#[must_use]
+pub fn show(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

@@ -1,0 +1,230 @@
+//! Which tips are cut: the lattice's own where they clear the part, and what the residual strategy makes of the others
+//! (process reference, section 5).
+//!
+//! A layer is decided as a whole against the surface that the layers above left, whatever the order in which its cuts
+//! will be made: cutting a neighbour first only lowers the surface, so a flank then comes out no later.
+//!
+//! With `auto`, a tip that would cut the part is dropped where leaving its material keeps the residual within the limit;
+//! otherwise it is raised, or if its chip would not come free there, moved sideways [Yu]. Dropped tips make the material
+//! beside them stand higher than the lattice assumes, so that a regular tip near a steep part may find its flank too
+//! long: `auto` then raises it by as little as frees its chip, and the layers below follow as far as the blade reaches.
+
+use super::lattice::{Column, Layout, Parity, Row};
+use super::parameters::VcutParameters;
+use super::{PlannedCut, TipOrigin, blade_reach, grid, smallest_gain};
+use crate::geom::curve::Point2;
+use crate::geom::profile::Profile;
+use crate::job::{Residual, RoughVcut};
+use crate::sim::surface::{Side, Surface, Vee};
+
+/// Decides one layer after the other.
+pub struct LayerPlanner<'p> {
+    layout: &'p Layout<'p>,
+    strategy: Residual,
+    parameters: &'p VcutParameters,
+    part: &'p Profile,
+    surface: &'p mut Surface,
+    /// Residual that `auto` leaves standing.
+    tolerated: f64,
+    smallest_gain: f64,
+    /// Whether flanks that do not come out are to be mended by raising their tips. Not where the lattice as a whole needs
+    /// more than the blade has: that is the user's to mend.
+    relieves: bool,
+    /// Columns that are done with, by parity.
+    closed: [Vec<bool>; 2],
+    cuts: Vec<PlannedCut>,
+    layers_cut: u32,
+}
+
+impl<'p> LayerPlanner<'p> {
+    /// For one operation on the surface left by those before.
+    #[must_use]
+    pub fn new(
+        layout: &'p Layout<'p>,
+        asked: &RoughVcut,
+        parameters: &'p VcutParameters,
+        part: &'p Profile,
+        surface: &'p mut Surface,
+    ) -> Self {
+        let lattice = asked.lattice.value;
+        let bound = blade_reach::scallop_bound(lattice, parameters.layer, parameters.step, parameters.flanks.slope);
+        let inherent = bound + asked.allowance.value + parameters.drop;
+        let tolerated = asked.limits.scallop.map_or(inherent, |limit| limit.value);
+        let relieves = asked.residual.value == Residual::Auto && parameters.lattice_fits(lattice);
+        Self {
+            layout,
+            strategy: asked.residual.value,
+            parameters,
+            part,
+            surface,
+            tolerated: tolerated.to_mm(),
+            smallest_gain: smallest_gain(parameters.layer).to_mm(),
+            relieves,
+            closed: [Vec::new(), Vec::new()],
+            cuts: Vec::new(),
+            layers_cut: 0,
+        }
+    }
+
+    /// Decides a layer and takes its chips out.
+    pub fn layer(&mut self, layer: u32) {
+        let z = self.layout.height(layer);
+        let mut tips: Vec<(Point2, TipOrigin)> = Vec::new();
+        let layout = self.layout;
+        match layout.row(layer) {
+            Row::Free(free) => {
+                for tip in free {
+                    tips.extend(self.reachable(tip, TipOrigin::Lattice));
+                }
+            }
+            Row::Columns { parity, columns } => {
+                self.closed[parity as usize].resize(columns.len(), false);
+                for (index, &column) in columns.iter().enumerate() {
+                    let decided = if column.floor <= z {
+                        self.reachable(Point2 { x: column.x, z }, TipOrigin::Lattice)
+                    } else {
+                        self.false_tip(parity, index, column, z, columns)
+                    };
+                    tips.extend(decided);
+                }
+            }
+        }
+        self.take(tips);
+    }
+
+    /// The cuts decided.
+    #[must_use]
+    pub fn finish(self) -> Vec<PlannedCut> {
+        self.cuts
+    }
+
+    fn take(&mut self, tips: Vec<(Point2, TipOrigin)>) {
+        if tips.is_empty() {
+            return;
+        }
+        self.layers_cut += 1;
+        for (tip, origin) in tips {
+            self.surface.release(self.vee(tip));
+            self.cuts.push(PlannedCut { layer: self.layers_cut, tip, origin });
+        }
+    }
+
+    /// A tip whose V would enter the part.
+    fn false_tip(
+        &mut self,
+        parity: Parity,
+        index: usize,
+        column: Column,
+        z: f64,
+        columns: &[Column],
+    ) -> Option<(Point2, TipOrigin)> {
+        match self.strategy {
+            Residual::Discard => None,
+            Residual::Lift => self.lifted(column),
+            Residual::Shift => self.shifted(index, column, z, columns),
+            Residual::Auto => {
+                let closed = self.closed[parity as usize].get_mut(index)?;
+                if *closed {
+                    return None;
+                }
+                if self.residual_around(column.x) <= self.tolerated {
+                    self.closed[parity as usize][index] = true;
+                    return None;
+                }
+                let lifted = self.lifted(column).filter(|&(tip, _)| self.comes_free(tip));
+                let shifted = |planner: &mut Self| {
+                    planner.shifted(index, column, z, columns).filter(|&(tip, _)| planner.comes_free(tip))
+                };
+                lifted
+                    .or_else(|| shifted(self))
+                    .or_else(|| self.relieved(Point2 { x: column.x, z: column.floor }))
+            }
+        }
+    }
+
+    /// Raised onto the part, where that still cuts something.
+    fn lifted(&mut self, column: Column) -> Option<(Point2, TipOrigin)> {
+        let tip = Point2 { x: column.x, z: column.floor };
+        self.gains(tip).then_some((tip, TipOrigin::Lifted))
+    }
+
+    /// Moved sideways onto the part, where no other tip of the row is near.
+    fn shifted(
+        &mut self,
+        index: usize,
+        column: Column,
+        z: f64,
+        columns: &[Column],
+    ) -> Option<(Point2, TipOrigin)> {
+        let step = self.layout.step();
+        let x = grid::nearest(self.layout.nearest_clear(column.x, z)?);
+        let tip = Point2 { x, z: z.max(self.layout.floor(x)) };
+        let crowded = [index.checked_sub(1), index.checked_add(1)]
+            .into_iter()
+            .flatten()
+            .filter_map(|neighbour| columns.get(neighbour))
+            .any(|other| (other.x - x).abs() < step / 4.0);
+        let near = (x - column.x).abs() < step;
+        (near && !crowded && self.gains(tip)).then_some((tip, TipOrigin::Shifted))
+    }
+
+    /// A tip that clears the part, as it is or raised until its chip comes free.
+    fn reachable(&mut self, tip: Point2, origin: TipOrigin) -> Option<(Point2, TipOrigin)> {
+        if !self.surface.covers(tip) {
+            return None;
+        }
+        if !self.relieves || self.comes_free(tip) {
+            return Some((tip, origin));
+        }
+        self.relieved(tip)
+    }
+
+    /// Raised by as little as frees the chip.
+    fn relieved(&mut self, wanted: Point2) -> Option<(Point2, TipOrigin)> {
+        let highest = grid::down(self.surface.height(wanted.x) - self.smallest_gain);
+        let at = |z: f64| Point2 { x: wanted.x, z };
+        if !self.relieves || highest <= wanted.z || !self.comes_free(at(highest)) {
+            return None;
+        }
+        // The reach a flank needs falls as its tip rises, so the lowest tip that comes free is found by halving.
+        let (mut bound, mut free) = (wanted.z, highest);
+        while free - bound > grid::SPACING * 1.5 {
+            let middle = grid::nearest((free + bound) / 2.0);
+            if self.comes_free(at(middle)) {
+                free = middle;
+            } else {
+                bound = middle;
+            }
+        }
+        Some((at(free), TipOrigin::Relieved))
+    }
+
+    /// Whether both flanks come out within the blade's reach, with room for its body.
+    fn comes_free(&mut self, tip: Point2) -> bool {
+        let reach = self.parameters.flanks.reach.to_mm();
+        let vee = self.vee(tip);
+        [Side::Left, Side::Right].into_iter().all(|side| {
+            let run = self.surface.flank(vee, side);
+            run.reach <= reach && run.blocked_at.is_none()
+        })
+    }
+
+    fn gains(&mut self, tip: Point2) -> bool {
+        self.surface.height(tip.x) - tip.z >= self.smallest_gain
+    }
+
+    /// The most material standing on the part within half a step of x, along the part's normal.
+    fn residual_around(&mut self, x: f64) -> f64 {
+        let half = self.layout.step() / 2.0;
+        let (from, to) = self.part.span();
+        let (from, to) = ((x - half).max(from), (x + half).min(to));
+        let ends = [from, to].map(|end| Point2 { x: end, z: self.surface.height(end) });
+        let part = self.part;
+        let inner = self.surface.corners_between(from, to).map(|corner| part.nearest_distance(corner));
+        inner.chain(ends.map(|end| part.nearest_distance(end))).fold(0.0, f64::max)
+    }
+
+    const fn vee(&self, tip: Point2) -> Vee {
+        Vee { tip, slope: self.parameters.flanks.slope }
+    }
+}

@@ -1,0 +1,18 @@
+//! The backends this build knows, by name.
+
+use vcutc_backend_api::backend::Backend;
+
+/// All backends, in the order of their names.
+#[must_use]
+pub fn backends() -> Vec<&'static dyn Backend> {
+    vec![
+        #[cfg(feature = "krl")]
+        &vcutc_backend_krl::Krl,
+    ]
+}
+
+/// The backend of that name.
+#[must_use]
+pub fn backend(id: &str) -> Option<&'static dyn Backend> {
+    backends().into_iter().find(|backend| backend.id() == id)
+}

@@ -1,0 +1,369 @@
+//! The proof that a program cuts every chip free and never enters the part.
+//!
+//! The cuts are read back from the program's own poses: where the tip runs, which way the shank leans, and so how steep
+//! the flank is and how much of the edge is left for it. They are replayed in the program's order. A flank is measured
+//! against the surface as it is when it is cut; when the second flank of a V is cut its chip is taken out. A chip that is
+//! not freed is taken out all the same after it has been noted, so that each finding stands for itself and not for those
+//! before.
+//!
+//! Beside the surface that the blade's middle plane leaves, a second one is kept for the blade's side towards the part,
+//! which lies a standoff deeper: that one must stay out of the part and its allowance everywhere. It is compared with them
+//! corner by corner at the end; between corners both are straight.
+
+use super::surface::{Side, Surface, Vee};
+use crate::geom::curve::Point2;
+use crate::geom::profile::Profile;
+use core::num::NonZeroU32;
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, Flank, OperationId, OrientationId, Program, Site};
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::verify::VerifiedProgram;
+
+/// What an operation must stay out of.
+#[derive(Clone, Copy, Debug)]
+pub struct Bound<'p> {
+    /// The part with its allowance.
+    pub part: &'p Profile,
+    /// How much deeper the blade's side towards the part lies than its middle plane, measured along z.
+    pub drop: Length,
+}
+
+/// Something wrong with a cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finding {
+    /// The operation.
+    pub operation: OperationId,
+    /// Its layer, from the top.
+    pub layer: NonZeroU32,
+    /// The cut in its layer.
+    pub cut: NonZeroU32,
+    /// Where its tip runs.
+    pub tip: Point2,
+    /// What is wrong.
+    pub fault: CutFault,
+}
+
+/// What can be wrong with a cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CutFault {
+    /// A flank does not come out within the cutting length.
+    NotFreed {
+        /// Edge length that would free the chip.
+        needed: Length,
+        /// Edge length the blade has.
+        available: Length,
+    },
+    /// Beyond the point where the flank comes out, material stands in the way of the blade's body.
+    Blocked {
+        /// Where.
+        at: Point2,
+    },
+    /// The cut enters the part or its allowance.
+    Overcut {
+        /// Where it goes deepest.
+        at: Point2,
+        /// How deep, along z.
+        depth: Length,
+    },
+}
+
+/// All faults of one kind, of which the worst is kept.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// How many cuts have a chip that is not freed, and the worst of them.
+    pub not_freed: Option<(usize, Finding)>,
+    /// How many cuts are blocked, and the first of them.
+    pub blocked: Option<(usize, Finding)>,
+    /// The deepest overcut.
+    pub overcut: Option<Finding>,
+}
+
+impl Findings {
+    /// The findings there are.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, Finding)> {
+        let overcut = self.overcut.map(|finding| (1, finding));
+        self.not_freed.into_iter().chain(self.blocked).chain(overcut)
+    }
+}
+
+/// What a replay shows.
+#[derive(Clone, Debug)]
+pub struct Replay {
+    /// The machined surface.
+    pub surface: Surface,
+    /// What is wrong.
+    pub findings: Findings,
+    /// The longest edge that any cut uses.
+    pub longest_edge: Length,
+    /// Cuts of each layer of each operation, in order.
+    pub layers: Vec<(OperationId, usize)>,
+}
+
+/// Replays a program's cuts. `bounds` are the operations' own, in order.
+#[must_use]
+pub fn replay(program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
+    let mut player = Player::new(program.program(), bounds);
+    for op in &program.program().ops {
+        player.op(op.site, op.action);
+    }
+    player.finish()
+}
+
+/// Depth below which an overcut is rounding: a nanometre.
+const OVERCUT: f64 = 1e-6;
+
+/// How a posture's flank lies in the x-z plane.
+#[derive(Clone, Copy)]
+struct FlankGeometry {
+    slope: f64,
+    /// Edge length per millimetre of height.
+    edge_per_height: f64,
+}
+
+struct Player<'p> {
+    program: &'p Program,
+    bounds: &'p [Bound<'p>],
+    surface: Surface,
+    /// The surface of the blade's side towards the part, where that differs.
+    guard: Option<Surface>,
+    tip: Point3,
+    held: OrientationId,
+    /// Geometry of each orientation with the blade of the operation at hand.
+    flanks: Vec<FlankGeometry>,
+    operation: Option<OperationId>,
+    layer: Option<NonZeroU32>,
+    /// First flanks done in the layer at hand, by cut number less one.
+    half_done: Vec<Option<Flank>>,
+    findings: Findings,
+    longest_edge: f64,
+    layers: Vec<(OperationId, usize)>,
+}
+
+impl<'p> Player<'p> {
+    fn new(program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
+        let surface = Surface::flat(program.stock.width.to_mm(), program.stock.height.to_mm());
+        let has_thickness = bounds.iter().any(|bound| bound.drop > Length::ZERO);
+        Self {
+            program,
+            bounds,
+            guard: has_thickness.then(|| surface.clone()),
+            surface,
+            tip: Point3::new(0.0, 0.0, 0.0),
+            held: OrientationId(0),
+            flanks: Vec::new(),
+            operation: None,
+            layer: None,
+            half_done: Vec::new(),
+            findings: Findings::default(),
+            longest_edge: 0.0,
+            layers: Vec::new(),
+        }
+    }
+
+    fn op(&mut self, site: Site, action: Action) {
+        match action {
+            Action::Travel { to, orientation, .. } => (self.tip, self.held) = (to, orientation),
+            Action::Approach { to, .. } | Action::Retract { to, .. } => self.tip = to,
+            Action::Turn { to, .. } => self.held = to,
+            Action::Cut { flank, to, .. } => {
+                self.tip = to;
+                if let Site::Cut { operation, layer, cut } = site {
+                    self.cut(operation, layer, cut, flank);
+                }
+            }
+            Action::Home
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => {}
+        }
+    }
+
+    fn cut(&mut self, operation: OperationId, layer: NonZeroU32, cut: NonZeroU32, flank: Flank) {
+        self.enter(operation, layer);
+        let Some(&geometry) = self.flanks.get(self.held.0 as usize) else { return };
+        let vee = Vee { tip: Point2 { x: self.tip.x, z: self.tip.z }, slope: geometry.slope };
+        let side = match flank {
+            Flank::Left => Side::Left,
+            Flank::Right => Side::Right,
+        };
+        if self.surface.covers(vee.tip) {
+            let run = self.surface.flank(vee, side);
+            let needed = run.reach * geometry.edge_per_height;
+            let finding = |fault| Finding { operation, layer, cut, tip: vee.tip, fault };
+            self.note_edge(needed, finding);
+            if let Some(at) = run.blocked_at {
+                note(&mut self.findings.blocked, finding(CutFault::Blocked { at }), |_, _| false);
+            }
+            self.longest_edge = self.longest_edge.max(needed);
+        }
+        self.finish_flank(operation, cut, flank, vee);
+    }
+
+    /// Notes a flank that needs more edge than the blade has.
+    fn note_edge(&mut self, needed: f64, finding: impl Fn(CutFault) -> Finding) {
+        let Some(available) = self.blade_length() else { return };
+        // The plan leaves out nothing below a nanometre; neither does the proof.
+        if needed > available + 1e-6 {
+            let fault =
+                CutFault::NotFreed { needed: Length::mm(needed), available: Length::mm(available) };
+            note(&mut self.findings.not_freed, finding(fault), is_longer);
+        }
+    }
+
+    fn blade_length(&self) -> Option<f64> {
+        let operation = self.program.operations.get(usize::from(self.operation?.0))?;
+        Some(operation.blade.cutting_length.to_mm())
+    }
+
+    /// Takes the chip out once both flanks are cut.
+    fn finish_flank(&mut self, operation: OperationId, cut: NonZeroU32, flank: Flank, vee: Vee) {
+        let index = cut.get() as usize - 1;
+        // The verifier has made sure that cuts of a layer are numbered without gaps.
+        if self.half_done.len() <= index {
+            self.half_done.resize(index + 1, None);
+            if let Some((_, cuts)) = self.layers.last_mut() {
+                *cuts += 1;
+            }
+        }
+        let Some(done) = self.half_done.get_mut(index) else { return };
+        if done.is_none() {
+            *done = Some(flank);
+            return;
+        }
+        self.surface.release(vee);
+        if let Some(guard) = &mut self.guard {
+            let drop = self.bounds.get(usize::from(operation.0)).map_or(0.0, |bound| bound.drop.to_mm());
+            guard.release(Vee { tip: Point2 { z: vee.tip.z - drop, ..vee.tip }, ..vee });
+        }
+    }
+
+    fn enter(&mut self, operation: OperationId, layer: NonZeroU32) {
+        if self.operation != Some(operation) {
+            self.operation = Some(operation);
+            self.flanks = self.geometry_of(operation);
+            self.layer = None;
+        }
+        if self.layer != Some(layer) {
+            self.layer = Some(layer);
+            self.half_done.clear();
+            self.layers.push((operation, 0));
+        }
+    }
+
+    fn geometry_of(&self, operation: OperationId) -> Vec<FlankGeometry> {
+        let Some(operation) = self.program.operations.get(usize::from(operation.0)) else { return Vec::new() };
+        let half_apex = operation.blade.half_apex;
+        let of = |orientation: &vcutc_backend_api::geometry::Orientation| {
+            let m = orientation.matrix();
+            // Tip to shank is -z_t: its slope in the x-z plane is the flank's, its angle to y the rake.
+            let (x, y, z) = (-m[0][2], -m[1][2], -m[2][2]);
+            let rake = Angle::rad(libm::acos(y.abs().min(1.0)));
+            let cos_swing = z / libm::hypot(x, z);
+            FlankGeometry {
+                slope: z / x.abs(),
+                edge_per_height: 1.0 / (cos_swing * (rake - half_apex).sin()),
+            }
+        };
+        self.program.orientations.iter().map(of).collect()
+    }
+
+    fn finish(mut self) -> Replay {
+        self.findings.overcut = self.overcut();
+        Replay {
+            surface: self.surface,
+            findings: self.findings,
+            longest_edge: Length::mm(self.longest_edge),
+            layers: self.layers,
+        }
+    }
+
+    /// The deepest entry into any operation's bound.
+    fn overcut(&self) -> Option<Finding> {
+        let surface = self.guard.as_ref().unwrap_or(&self.surface);
+        let corners: Vec<Point2> = surface.corners().collect();
+        let deepest = self
+            .bounds
+            .iter()
+            .map(|bound| deepest_entry(&corners, bound.part))
+            .min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let (at, gap) = deepest;
+        if gap >= -OVERCUT {
+            return None;
+        }
+        self.cut_through(at, CutFault::Overcut { at, depth: Length::mm(-gap) })
+    }
+
+    /// The cut whose V, on the blade's side towards the part, passes lowest through a point's x.
+    fn cut_through(&self, at: Point2, fault: CutFault) -> Option<Finding> {
+        let mut player = Player::new(self.program, self.bounds);
+        let mut lowest: Option<(f64, Finding)> = None;
+        for op in &self.program.ops {
+            player.op(op.site, op.action);
+            let (Action::Cut { .. }, Site::Cut { operation, layer, cut }) = (op.action, op.site) else { continue };
+            let Some(geometry) = player.flanks.get(player.held.0 as usize) else { continue };
+            let drop = self.bounds.get(usize::from(operation.0)).map_or(0.0, |bound| bound.drop.to_mm());
+            let tip = Point2 { x: player.tip.x, z: player.tip.z };
+            let height = tip.z - drop + (at.x - tip.x).abs() * geometry.slope;
+            if lowest.is_none_or(|(known, _)| height < known) {
+                lowest = Some((height, Finding { operation, layer, cut, tip, fault }));
+            }
+        }
+        lowest.map(|(_, finding)| finding)
+    }
+}
+
+/// Counts a finding and keeps the worse one.
+fn note(kept: &mut Option<(usize, Finding)>, finding: Finding, worse: impl Fn(&Finding, &Finding) -> bool) {
+    match kept {
+        Some((count, known)) => {
+            *count += 1;
+            if worse(&finding, known) {
+                *known = finding;
+            }
+        }
+        None => *kept = Some((1, finding)),
+    }
+}
+
+/// Whether one cut needs clearly more edge than another; the earlier one stands for equals.
+fn is_longer(a: &Finding, b: &Finding) -> bool {
+    let needed = |finding: &Finding| match finding.fault {
+        CutFault::NotFreed { needed, .. } => needed.to_mm(),
+        CutFault::Blocked { .. } | CutFault::Overcut { .. } => 0.0,
+    };
+    needed(a) > needed(b) + 1e-6
+}
+
+/// Where a surface comes lowest relative to a part, and by how much it stays above it there (negative: within).
+/// Both are straight between their corners, so the lowest point lies over a corner of one of them.
+fn deepest_entry(corners: &[Point2], part: &Profile) -> (Point2, f64) {
+    let mut deepest = (Point2 { x: 0.0, z: 0.0 }, f64::INFINITY);
+    let mut look = |x: f64, surface: f64, part: f64| {
+        if surface - part < deepest.1 {
+            deepest = (Point2 { x, z: surface }, surface - part);
+        }
+    };
+    merge_heights(corners, part.points(), &mut look);
+    deepest
+}
+
+/// Visits every x at which one of two polylines over the same span has a corner, with both heights there.
+pub(super) fn merge_heights(a: &[Point2], b: &[Point2], visit: &mut impl FnMut(f64, f64, f64)) {
+    let (mut i, mut j) = (0, 0);
+    while let (Some(&p), Some(&q)) = (a.get(i), b.get(j)) {
+        let x = p.x.min(q.x);
+        visit(x, height_before(a, i, x), height_before(b, j, x));
+        i += usize::from(p.x <= x);
+        j += usize::from(q.x <= x);
+    }
+}
+
+/// Height at x, which lies between corner `next - 1` and corner `next`.
+fn height_before(corners: &[Point2], next: usize, x: f64) -> f64 {
+    let Some(&to) = corners.get(next) else { return corners.last().map_or(0.0, |last| last.z) };
+    match next.checked_sub(1).and_then(|before| corners.get(before)) {
+        Some(&from) if to.x > from.x => from.z + (to.z - from.z) * ((x - from.x) / (to.x - from.x)),
+        Some(_) | None => to.z,
+    }
+}

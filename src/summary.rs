@@ -1,0 +1,77 @@
+//! The figures of a program for people: a few lines behind a compilation.
+
+use crate::plan::parameters::show;
+use crate::plan::{PlannedJob, PlannedOperation};
+use crate::sim::report::Report;
+use vcutc_backend_api::units::Duration;
+
+/// Most layers whose cuts are listed one by one.
+const LISTED_LAYERS: usize = 24;
+
+/// The lines of the summary.
+#[must_use]
+pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
+    let mut lines = vec![format!("{}: {} cuts in {} layers", plan.name, report.cuts(), report.layers.len())];
+    lines.push(row("per layer", &cuts_per_layer(report)));
+    for operation in &plan.operations {
+        let PlannedOperation::RoughVcut(vcut) = operation;
+        let choices: Vec<String> =
+            vcut.parameters.choices(&vcut.asked).iter().map(|c| format!("{} = {}", c.name, c.value)).collect();
+        if !choices.is_empty() {
+            lines.push(row("auto", &choices.join(", ")));
+        }
+    }
+    let t = &report.timing;
+    lines.push(row(
+        "time",
+        &format!(
+            "{} = cutting {} + turning {} + travel {} + waiting {}",
+            time(t.total()),
+            time(t.cutting),
+            time(t.turning),
+            time(t.travel),
+            time(t.waiting)
+        ),
+    ));
+    lines.push(row(
+        "area",
+        &format!("{:.1} mm2 removed, {:.1} mm2 stay on the part", report.removed.to_mm2(), report.residual.to_mm2()),
+    ));
+    lines.push(row(
+        "scallop",
+        &format!(
+            "at most {:.2} mm at x {:.1} mm, {:.2} mm on average; contours correlate to {:.2} %",
+            report.scallop.height.to_mm(),
+            report.scallop.peak.x,
+            report.mean_scallop.to_mm(),
+            report.correlation * 100.0
+        ),
+    ));
+    lines.push(row("edge", &format!("{} mm in use at most", show(report.longest_edge.to_mm()))));
+    lines
+}
+
+fn row(name: &str, text: &str) -> String {
+    format!("  {name:<10} {text}")
+}
+
+fn cuts_per_layer(report: &Report) -> String {
+    let listed: Vec<String> = report.layers.iter().take(LISTED_LAYERS).map(|(_, cuts)| cuts.to_string()).collect();
+    let more = report.layers.len().saturating_sub(LISTED_LAYERS);
+    let rest = if more > 0 { format!(" ... and {more} layers more") } else { String::new() };
+    listed.join(" ") + &rest
+}
+
+/// `1 h 02 min 03 s`, `2 min 05.4 s`, `5.4 s`.
+fn time(duration: Duration) -> String {
+    let tenths = (duration.to_s() * 10.0).round();
+    let (minutes, seconds) = ((tenths / 600.0).floor(), (tenths % 600.0) / 10.0);
+    let (hours, minutes) = ((minutes / 60.0).floor(), minutes % 60.0);
+    if hours > 0.0 {
+        format!("{hours} h {minutes:02} min {seconds:02.0} s")
+    } else if minutes > 0.0 {
+        format!("{minutes} min {seconds:04.1} s")
+    } else {
+        format!("{seconds:.1} s")
+    }
+}

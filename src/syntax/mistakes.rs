@@ -1,0 +1,324 @@
+//! Bad statements in words.
+//!
+//! A statement that the grammar took up as bad is read once more on its own. How far that goes is where the mistake
+//! is, and what the grammar could have gone on with there is what the message asks for, in the language's own words.
+
+use super::build::Place;
+use super::grammar::{Mismatch, Rule, read};
+use super::lexical::{Token, TokenKind, tokens};
+use super::slips;
+use crate::diag::{Code, Diagnostic};
+use crate::source::Span;
+use std::ops::Range;
+
+/// A statement that cannot be read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bad<'t> {
+    /// Where the whole text stands.
+    pub(super) place: Place,
+    /// The whole text as written.
+    pub(super) text: &'t str,
+    /// The statement, with brackets balanced.
+    pub(super) mended: &'t str,
+    /// Where it begins in the text.
+    pub(super) start: usize,
+    /// Where the statement before it ended in the text.
+    pub(super) previous_end: usize,
+}
+
+impl Bad<'_> {
+    /// A stretch of the statement as a place in the file.
+    pub(super) fn span(&self, range: Range<usize>) -> Span {
+        self.place
+            .span(self.start.saturating_add(range.start)..self.start.saturating_add(range.end))
+    }
+
+    /// A stretch of the statement as written.
+    pub(super) fn slice(&self, range: Range<usize>) -> &str {
+        self.mended.get(range).unwrap_or_default()
+    }
+
+    /// A token as written.
+    pub(super) fn token(&self, token: Token) -> &str {
+        self.slice(token.start..token.end)
+    }
+
+    /// The tokens without comments.
+    fn tokens(&self) -> impl Iterator<Item = Token> {
+        tokens(self.mended).filter(|token| token.kind != TokenKind::Comment)
+    }
+}
+
+/// What is wrong with a statement that should follow `rule`.
+pub(super) fn explain(bad: &Bad<'_>, rule: Rule) -> Diagnostic {
+    if let Some(report) = misplaced(bad, rule) {
+        return report;
+    }
+    match read(rule, bad.mended) {
+        Err(Mismatch::At { position, expected }) => mismatch(bad, position, &expected),
+        Ok(_) | Err(Mismatch::TooMuchWork) => Diagnostic::new(
+            Code::UnexpectedText,
+            "this does not belong here",
+            bad.span(0..bad.mended.trim_end().len()),
+            "no statement that is known",
+        ),
+    }
+}
+
+/// Statements that are wrong as a whole, not from some place on.
+fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
+    let mut tokens = bad.tokens();
+    let first = tokens.next()?;
+    let (second, third) = (tokens.next(), tokens.next());
+    let is_entry = rule == Rule::only_entry;
+    let word = bad.token(first);
+    let here = bad.span(first.start..first.end);
+    if word == "," {
+        return Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                "a comma without an entry before it",
+                here,
+                "one comma between entries is enough",
+            )
+            .fix("delete it", here, ""),
+        );
+    }
+    if first.kind != TokenKind::Word {
+        return None;
+    }
+    let behind = second.map(|token| (token.kind, bad.token(token)));
+    match (word, behind) {
+        ("let" | "use" | "job", Some((TokenKind::Word | TokenKind::Text, _))) if is_entry => Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                format!("`{word}` cannot stand in a block"),
+                here,
+                "inside of a block here",
+            )
+            .help(format!(
+                "move the `{word}` out of the block, to the top of the file"
+            )),
+        ),
+        (_, None) if is_entry && is_leftover(bad) => Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                format!("`{}` does not belong here", shown(word)),
+                here,
+                "the entry before it is complete already",
+            )
+            .help(format!(
+                "delete it, or make it an entry of its own: `{word} = ...`"
+            )),
+        ),
+        (_, Some((TokenKind::Word | TokenKind::Text, _))) if is_entry && third.is_none() => {
+            let value = second?;
+            let gap = bad.span(first.end..value.start);
+            is_plain_name(word).then(|| missing_equals(word, bad.span(value.start..value.end), gap))
+        }
+        (_, Some((TokenKind::Symbol, "="))) if !is_entry && is_value_line(bad) => Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                format!("expected `let` before `{word}`"),
+                here,
+                "a value outside of any block needs `let`",
+            )
+            .fix(
+                format!("write `let {word} = ...`"),
+                bad.span(first.start..first.start),
+                "let ",
+            ),
+        ),
+        _ => None,
+    }
+}
+
+/// Whether the statement goes on where the one before it ended, with no comma or line end between.
+fn is_leftover(bad: &Bad<'_>) -> bool {
+    let between = bad.text.get(bad.previous_end..bad.start);
+    bad.previous_end > 0
+        && between.is_some_and(|between| between.bytes().all(|byte| matches!(byte, b' ' | b'\t')))
+}
+
+/// Whether `name = ...` is all there is, and no head of a block.
+fn is_value_line(bad: &Bad<'_>) -> bool {
+    bad.tokens().all(|token| bad.token(token) != "{") && read(Rule::only_entry, bad.mended).is_ok()
+}
+
+/// Whether a word begins nothing but a field.
+fn is_plain_name(word: &str) -> bool {
+    !matches!(
+        word,
+        "start" | "line" | "arc" | "bezier" | "spline" | "polyline" | "points" | "airfoil"
+    )
+}
+
+fn missing_equals(name: &str, value: Span, gap: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::UnexpectedText,
+        format!("expected `=` after `{}`", shown(name)),
+        value,
+        "`=` is missing before this",
+    )
+    .fix("put `=` between name and value", gap, " = ")
+}
+
+/// What is wrong when a statement is right up to `position`, where one of `expected` should follow.
+pub(super) fn mismatch(bad: &Bad<'_>, position: usize, expected: &[Rule]) -> Diagnostic {
+    let mut before = None;
+    let mut found = None;
+    let mut next = None;
+    for token in bad.tokens() {
+        if token.end <= position {
+            before = Some(token);
+        } else if found.is_none() {
+            found = Some(token);
+        } else {
+            next = Some(token);
+            break;
+        }
+    }
+    let fault = Fault {
+        before,
+        found,
+        next,
+        expected,
+    };
+    slips::find(bad, &fault).unwrap_or_else(|| plain(bad, &fault))
+}
+
+/// A mistake within a statement.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fault<'r> {
+    /// The last token that is right.
+    pub(super) before: Option<Token>,
+    /// The first that is not, if the statement does not end too soon.
+    pub(super) found: Option<Token>,
+    /// The one after it.
+    pub(super) next: Option<Token>,
+    /// What could stand there instead.
+    pub(super) expected: &'r [Rule],
+}
+
+impl Fault<'_> {
+    /// Whether this could stand there.
+    pub(super) fn expects(&self, rule: Rule) -> bool {
+        self.expected.contains(&rule)
+    }
+
+    /// Whether a value could stand there.
+    pub(super) fn expects_value(&self) -> bool {
+        [
+            Rule::expression,
+            Rule::number,
+            Rule::negate,
+            Rule::argument,
+            Rule::group,
+        ]
+        .into_iter()
+        .any(|rule| self.expects(rule))
+    }
+}
+
+/// The message for a mistake that is none of the usual slips.
+fn plain(bad: &Bad<'_>, fault: &Fault<'_>) -> Diagnostic {
+    let wanted = wanted(fault);
+    let context = fault.before.map(|before| context(bad, before));
+    let message = match (wanted, &context, fault.found) {
+        (Some(wanted), Some(context), _) => format!("expected {wanted} after `{context}`"),
+        (Some(wanted), None, _) => format!("expected {wanted}"),
+        (None, _, Some(found)) => format!("`{}` does not belong here", shown(bad.token(found))),
+        (None, _, None) => "this statement is not complete".to_owned(),
+    };
+    let (span, label) = match (fault.found, &context) {
+        (Some(found), Some(context)) if wanted.is_none() => (
+            bad.span(found.start..found.end),
+            format!("nothing more can follow `{context}`"),
+        ),
+        (Some(found), _) => (
+            bad.span(found.start..found.end),
+            format!("found `{}`", shown(bad.token(found))),
+        ),
+        (None, _) => {
+            let end = fault.before.map_or(0, |before| before.end);
+            (bad.span(end..end), "the statement ends here".to_owned())
+        }
+    };
+    let report = Diagnostic::new(Code::UnexpectedText, message, span, label);
+    match help(fault) {
+        Some(help) => report.help(help),
+        None => report,
+    }
+}
+
+/// What a message asks for; `None` when the statement should have ended.
+fn wanted(fault: &Fault<'_>) -> Option<&'static str> {
+    let expects = |rule| fault.expects(rule);
+    let words = match () {
+        () if expects(Rule::comma) && expects(Rule::close) => "`,` or `)`",
+        () if expects(Rule::close) && !fault.expects_value() => "`)`",
+        () if expects(Rule::comma) => "`,` and a second coordinate",
+        () if expects(Rule::point_open) && expects(Rule::to_word) => "a point or `to`",
+        () if expects(Rule::point_open) || expects(Rule::point) => "a point",
+        () if expects(Rule::to_word) => "`to`",
+        () if expects(Rule::arc_radius) || expects(Rule::radius_word) => "`radius`, `center` or `through`",
+        () if fault.expects_value() => "a value",
+        // The head of a block can go on with `=` too, but a brace is what it lacks.
+        () if expects(Rule::block_open) && expects(Rule::equals) && !expects(Rule::at_most) => "`{`",
+        () if expects(Rule::equals) => "`=`",
+        () if expects(Rule::block_open) => "`{`",
+        () if expects(Rule::text) && !expects(Rule::name) => "a text in quotes",
+        () if expects(Rule::job) || expects(Rule::job_word) => "`job`, `use`, `let` or a block",
+        () if expects(Rule::name) || expects(Rule::good_entry) => "a name",
+        () => return None,
+    };
+    Some(words)
+}
+
+/// What to do, where the headline does not say it.
+fn help(fault: &Fault<'_>) -> Option<&'static str> {
+    match wanted(fault)? {
+        "`,` and a second coordinate" => Some("a point is written `(x, z)`, as in `(20 mm, 30 mm)`"),
+        "a point" | "a point or `to`" => Some("write a point such as `(20 mm, 30 mm)`"),
+        "`to`" => Some("the last point of a curve follows the word `to`, as in `line to (20 mm, 30 mm)`"),
+        "`radius`, `center` or `through`" => {
+            Some("say how the arc runs: `radius 30 mm`, `center (20 mm, 0 mm)` or `through (20 mm, 30 mm)`")
+        }
+        "a value" => Some("write a value such as `4.4 mm`, `auto` or `\"text\"`"),
+        "a text in quotes" => Some("write it in quotes, as in `\"shop/blades.vcut\"`"),
+        _ => None,
+    }
+}
+
+/// The words before a mistake, as many as help to find it.
+fn context(bad: &Bad<'_>, before: Token) -> String {
+    const LONGEST: usize = 28;
+    let mut start = before.start;
+    for token in tokens(bad.mended) {
+        let is_near = token.line == before.line && before.end - token.start.min(before.end) <= LONGEST;
+        if is_near {
+            start = token.start;
+            break;
+        }
+    }
+    shown(bad.slice(start.min(before.start)..before.end))
+}
+
+/// A piece of text in a form that fits a message.
+pub(super) fn shown(text: &str) -> String {
+    const LONGEST: usize = 40;
+    let mut characters = text.chars();
+    let mut shown: String = characters
+        .by_ref()
+        .take(LONGEST)
+        .flat_map(|c| match c {
+            // Quotes are fine within backticks.
+            '"' | '\'' | '\\' => vec![c],
+            _ => c.escape_debug().collect(),
+        })
+        .collect();
+    if characters.next().is_some() {
+        shown.push_str("...");
+    }
+    shown
+}

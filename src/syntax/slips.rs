@@ -1,0 +1,166 @@
+//! The usual slips: what hands used to other languages and other keyboards write, and how it is written here.
+
+use super::grammar::Rule;
+use super::lexical::{Token, TokenKind};
+use super::mistakes::{Bad, Fault, shown};
+use crate::diag::{Code, Diagnostic};
+
+/// The message for a usual slip, if the mistake is one.
+pub(super) fn find(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {
+    let found = fault.found?;
+    numbers(bad, fault, found)
+        .or_else(|| marks(bad, fault, found))
+        .or_else(|| characters(bad, found))
+}
+
+/// One token that should be another.
+fn instead(bad: &Bad<'_>, found: Token, headline: &str, label: &str, replacement: &str) -> Diagnostic {
+    let span = bad.span(found.start..found.end);
+    let title = if replacement.is_empty() {
+        format!("delete `{}`", shown(bad.token(found)))
+    } else {
+        format!("write `{replacement}`")
+    };
+    Diagnostic::new(Code::UnexpectedText, headline, span, label).fix(title, span, replacement)
+}
+
+/// Numbers in other notations.
+fn numbers(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
+    let is_number = |token: Option<Token>| token.filter(|token| token.kind == TokenKind::Number);
+    let before = is_number(fault.before).filter(|before| before.end == found.start);
+    let next = is_number(fault.next).filter(|next| next.start == found.end);
+    match (bad.token(found), before, next) {
+        (",", Some(before), Some(next)) => {
+            let right = format!("{}.{}", bad.token(before), bad.token(next));
+            let span = bad.span(before.start..next.end);
+            Some(
+                Diagnostic::new(
+                    Code::UnexpectedText,
+                    "a decimal comma",
+                    span,
+                    "decimals are written with a point",
+                )
+                .fix(format!("write `{right}`"), span, right.clone()),
+            )
+        }
+        (".", None, Some(next)) => {
+            let right = format!("0.{}", bad.token(next));
+            let span = bad.span(found.start..next.end);
+            Some(
+                Diagnostic::new(
+                    Code::UnexpectedText,
+                    "a number begins with a digit",
+                    span,
+                    "no digit before the point",
+                )
+                .fix(format!("write `{right}`"), span, right.clone()),
+            )
+        }
+        (".", Some(before), None) => Some(instead(
+            bad,
+            found,
+            "a decimal point without decimals",
+            &format!("no digit follows; `{}` alone will do", bad.token(before)),
+            "",
+        )),
+        _ => None,
+    }
+}
+
+/// Marks of other languages.
+fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
+    let slip = |headline, label, right| Some(instead(bad, found, headline, label, right));
+    match bad.token(found) {
+        ":" if fault.expects(Rule::equals) => {
+            slip("expected `=`, found `:`", "a value is given with `=`", "=")
+        }
+        "==" if fault.expects(Rule::equals) => slip(
+            "expected `=`, found `==`",
+            "a value is given with a single `=`",
+            "=",
+        ),
+        "<" if fault.expects(Rule::at_most) => {
+            slip("expected `<=`, found `<`", "an upper limit is written `<=`", "<=")
+        }
+        ">" if fault.expects(Rule::at_least) => {
+            slip("expected `>=`, found `>`", "a lower limit is written `>=`", ">=")
+        }
+        ";" => slip(
+            "`;` does not belong here",
+            "a line end or a comma ends an entry",
+            "",
+        ),
+        "#" => slip("`#` does not belong here", "comments begin with `//`", "//"),
+        "+" if fault.expects_value() => slip(
+            "`+` does not belong here",
+            "a positive number has no sign before it",
+            "",
+        ),
+        "*" if fault.expects_value() => {
+            let star = fault.before.filter(|before| before.end == found.start)?;
+            (bad.token(star) == "*").then(|| {
+                let span = bad.span(star.start..found.end);
+                Diagnostic::new(
+                    Code::UnexpectedText,
+                    "`**` is no operator",
+                    span,
+                    "powers are written with `^`",
+                )
+                .fix("write `^`", span, "^")
+            })
+        }
+        "[" => Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                "`[` does not belong here",
+                bad.span(found.start..found.end),
+                "no brackets of this kind are used",
+            )
+            .help("write values that belong together as `(a, b, c)`"),
+        ),
+        "'" => Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                "`'` does not belong here",
+                bad.span(found.start..found.end),
+                "no quotes of this kind are used",
+            )
+            .help("write a text in double quotes, as in `\"text\"`"),
+        ),
+        "centre" if fault.expects(Rule::center_word) || fault.expects(Rule::arc_center) => {
+            slip("expected `center`, found `centre`", "spelled `center`", "center")
+        }
+        _ => None,
+    }
+}
+
+/// Characters of other keyboards and of word processors.
+fn characters(bad: &Bad<'_>, found: Token) -> Option<Diagnostic> {
+    let c = bad.token(found).chars().next()?;
+    let (name, right) = match c {
+        '°' => ("a degree sign", " deg"),
+        '\u{2212}' | '\u{2013}' | '\u{2014}' => ("a dash", "-"),
+        '×' | '·' | '⋅' => ("a multiplication sign", "*"),
+        '÷' => ("a division sign", "/"),
+        '≤' => ("a sign that is written with two characters", "<="),
+        '≥' => ("a sign that is written with two characters", ">="),
+        '\u{201c}' | '\u{201d}' | '\u{201e}' | '«' | '»' => ("a typographic quote", "\""),
+        c if c.is_whitespace() || c == '\u{feff}' || c == '\u{200b}' => ("a special blank", " "),
+        _ => return None,
+    };
+    let shown_right = right.trim();
+    let help = match shown_right {
+        "" => "write an ordinary blank".to_owned(),
+        right => format!("write `{right}`"),
+    };
+    let span = bad.span(found.start..found.start + c.len_utf8());
+    Some(
+        Diagnostic::new(
+            Code::UnexpectedText,
+            format!("{name} (U+{:04X}) does not belong here", u32::from(c)),
+            span,
+            "this character is not part of the language",
+        )
+        .fix(help, span, right),
+    )
+}

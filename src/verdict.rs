@@ -1,0 +1,236 @@
+//! What a proof found wrong, in the user's words, and which change would mend it.
+//!
+//! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
+
+use crate::diag::{Code, Diagnostic};
+use crate::job::{Auto, Blade, CheckedJob, Operation, Residual, RoughVcut};
+use crate::lower;
+use crate::plan::grid;
+use crate::plan::parameters::{self, show};
+use crate::plan::{self, PlannedJob, PlannedOperation, PlannedVcut};
+use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Replay};
+use crate::sim::report::{Report, report};
+use crate::sim::timing::timing;
+use crate::source::SourceMap;
+use vcutc_backend_api::ir::OperationId;
+use vcutc_backend_api::units::Length;
+use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
+
+/// A program with its proof, good or bad.
+#[derive(Debug)]
+pub struct Proven {
+    /// The program.
+    pub program: VerifiedProgram,
+    /// What is wrong with its cuts.
+    pub findings: Findings,
+    /// Its figures.
+    pub report: Report,
+}
+
+/// Writes a plan down as a program and proves it.
+///
+/// # Errors
+/// When the program breaks a rule of the IR, which is a fault of the compiler.
+pub fn prove(plan: &PlannedJob, sources: &SourceMap) -> Result<Proven, Vec<Fault>> {
+    let program = verify(lower::lower(plan, sources))?;
+    let replay = replay(plan, &program);
+    let findings = replay.findings.clone();
+    let timing = timing(&program);
+    let report = report(replay, plan.stock, &plan.profile, timing);
+    Ok(Proven { program, findings, report })
+}
+
+fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
+    let bounds: Vec<Bound<'_>> = plan
+        .operations
+        .iter()
+        .map(|operation| match operation {
+            PlannedOperation::RoughVcut(vcut) => Bound { part: &vcut.bound, drop: vcut.parameters.drop },
+        })
+        .collect();
+    prove::replay(program, &bounds)
+}
+
+/// Puts everything that is wrong with a proven program into words.
+#[must_use]
+pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Diagnostic> {
+    let mut diagnostics: Vec<Diagnostic> = proven
+        .findings
+        .iter()
+        .filter_map(|(count, finding)| {
+            let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(finding.operation.0))?;
+            Some(match finding.fault {
+                CutFault::NotFreed { needed, .. } => not_freed(job, vcut, finding, count, needed),
+                CutFault::Blocked { at } => {
+                    let asked = &vcut.asked;
+                    let headline = format!("above {}, uncut material stands in the way of the blade", place(&finding));
+                    let here = format!("the blade meets material at {}", point(at.x, at.z));
+                    Diagnostic::new(Code::BladeBlocked, headline, asked.swing.span.unwrap_or(asked.head_span), here)
+                        .note("an operation before this one left walls steeper than this operation's flanks")
+                        .help("give both operations the same `swing`, or let this one come first")
+                }
+                CutFault::Overcut { at, depth } => Diagnostic::new(
+                    Code::Overcut,
+                    format!("{} enters the part by {} mm", place(&finding), show(depth.to_mm())),
+                    vcut.asked.head_span,
+                    format!("deepest at {}", point(at.x, at.z)),
+                )
+                .note("the planner keeps every cut out of the part, so this is a fault of the compiler: please report it"),
+            })
+        })
+        .collect();
+    if diagnostics.is_empty() {
+        diagnostics.extend(scallop_over_limit(job, plan, &proven.report));
+    }
+    diagnostics
+}
+
+/// `layer 7, cut 12 (x 43.2 mm, z 18.6 mm)`.
+fn place(finding: &Finding) -> String {
+    format!("layer {}, cut {} ({})", finding.layer, finding.cut, point(finding.tip.x, finding.tip.z))
+}
+
+fn point(x: f64, z: f64) -> String {
+    format!("x {} mm, z {} mm", show(x), show(z))
+}
+
+fn not_freed(job: &CheckedJob, vcut: &PlannedVcut, finding: Finding, count: usize, needed: Length) -> Diagnostic {
+    let asked = &vcut.asked;
+    let blade = &asked.blade;
+    let available = show(blade.cutting_length.value.to_mm());
+    // Rounded up: 10.003 mm is not 10 mm.
+    let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
+    let layer = show(vcut.parameters.layer.to_mm());
+    let (span, label) = match (asked.layer.span, asked.step.span) {
+        (Some(span), _) => (span, format!("layers of {layer} mm are deeper than this blade can cut free")),
+        (None, Some(span)) => {
+            (span, format!("with this step, layers of {layer} mm are deeper than this blade can cut free"))
+        }
+        (None, None) => (asked.head_span, format!("with layers of {layer} mm this chip is not cut free")),
+    };
+    let headline = format!("{} needs {needed} mm of edge, the blade has {available} mm", place(&finding));
+    let mut diagnostic = Diagnostic::new(Code::ChipNotFreed, headline, span, label)
+        .and(blade_span(blade), format!("{available} mm of edge"));
+    if count > 1 {
+        diagnostic = diagnostic.note(format!("{} more cuts need more edge than the blade has", count - 1));
+    }
+    match remedy(job, vcut, finding.operation) {
+        Some(Remedy::Layer(layer)) => {
+            let value = format!("{} mm", show(layer.to_mm()));
+            let diagnostic = diagnostic.help(format!("use a `layer` of at most {value}"));
+            match asked.layer.span {
+                Some(span) => diagnostic.fix("use the largest layer that works", span, value),
+                None => diagnostic,
+            }
+        }
+        Some(Remedy::ResidualAuto) => {
+            let diagnostic = diagnostic
+                .note("cuts dropped, raised or moved to clear the part left more material than the lattice assumes")
+                .help("set `residual = auto`, which mends such cuts");
+            match asked.residual.span {
+                Some(span) => diagnostic.fix("let the compiler mend it", span, "auto"),
+                None => diagnostic,
+            }
+        }
+        None => diagnostic.help("use a longer blade, a smaller `swing` or a smaller `step`"),
+    }
+}
+
+fn blade_span(blade: &Blade) -> crate::source::Span {
+    blade.cutting_length.span.unwrap_or(blade.span)
+}
+
+/// A change that mends a job.
+enum Remedy {
+    /// A smaller layer.
+    Layer(Length),
+    /// `residual = auto`.
+    ResidualAuto,
+}
+
+/// The first change that makes the job prove: `residual = auto` where the lattice itself fits the blade, else the largest
+/// layer by closed form, else smaller ones.
+fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Option<Remedy> {
+    let asked = &vcut.asked;
+    if asked.residual.value != Residual::Auto && vcut.parameters.lattice_fits(asked.lattice.value) {
+        let works = proves_with(job, operation, |asked| asked.residual.value = Residual::Auto);
+        if works {
+            return Some(Remedy::ResidualAuto);
+        }
+    }
+    let (flanks, drop) = (&vcut.parameters.flanks, vcut.parameters.drop);
+    let largest = match asked.step.value {
+        Auto::Auto => parameters::largest_layer(asked, flanks, drop),
+        Auto::Given(step) => parameters::largest_layer_at(asked, step, flanks, drop),
+    };
+    let start = largest.min(vcut.parameters.layer).to_mm();
+    let candidates = [1.0, 0.9, 0.75, 0.5].map(|share| grid::down(start * share * 0.1) * 10.0);
+    candidates
+        .into_iter()
+        .filter(|&layer| layer > 0.0)
+        .map(Length::mm)
+        .find(|&layer| proves_with(job, operation, |asked| asked.layer.value = Auto::Given(layer)))
+        .map(Remedy::Layer)
+}
+
+/// Whether the job plans and proves with a change of one operation.
+fn proves_with(job: &CheckedJob, operation: OperationId, change: impl Fn(&mut RoughVcut)) -> bool {
+    let mut changed = job.clone();
+    let Some(Operation::RoughVcut(asked)) = changed.operations.get_mut(usize::from(operation.0)) else {
+        return false;
+    };
+    change(asked);
+    let (Some(plan), diagnostics) = plan::choose(&changed) else { return false };
+    let Ok(proven) = prove(&plan, &SourceMap::default()) else { return false };
+    diagnostics.is_empty()
+        && proven.findings == Findings::default()
+        && scallop_excess(&plan, &proven.report).is_none()
+}
+
+/// The operation with the tightest scallop limit, if the machined contour is above it.
+fn scallop_excess<'p>(plan: &'p PlannedJob, report: &Report) -> Option<(OperationId, &'p RoughVcut, Length)> {
+    let limits = (0..).zip(&plan.operations).filter_map(|(index, operation)| {
+        let PlannedOperation::RoughVcut(vcut) = operation;
+        let limit = vcut.asked.limits.scallop?;
+        Some((OperationId(index), &vcut.asked, limit.value))
+    });
+    let tightest = limits.min_by(|(.., a), (.., b)| a.total_cmp(b))?;
+    // The search for the highest point works in floating point; a micrometre over the limit is no excess.
+    (report.scallop.height > tightest.2 + Length::mm(1e-3)).then_some(tightest)
+}
+
+fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> Option<Diagnostic> {
+    let (operation, asked, limit) = scallop_excess(plan, report)?;
+    let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
+    let limit_mm = show(limit.to_mm());
+    let span = asked.limits.scallop.and_then(|limit| limit.span).unwrap_or(asked.head_span);
+    let headline = format!("{height} mm of material stay on the part at x {} mm, the limit is {limit_mm} mm", show(peak.x));
+    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit")
+        .and(job.profile_span, format!("the part lies {height} mm below the highest material, {}", point(peak.x, peak.z)));
+    let planned = plan.operations.get(usize::from(operation.0))?;
+    let PlannedOperation::RoughVcut(vcut) = planned;
+    let layers = [1.0, 0.75, 0.5, 0.25].map(|share| vcut.parameters.layer.to_mm() * share);
+    let works = [Residual::Auto, Residual::Lift].into_iter().find_map(|residual| {
+        layers.iter().copied().map(|layer| grid::down(layer * 0.1) * 10.0).filter(|&layer| layer > 0.0).find_map(|layer| {
+            let works = proves_with(job, operation, |asked| {
+                asked.residual.value = residual;
+                asked.layer.value = Auto::Given(Length::mm(layer));
+            });
+            works.then_some((residual, layer))
+        })
+    });
+    Some(match works {
+        Some((residual, layer)) => {
+            let word = match residual {
+                Residual::Auto => "auto",
+                Residual::Lift => "lift",
+                Residual::Shift => "shift",
+                Residual::Discard => "discard",
+            };
+            diagnostic.help(format!("use `residual = {word}` with a `layer` of {} mm", show(layer)))
+        }
+        None => diagnostic
+            .note("where the part is steeper than the flanks of the V, cuts cannot follow it whatever their size")
+            .help(format!("raise the limit to {} mm, or use a smaller `swing`", show((report.scallop.height.to_mm() * 10.0).ceil() / 10.0))),
+    })
+}
