@@ -26,7 +26,7 @@ const EDGES: &[(&str, Edges)] = &[("single", Edges::Single), ("double", Edges::D
 
 /// A blade.
 pub(crate) fn check(
-    name: &Spanned<String>,
+    name: Spanned<&str>,
     block: &Block,
     place: Place,
     scope: Scope<'_>,
@@ -44,7 +44,7 @@ pub(crate) fn check(
         .required_value("edges", reader.reports)
         .and_then(|expr| reader.word("edges", expr, EDGES));
     Ok(Blade {
-        name: name.node.clone(),
+        name: name.node.to_owned(),
         span: name.span,
         cutting_length: cutting_length?,
         half_apex: half_apex?,

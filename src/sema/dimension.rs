@@ -105,10 +105,10 @@ impl Dimension {
         let mut above = String::new();
         let mut below = String::new();
         for (unit, exponent) in powers {
-            let (side, separator) = if exponent > 0 {
-                (&mut above, if above.is_empty() { "" } else { "*" })
-            } else {
-                (&mut below, "/")
+            let (side, separator) = match exponent {
+                1.. if above.is_empty() => (&mut above, ""),
+                1.. => (&mut above, "*"),
+                _ => (&mut below, "/"),
             };
             // Writing to a String cannot fail.
             let _ = match exponent.unsigned_abs() {
@@ -155,7 +155,12 @@ mod tests {
         assert_eq!(huge.power(2), None);
         assert_eq!(Dimension::new(-100, 0, 0, 0).over(huge), None);
         assert_eq!(Dimension::LENGTH.root(), None);
-        assert_eq!(Dimension::LENGTH.times(Dimension::LENGTH).and_then(Dimension::root), Some(Dimension::LENGTH));
+        assert_eq!(
+            Dimension::LENGTH
+                .times(Dimension::LENGTH)
+                .and_then(Dimension::root),
+            Some(Dimension::LENGTH)
+        );
     }
 
     /// Exponents as a plain vector of wide integers.
@@ -164,7 +169,8 @@ mod tests {
     }
 
     fn any_dimension() -> impl Strategy<Value = Dimension> {
-        (any::<i8>(), any::<i8>(), any::<i8>(), any::<i8>()).prop_map(|(l, a, t, m)| Dimension::new(l, a, t, m))
+        (any::<i8>(), any::<i8>(), any::<i8>(), any::<i8>())
+            .prop_map(|(l, a, t, m)| Dimension::new(l, a, t, m))
     }
 
     fn narrow(wide: [i32; 4]) -> Option<[i32; 4]> {

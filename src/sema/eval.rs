@@ -80,7 +80,12 @@ impl Scope<'_> {
     }
 
     /// The value of an expression that stands `depth` levels deep in another.
-    pub(super) fn at_depth(&self, expr: &Spanned<Expr>, depth: usize, reports: &mut Reports) -> Checked<Quantity> {
+    pub(super) fn at_depth(
+        &self,
+        expr: &Spanned<Expr>,
+        depth: usize,
+        reports: &mut Reports,
+    ) -> Checked<Quantity> {
         if depth > DEEPEST {
             let diagnostic = Diagnostic::new(
                 Code::NestedTooDeeply,
@@ -116,7 +121,12 @@ impl Scope<'_> {
     fn chain(&self, expr: &Spanned<Expr>, depth: usize, reports: &mut Reports) -> Checked<Quantity> {
         let mut steps = Vec::new();
         let mut first = expr;
-        while let Expr::Binary { operator, left, right } = &first.node {
+        while let Expr::Binary {
+            operator,
+            left,
+            right,
+        } = &first.node
+        {
             steps.push((first, operator, left.as_ref(), right.as_ref()));
             first = left;
         }
@@ -217,7 +227,9 @@ fn combine(
 ) -> Result<Quantity, Box<Diagnostic>> {
     let (a, b) = (left.quantity, right.quantity);
     match operator.node {
-        Operator::Add => same_dimension("+", left, right).map(|dimension| Quantity::new(a.value + b.value, dimension)),
+        Operator::Add => {
+            same_dimension("+", left, right).map(|dimension| Quantity::new(a.value + b.value, dimension))
+        }
         Operator::Subtract => {
             same_dimension("-", left, right).map(|dimension| Quantity::new(a.value - b.value, dimension))
         }
@@ -226,8 +238,13 @@ fn combine(
             None => Err(no_dimension(operator.span)),
         },
         Operator::Divide if b.value == 0.0 => Err(Box::new(
-            Diagnostic::new(Code::NotFinite, "division by zero", right.expr.span, "this is zero")
-                .and(left.expr.span, format!("{} is divided by it", a.text())),
+            Diagnostic::new(
+                Code::NotFinite,
+                "division by zero",
+                right.expr.span,
+                "this is zero",
+            )
+            .and(left.expr.span, format!("{} is divided by it", a.text())),
         )),
         Operator::Divide => match a.dimension.over(b.dimension) {
             Some(dimension) => Ok(Quantity::new(a.value / b.value, dimension)),
@@ -249,7 +266,11 @@ pub(super) fn same_dimension(
     }
     let diagnostic = Diagnostic::new(
         Code::WrongDimension,
-        format!("`{joint}` takes values of one kind, not {} and {}", a.words(), b.words()),
+        format!(
+            "`{joint}` takes values of one kind, not {} and {}",
+            a.words(),
+            b.words()
+        ),
         right.expr.span,
         format!("this is {}", b.words()),
     )
@@ -285,8 +306,13 @@ fn power(base: Operand<'_>, exponent: Operand<'_>) -> Result<Quantity, Box<Diagn
         return Err(Box::new(mend(diagnostic, exponent.expr, Dimension::PURE)));
     }
     if a.value == 0.0 && b.value < 0.0 {
-        let diagnostic = Diagnostic::new(Code::NotFinite, "division by zero", base.expr.span, "this is zero")
-            .and(exponent.expr.span, "a negative power divides by it");
+        let diagnostic = Diagnostic::new(
+            Code::NotFinite,
+            "division by zero",
+            base.expr.span,
+            "this is zero",
+        )
+        .and(exponent.expr.span, "a negative power divides by it");
         return Err(Box::new(diagnostic));
     }
     let is_whole = libm::trunc(b.value) == b.value;
@@ -310,7 +336,11 @@ fn power(base: Operand<'_>, exponent: Operand<'_>) -> Result<Quantity, Box<Diagn
         None => Err(Box::new(
             Diagnostic::new(
                 Code::WrongDimension,
-                format!("{} to the power {} has no dimension", a.dimension.words(), number(b.value)),
+                format!(
+                    "{} to the power {} has no dimension",
+                    a.dimension.words(),
+                    number(b.value)
+                ),
                 exponent.expr.span,
                 "a value with a unit takes small whole powers",
             )
@@ -337,7 +367,10 @@ fn unknown_unit(unit: &Spanned<String>) -> Diagnostic {
     let meant = units::meant(&unit.node);
     let near: Vec<&str> = meant.iter().map(String::as_str).collect();
     let diagnostic = did_you_mean(diagnostic, unit.span, &near);
-    diagnostic.note(format!("units are {}, and quotients of two such as mm/s", units::list()))
+    diagnostic.note(format!(
+        "units are {}, and quotients of two such as mm/s",
+        units::list()
+    ))
 }
 
 fn wrong_kind(span: Span, what: &str) -> Diagnostic {

@@ -48,17 +48,29 @@ impl FieldSpec {
 
 /// A field of the form `name = value`.
 pub(crate) const fn value(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec { name, form: Form::Value, typical }
+    FieldSpec {
+        name,
+        form: Form::Value,
+        typical,
+    }
 }
 
 /// A field of the form `name { ... }`.
 pub(crate) const fn block(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec { name, form: Form::Block, typical }
+    FieldSpec {
+        name,
+        form: Form::Block,
+        typical,
+    }
 }
 
 /// A field of the form `name <= value`.
 pub(crate) const fn limit(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec { name, form: Form::Limit, typical }
+    FieldSpec {
+        name,
+        form: Form::Limit,
+        typical,
+    }
 }
 
 /// A kind of block.
@@ -134,9 +146,21 @@ impl<'a> Fields<'a> {
     fn sort_entry(&mut self, entry: &'a Entry, reports: &mut Reports) {
         match entry {
             Entry::Field { name, value, span } => {
-                self.put(name, Form::Value, Slot::Value(value), *span, Some(value.span), reports);
+                self.put(
+                    name,
+                    Form::Value,
+                    Slot::Value(value),
+                    *span,
+                    Some(value.span),
+                    reports,
+                );
             }
-            Entry::Limit { name, relation, value, span } => {
+            Entry::Limit {
+                name,
+                relation,
+                value,
+                span,
+            } => {
                 let slot = match relation.node {
                     Relation::AtMost => Slot::Value(value),
                     Relation::AtLeast => Slot::Spoiled(self.wrong_relation(name, relation.span, reports)),
@@ -279,7 +303,12 @@ impl<'a> Fields<'a> {
     }
 
     fn wrong_relation(&self, name: &Spanned<String>, relation: Span, reports: &mut Reports) -> Reported {
-        if !self.spec.fields.iter().any(|spec| spec.name == name.node && spec.form == Form::Limit) {
+        if !self
+            .spec
+            .fields
+            .iter()
+            .any(|spec| spec.name == name.node && spec.form == Form::Limit)
+        {
             return reports.push(self.unknown_field(name));
         }
         let diagnostic = Diagnostic::new(
@@ -327,8 +356,12 @@ fn unknown_block(spec: &BlockSpec, word: &str, span: Span) -> Diagnostic {
         span,
         "not a block of this block",
     );
-    let inner: Vec<&str> =
-        spec.fields.iter().filter(|field| field.form == Form::Block).map(|field| field.name).collect();
+    let inner: Vec<&str> = spec
+        .fields
+        .iter()
+        .filter(|field| field.form == Form::Block)
+        .map(|field| field.name)
+        .collect();
     let near = nearest(word, inner.iter().copied());
     let diagnostic = did_you_mean(diagnostic, span, &near);
     if inner.is_empty() {
@@ -341,7 +374,11 @@ fn unknown_block(spec: &BlockSpec, word: &str, span: Span) -> Diagnostic {
 /// A field written in the form of another kind.
 fn wrong_form(spec: &FieldSpec, written: Form, name: Span, whole: Span, value: Option<Span>) -> Diagnostic {
     let sample = spec.sample();
-    let between = value.map(|value| Span { start: name.end, end: value.start, ..name });
+    let between = value.map(|value| Span {
+        start: name.end,
+        end: value.start,
+        ..name
+    });
     match (spec.form, written) {
         (Form::Limit, Form::Value) => {
             let diagnostic = Diagnostic::new(
@@ -411,15 +448,27 @@ impl Insertion {
     /// Just before the closing brace, in the manner of the block: on a line of its own when the brace has one.
     fn before_end_of(whole: Span, sources: &SourceMap) -> Self {
         let brace = whole.end.saturating_sub(1).max(whole.start);
-        let at = Span { start: brace, end: brace, ..whole };
+        let at = Span {
+            start: brace,
+            end: brace,
+            ..whole
+        };
         let before = sources.slice(Span { end: brace, ..whole });
         let line = before.rsplit('\n').next().unwrap_or_default();
         let stands_alone = before.contains('\n') && line.bytes().all(|byte| byte == b' ' || byte == b'\t');
         if stands_alone {
-            return Self { at, before: "  ", after: format!("\n{line}") };
+            return Self {
+                at,
+                before: "  ",
+                after: format!("\n{line}"),
+            };
         }
         let gap = if line.ends_with([' ', '{']) { "" } else { " " };
-        Self { at, before: gap, after: " ".to_owned() }
+        Self {
+            at,
+            before: gap,
+            after: " ".to_owned(),
+        }
     }
 
     fn text(&self, sample: &str) -> String {

@@ -4,7 +4,7 @@
 //! file uses which is kept as a graph; circles are found in it afterwards.
 
 use super::report::Reported;
-use super::session::{Session, start_of};
+use super::session::Session;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, LARGEST_FILE, LoadError, Span, join_path};
 use crate::syntax;
@@ -23,6 +23,8 @@ pub(crate) struct File {
     pub(crate) id: FileId,
     /// Its tree.
     pub(crate) ast: Ast,
+    /// The `use` by which it came in; none for the root.
+    pub(crate) used_at: Option<Span>,
 }
 
 /// Files in the order of loading; the root is the first.
@@ -61,8 +63,14 @@ pub(crate) fn text_of(
         Err(error) => {
             let at = u32::try_from(error.utf8_error().valid_up_to()).unwrap_or(u32::MAX);
             // Up to the first bad byte the lossy text has the same bytes, so the place is right.
-            let id = session.sources.add(name, String::from_utf8_lossy(error.as_bytes()).into_owned());
-            let span = Span { file: id, start: at, end: at.saturating_add(3) };
+            let id = session
+                .sources
+                .add(name, String::from_utf8_lossy(error.as_bytes()).into_owned());
+            let span = Span {
+                file: id,
+                start: at,
+                end: at.saturating_add(3),
+            };
             let diagnostic = Diagnostic::new(
                 Code::NotUtf8,
                 format!("`{name}` is not a text file in UTF-8"),
@@ -91,9 +99,7 @@ pub(crate) fn not_loaded(path: &Span, resolved: &str, error: &LoadError) -> Diag
         LoadError::NotFound => diagnostic
             .note("a path is relative to the file that it is written in")
             .help(format!("check the name, or put the file at `{resolved}`")),
-        LoadError::TooLarge(limit) => {
-            diagnostic.help(format!("keep files below {} MB", limit / 1_000_000))
-        }
+        LoadError::TooLarge(limit) => diagnostic.help(format!("keep files below {} MB", limit / 1_000_000)),
         LoadError::Other(_) => diagnostic.help("check that the file can be read"),
     }
 }
@@ -137,7 +143,7 @@ impl<'s, 'a> Loading<'s, 'a> {
             None => self.parse(id),
         };
         let number = self.files.len();
-        self.files.push(File { id, ast });
+        self.files.push(File { id, ast, used_at });
         self.edges.push(Vec::new());
         self.known.insert(join_path("", path), Some(number));
         number
@@ -166,7 +172,10 @@ impl<'s, 'a> Loading<'s, 'a> {
                 loaded
             });
             if let (Some(to), Some(edges)) = (target, self.edges.get_mut(pending.from)) {
-                edges.push(Edge { to, span: pending.span });
+                edges.push(Edge {
+                    to,
+                    span: pending.span,
+                });
             }
         }
     }
@@ -275,9 +284,13 @@ impl<'s, 'a> Loading<'s, 'a> {
         for pair in circle.windows(2) {
             let [(from, next), (to, _)] = pair else { continue };
             // The edge in work is the one before the next.
-            let edge = self.edges.get(*from).and_then(|edges| edges.get(next.checked_sub(1)?));
+            let edge = self
+                .edges
+                .get(*from)
+                .and_then(|edges| edges.get(next.checked_sub(1)?));
             if let Some(edge) = edge {
-                diagnostic = diagnostic.and(edge.span, format!("here `{}` uses `{}`", name(*from), name(*to)));
+                diagnostic =
+                    diagnostic.and(edge.span, format!("here `{}` uses `{}`", name(*from), name(*to)));
             }
         }
         if own {
@@ -286,9 +299,4 @@ impl<'s, 'a> Loading<'s, 'a> {
         }
         diagnostic
     }
-}
-
-/// The start of the root file: where to point when something is missing altogether.
-pub(crate) fn root_start(files: &Files) -> Option<Span> {
-    files.first().map(|file| start_of(file.id))
 }

@@ -37,15 +37,39 @@ const FUNCTIONS: &[Function] = &[
     function("sin", Form::One(|f, a| f.of_angle(a, libm::sin)), "sin(30 deg)"),
     function("cos", Form::One(|f, a| f.of_angle(a, libm::cos)), "cos(30 deg)"),
     function("tan", Form::One(|f, a| f.of_angle(a, libm::tan)), "tan(30 deg)"),
-    function("asin", Form::One(|f, a| f.to_angle(a, 1.0, libm::asin)), "asin(0.5)"),
-    function("acos", Form::One(|f, a| f.to_angle(a, 1.0, libm::acos)), "acos(0.5)"),
-    function("atan", Form::One(|f, a| f.to_angle(a, f64::INFINITY, libm::atan)), "atan(0.5)"),
+    function(
+        "asin",
+        Form::One(|f, a| f.to_angle(a, 1.0, libm::asin)),
+        "asin(0.5)",
+    ),
+    function(
+        "acos",
+        Form::One(|f, a| f.to_angle(a, 1.0, libm::acos)),
+        "acos(0.5)",
+    ),
+    function(
+        "atan",
+        Form::One(|f, a| f.to_angle(a, f64::INFINITY, libm::atan)),
+        "atan(0.5)",
+    ),
     function("atan2", Form::Two(|f, a, b| f.atan2(a, b)), "atan2(3 mm, 4 mm)"),
     function("sqrt", Form::One(|_, a| root(a)), "sqrt(2)"),
     function("abs", Form::One(|_, a| Ok(absolute(a.quantity))), "abs(-3 mm)"),
-    function("min", Form::Several(|f, a, rest| f.fold(a, rest, f64::min)), "min(3 mm, 4 mm)"),
-    function("max", Form::Several(|f, a, rest| f.fold(a, rest, f64::max)), "max(3 mm, 4 mm)"),
-    function("clamp", Form::Three(|f, a, b, c| f.clamp(a, b, c)), "clamp(5 mm, 0 mm, 10 mm)"),
+    function(
+        "min",
+        Form::Several(|f, a, rest| f.fold(a, rest, f64::min)),
+        "min(3 mm, 4 mm)",
+    ),
+    function(
+        "max",
+        Form::Several(|f, a, rest| f.fold(a, rest, f64::max)),
+        "max(3 mm, 4 mm)",
+    ),
+    function(
+        "clamp",
+        Form::Three(|f, a, b, c| f.clamp(a, b, c)),
+        "clamp(5 mm, 0 mm, 10 mm)",
+    ),
 ];
 
 /// Calls that are values only of certain fields, and where they belong.
@@ -140,7 +164,9 @@ impl Apply<'_> {
             operand.expr.span,
             format!("this is {}", number(value)),
         );
-        Err(Box::new(diagnostic.help(format!("`{}` takes numbers from -1 to 1", self.name))))
+        Err(Box::new(
+            diagnostic.help(format!("`{}` takes numbers from -1 to 1", self.name)),
+        ))
     }
 
     fn atan2(&self, y: Operand<'_>, x: Operand<'_>) -> Applied {
@@ -169,11 +195,17 @@ impl Apply<'_> {
                 high.expr.span,
                 format!("the upper bound is {}", high.quantity.text()),
             )
-            .and(low.expr.span, format!("the lower bound is {}", low.quantity.text()))
+            .and(
+                low.expr.span,
+                format!("the lower bound is {}", low.quantity.text()),
+            )
             .help("write the lower bound second and the upper bound third");
             return Err(Box::new(diagnostic));
         }
-        Ok(Quantity::new(value.quantity.value.max(least).min(most), dimension))
+        Ok(Quantity::new(
+            value.quantity.value.max(least).min(most),
+            dimension,
+        ))
     }
 }
 
@@ -202,7 +234,9 @@ fn root(operand: Operand<'_>) -> Applied {
             operand.expr.span,
             format!("this is {}", quantity.text()),
         );
-        return Err(Box::new(diagnostic.help("keep it at zero with `max(0, ...)` if that is what you mean")));
+        return Err(Box::new(
+            diagnostic.help("keep it at zero with `max(0, ...)` if that is what you mean"),
+        ));
     }
     Ok(Quantity::new(libm::sqrt(quantity.value), dimension))
 }
@@ -235,7 +269,11 @@ fn wrong_count(whole: Span, known: &Function, given: usize) -> Diagnostic {
         Form::Three(_) => "3 values",
         Form::Several(_) => "2 values or more",
     };
-    let given = if given == 1 { "1 value".to_owned() } else { format!("{given} values") };
+    let given = if given == 1 {
+        "1 value".to_owned()
+    } else {
+        format!("{given} values")
+    };
     Diagnostic::new(
         Code::BadCall,
         format!("`{}` takes {takes}, but is given {given}", known.name),

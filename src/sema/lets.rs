@@ -32,7 +32,11 @@ struct Visit {
 }
 
 /// Works out all `let`s.
-pub(crate) fn evaluate(lets: &[Let<'_>], names: &Names<'_>, reports: &mut Reports) -> Vec<Option<Checked<Quantity>>> {
+pub(crate) fn evaluate(
+    lets: &[Let<'_>],
+    names: &Names<'_>,
+    reports: &mut Reports,
+) -> Vec<Option<Checked<Quantity>>> {
     let mut values: Vec<Option<Checked<Quantity>>> = vec![None; lets.len()];
     let mut on_path = vec![false; lets.len()];
     for start in 0..lets.len() {
@@ -73,7 +77,9 @@ fn visit(
     on_path: &mut [bool],
     path: &mut Vec<Visit>,
 ) {
-    let (Some(None), Some(subject), Some(flag)) = (values.get(index), lets.get(index), on_path.get_mut(index)) else {
+    let (Some(None), Some(subject), Some(flag)) =
+        (values.get(index), lets.get(index), on_path.get_mut(index))
+    else {
         return;
     };
     *flag = true;
@@ -97,7 +103,9 @@ fn needs_of(expr: &Spanned<Expr>, names: &Names<'_>) -> Vec<(usize, Span)> {
                 Some(Thing::Let(index)) => needs.push((index, expr.span)),
                 Some(Thing::Blade(_) | Thing::Machine(_)) | None => {}
             },
-            Expr::Call { arguments, .. } => open.extend(arguments.iter().map(|argument| &argument.value).rev()),
+            Expr::Call { arguments, .. } => {
+                open.extend(arguments.iter().map(|argument| &argument.value).rev())
+            }
             Expr::Negate(inner) => open.push(inner),
             Expr::Binary { left, right, .. } => open.extend([right.as_ref(), left.as_ref()]),
             Expr::Tuple(values) => open.extend(values.iter().rev()),
@@ -126,7 +134,12 @@ fn worth(
 }
 
 /// A value from the command line must be of the kind that the file gives the name.
-fn keeps_dimension(subject: &Let<'_>, value: Quantity, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Quantity> {
+fn keeps_dimension(
+    subject: &Let<'_>,
+    value: Quantity,
+    scope: &Scope<'_>,
+    reports: &mut Reports,
+) -> Checked<Quantity> {
     let Some(original) = subject.original else {
         return Ok(value);
     };
@@ -183,8 +196,15 @@ fn report_circle(
 
 /// A circle with the places where each of its names needs the next.
 fn circle_diagnostic(subject: &Let<'_>, circle: &[Visit], lets: &[Let<'_>]) -> Diagnostic {
-    let name = |visit: &Visit| lets.get(visit.index).map_or("", |subject| subject.name.node.as_str());
-    let way = if circle.len() > 1 { ", by way of other names" } else { "" };
+    let name = |visit: &Visit| {
+        lets.get(visit.index)
+            .map_or("", |subject| subject.name.node.as_str())
+    };
+    let way = if circle.len() > 1 {
+        ", by way of other names"
+    } else {
+        ""
+    };
     let mut diagnostic = Diagnostic::new(
         Code::LetCycle,
         format!("`{}` is defined by itself{way}", subject.name.node),

@@ -131,9 +131,7 @@ pub(crate) fn mend(diagnostic: Diagnostic, expr: &Spanned<Expr>, wanted: Dimensi
                 let title = format!("write `{value} {better}` if that is what you mean");
                 diagnostic.fix(title, unit.span, better.clone())
             }
-            None => {
-                diagnostic.fix(format!("take the unit away: `{value}`"), unit.span, "")
-            }
+            None => diagnostic.fix(format!("take the unit away: `{value}`"), unit.span, ""),
         },
     }
 }

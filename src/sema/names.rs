@@ -3,8 +3,7 @@
 //! `let`s, blades and machines share one space of names over all files: whoever reads `dagger` anywhere in a job
 //! knows that it means one thing.
 
-use super::report::Reported;
-use super::session::Session;
+use super::report::{Reported, Reports};
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{Span, Spanned};
@@ -55,25 +54,26 @@ const RESERVED: &[&str] = &["auto", "pi"];
 
 impl<'a> Names<'a> {
     /// Defines a name, or reports why it cannot be defined.
-    pub(crate) fn define(&mut self, name: &'a Spanned<String>, thing: Thing, session: &mut Session<'_>) {
-        let fault = if RESERVED.contains(&name.node.as_str()) {
+    pub(crate) fn define(&mut self, name: Spanned<&'a str>, thing: Thing, reports: &mut Reports) {
+        let Spanned { node: name, span } = name;
+        let fault = if RESERVED.contains(&name) {
             Diagnostic::new(
                 Code::DefinedTwice,
-                format!("`{}` has a meaning of its own in the language", name.node),
-                name.span,
+                format!("`{name}` has a meaning of its own in the language"),
+                span,
                 "cannot be defined anew",
             )
-            .help(format!("choose another name, such as `my_{}`", name.node))
+            .help(format!("choose another name, such as `my_{name}`"))
         } else {
-            match self.table.entry(&name.node) {
+            match self.table.entry(name) {
                 Entry::Vacant(entry) => {
-                    entry.insert(Definition { thing, span: name.span });
+                    entry.insert(Definition { thing, span });
                     return;
                 }
-                Entry::Occupied(entry) => twice(&name.node, name.span, entry.get().span),
+                Entry::Occupied(entry) => twice(name, span, entry.get().span),
             }
         };
-        session.reports.push(fault);
+        reports.push(fault);
     }
 
     /// The definition of a name.
@@ -96,19 +96,32 @@ impl<'a> Names<'a> {
 
     /// All names of a kind, for a help line; none when there are none, or too many to read.
     pub(crate) fn list(&self, is_wanted: fn(Thing) -> bool) -> Option<String> {
-        let names: Vec<String> = self.of_kind(is_wanted).take(13).map(|name| format!("`{name}`")).collect();
+        let names: Vec<String> = self
+            .of_kind(is_wanted)
+            .take(13)
+            .map(|name| format!("`{name}`"))
+            .collect();
         (1..=12).contains(&names.len()).then(|| names.join(", "))
     }
 
     /// The diagnostic for a name of some kind that is defined nowhere.
-    pub(crate) fn unknown(&self, what: &str, name: &str, span: Span, is_wanted: fn(Thing) -> bool) -> Diagnostic {
+    pub(crate) fn unknown(
+        &self,
+        what: &str,
+        name: &str,
+        span: Span,
+        is_wanted: fn(Thing) -> bool,
+    ) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(
             Code::UnknownName,
             format!("there is no {what} named `{name}`"),
             span,
             "not defined in this file or in any that it uses",
         );
-        let near = nearest(name, self.of_kind(is_wanted).chain(what.eq("value").then_some("pi")));
+        let near = nearest(
+            name,
+            self.of_kind(is_wanted).chain(what.eq("value").then_some("pi")),
+        );
         diagnostic = did_you_mean(diagnostic, span, &near);
         if near.is_empty() {
             diagnostic = match self.list(is_wanted) {
@@ -134,7 +147,11 @@ pub(crate) fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) ->
 
 /// The diagnostic for something that is defined twice.
 pub(crate) fn twice(name: &str, second: Span, first: Span) -> Diagnostic {
-    let place = if first.file == second.file { "" } else { ", in another file" };
+    let place = if first.file == second.file {
+        ""
+    } else {
+        ", in another file"
+    };
     Diagnostic::new(
         Code::DefinedTwice,
         format!("`{name}` is defined twice"),

@@ -86,6 +86,8 @@ fn parse(id: FileId, text: &str, reports: &mut Reports) -> Option<Override> {
 /// Whether a text can be the name of a `let`.
 fn is_name(text: &str) -> bool {
     let mut letters = text.chars();
-    letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+    letters
+        .next()
+        .is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
         && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
 }

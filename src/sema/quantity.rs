@@ -34,8 +34,16 @@ impl Quantity {
 
     /// Whether it is a number of a size that can mean something.
     pub(crate) fn is_sensible(self) -> bool {
-        let Dimension { length, angle, time, mass } = self.dimension;
-        let degree: i32 = [length, angle, time, mass].into_iter().map(|e| i32::from(e.max(0))).sum();
+        let Dimension {
+            length,
+            angle,
+            time,
+            mass,
+        } = self.dimension;
+        let degree: i32 = [length, angle, time, mass]
+            .into_iter()
+            .map(|e| i32::from(e.max(0)))
+            .sum();
         self.value.is_finite() && self.value.abs() <= libm::pow(LARGEST, f64::from(degree.max(1)))
     }
 
@@ -48,7 +56,11 @@ impl Quantity {
 /// A number of the dimension's usual unit, with that unit: `34.16 deg`.
 pub(crate) fn with_unit(number_of_units: f64, dimension: Dimension) -> String {
     let (number, unit) = (number(number_of_units), dimension.unit());
-    if unit.is_empty() { number } else { format!("{number} {unit}") }
+    if unit.is_empty() {
+        number
+    } else {
+        format!("{number} {unit}")
+    }
 }
 
 /// A length as people write it.
@@ -124,7 +136,10 @@ mod tests {
 
     #[test]
     fn quantities_are_shown_in_the_units_of_the_trade() {
-        assert_eq!(Quantity::new(core::f64::consts::FRAC_PI_2, Dimension::ANGLE).text(), "90 deg");
+        assert_eq!(
+            Quantity::new(core::f64::consts::FRAC_PI_2, Dimension::ANGLE).text(),
+            "90 deg"
+        );
         assert_eq!(Quantity::new(200.0, Dimension::SPEED).text(), "200 mm/s");
         assert_eq!(Quantity::pure(0.25).text(), "0.25");
     }

@@ -56,7 +56,8 @@ pub(crate) const AXIS_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-1080.
 /// Speeds of the tip, up to 100 m/s.
 pub(crate) const SPEED: Range = range(Dimension::SPEED, Low::Above(0.0), High::AtMost(100_000.0));
 /// Rates of turning the blade.
-pub(crate) const TURNING_RATE: Range = range(Dimension::TURNING_RATE, Low::Above(0.0), High::AtMost(10_000.0));
+pub(crate) const TURNING_RATE: Range =
+    range(Dimension::TURNING_RATE, Low::Above(0.0), High::AtMost(10_000.0));
 /// Overlap of neighbouring cuts.
 pub(crate) const OVERLAP: Range = range(Dimension::PURE, Low::AtLeast(0.0), High::Below(1.0));
 /// Waiting times, up to an hour.

@@ -42,7 +42,9 @@ impl Reader<'_> {
         taker: &str,
         typical: Option<&str>,
     ) -> Checked<f64> {
-        let value = self.scope.expect(expr, range.dimension, taker, typical, self.reports)?;
+        let value = self
+            .scope
+            .expect(expr, range.dimension, taker, typical, self.reports)?;
         if range.holds(value) {
             return Ok(value);
         }
@@ -137,6 +139,11 @@ impl Reader<'_> {
             };
             return Err(self.reports.push(diagnostic));
         }
+        debug_assert_eq!(
+            range.dimension,
+            T::DIMENSION,
+            "the range of `{name}` is one of another dimension"
+        );
         let value = self.within(expr, range, &format!("`{name}`"), fields.typical(name))?;
         Ok(sourced(T::from_base(value), expr.span))
     }
@@ -190,15 +197,17 @@ impl Reader<'_> {
                     None => diagnostic.help(list),
                 }
             }
-            Expr::Number { .. } | Expr::Call { .. } | Expr::Negate(_) | Expr::Binary { .. } | Expr::Tuple(_) => {
-                Diagnostic::new(
-                    Code::WrongKind,
-                    format!("`{name}` takes a word, not a value"),
-                    expr.span,
-                    "this is a value",
-                )
-                .help(list)
-            }
+            Expr::Number { .. }
+            | Expr::Call { .. }
+            | Expr::Negate(_)
+            | Expr::Binary { .. }
+            | Expr::Tuple(_) => Diagnostic::new(
+                Code::WrongKind,
+                format!("`{name}` takes a word, not a value"),
+                expr.span,
+                "this is a value",
+            )
+            .help(list),
         };
         Err(self.reports.push(diagnostic))
     }
@@ -221,7 +230,9 @@ impl Reader<'_> {
             expr.span,
             "not a whole number",
         );
-        Err(self.reports.push(diagnostic.help(format!("write `{whole}`, or another whole number"))))
+        Err(self
+            .reports
+            .push(diagnostic.help(format!("write `{whole}`, or another whole number"))))
     }
 }
 

@@ -28,7 +28,10 @@ const SPEC: BlockSpec = BlockSpec {
         value("residual", "auto"),
         value("order", "point"),
         value("direction", "alternate"),
-        block("feed", "{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }"),
+        block(
+            "feed",
+            "{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
+        ),
         value("clearance", "10 mm"),
         value("extension", "auto"),
         value("run_out", "2 mm"),
@@ -87,7 +90,9 @@ pub(crate) fn check(
 ) -> Checked<RoughVcut> {
     let fields = Fields::sort(&SPEC, place, &operation.entries, session);
     // Blocks within first: they need the session, of which the reader holds a part.
-    let limits = fields.block("limits").and_then(|inner| limits(inner, scope, session));
+    let limits = fields
+        .block("limits")
+        .and_then(|inner| limits(inner, scope, session));
     let feeds = fields
         .required_block("feed", &mut session.reports)
         .and_then(|inner| feeds(inner, scope, session));
@@ -198,7 +203,10 @@ fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Read
     let Expr::Name(name) = &expr.node else {
         let diagnostic = Diagnostic::new(
             Code::WrongKind,
-            format!("`blade` takes the name of a blade, not {}", looks_like(&expr.node)),
+            format!(
+                "`blade` takes the name of a blade, not {}",
+                looks_like(&expr.node)
+            ),
             expr.span,
             "the name of a blade is wanted here",
         );
@@ -211,12 +219,16 @@ fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Read
     match names.get(name) {
         None => Err(match names.incomplete {
             Some(reported) => reported,
-            None => reader.reports.push(names.unknown("blade", name, expr.span, is_blade)),
+            None => reader
+                .reports
+                .push(names.unknown("blade", name, expr.span, is_blade)),
         }),
         Some(definition) => match definition.thing {
             Thing::Blade(index) => match blades.get(index) {
                 Some(blade) => blade.clone(),
-                None => Err(reader.reports.push(names.unknown("blade", name, expr.span, is_blade))),
+                None => Err(reader
+                    .reports
+                    .push(names.unknown("blade", name, expr.span, is_blade))),
             },
             thing @ (Thing::Let(_) | Thing::Machine(_)) => {
                 let diagnostic = Diagnostic::new(

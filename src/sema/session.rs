@@ -54,5 +54,9 @@ impl<'a> Session<'a> {
 
 /// The whole text of a file as a place of no extent at its start.
 pub(crate) const fn start_of(file: FileId) -> Span {
-    Span { file, start: 0, end: 0 }
+    Span {
+        file,
+        start: 0,
+        end: 0,
+    }
 }

@@ -1,14 +1,14 @@
 //! `stock { ... }`: the box that is cut from.
 
+use super::eval::Scope;
 use super::fields::{BlockSpec, Fields, Inner, Place, value};
 use super::range::SIZE;
 use super::read::{Reader, looks_like};
 use super::report::{Checked, Reported};
+use super::session::Session;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Block, Expr};
-use super::session::Session;
-use super::eval::Scope;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 
@@ -19,9 +19,17 @@ const SPEC: BlockSpec = BlockSpec {
 };
 
 /// The stock and where its size stands.
-pub(crate) fn check(block: &Block, place: Place, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Spanned<Stock>> {
+pub(crate) fn check(
+    block: &Block,
+    place: Place,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Spanned<Stock>> {
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
-    let mut reader = Reader { scope, reports: &mut session.reports };
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
     let size = fields.required_value("size", reader.reports)?;
     let Expr::Tuple(sides) = &size.node else {
         return Err(reader.reports.push(not_three(size.span, looks_like(&size.node))));
@@ -36,7 +44,11 @@ pub(crate) fn check(block: &Block, place: Place, scope: Scope<'_>, session: &mut
     let width = side(width, "the width (along x)");
     let depth = side(depth, "the depth (along y)");
     let height = side(height, "the height (along z)");
-    let stock = Stock { width: width?, depth: depth?, height: height? };
+    let stock = Stock {
+        width: width?,
+        depth: depth?,
+        height: height?,
+    };
     Ok(Spanned::new(stock, size.span))
 }
 

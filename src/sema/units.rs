@@ -13,7 +13,11 @@ struct Unit {
 }
 
 const fn unit(name: &'static str, size: f64, dimension: Dimension) -> Unit {
-    Unit { name, size, dimension }
+    Unit {
+        name,
+        size,
+        dimension,
+    }
 }
 
 /// All simple units. The inch is 25.4 mm exactly (international yard and pound agreement, 1959).
@@ -107,7 +111,10 @@ fn split(name: &str) -> Option<(&str, &str)> {
 
 /// The units somebody may have meant, best first.
 pub(crate) fn meant(name: &str) -> Vec<String> {
-    if let Some(&(_, compound)) = COMPOUND_ALIASES.iter().find(|(alias, _)| alias.eq_ignore_ascii_case(name)) {
+    if let Some(&(_, compound)) = COMPOUND_ALIASES
+        .iter()
+        .find(|(alias, _)| alias.eq_ignore_ascii_case(name))
+    {
         return vec![compound.to_owned()];
     }
     let Some((above, below)) = split(name) else {
@@ -144,9 +151,15 @@ mod tests {
     #[test]
     fn sizes_are_exact_where_decimals_are() {
         assert_eq!(quantity(2.0, "in"), Some(Quantity::length(50.8)));
-        assert_eq!(quantity(6.0, "m/min"), Some(Quantity::new(100.0, Dimension::SPEED)));
+        assert_eq!(
+            quantity(6.0, "m/min"),
+            Some(Quantity::new(100.0, Dimension::SPEED))
+        );
         assert_eq!(quantity(0.2, "m/s"), Some(Quantity::new(200.0, Dimension::SPEED)));
-        assert_eq!(quantity(180.0, "deg/s"), Some(Quantity::new(PI, Dimension::TURNING_RATE)));
+        assert_eq!(
+            quantity(180.0, "deg/s"),
+            Some(Quantity::new(PI, Dimension::TURNING_RATE))
+        );
         assert_eq!(quantity(30.0, "%"), Some(Quantity::pure(0.3)));
         assert_eq!(quantity(5.0, "furlong"), None);
         assert_eq!(quantity(5.0, "mm/furlong"), None);

@@ -3,8 +3,8 @@
 use super::{Piece, TOLERANCE, Trace, data, point};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::{Curve as Shape, CurveError, Point2};
-use crate::sema::eval::Scope;
 use crate::sema::dimension::Dimension;
+use crate::sema::eval::Scope;
 use crate::sema::fields::curve_words;
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reported, Reports};
@@ -86,7 +86,9 @@ impl Drawing<'_> {
             "stands behind another piece",
         )
         .and(first, "the profile begins here")
-        .help(format!("move {words} to the front, or draw this part with curves"));
+        .help(format!(
+            "move {words} to the front, or draw this part with curves"
+        ));
         Err(reports.push(diagnostic))
     }
 
@@ -134,8 +136,12 @@ impl Drawing<'_> {
                     piece.span,
                     format!("{} begins nowhere", curve_words(piece.curve)),
                 );
-                let at = Span { end: piece.span.start, ..piece.span };
-                let diagnostic = diagnostic.fix("say where the profile starts", at, "start (0 mm, 10 mm)\n  ");
+                let at = Span {
+                    end: piece.span.start,
+                    ..piece.span
+                };
+                let diagnostic =
+                    diagnostic.fix("say where the profile starts", at, "start (0 mm, 10 mm)\n  ");
                 Err(reports.push(diagnostic))
             }
         }
@@ -164,9 +170,13 @@ impl Drawing<'_> {
         let (shape, spans) = match by {
             ArcBy::Radius(radius) => {
                 let length =
-                    self.scope.expect(radius, Dimension::LENGTH, "`radius`", Some("100 mm"), reports);
+                    self.scope
+                        .expect(radius, Dimension::LENGTH, "`radius`", Some("100 mm"), reports);
                 self.end(end);
-                (Shape::arc_by_radius(from?, end?, Length::mm(length?)), [to.span, radius.span])
+                (
+                    Shape::arc_by_radius(from?, end?, Length::mm(length?)),
+                    [to.span, radius.span],
+                )
             }
             ArcBy::Center(center) => {
                 let place = point(center, &self.scope, reports);
@@ -179,7 +189,12 @@ impl Drawing<'_> {
                 (Shape::arc_through(from?, place?, end?), [through.span, to.span])
             }
         };
-        self.flatten(piece, shape, &[piece.span, spans[0], spans[1]], &mut session.reports)
+        self.flatten(
+            piece,
+            shape,
+            &[piece.span, spans[0], spans[1]],
+            &mut session.reports,
+        )
     }
 
     /// A curve given by its start, points on the way and its end.
@@ -193,13 +208,20 @@ impl Drawing<'_> {
     ) -> Checked<()> {
         let reports = &mut session.reports;
         let mut points = vec![self.begin(piece, reports)];
-        points.extend(between.iter().chain([to]).map(|place| point(place, &self.scope, reports)));
+        points.extend(
+            between
+                .iter()
+                .chain([to])
+                .map(|place| point(place, &self.scope, reports)),
+        );
         if let Some(end) = points.last() {
             self.end(*end);
         }
         let points: Vec<Point2> = points.into_iter().collect::<Checked<_>>()?;
-        let spans: Vec<Span> =
-            [piece.span].into_iter().chain(between.iter().chain([to]).map(|place| place.span)).collect();
+        let spans: Vec<Span> = [piece.span]
+            .into_iter()
+            .chain(between.iter().chain([to]).map(|place| place.span))
+            .collect();
         self.flatten(piece, make(points), &spans, reports)
     }
 
@@ -228,7 +250,9 @@ fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnosti
     let words = curve_words(piece.curve);
     let last = spans.last().copied().unwrap_or(piece.span);
     let place = |index: usize| spans.get(index).copied().unwrap_or(piece.span);
-    let fault = |message: String, span: Span, label: &str| Diagnostic::new(Code::ImpossibleCurve, message, span, label);
+    let fault = |message: String, span: Span, label: &str| {
+        Diagnostic::new(Code::ImpossibleCurve, message, span, label)
+    };
     match error {
         CurveError::RadiusTooSmall { smallest } => {
             // Rounded up, so that the number shown works.

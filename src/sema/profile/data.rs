@@ -19,7 +19,12 @@ use vcutc_backend_api::units::Length;
 
 const POINTS: BlockSpec = BlockSpec {
     title: "`points`",
-    fields: &[value("unit", "mm"), value("x", "0 mm"), value("z", "0 mm"), value("scale", "1")],
+    fields: &[
+        value("unit", "mm"),
+        value("x", "0 mm"),
+        value("z", "0 mm"),
+        value("scale", "1"),
+    ],
     inner: Inner::Refused,
 };
 
@@ -189,7 +194,10 @@ fn in_range(points: Vec<Point2>, path: &Spanned<String>, session: &mut Session<'
         Code::OutOfRange,
         "the file has a point out of all range",
         path.span,
-        format!("a point comes to lie at x = {:.3e} mm, z = {:.3e} mm", bad.x, bad.z),
+        format!(
+            "a point comes to lie at x = {:.3e} mm, z = {:.3e} mm",
+            bad.x, bad.z
+        ),
     );
     Err(session.reports.push(diagnostic.help("check `unit` and `scale`")))
 }

@@ -48,7 +48,9 @@ pub(super) fn trace(
                 let mut why = Reports::default();
                 let outcome = height(x, &mut why);
                 match (outcome, why.into_vec().into_iter().next()) {
-                    (Err(_), Some(reason)) => reason.note(format!("this is so at {} = {}", formula.variable.node, mm(x))),
+                    (Err(_), Some(reason)) => {
+                        reason.note(format!("this is so at {} = {}", formula.variable.node, mm(x)))
+                    }
                     _ => no_value(formula, x),
                 }
             }
@@ -78,7 +80,11 @@ pub(super) fn trace(
 fn no_value(formula: &Formula<'_>, x: f64) -> Diagnostic {
     Diagnostic::new(
         Code::NotFinite,
-        format!("the formula has no value at {} = {}", formula.variable.node, mm(x)),
+        format!(
+            "the formula has no value at {} = {}",
+            formula.variable.node,
+            mm(x)
+        ),
         formula.value.span,
         "no height comes out of this",
     )

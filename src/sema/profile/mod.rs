@@ -43,7 +43,8 @@ impl Trace {
     /// Adds points of the piece begun last.
     fn extend(&mut self, points: Vec<Point2>) {
         let owner = self.pieces.len().saturating_sub(1);
-        self.owners.resize(self.points.len().saturating_add(points.len()), owner);
+        self.owners
+            .resize(self.points.len().saturating_add(points.len()), owner);
         self.points.extend(points);
     }
 
@@ -107,9 +108,19 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
                 pieces.push(Piece { curve, span: *span });
                 continue;
             }
-            Entry::Formula { name, variable, value, span } => match &formula {
+            Entry::Formula {
+                name,
+                variable,
+                value,
+                span,
+            } => match &formula {
                 None => {
-                    formula = Some(Formula { name, variable, value, span: *span });
+                    formula = Some(Formula {
+                        name,
+                        variable,
+                        value,
+                        span: *span,
+                    });
                     continue;
                 }
                 Some(first) => second_formula(*span, first.span),
@@ -133,9 +144,14 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
 }
 
 fn second_formula(second: Span, first: Span) -> Diagnostic {
-    Diagnostic::new(Code::FieldTwice, "the profile has two formulas", second, "given here again")
-        .and(first, "given here first")
-        .help("take one of the two out")
+    Diagnostic::new(
+        Code::FieldTwice,
+        "the profile has two formulas",
+        second,
+        "given here again",
+    )
+    .and(first, "given here first")
+    .help("take one of the two out")
 }
 
 const FORMS: &str = "a profile holds start, line, arc, bezier, spline, polyline, points, airfoil, or a formula \
@@ -178,16 +194,22 @@ fn mixed(piece: &Piece<'_>, formula: &Formula<'_>) -> Diagnostic {
 }
 
 fn empty(place: Place) -> Diagnostic {
-    Diagnostic::new(Code::MissingField, "the profile is empty", place.head, "no height is given")
-        .note(FORMS)
-        .help("start with a point and a line, like `start (0 mm, 18 mm) line to (85 mm, 14 mm)`")
+    Diagnostic::new(
+        Code::MissingField,
+        "the profile is empty",
+        place.head,
+        "no height is given",
+    )
+    .note(FORMS)
+    .help("start with a point and a line, like `start (0 mm, 18 mm) line to (85 mm, 14 mm)`")
 }
 
 /// A point of the profile.
 fn point(point: &crate::syntax::ast::Point, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Point2> {
     use super::dimension::Dimension;
-    let mut coordinate =
-        |expr: &Spanned<Expr>, taker: &str| scope.expect(expr, Dimension::LENGTH, taker, Some("10 mm"), reports);
+    let mut coordinate = |expr: &Spanned<Expr>, taker: &str| {
+        scope.expect(expr, Dimension::LENGTH, taker, Some("10 mm"), reports)
+    };
     let x = coordinate(&point.x, "the x of a point");
     let z = coordinate(&point.z, "the z of a point");
     Ok(Point2::new(x?, z?))

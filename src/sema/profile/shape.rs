@@ -97,7 +97,10 @@ fn segment_within(from: Point2, to: Point2, width: f64) -> Option<(Point2, Point
     let cut = |point: Point2| match point {
         point if inside(point) => point,
         point if point.x < 0.0 => Point2 { x: 0.0, ..at(0.0) },
-        _ => Point2 { x: width, ..at(width) },
+        _ => Point2 {
+            x: width,
+            ..at(width)
+        },
     };
     if from.x.max(to.x) <= 0.0 || from.x.min(to.x) >= width {
         return None;
@@ -110,15 +113,22 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
     let width = stock.node.width.to_mm();
     let first = trace.points.first()?;
     let last = trace.points.last()?;
-    let (leftmost, rightmost) = trace.points.iter().fold((first.x, first.x), |(left, right), point| {
-        (left.min(point.x), right.max(point.x))
-    });
+    let (leftmost, rightmost) = trace
+        .points
+        .iter()
+        .fold((first.x, first.x), |(left, right), point| {
+            (left.min(point.x), right.max(point.x))
+        });
     if leftmost <= SAME && rightmost >= width - SAME && !strip.points.is_empty() {
         return None;
     }
     let runs_right = first.x <= last.x;
     let piece_of = |is_left: bool| {
-        let end = if is_left == runs_right { 0 } else { trace.points.len().saturating_sub(1) };
+        let end = if is_left == runs_right {
+            0
+        } else {
+            trace.points.len().saturating_sub(1)
+        };
         trace.piece_at(end).unwrap_or(stock.span)
     };
     let sides = format!("the stock reaches from x = 0 mm to x = {}", mm(width));
@@ -128,11 +138,19 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
     } else {
         let missing = width - rightmost;
         let help = if rightmost > SAME {
-            format!("lead the profile on to x = {}, or make the stock {} wide", mm(width), mm(rightmost))
+            format!(
+                "lead the profile on to x = {}, or make the stock {} wide",
+                mm(width),
+                mm(rightmost)
+            )
         } else {
             format!("lead the profile on to x = {}", mm(width))
         };
-        (piece_of(false), format!("ends at x = {}, {} too early", mm(rightmost), mm(missing)), help)
+        (
+            piece_of(false),
+            format!("ends at x = {}, {} too early", mm(rightmost), mm(missing)),
+            help,
+        )
     };
     let diagnostic = Diagnostic::new(
         Code::ProfileTooShort,
@@ -155,7 +173,12 @@ fn two_heights(strip: &Strip, trace: &Trace, index: usize, otherwise: Span) -> D
     let span = strip.piece_at(trace, index, otherwise);
     let (before, rest) = strip.points.split_at(index.min(strip.points.len()));
     let (Some(turn), Some(back)) = (before.last(), rest.first()) else {
-        return Diagnostic::new(Code::NotSingleValued, "the profile has two heights at one x", span, "here");
+        return Diagnostic::new(
+            Code::NotSingleValued,
+            "the profile has two heights at one x",
+            span,
+            "here",
+        );
     };
     if (turn.x - back.x).abs() < SAME {
         return Diagnostic::new(
@@ -164,18 +187,29 @@ fn two_heights(strip: &Strip, trace: &Trace, index: usize, otherwise: Span) -> D
             span,
             format!("it steps from z = {} to z = {} here", mm(turn.z), mm(back.z)),
         )
-        .help(format!("lean the step, for example over 0.1 mm, to x = {}", mm(back.x + 0.1)));
+        .help(format!(
+            "lean the step, for example over 0.1 mm, to x = {}",
+            mm(back.x + 0.1)
+        ));
     }
     let backwards = (back.x - turn.x).signum();
     // How far it runs back, and the middle of that stretch as the example.
     let mut end = *back;
-    for next in rest.iter().skip(1).take_while(|next| (next.x - turn.x) * backwards > 0.0) {
+    for next in rest
+        .iter()
+        .skip(1)
+        .take_while(|next| (next.x - turn.x) * backwards > 0.0)
+    {
         if (next.x - end.x) * backwards > 0.0 {
             end = *next;
         }
     }
     let reach = before.first().map_or(turn.x, |first| first.x);
-    let limit = if backwards < 0.0 { end.x.max(reach) } else { end.x.min(reach) };
+    let limit = if backwards < 0.0 {
+        end.x.max(reach)
+    } else {
+        end.x.min(reach)
+    };
     let x = f64::midpoint(turn.x, limit);
     let there = height_at(before.iter().rev(), x).unwrap_or(turn.z);
     let again = height_at([turn].into_iter().chain(rest), x).unwrap_or(back.z);
@@ -306,7 +340,10 @@ impl Leaving {
             mm(self.excess)
         );
         Diagnostic::new(Code::ProfileOutsideStock, headline, span, label)
-            .and(stock.span, format!("the stock reaches from z = 0 mm to z = {}", mm(height)))
+            .and(
+                stock.span,
+                format!("the stock reaches from z = 0 mm to z = {}", mm(height)),
+            )
             .help(help)
     }
 }
