@@ -5,7 +5,7 @@ use crate::support::reader::{self, Event};
 use crate::support::{emit, lines, verified};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::bundle::Bundle;
-use vcutc_backend_api::ir::Action;
+use vcutc_backend_api::ir::{Action, Edges};
 use vcutc_backend_api::testkit::{Recipe, samples};
 
 fn limit(lines: u32) -> [(&'static str, OptionValue); 1] {
@@ -86,6 +86,20 @@ fn the_flanks_of_a_v_stay_together() {
             .filter(|line| line.starts_with("; layer"))
             .collect();
         assert_eq!(cuts.len(), 1, "{part}: {cuts:?}");
+    }
+}
+
+#[test]
+fn the_way_back_through_the_air_does_not_part_the_flanks_of_a_v() {
+    let recipe = Recipe {
+        edges: Edges::Single,
+        ..Recipe::default()
+    };
+    let bundle = emit(&verified(recipe.program()), &limit(1));
+    for part in part_names(&bundle).iter().skip(2) {
+        let body = body(&bundle, part);
+        let feeds = body.iter().filter(|line| *line == "$VEL.CP=0.2").count();
+        assert_eq!(feeds, 2, "{part}: {body:?}");
     }
 }
 
