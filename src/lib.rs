@@ -1,4 +1,4 @@
-//! vcutc.
+#![doc = include_str!("../ARCHITECTURE.md")]
 
 #[cfg(feature = "cli")]
 pub mod cli;
