@@ -47,7 +47,12 @@ impl<'p> LayerPlanner<'p> {
         surface: &'p mut Surface,
     ) -> Self {
         let lattice = asked.lattice.value;
-        let bound = blade_reach::scallop_bound(lattice, parameters.layer, parameters.step, parameters.flanks.slope);
+        let bound = blade_reach::scallop_bound(
+            lattice,
+            parameters.layer,
+            parameters.step,
+            parameters.flanks.slope,
+        );
         let inherent = bound + asked.allowance.value + parameters.drop;
         let tolerated = asked.limits.scallop.map_or(inherent, |limit| limit.value);
         let relieves = asked.residual.value == Residual::Auto && parameters.lattice_fits(lattice);
@@ -106,7 +111,12 @@ impl<'p> LayerPlanner<'p> {
         let mut before: Option<Point2> = None;
         for &(tip, origin) in &tips {
             let way = before.map_or(Way::Over, |before| self.way(before, tip));
-            self.cuts.push(PlannedCut { layer: self.layers_cut, tip, origin, way });
+            self.cuts.push(PlannedCut {
+                layer: self.layers_cut,
+                tip,
+                origin,
+                way,
+            });
             before = Some(tip);
         }
         for (tip, _) in tips {
@@ -117,7 +127,10 @@ impl<'p> LayerPlanner<'p> {
     /// How the blade gets from one cut to the next, judged before any chip of the layer is out.
     fn way(&mut self, from: Point2, to: Point2) -> Way {
         let highest = from.z.min(to.z) + self.parameters.clear_height.to_mm();
-        let clear = self.surface.corners_between(from.x, to.x).all(|corner| corner.z <= highest);
+        let clear = self
+            .surface
+            .corners_between(from.x, to.x)
+            .all(|corner| corner.z <= highest);
         if clear { Way::Beside } else { Way::Over }
     }
 
@@ -145,18 +158,26 @@ impl<'p> LayerPlanner<'p> {
                 }
                 let lifted = self.lifted(column).filter(|&(tip, _)| self.comes_free(tip));
                 let shifted = |planner: &mut Self| {
-                    planner.shifted(index, column, z, columns).filter(|&(tip, _)| planner.comes_free(tip))
+                    planner
+                        .shifted(index, column, z, columns)
+                        .filter(|&(tip, _)| planner.comes_free(tip))
                 };
-                lifted
-                    .or_else(|| shifted(self))
-                    .or_else(|| self.relieved(Point2 { x: column.x, z: column.floor }))
+                lifted.or_else(|| shifted(self)).or_else(|| {
+                    self.relieved(Point2 {
+                        x: column.x,
+                        z: column.floor,
+                    })
+                })
             }
         }
     }
 
     /// Raised onto the part, where that still cuts something.
     fn lifted(&mut self, column: Column) -> Option<(Point2, TipOrigin)> {
-        let tip = Point2 { x: column.x, z: column.floor };
+        let tip = Point2 {
+            x: column.x,
+            z: column.floor,
+        };
         self.gains(tip).then_some((tip, TipOrigin::Lifted))
     }
 
@@ -170,7 +191,10 @@ impl<'p> LayerPlanner<'p> {
     ) -> Option<(Point2, TipOrigin)> {
         let step = self.layout.step();
         let x = grid::nearest(self.layout.nearest_clear(column.x, z)?);
-        let tip = Point2 { x, z: z.max(self.layout.floor(x)) };
+        let tip = Point2 {
+            x,
+            z: z.max(self.layout.floor(x)),
+        };
         let crowded = [index.checked_sub(1), index.checked_add(1)]
             .into_iter()
             .flatten()
@@ -217,12 +241,17 @@ impl<'p> LayerPlanner<'p> {
         let reach = self.parameters.flanks.reach.to_mm();
         let vee = self.vee(tip);
         let runs = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
-        if runs.iter().any(|run| run.reach > reach || run.blocked_at.is_some()) {
+        if runs
+            .iter()
+            .any(|run| run.reach > reach || run.blocked_at.is_some())
+        {
             return false;
         }
         let [left, right] = runs;
         let highest = tip.z + self.parameters.clear_height.to_mm();
-        self.surface.corners_between(left.exit.x, right.exit.x).all(|corner| corner.z <= highest)
+        self.surface
+            .corners_between(left.exit.x, right.exit.x)
+            .all(|corner| corner.z <= highest)
     }
 
     fn gains(&mut self, tip: Point2) -> bool {
@@ -234,13 +263,24 @@ impl<'p> LayerPlanner<'p> {
         let half = self.layout.step() / 2.0;
         let (from, to) = self.part.span();
         let (from, to) = ((x - half).max(from), (x + half).min(to));
-        let ends = [from, to].map(|end| Point2 { x: end, z: self.surface.height(end) });
+        let ends = [from, to].map(|end| Point2 {
+            x: end,
+            z: self.surface.height(end),
+        });
         let part = self.part;
-        let inner = self.surface.corners_between(from, to).map(|corner| part.nearest_distance(corner));
-        inner.chain(ends.map(|end| part.nearest_distance(end))).fold(0.0, f64::max)
+        let inner = self
+            .surface
+            .corners_between(from, to)
+            .map(|corner| part.nearest_distance(corner));
+        inner
+            .chain(ends.map(|end| part.nearest_distance(end)))
+            .fold(0.0, f64::max)
     }
 
     const fn vee(&self, tip: Point2) -> Vee {
-        Vee { tip, slope: self.parameters.flanks.slope }
+        Vee {
+            tip,
+            slope: self.parameters.flanks.slope,
+        }
     }
 }
