@@ -83,7 +83,7 @@ fn a_fine_arc_is_raised_to_the_larger_arc() {
         let above = libm::hypot(p.x, p.z) - 57.0;
         assert!((-1e-6..1e-3).contains(&above));
     }
-    assert!(raised.points().len() < 70_000);
+    assert!(raised.points().len() < 45_000);
 }
 
 #[test]
