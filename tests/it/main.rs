@@ -9,6 +9,12 @@
 
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(all(feature = "cli", feature = "krl"))]
+mod jobs;
+#[cfg(feature = "krl")]
+mod krl_text;
+#[cfg(feature = "krl")]
+mod pipeline;
 mod repository;
 mod schema;
 mod syntax;
