@@ -421,7 +421,7 @@ fn a_megabyte_of_noise() {
     assert!(!codes(&tokens).is_empty());
 }
 
-const TOKENS: &[&str] = &[
+pub(super) const TOKENS: &[&str] = &[
     "job ", "use ", "let ", "stock ", "a ", "mm ", "start ", "line ", "to ", "arc ", "radius ", "points ",
     "auto ", "(", ")", "(", ")", "{", "}", "{", "}", "=", "=", "<=", ">=", ",", ",", "+", "-", "*", "/", "^",
     "%", "1", "2.5 mm", "1e999", "\"x\"", "\"", "\\", "// c\n", "/* c */", "/*", "\n", "\n", "\r\n", "\n  ",
