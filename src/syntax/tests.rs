@@ -27,7 +27,7 @@ fn shape(text: &str) -> String {
             assert_eq!(diagnostics, []);
             shape_of(&value.node)
         }
-        None => format!("{}", diagnostics.first().map_or("?", |d| d.code.number())),
+        None => diagnostics.first().map_or("?", |d| d.code.number()).to_owned(),
     }
 }
 
