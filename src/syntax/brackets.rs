@@ -245,6 +245,10 @@ impl<'t> Scan<'t> {
             self.span(end..end),
             insertion,
         ));
+        if bracket == Bracket::Round {
+            // The value may lack more than its bracket, and the bracket put in is not the user's.
+            self.doubtful.push(opener.start..end.max(opener.end));
+        }
         let is_mended = match missed {
             Some(missed) => self.place(closing, end..missed.start),
             None => {
