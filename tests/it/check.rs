@@ -181,3 +181,49 @@ fn every_code_of_text_and_meaning_has_a_failing_example() {
         .collect();
     assert!(missing.is_empty(), "no failing example of {missing:?}");
 }
+
+/// The `vcut` examples of a page.
+fn examples(page: &str) -> Vec<String> {
+    let blocks = page.split("```vcut\n").skip(1);
+    blocks
+        .filter_map(|block| Some(block.split_once("```")?.0.to_owned()))
+        .collect()
+}
+
+#[test]
+fn examples_of_the_manual_read_as_they_stand() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let manual = fs::read_to_string(docs.join("language.md")).unwrap();
+    let pages = Code::ALL
+        .iter()
+        .filter(|code| code.number().starts_with("VC02"))
+        .map(|code| code.page().to_owned());
+    let mut count = 0;
+    for page in pages.chain([manual]) {
+        for example in examples(&page) {
+            let mut sources = SourceMap::default();
+            let mut diagnostics = Vec::new();
+            let file = sources.add("example", example.clone());
+            vcutc::syntax::parse(file, &example, &mut diagnostics);
+            let told = render(&diagnostics, &sources, ColorChoice::Plain);
+            assert_eq!(told, "", "{example}");
+            count += 1;
+        }
+    }
+    assert!(count >= 48 + 10, "{count} examples");
+}
+
+#[test]
+fn the_first_example_of_the_manual_is_a_whole_job() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let manual = fs::read_to_string(docs.join("language.md")).unwrap();
+    let text = examples(&manual).swap_remove(0);
+    let case = Case {
+        folder: docs,
+        name: "example.vcut".to_owned(),
+        text: text.clone(),
+    };
+    let outcome = case.check(Some(("example.vcut".to_owned(), text)));
+    assert_eq!(outcome.told(), "");
+    assert!(outcome.job.is_some());
+}
