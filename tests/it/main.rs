@@ -1,4 +1,4 @@
-//! Tests across stages, in one binary.
+//! Tests across stages, in one binary, one module a subject.
 #![allow(
     clippy::disallowed_methods,
     clippy::expect_used,
@@ -10,4 +10,6 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod repository;
+mod schema;
+mod syntax;
 mod tidy;
