@@ -133,7 +133,10 @@ fn tell(
     console.summary(&Summary {
         job,
         diagnostics: &outcome.diagnostics,
-        lines: outcome.compiled.as_ref().map_or(&[], |compiled| &compiled.summary),
+        lines: outcome
+            .compiled
+            .as_ref()
+            .map_or(&[], |compiled| &compiled.summary),
         files: &made.files,
         remark: remark(product, exit),
         timings,

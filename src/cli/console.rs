@@ -181,7 +181,9 @@ impl Console {
         for file in summary.files {
             text += &format!("wrote {file}\n");
         }
-        let remark = summary.remark.map_or(String::new(), |remark| format!("; {remark}"));
+        let remark = summary
+            .remark
+            .map_or(String::new(), |remark| format!("; {remark}"));
         text += &format!("{}: {}{remark}\n", summary.job, tally(errors, warnings));
         self.stderr(&text);
     }

@@ -9,6 +9,7 @@
 
 #[cfg(feature = "cli")]
 mod cli;
+mod pages;
 mod repository;
 mod schema;
 mod syntax;

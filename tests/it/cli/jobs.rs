@@ -106,7 +106,10 @@ fn the_same_job_gives_the_same_bytes() {
         compile(shop.path(), "rib.vcut", &[]);
     }
     for name in PROGRAM {
-        assert_eq!(read(&first.path().join("out"), name), read(&second.path().join("out"), name));
+        assert_eq!(
+            read(&first.path().join("out"), name),
+            read(&second.path().join("out"), name)
+        );
     }
 }
 
@@ -116,7 +119,11 @@ fn a_job_with_errors_leaves_nothing_and_touches_nothing() {
     let run = compile(shop.path(), "bad.vcut", &[]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
     assert!(run.stderr.contains("error[VC0203]"), "{}", run.stderr);
-    assert!(run.stderr.ends_with("bad.vcut: 1 error; nothing was written\n"), "{}", run.stderr);
+    assert!(
+        run.stderr.ends_with("bad.vcut: 1 error; nothing was written\n"),
+        "{}",
+        run.stderr
+    );
     assert_eq!(names(shop.path()), ["bad.vcut", "rib.vcut"]);
 
     fs::create_dir(shop.path().join("out")).unwrap();
@@ -135,7 +142,11 @@ fn a_target_that_cannot_say_the_job_leaves_nothing_either() {
     assert!(run.stderr.contains("error[VC0601]"), "{}", run.stderr);
     let out = shop.path().join("out");
     assert!(!out.exists() || names(&out).is_empty());
-    assert_eq!(vcutc(shop.path(), &["table.vcut"]).code, Some(0), "without a target it is well");
+    assert_eq!(
+        vcutc(shop.path(), &["table.vcut"]).code,
+        Some(0),
+        "without a target it is well"
+    );
 }
 
 #[test]
@@ -164,7 +175,11 @@ fn a_file_in_place_of_the_folder_is_trouble_not_a_fault_of_the_job() {
 #[test]
 fn a_job_that_cannot_be_read_is_no_job_with_errors() {
     let shop = shop();
-    for (job, why) in [("none.vcut", "no such file"), (".", "folder"), ("", "no such file")] {
+    for (job, why) in [
+        ("none.vcut", "no such file"),
+        (".", "folder"),
+        ("", "no such file"),
+    ] {
         let run = vcutc(shop.path(), &["check", job]);
         assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{job}");
         assert!(run.stderr.contains(why), "{}", run.stderr);
@@ -175,14 +190,21 @@ fn a_job_that_cannot_be_read_is_no_job_with_errors() {
 fn a_command_taken_for_a_job_is_recognised() {
     let run = vcutc(shop().path(), &["target"]);
     assert_eq!(run.code, Some(2));
-    assert!(run.stderr.contains("did you mean the command `vcutc targets`?"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("did you mean the command `vcutc targets`?"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[cfg(unix)]
 #[test]
 fn a_pipe_in_place_of_a_job_is_refused_and_not_waited_for() {
     let shop = shop();
-    let made = std::process::Command::new("mkfifo").arg(shop.path().join("pipe.vcut")).status().unwrap();
+    let made = std::process::Command::new("mkfifo")
+        .arg(shop.path().join("pipe.vcut"))
+        .status()
+        .unwrap();
     assert!(made.success());
     let run = vcutc(shop.path(), &["check", "pipe.vcut"]);
     assert_eq!(run.code, Some(2));
@@ -211,7 +233,11 @@ fn a_let_can_be_replaced() {
     assert!(cuts(&["--set", "width=80mm"]) > cuts(&[]));
     let run = vcutc(shop.path(), &["rib.vcut", "--set", "widht=80mm"]);
     assert_eq!(run.code, Some(1));
-    assert!(run.stderr.contains("error[VC0216]") && run.stderr.contains("width"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("error[VC0216]") && run.stderr.contains("width"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]
@@ -228,7 +254,11 @@ fn checking_writes_nothing_and_says_why_where_a_program_was_expected() {
     let shop = shop();
     let run = vcutc(shop.path(), &["rib.vcut"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
-    assert!(run.stderr.contains("no --target was given (targets: krl)"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("no --target was given (targets: krl)"),
+        "{}",
+        run.stderr
+    );
     assert_eq!(names(shop.path()), ["bad.vcut", "rib.vcut"]);
 }
 
@@ -236,7 +266,10 @@ fn checking_writes_nothing_and_says_why_where_a_program_was_expected() {
 fn quiet_is_quiet_until_something_is_wrong() {
     let shop = shop();
     let run = compile(shop.path(), "rib.vcut", &["-q"]);
-    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (Some(0), "", ""));
+    assert_eq!(
+        (run.code, run.stdout.as_str(), run.stderr.as_str()),
+        (Some(0), "", "")
+    );
     let run = compile(shop.path(), "bad.vcut", &["-q"]);
     assert!(run.stderr.contains("error[VC0203]"), "{}", run.stderr);
 }
@@ -247,7 +280,11 @@ fn verbose_names_every_stage() {
     let run = compile(shop.path(), "rib.vcut", &["-v"]);
     for stage in ["reading", "planning", "proving", "emitting"] {
         let mut lines = run.stderr.lines();
-        assert!(lines.any(|line| line.starts_with(stage) && line.ends_with(" ms")), "{}", run.stderr);
+        assert!(
+            lines.any(|line| line.starts_with(stage) && line.ends_with(" ms")),
+            "{}",
+            run.stderr
+        );
     }
 }
 
@@ -256,16 +293,26 @@ fn for_programs_every_line_is_json_and_the_last_is_the_summary() {
     let shop = shop();
     let run = compile(shop.path(), "rib.vcut", &["--message-format", "json", "-v"]);
     let lines = json_lines(&run.stderr);
-    let [summary] = lines.as_slice() else { panic!("{lines:?}") };
-    assert_eq!((&summary["kind"], &summary["errors"]), (&"summary".into(), &0.into()));
+    let [summary] = lines.as_slice() else {
+        panic!("{lines:?}")
+    };
+    assert_eq!(
+        (&summary["kind"], &summary["errors"]),
+        (&"summary".into(), &0.into())
+    );
     assert_eq!(summary["files"].as_array().unwrap().len(), 2);
     assert_eq!(summary["stages"].as_array().unwrap().len(), 4);
 
     let run = compile(shop.path(), "bad.vcut", &["--message-format", "json"]);
     let lines = json_lines(&run.stderr);
-    let [diagnostic, summary] = lines.as_slice() else { panic!("{lines:?}") };
+    let [diagnostic, summary] = lines.as_slice() else {
+        panic!("{lines:?}")
+    };
     assert_eq!(diagnostic["code"], "VC0203");
-    assert_eq!((&summary["kind"], &summary["errors"]), (&"summary".into(), &1.into()));
+    assert_eq!(
+        (&summary["kind"], &summary["errors"]),
+        (&"summary".into(), &1.into())
+    );
     assert_eq!(summary["files"].as_array().unwrap().len(), 0);
 }
 
@@ -275,7 +322,10 @@ fn diagnostics_are_coloured_when_asked_for() {
     let plain = vcutc(shop.path(), &["check", "bad.vcut"]);
     let coloured = vcutc(shop.path(), &["check", "bad.vcut", "--color", "always"]);
     assert!(!plain.stderr.contains('\u{1b}') && coloured.stderr.contains('\u{1b}'));
-    assert_eq!(anstream::adapter::strip_str(&coloured.stderr).to_string(), plain.stderr);
+    assert_eq!(
+        anstream::adapter::strip_str(&coloured.stderr).to_string(),
+        plain.stderr
+    );
 }
 
 #[test]
@@ -296,7 +346,14 @@ fn the_plan_has_a_row_for_each_cut() {
     let plan = read(shop.path(), "out/rib.plan.csv");
     let (header, rows) = plan.split_once('\n').unwrap();
     assert_eq!(header, "operation,layer,cut,x_mm,z_mm,swing_deg,tip");
-    let told = run.stderr.split_once("rib: ").unwrap().1.split_once(" cuts").unwrap().0;
+    let told = run
+        .stderr
+        .split_once("rib: ")
+        .unwrap()
+        .1
+        .split_once(" cuts")
+        .unwrap()
+        .0;
     assert_eq!(rows.lines().count().to_string(), told);
 }
 
@@ -318,7 +375,12 @@ fn a_reader_that_has_seen_enough_of_a_program_is_no_error() {
     let shop = shop();
     let mut command = command(shop.path(), &["rib.vcut", "--target", "krl", "-o", "-", "-q"]);
     command.stdout(writer);
-    let output = command.stderr(std::process::Stdio::piped()).spawn().unwrap().wait_with_output().unwrap();
+    let output = command
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap()
+        .wait_with_output()
+        .unwrap();
     assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
 }
 
@@ -328,11 +390,25 @@ fn a_job_is_found_from_another_folder_with_the_files_it_uses() {
     let (above, blade_and_below) = RIB.split_once("blade dagger").unwrap();
     let (blade, below) = blade_and_below.split_once("rough vcut").unwrap();
     fs::create_dir(shop.path().join("shop")).unwrap();
-    fs::write(shop.path().join("shop/blades.vcut"), format!("blade dagger{blade}")).unwrap();
+    fs::write(
+        shop.path().join("shop/blades.vcut"),
+        format!("blade dagger{blade}"),
+    )
+    .unwrap();
     let job = format!("{above}use \"shop/blades.vcut\"\nrough vcut{below}");
     fs::write(shop.path().join("uses.vcut"), job).unwrap();
     let elsewhere = folder();
     let path = shop.path().join("uses.vcut");
     let run = run(command(elsewhere.path(), &["check", path.to_str().unwrap()]));
     assert_eq!(run.code, Some(0), "{}", run.stderr);
+}
+
+#[test]
+fn the_job_of_the_readme_compiles() {
+    let folder = folder();
+    let out = folder.path().to_str().unwrap();
+    let job = "examples/spoiler_clarky.vcut";
+    let run = vcutc(crate::repository::root(), &[job, "--target", "krl", "-o", out]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(names(folder.path()), ["spoiler_clarky.dat", "spoiler_clarky.src"]);
 }
