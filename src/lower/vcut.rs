@@ -210,12 +210,10 @@ impl<'b> Writer<'b> {
         let above = Point3::new(pass.x, self.near(feed), self.safe);
         self.travel(layer, above, self.holder.cutting(pass.flank, feed));
         if self.running == Switch::Off {
-            // The generator starts at the safe plane over the first cut and runs until the program's end: it must be up
+            // The generator starts at the safe plane over the first cut and runs until the operation's end: it must be up
             // before the blade enters, and idling between layers costs nothing but waiting for it again would.
-            let operation = Site::Operation(self.operation);
-            self.builder
-                .op(operation, Action::Ultrasonic { state: Switch::On });
-            self.builder.op(operation, Action::AwaitReady);
+            self.builder.op(layer, Action::Ultrasonic { state: Switch::On });
+            self.builder.op(layer, Action::AwaitReady);
             self.running = Switch::On;
         }
         let start = Point3 { z: pass.z, ..above };
