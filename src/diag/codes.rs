@@ -116,8 +116,6 @@ codes! {
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "a job that leaves nothing to cut";
-    /// A step that leaves walls between the cuts.
-    StepTooWide = "VC0302", Error, "a step that leaves walls between the cuts";
     /// More cuts than a program can sensibly hold.
     TooManyCuts = "VC0303", Error, "more cuts than a program can hold";
     /// Cuts that do not run out far enough.

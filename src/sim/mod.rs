@@ -9,4 +9,6 @@
 pub mod prove;
 pub mod report;
 pub mod surface;
+#[cfg(test)]
+mod tests;
 pub mod timing;

@@ -46,7 +46,7 @@ const SIGNALS: u32 = 4096;
 const FIXED_INPUTS: [u32; 2] = [1025, 1026];
 
 /// The cell of a program and everything that stands in the way of writing it.
-pub(crate) fn check<'p>(program: &'p VerifiedProgram) -> Result<&'p Cell, Vec<BackendIssue>> {
+pub(crate) fn check(program: &VerifiedProgram) -> Result<&Cell, Vec<BackendIssue>> {
     let Some(cell) = &program.program().cell else {
         return Err(vec![BackendIssue::MissingMachine]);
     };
@@ -181,7 +181,8 @@ impl Findings {
                     op: None,
                     what: "input number",
                     value: input.to_string(),
-                    allowed: "an input with a wire: 1025 is always on and 1026 always off".to_owned(),
+                    allowed: "1 to 4096 but not 1025 and 1026, which the controller holds on and off"
+                        .to_owned(),
                 },
             );
         }

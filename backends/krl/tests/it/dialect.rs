@@ -1,0 +1,208 @@
+//! The test programs that every dialect should be covered by, one by one.
+
+use crate::support::reader::{self, Event};
+use crate::support::{emit, lines, verified};
+use vcutc_backend_api::backend::OptionValue;
+use vcutc_backend_api::ir::{Edges, Ready, Stock};
+use vcutc_backend_api::testkit::{CellRecipe, Passes, Recipe, conformance};
+use vcutc_backend_api::units::Length;
+use vcutc_backend_krl::Krl;
+
+fn events(recipe: &Recipe, values: &[(&str, OptionValue)]) -> Vec<Event> {
+    let bundle = emit(&verified(recipe.program()), values);
+    reader::run(&bundle, &recipe.name).unwrap()
+}
+
+fn one_cut() -> Recipe {
+    Recipe {
+        layers: 1,
+        cuts: 1,
+        ..Recipe::default()
+    }
+}
+
+/// Tips of the straight moves.
+fn tips(events: &[Event]) -> Vec<[f64; 3]> {
+    events
+        .iter()
+        .filter_map(|event| match event {
+            Event::Line { to, .. } => Some(to.tip),
+            _ => None,
+        })
+        .collect()
+}
+
+#[test]
+fn the_backend_keeps_the_promises_of_all_backends() {
+    assert_eq!(conformance(&Krl), Ok(()));
+}
+
+#[test]
+fn a_program_without_any_op_is_still_a_module() {
+    let mut program = Recipe::default().program();
+    program.ops.clear();
+    let bundle = emit(&verified(program), &[]);
+    assert_eq!(lines(&bundle, "sample.src").last().unwrap(), "END");
+    assert_eq!(lines(&bundle, "sample.dat").last().unwrap(), "ENDDAT");
+    let events = reader::run(&bundle, "sample").unwrap();
+    assert!(
+        !events
+            .iter()
+            .any(|event| matches!(event, Event::Axes(_) | Event::Line { .. }))
+    );
+}
+
+#[test]
+fn an_empty_list_of_cuts_only_goes_home() {
+    let recipe = Recipe {
+        layers: 0,
+        ..Recipe::default()
+    };
+    let motions: Vec<Event> = events(&recipe, &[])
+        .into_iter()
+        .filter(|event| matches!(event, Event::Axes(_) | Event::Line { .. }))
+        .collect();
+    assert_eq!(motions, [Event::Axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0])]);
+}
+
+#[test]
+fn one_cut_turns_about_the_still_tip_and_comes_back() {
+    let events = events(&one_cut(), &[]);
+    let tips = tips(&events);
+    let [_, _, front, back, turned, returned, away] = tips.as_slice() else {
+        panic!("{tips:?}");
+    };
+    assert_eq!(back.map(f64::to_bits), turned.map(f64::to_bits));
+    assert_eq!(front.map(f64::to_bits), returned.map(f64::to_bits));
+    assert!(front[1] < 0.0 && back[1] > 50.0);
+    assert_eq!((away[0], away[1]), (front[0], front[1]));
+    assert!(away[2] > 50.0);
+}
+
+#[test]
+fn a_turn_writes_the_same_digits_for_the_tip() {
+    let bundle = emit(&verified(one_cut().program()), &[]);
+    let lines = lines(&bundle, "sample.src");
+    let tips: Vec<&str> = lines
+        .iter()
+        .filter_map(|line| line.strip_prefix("LIN {")?.split(",A ").next())
+        .collect();
+    assert_eq!(tips[3], tips[4]);
+}
+
+#[test]
+fn the_generator_runs_before_the_first_cut_and_stops_after_the_last() {
+    let recipe = Recipe {
+        cell: CellRecipe {
+            ready: Ready::Input(7),
+            ..CellRecipe::default()
+        },
+        ..one_cut()
+    };
+    let events = events(&recipe, &[]);
+    let place = |wanted: &Event| events.iter().position(|event| event == wanted).unwrap();
+    let inside: Vec<usize> = events
+        .iter()
+        .enumerate()
+        .filter(|(_, event)| matches!(event, Event::Line { to, .. } if to.tip[2] < 50.0))
+        .map(|(index, _)| index)
+        .collect();
+    let (on, ready, off) = (
+        place(&Event::Output(12, true)),
+        place(&Event::Await(7)),
+        place(&Event::Output(12, false)),
+    );
+    assert!(on < ready && ready < inside[0]);
+    assert!(inside[inside.len() - 1] < off);
+}
+
+#[test]
+fn without_an_output_nothing_is_switched() {
+    let recipe = Recipe {
+        cell: CellRecipe {
+            ultrasonic: None,
+            ..CellRecipe::default()
+        },
+        ..one_cut()
+    };
+    assert!(
+        !events(&recipe, &[])
+            .iter()
+            .any(|event| matches!(event, Event::Output(..)))
+    );
+}
+
+#[test]
+fn the_longest_name_is_kept_and_a_longer_one_is_cut() {
+    for (name, module) in [
+        ("rib_of_18_letters_", "rib_of_18_letters"),
+        ("a_name_of_eighteen", "a_name_of_eighteen"),
+        ("a_name_of_eighteen_and_more", "a_name_of_eighteen"),
+        ("Flügel 7", "Fl_gel_7"),
+        ("lin", "VC_lin"),
+        ("bas", "VC_bas"),
+        ("7th", "VC_7th"),
+    ] {
+        let recipe = Recipe {
+            name: name.to_owned(),
+            ..one_cut()
+        };
+        let bundle = emit(&verified(recipe.program()), &[]);
+        assert_eq!(bundle.files()[0].0, format!("{module}.src"));
+    }
+}
+
+#[test]
+fn the_largest_and_smallest_coordinates_are_written_out() {
+    let recipe = Recipe {
+        stock: Stock {
+            width: Length::mm(85.0),
+            depth: Length::mm(99_000.0),
+            height: Length::mm(99_000.0),
+        },
+        step: Length::mm(0.002),
+        clearance: Length::mm(900.0),
+        edges: Edges::Single,
+        passes: Passes::Layer,
+        ..one_cut()
+    };
+    let tips = tips(&events(&recipe, &[]));
+    let largest = tips.iter().flatten().copied().fold(0.0, f64::max);
+    assert!(largest > 99_900.0, "{largest}");
+    assert!(tips.iter().any(|tip| (tip[0] - 0.001).abs() < 1e-9), "{tips:?}");
+}
+
+#[test]
+fn speeds_are_written_where_they_change() {
+    let bundle = emit(&verified(one_cut().program()), &[]);
+    let lines = lines(&bundle, "sample.src");
+    let speeds: Vec<&str> = lines
+        .iter()
+        .filter(|line| line.starts_with("$VEL"))
+        .map(String::as_str)
+        .collect();
+    assert_eq!(
+        speeds,
+        [
+            "$VEL.CP=0.5",
+            "$VEL.ORI1=90.0",
+            "$VEL.ORI2=90.0",
+            "$VEL.CP=0.2",
+            "$VEL.CP=0.5"
+        ]
+    );
+}
+
+#[test]
+fn corners_are_rounded_only_when_asked_for_and_only_in_the_air() {
+    let rounded = |values: &[(&str, OptionValue)]| {
+        events(&Recipe::default(), values)
+            .iter()
+            .filter(|event| matches!(event, Event::Line { rounded: true, .. }))
+            .count()
+    };
+    assert_eq!(rounded(&[]), 0);
+    // Six cuts: each retract, and each travel but the last retract, which leads to an output.
+    let distance = [("approximation", OptionValue::Length(Length::mm(2.0)))];
+    assert_eq!(rounded(&distance), 11);
+}

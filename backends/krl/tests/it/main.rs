@@ -1,0 +1,17 @@
+//! Tests of the KRL backend from outside: what comes out is read back by a reader that knows nothing of the writer.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test that meets the unexpected should stop"
+)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod dialect;
+mod never;
+mod parts;
+mod refusals;
+mod round_trip;
+mod snapshots;

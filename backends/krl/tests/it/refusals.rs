@@ -1,0 +1,235 @@
+//! What cannot be said is refused, never written wrong.
+
+use crate::support::issues;
+use vcutc_backend_api::backend::{BackendIssue, OptionValue};
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
+use vcutc_backend_api::ir::{Action, Load, Op, OpId, Program, Ready, Registered, Site};
+use vcutc_backend_api::testkit::{CellRecipe, Recipe};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+
+fn with_cell(change: impl FnOnce(&mut CellRecipe)) -> Program {
+    let mut recipe = Recipe::default();
+    change(&mut recipe.cell);
+    recipe.program()
+}
+
+/// What is out of range, and at which op.
+fn out_of_range(program: Program) -> Vec<(&'static str, Option<OpId>, String, String)> {
+    issues(program, &[])
+        .into_iter()
+        .map(|issue| match issue {
+            BackendIssue::OutOfRange {
+                op,
+                what,
+                value,
+                allowed,
+            } => (what, op, value, allowed),
+            other => panic!("{other:?}"),
+        })
+        .collect()
+}
+
+fn refused(program: Program) -> Vec<&'static str> {
+    out_of_range(program).into_iter().map(|(what, ..)| what).collect()
+}
+
+#[test]
+fn a_program_without_a_machine() {
+    let mut program = Recipe::default().program();
+    program.cell = None;
+    program.ops.clear();
+    assert_eq!(issues(program, &[]), [BackendIssue::MissingMachine]);
+}
+
+#[test]
+fn a_machine_without_home() {
+    let mut program = Recipe::default().program();
+    program.ops.retain(|op| op.action != Action::Home);
+    program.cell.as_mut().unwrap().home = None;
+    let issues = issues(program, &[]);
+    assert!(
+        matches!(
+            issues.as_slice(),
+            [BackendIssue::MissingMachineField { field: "home", .. }]
+        ),
+        "{issues:?}"
+    );
+}
+
+#[test]
+fn a_tool_change() {
+    let mut program = Recipe::default().program();
+    let last = program.ops.len();
+    program.ops.push(Op {
+        site: Site::Program,
+        action: Action::ToolChange { tool: 1 },
+    });
+    let issues = issues(program, &[]);
+    let place = OpId(u32::try_from(last).unwrap());
+    assert!(
+        matches!(issues.as_slice(), [BackendIssue::Unsupported { op, .. }] if *op == place),
+        "{issues:?}"
+    );
+}
+
+#[test]
+fn numbers_of_tools_bases_loads_and_signals() {
+    type Set = fn(&mut CellRecipe, u32);
+    let cases: [(Set, &str, u32); 5] = [
+        (|cell, n| cell.tool = Registered::Number(n), "tool number", 16),
+        (|cell, n| cell.base = Registered::Number(n), "base number", 32),
+        (
+            |cell, n| cell.load = Some(Registered::Number(n)),
+            "load number",
+            16,
+        ),
+        (|cell, n| cell.ultrasonic = Some(n), "output number", 4096),
+        (|cell, n| cell.ready = Ready::Input(n), "input number", 4096),
+    ];
+    for (set, what, highest) in cases {
+        for good in [1, highest] {
+            assert_eq!(
+                refused(with_cell(|cell| set(cell, good))),
+                [""; 0],
+                "{what} {good}"
+            );
+        }
+        for bad in [0, highest + 1, u32::MAX] {
+            assert_eq!(refused(with_cell(|cell| set(cell, bad))), [what], "{what} {bad}");
+        }
+    }
+}
+
+#[test]
+fn inputs_that_never_change() {
+    for input in [1025, 1026] {
+        assert_eq!(
+            refused(with_cell(|cell| cell.ready = Ready::Input(input))),
+            ["input number"]
+        );
+    }
+}
+
+#[test]
+fn speeds_beyond_the_machine_data() {
+    let with_speeds = |cut: f64, rate: f64| {
+        Recipe {
+            cut_feed: Speed::m_per_s(cut),
+            rate: AngularSpeed::deg_per_s(rate),
+            ..Recipe::default()
+        }
+        .program()
+    };
+    assert_eq!(refused(with_speeds(3.0, 400.0)), [""; 0]);
+    assert_eq!(refused(with_speeds(3.000_001, 400.0)), ["tip speed"]);
+    assert_eq!(refused(with_speeds(1e-7, 400.0)), ["tip speed"]);
+    assert_eq!(refused(with_speeds(3.0, 400.001)), ["reorientation rate"]);
+    assert_eq!(refused(with_speeds(3.0, 1e-9)), ["reorientation rate"]);
+}
+
+#[test]
+fn a_speed_is_told_with_its_first_op_and_unit() {
+    let program = Recipe {
+        cut_feed: Speed::m_per_s(5.0),
+        ..Recipe::default()
+    }
+    .program();
+    let first_cut = program
+        .ops
+        .iter()
+        .position(|op| matches!(op.action, Action::Cut { .. }))
+        .unwrap();
+    let place = Some(OpId(u32::try_from(first_cut).unwrap()));
+    let told = (
+        "tip speed",
+        place,
+        "5.0 m/s".to_owned(),
+        "0.000001 to 3.0 m/s".to_owned(),
+    );
+    assert_eq!(out_of_range(program), [told]);
+}
+
+#[test]
+fn coordinates_out_of_the_world() {
+    let mut recipe = Recipe {
+        clearance: Length::mm(99_945.0),
+        ..Recipe::default()
+    };
+    assert_eq!(refused(recipe.program()), ["Y"]);
+    recipe.clearance = Length::mm(1e6);
+    assert_eq!(refused(recipe.program()), ["Y", "Z"]);
+}
+
+#[test]
+fn frames_and_loads_that_no_robot_has() {
+    let far = Frame {
+        origin: Point3::new(0.0, -1e5, 0.0),
+        orientation: Orientation::IDENTITY,
+    };
+    let heavy = Load {
+        mass: Mass::kg(5000.0),
+        centre: Point3::new(1e9, 0.0, 0.0),
+    };
+    assert_eq!(
+        refused(with_cell(|cell| cell.tool = Registered::Value(far))),
+        ["tool Y"]
+    );
+    assert_eq!(
+        refused(with_cell(|cell| cell.base = Registered::Value(far))),
+        ["base Y"]
+    );
+    assert_eq!(
+        refused(with_cell(|cell| cell.load = Some(Registered::Value(heavy)))),
+        ["load mass", "load X"]
+    );
+    assert_eq!(
+        refused(with_cell(|cell| cell.home[2] = Angle::deg(361.0))),
+        ["home angle"]
+    );
+}
+
+#[test]
+fn times_that_are_none() {
+    for time in [f64::NAN, f64::INFINITY, -1.0, 1e6] {
+        let program = with_cell(|cell| cell.ready = Ready::After(Duration::s(time)));
+        assert_eq!(refused(program), ["time until ready"], "{time}");
+    }
+}
+
+#[test]
+fn more_parts_than_names() {
+    let program = Recipe {
+        layers: 100,
+        cuts: 100,
+        layer: Length::mm(0.1),
+        step: Length::mm(0.1),
+        ..Recipe::default()
+    }
+    .program();
+    let issues = issues(program, &[("lines_per_part", OptionValue::Integer(1))]);
+    assert!(
+        matches!(
+            issues.as_slice(),
+            [BackendIssue::OptionConflict {
+                key: "lines_per_part",
+                ..
+            }]
+        ),
+        "{issues:?}"
+    );
+}
+
+#[test]
+fn everything_at_once() {
+    let program = Recipe {
+        cut_feed: Speed::m_per_s(5.0),
+        cell: CellRecipe {
+            tool: Registered::Number(17),
+            base: Registered::Number(0),
+            ..CellRecipe::default()
+        },
+        ..Recipe::default()
+    }
+    .program();
+    assert_eq!(refused(program), ["tool number", "base number", "tip speed"]);
+}

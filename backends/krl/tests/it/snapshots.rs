@@ -1,0 +1,62 @@
+//! Small programs as a whole, to be read by people.
+
+use crate::support::{emit, verified};
+use vcutc_backend_api::backend::OptionValue;
+use vcutc_backend_api::bundle::Bundle;
+use vcutc_backend_api::ir::{Ready, Registered};
+use vcutc_backend_api::testkit::{CellRecipe, Recipe};
+use vcutc_backend_api::units::Length;
+
+/// All files, each under its name.
+fn shown(bundle: &Bundle) -> String {
+    let mut text = String::new();
+    for (name, bytes) in bundle.files() {
+        text += &format!(
+            "=== {name} ===\n{}",
+            String::from_utf8_lossy(bytes).replace("\r\n", "\n")
+        );
+    }
+    text
+}
+
+fn recipe() -> Recipe {
+    Recipe {
+        name: "spoiler rib 12".to_owned(),
+        layers: 1,
+        cuts: 2,
+        ..Recipe::default()
+    }
+}
+
+#[test]
+fn classic_in_parts() {
+    let values = [
+        ("lines_per_part", OptionValue::Integer(20)),
+        ("declare_parts", OptionValue::Choice("yes")),
+        (
+            "header",
+            OptionValue::Lines(vec!["Drawing 4711, issue B".to_owned()]),
+        ),
+    ];
+    insta::assert_snapshot!(shown(&emit(&verified(recipe().program()), &values)));
+}
+
+#[test]
+fn spline_with_numbered_frames() {
+    let recipe = Recipe {
+        cell: CellRecipe {
+            tool: Registered::Number(3),
+            base: Registered::Number(2),
+            load: None,
+            ready: Ready::Input(7),
+            ..CellRecipe::default()
+        },
+        ..recipe()
+    };
+    let values = [
+        ("motion", OptionValue::Choice("spline")),
+        ("approximation", OptionValue::Length(Length::mm(2.5))),
+        ("decimals", OptionValue::Integer(4)),
+    ];
+    insta::assert_snapshot!(shown(&emit(&verified(recipe.program()), &values)));
+}

@@ -1,0 +1,223 @@
+//! What the robot should do, straight from the ops, to be compared with what the reader makes of the text.
+
+use super::reader::{Event, Matrix, Pose};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, OrientationId, Ready, Switch};
+use vcutc_backend_api::verify::VerifiedProgram;
+
+/// An event for each op.
+pub(crate) fn events(program: &VerifiedProgram) -> Vec<Event> {
+    let cell = program.program().cell.as_ref().unwrap();
+    let mut at: Option<(Point3, OrientationId)> = None;
+    let mut speeds = (f64::NAN, f64::NAN);
+    program
+        .ops()
+        .map(|(_, op)| {
+            if let Some(pose) = target(&op.action, at) {
+                at = Some(pose);
+            }
+            speeds = speeds_of(program, &op.action, speeds);
+            match op.action {
+                Action::Home => {
+                    at = None;
+                    Event::Axes(cell.home.unwrap().map(|angle| angle.to_deg()))
+                }
+                Action::Travel { .. }
+                | Action::Approach { .. }
+                | Action::Retract { .. }
+                | Action::Cut { .. }
+                | Action::Turn { .. } => line(program, at.unwrap(), speeds),
+                Action::Ultrasonic { state } => Event::Output(cell.ultrasonic.unwrap(), state == Switch::On),
+                Action::AwaitReady => match cell.ready {
+                    Ready::Input(input) => Event::Await(input),
+                    Ready::After(time) => Event::Wait(time.to_s()),
+                },
+                Action::Dwell { time } => Event::Wait(time.to_s()),
+                Action::ToolChange { .. } => unreachable!("not in a sample"),
+            }
+        })
+        .collect()
+}
+
+fn target(action: &Action, at: Option<(Point3, OrientationId)>) -> Option<(Point3, OrientationId)> {
+    match *action {
+        Action::Travel { to, orientation, .. } => Some((to, orientation)),
+        Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. } => {
+            Some((to, at.unwrap().1))
+        }
+        Action::Turn { to, .. } => Some((at.unwrap().0, to)),
+        _ => None,
+    }
+}
+
+fn speeds_of(program: &VerifiedProgram, action: &Action, (feed, rate): (f64, f64)) -> (f64, f64) {
+    let tables = program.program();
+    let feed_of = |id: vcutc_backend_api::ir::FeedId| tables.feeds[usize::from(id.0)].to_m_per_s();
+    let rate_of = |id: vcutc_backend_api::ir::RateId| tables.rates[usize::from(id.0)].to_deg_per_s();
+    match *action {
+        Action::Travel { feed, rate, .. } => (feed_of(feed), rate_of(rate)),
+        Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
+            (feed_of(feed), rate)
+        }
+        Action::Turn { rate, .. } => (feed, rate_of(rate)),
+        _ => (feed, rate),
+    }
+}
+
+fn line(program: &VerifiedProgram, (tip, held): (Point3, OrientationId), (feed, rate): (f64, f64)) -> Event {
+    Event::Line {
+        to: Pose {
+            tip: [tip.x, tip.y, tip.z],
+            axes: program.orientation(held).matrix(),
+        },
+        feed,
+        rate,
+        rounded: false,
+    }
+}
+
+/// Tolerances: half a unit in the last place of each number.
+#[derive(Clone, Copy)]
+pub(crate) struct Rounding {
+    pub(crate) mm: f64,
+    pub(crate) deg: f64,
+}
+
+impl Rounding {
+    pub(crate) fn of_decimals(decimals: i32) -> Self {
+        Self {
+            mm: 0.5001 * 10_f64.powi(-decimals),
+            deg: 0.5001 * 10_f64.powi(-(decimals + 1).min(6)),
+        }
+    }
+}
+
+/// Whether two events are the same but for rounding; whether a corner is rounded is not compared.
+pub(crate) fn same(got: &Event, want: &Event, rounding: Rounding) -> bool {
+    let near = |a: f64, b: f64, by: f64| (a - b).abs() <= by;
+    match (got, want) {
+        (Event::Axes(got), Event::Axes(want)) => {
+            got.iter().zip(want).all(|(&a, &b)| near(a, b, rounding.deg))
+        }
+        (
+            Event::Line {
+                to: got, feed, rate, ..
+            },
+            Event::Line {
+                to: want,
+                feed: wanted_feed,
+                rate: wanted_rate,
+                ..
+            },
+        ) => {
+            near(*feed, *wanted_feed, 0.5001e-6)
+                && near(*rate, *wanted_rate, 0.5001e-6)
+                && poses_agree(got, want, rounding)
+        }
+        (Event::Wait(got), Event::Wait(want)) => near(*got, *want, 0.5001e-6),
+        (got, want) => got == want,
+    }
+}
+
+pub(crate) fn poses_agree(got: &Pose, want: &Pose, rounding: Rounding) -> bool {
+    // Three angles, each off by half a unit, turn an axis by at most their sum.
+    let turn = 3.0 * rounding.deg.to_radians();
+    let tips = got
+        .tip
+        .iter()
+        .zip(want.tip)
+        .all(|(a, b)| (a - b).abs() <= rounding.mm);
+    tips && entries(&got.axes)
+        .zip(entries(&want.axes))
+        .all(|(a, b)| (a - b).abs() <= turn)
+}
+
+fn entries(matrix: &Matrix) -> impl Iterator<Item = f64> {
+    matrix.iter().flatten().copied()
+}
+
+/// Compares what a bundle's main program did with what the ops say, op by op. At the start of every part but the first
+/// the state that the part before ended in must come again: its last pose, and the generator as it was.
+pub(crate) fn compare(got: &[Event], want: &[Event], rounding: Rounding) -> Result<(), String> {
+    let mut got = got.iter().peekable();
+    let mut history = History::default();
+    for wanted in want {
+        while let Some(Event::Module(_) | Event::Tool(_) | Event::Base(_)) = got.peek() {
+            let Some(Event::Module(name)) = got.next() else {
+                continue;
+            };
+            if name.contains("_p") && !name.ends_with("_p001") {
+                history.expect_again(&mut got, rounding)?;
+            }
+        }
+        match got.next() {
+            Some(event) if same(event, wanted, rounding) => history.note(wanted),
+            other => return Err(format!("{other:?} instead of {wanted:?}")),
+        }
+    }
+    match got.next() {
+        None => Ok(()),
+        Some(event) => only_setup(event)
+            .then_some(())
+            .ok_or(format!("{event:?} too much")),
+    }
+}
+
+fn only_setup(event: &Event) -> bool {
+    matches!(event, Event::Module(_) | Event::Tool(_) | Event::Base(_))
+}
+
+#[derive(Default)]
+struct History {
+    motion: Option<Event>,
+    /// The output while it is on, and what was waited for since.
+    generator: Option<Event>,
+    awaited: Option<Event>,
+}
+
+impl History {
+    fn note(&mut self, event: &Event) {
+        match event {
+            Event::Axes(_) | Event::Line { .. } => self.motion = Some(event.clone()),
+            Event::Output(_, true) => self.generator = Some(event.clone()),
+            Event::Output(_, false) => {
+                self.generator = None;
+                self.awaited = None;
+            }
+            // The samples dwell only while the generator is off.
+            Event::Await(_) | Event::Wait(_) if self.generator.is_some() => {
+                self.awaited = Some(event.clone())
+            }
+            _ => {}
+        }
+    }
+
+    fn expect_again<'e>(
+        &self,
+        got: &mut std::iter::Peekable<impl Iterator<Item = &'e Event>>,
+        rounding: Rounding,
+    ) -> Result<(), String> {
+        while got
+            .next_if(|event| matches!(event, Event::Tool(_) | Event::Base(_)))
+            .is_some()
+        {}
+        let pose = |event: &Event| match event {
+            Event::Line { to, .. } => Some(*to),
+            _ => None,
+        };
+        for wanted in [&self.motion, &self.generator, &self.awaited]
+            .into_iter()
+            .flatten()
+        {
+            let event = got.next().ok_or("a part without a start")?;
+            let agrees = match (pose(event), pose(wanted)) {
+                (Some(got), Some(want)) => poses_agree(&got, &want, rounding),
+                _ => same(event, wanted, rounding),
+            };
+            if !agrees {
+                return Err(format!("a part starts with {event:?} instead of {wanted:?}"));
+            }
+        }
+        Ok(())
+    }
+}
