@@ -1,4 +1,4 @@
-//! vcutc.
+#![doc = include_str!("../ARCHITECTURE.md")]
 
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -9,8 +9,8 @@ pub mod job;
 pub mod lower;
 pub mod plan;
 pub mod registry;
-pub mod sim;
 pub mod sema;
+pub mod sim;
 pub mod source;
 pub mod summary;
 pub mod syntax;

@@ -11,12 +11,21 @@ const LISTED_LAYERS: usize = 24;
 /// The lines of the summary.
 #[must_use]
 pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
-    let mut lines = vec![format!("{}: {} cuts in {} layers", plan.name, report.cuts(), report.layers.len())];
+    let mut lines = vec![format!(
+        "{}: {} cuts in {} layers",
+        plan.name,
+        report.cuts(),
+        report.layers.len()
+    )];
     lines.push(row("per layer", &cuts_per_layer(report)));
     for operation in &plan.operations {
         let PlannedOperation::RoughVcut(vcut) = operation;
-        let choices: Vec<String> =
-            vcut.parameters.choices(&vcut.asked).iter().map(|c| format!("{} = {}", c.name, c.value)).collect();
+        let choices: Vec<String> = vcut
+            .parameters
+            .choices(&vcut.asked)
+            .iter()
+            .map(|c| format!("{} = {}", c.name, c.value))
+            .collect();
         if !choices.is_empty() {
             lines.push(row("auto", &choices.join(", ")));
         }
@@ -35,7 +44,11 @@ pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
     ));
     lines.push(row(
         "area",
-        &format!("{:.1} mm2 removed, {:.1} mm2 stay on the part", report.removed.to_mm2(), report.residual.to_mm2()),
+        &format!(
+            "{:.1} mm2 removed, {:.1} mm2 stay on the part",
+            report.removed.to_mm2(),
+            report.residual.to_mm2()
+        ),
     ));
     lines.push(row(
         "scallop",
@@ -47,7 +60,10 @@ pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
             report.correlation * 100.0
         ),
     ));
-    lines.push(row("edge", &format!("{} mm in use at most", show(report.longest_edge.to_mm()))));
+    lines.push(row(
+        "edge",
+        &format!("{} mm in use at most", show(report.longest_edge.to_mm())),
+    ));
     lines
 }
 
@@ -56,9 +72,18 @@ fn row(name: &str, text: &str) -> String {
 }
 
 fn cuts_per_layer(report: &Report) -> String {
-    let listed: Vec<String> = report.layers.iter().take(LISTED_LAYERS).map(|(_, cuts)| cuts.to_string()).collect();
+    let listed: Vec<String> = report
+        .layers
+        .iter()
+        .take(LISTED_LAYERS)
+        .map(|(_, cuts)| cuts.to_string())
+        .collect();
     let more = report.layers.len().saturating_sub(LISTED_LAYERS);
-    let rest = if more > 0 { format!(" ... and {more} layers more") } else { String::new() };
+    let rest = if more > 0 {
+        format!(" ... and {more} layers more")
+    } else {
+        String::new()
+    };
     listed.join(" ") + &rest
 }
 

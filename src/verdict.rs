@@ -37,7 +37,11 @@ pub fn prove(plan: &PlannedJob, sources: &SourceMap) -> Result<Proven, Vec<Fault
     let findings = replay.findings.clone();
     let timing = timing(&program);
     let report = report(replay, plan.stock, &plan.profile, timing);
-    Ok(Proven { program, findings, report })
+    Ok(Proven {
+        program,
+        findings,
+        report,
+    })
 }
 
 fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
@@ -45,7 +49,10 @@ fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
         .operations
         .iter()
         .map(|operation| match operation {
-            PlannedOperation::RoughVcut(vcut) => Bound { part: &vcut.bound, drop: vcut.parameters.drop },
+            PlannedOperation::RoughVcut(vcut) => Bound {
+                part: &vcut.bound,
+                drop: vcut.parameters.drop,
+            },
         })
         .collect();
     prove::replay(program, &bounds)
@@ -87,14 +94,25 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
 
 /// `layer 7, cut 12 (x 43.2 mm, z 18.6 mm)`.
 fn place(finding: &Finding) -> String {
-    format!("layer {}, cut {} ({})", finding.layer, finding.cut, point(finding.tip.x, finding.tip.z))
+    format!(
+        "layer {}, cut {} ({})",
+        finding.layer,
+        finding.cut,
+        point(finding.tip.x, finding.tip.z)
+    )
 }
 
 fn point(x: f64, z: f64) -> String {
     format!("x {} mm, z {} mm", show(x), show(z))
 }
 
-fn not_freed(job: &CheckedJob, vcut: &PlannedVcut, finding: Finding, count: usize, needed: Length) -> Diagnostic {
+fn not_freed(
+    job: &CheckedJob,
+    vcut: &PlannedVcut,
+    finding: Finding,
+    count: usize,
+    needed: Length,
+) -> Diagnostic {
     let asked = &vcut.asked;
     let blade = &asked.blade;
     let available = show(blade.cutting_length.value.to_mm());
@@ -102,17 +120,30 @@ fn not_freed(job: &CheckedJob, vcut: &PlannedVcut, finding: Finding, count: usiz
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
     let layer = show(vcut.parameters.layer.to_mm());
     let (span, label) = match (asked.layer.span, asked.step.span) {
-        (Some(span), _) => (span, format!("layers of {layer} mm are deeper than this blade can cut free")),
-        (None, Some(span)) => {
-            (span, format!("with this step, layers of {layer} mm are deeper than this blade can cut free"))
-        }
-        (None, None) => (asked.head_span, format!("with layers of {layer} mm this chip is not cut free")),
+        (Some(span), _) => (
+            span,
+            format!("layers of {layer} mm are deeper than this blade can cut free"),
+        ),
+        (None, Some(span)) => (
+            span,
+            format!("with this step, layers of {layer} mm are deeper than this blade can cut free"),
+        ),
+        (None, None) => (
+            asked.head_span,
+            format!("with layers of {layer} mm this chip is not cut free"),
+        ),
     };
-    let headline = format!("{} needs {needed} mm of edge, the blade has {available} mm", place(&finding));
+    let headline = format!(
+        "{} needs {needed} mm of edge, the blade has {available} mm",
+        place(&finding)
+    );
     let mut diagnostic = Diagnostic::new(Code::ChipNotFreed, headline, span, label)
         .and(blade_span(blade), format!("{available} mm of edge"));
     if count > 1 {
-        diagnostic = diagnostic.note(format!("{} more cuts need more edge than the blade has", count - 1));
+        diagnostic = diagnostic.note(format!(
+            "{} more cuts need more edge than the blade has",
+            count - 1
+        ));
     }
     match remedy(job, vcut, finding.operation) {
         Some(Remedy::Layer(layer)) => {
@@ -180,8 +211,12 @@ fn proves_with(job: &CheckedJob, operation: OperationId, change: impl Fn(&mut Ro
         return false;
     };
     change(asked);
-    let (Some(plan), diagnostics) = plan::choose(&changed) else { return false };
-    let Ok(proven) = prove(&plan, &SourceMap::default()) else { return false };
+    let (Some(plan), diagnostics) = plan::choose(&changed) else {
+        return false;
+    };
+    let Ok(proven) = prove(&plan, &SourceMap::default()) else {
+        return false;
+    };
     diagnostics.is_empty()
         && proven.findings == Findings::default()
         && scallop_excess(&plan, &proven.report).is_none()
@@ -203,21 +238,38 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
     let (operation, asked, limit) = scallop_excess(plan, report)?;
     let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
     let limit_mm = show(limit.to_mm());
-    let span = asked.limits.scallop.and_then(|limit| limit.span).unwrap_or(asked.head_span);
-    let headline = format!("{height} mm of material stay on the part at x {} mm, the limit is {limit_mm} mm", show(peak.x));
-    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit")
-        .and(job.profile_span, format!("the part lies {height} mm below the highest material, {}", point(peak.x, peak.z)));
+    let span = asked
+        .limits
+        .scallop
+        .and_then(|limit| limit.span)
+        .unwrap_or(asked.head_span);
+    let headline = format!(
+        "{height} mm of material stay on the part at x {} mm, the limit is {limit_mm} mm",
+        show(peak.x)
+    );
+    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit").and(
+        job.profile_span,
+        format!(
+            "the part lies {height} mm below the highest material, {}",
+            point(peak.x, peak.z)
+        ),
+    );
     let planned = plan.operations.get(usize::from(operation.0))?;
     let PlannedOperation::RoughVcut(vcut) = planned;
     let layers = [1.0, 0.75, 0.5, 0.25].map(|share| vcut.parameters.layer.to_mm() * share);
     let works = [Residual::Auto, Residual::Lift].into_iter().find_map(|residual| {
-        layers.iter().copied().map(|layer| grid::down(layer * 0.1) * 10.0).filter(|&layer| layer > 0.0).find_map(|layer| {
-            let works = proves_with(job, operation, |asked| {
-                asked.residual.value = residual;
-                asked.layer.value = Auto::Given(Length::mm(layer));
-            });
-            works.then_some((residual, layer))
-        })
+        layers
+            .iter()
+            .copied()
+            .map(|layer| grid::down(layer * 0.1) * 10.0)
+            .filter(|&layer| layer > 0.0)
+            .find_map(|layer| {
+                let works = proves_with(job, operation, |asked| {
+                    asked.residual.value = residual;
+                    asked.layer.value = Auto::Given(Length::mm(layer));
+                });
+                works.then_some((residual, layer))
+            })
     });
     Some(match works {
         Some((residual, layer)) => {

@@ -1,6 +1,6 @@
 //! The arguments, and the help that teaches them.
 
-use super::suggest::nearest;
+use crate::diag::suggest::nearest;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
@@ -61,7 +61,8 @@ impl Arguments {
     /// The command that was most likely meant by a word.
     pub(super) fn command_near(word: &str) -> Option<String> {
         let root = Self::command();
-        nearest(word, root.get_subcommands().map(clap::Command::get_name)).map(str::to_owned)
+        let near = nearest(word, root.get_subcommands().map(clap::Command::get_name));
+        near.first().map(|&name| name.to_owned())
     }
 }
 
@@ -120,8 +121,8 @@ pub(super) struct CompileArgs {
 
     /// Show an inner form of the job instead of writing a program
     ///
-    /// It goes to standard output, or with -o into a file of the folder. The tree is shown for a job with errors
-    /// too, as far as it could be read.
+    /// It goes to standard output, or with -o into a file of the folder. Tree and plan are shown for a job with
+    /// errors too, as far as it got.
     #[arg(long, value_name = "FORM")]
     pub(super) emit: Option<InnerForm>,
 
@@ -205,7 +206,7 @@ pub(super) enum Color {
 pub(super) enum InnerForm {
     /// The syntax tree, for people who work on the compiler
     Ast,
-    /// What was planned: every `auto` decided, cuts, time
+    /// The planned cuts, as CSV with a row for each
     Plan,
     /// The verified intermediate program, as JSON
     Ir,

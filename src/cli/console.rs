@@ -223,7 +223,7 @@ impl Console {
     fn painted(&self, word: &str) -> String {
         match self.color {
             render::ColorChoice::Plain => word.to_owned(),
-            render::ColorChoice::Ansi => format!("\u{1b}[1;31m{word}\u{1b}[0m"),
+            render::ColorChoice::Colored => format!("\u{1b}[1;31m{word}\u{1b}[0m"),
         }
     }
 
@@ -239,13 +239,13 @@ impl Console {
 
 fn choose_color(color: Color) -> render::ColorChoice {
     let wanted = match color {
-        Color::Always => return render::ColorChoice::Ansi,
+        Color::Always => return render::ColorChoice::Colored,
         Color::Never => return render::ColorChoice::Plain,
         Color::Auto => AutoStream::choice(&io::stderr()),
     };
     match wanted {
         anstream::ColorChoice::Auto | anstream::ColorChoice::Never => render::ColorChoice::Plain,
-        anstream::ColorChoice::Always | anstream::ColorChoice::AlwaysAnsi => render::ColorChoice::Ansi,
+        anstream::ColorChoice::Always | anstream::ColorChoice::AlwaysAnsi => render::ColorChoice::Colored,
     }
 }
 

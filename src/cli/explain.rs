@@ -2,7 +2,7 @@
 
 use super::Exit;
 use super::console::{Console, Failure};
-use super::suggest::nearest;
+use crate::diag::suggest::nearest;
 use crate::diag::{Code, Severity};
 use std::fmt::Write;
 
@@ -30,7 +30,7 @@ fn find(text: &str) -> Option<Code> {
 
 fn unknown(text: &str) -> Failure {
     let failure = Failure::new(format!("there is no diagnostic code `{text}`"));
-    let failure = match nearest(text, Code::ALL.iter().map(|code| code.number())) {
+    let failure = match nearest(text, Code::ALL.iter().map(|code| code.number())).first() {
         Some(number) => failure.help(format!("did you mean `{number}`?")),
         None => failure,
     };

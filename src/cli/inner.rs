@@ -1,14 +1,17 @@
 //! `--emit`: the forms a job has between its text and the program.
 //!
-//! Only the intermediate program is an exchange format with a version; tree and plan are for reading.
+//! Only the intermediate program is an exchange format with a version. The tree is for people who work on the compiler;
+//! the plan is a table for people who want to look at the cuts, in a spreadsheet or a plot.
 
 use super::args::InnerForm;
 use crate::driver::Outcome;
-use crate::plan::show::show;
+use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
+///
+/// Everything is streamed: a plan of a million cuts is hundreds of megabytes of text.
 pub(super) fn write(
     form: InnerForm,
     outcome: &Outcome,
@@ -18,19 +21,15 @@ pub(super) fn write(
     let name = file_name(form, job);
     match form {
         InnerForm::Ast => match &outcome.ast {
-            Some(ast) => text_file(sink, &name, &format!("{ast:#?}\n")),
+            Some(ast) => file(sink, &name, |out| writeln!(out, "{ast:#?}")),
             None => Ok(Progressed::NotSoFar),
         },
         InnerForm::Plan => match &outcome.plan {
-            Some(plan) => text_file(sink, &name, &show(plan)),
+            Some(plan) => file(sink, &name, |out| write_plan(plan, out)),
             None => Ok(Progressed::NotSoFar),
         },
         InnerForm::Ir => match &outcome.compiled {
-            Some(compiled) => {
-                sink.file(&name)?;
-                json(compiled.program.program(), sink)?;
-                Ok(Progressed::Written)
-            }
+            Some(compiled) => file(sink, &name, |out| write_json(compiled.program.program(), out)),
             None => Ok(Progressed::NotSoFar),
         },
     }
@@ -52,26 +51,56 @@ fn file_name(form: InnerForm, job: &str) -> String {
     let stem = if stem.starts_with('<') { "stdin" } else { stem };
     let ending = match form {
         InnerForm::Ast => "ast.txt",
-        InnerForm::Plan => "plan.txt",
+        InnerForm::Plan => "plan.csv",
         InnerForm::Ir => "ir.json",
     };
     format!("{stem}.{ending}")
 }
 
-fn text_file(sink: &mut dyn Sink, name: &str, text: &str) -> Result<Progressed, SinkError> {
+fn file(
+    sink: &mut dyn Sink,
+    name: &str,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<Progressed, SinkError> {
     sink.file(name)?;
-    sink.write(text.as_bytes())?;
+    let mut out = BufWriter::new(SinkWriter(sink));
+    write(&mut out)
+        .and_then(|()| out.flush())
+        .map_err(|error| SinkError(error.to_string()))?;
     Ok(Progressed::Written)
 }
 
-/// Streams a value as indented JSON: a program of a million cuts is hundreds of megabytes of text.
-fn json(value: &impl serde::Serialize, sink: &mut dyn Sink) -> Result<(), SinkError> {
-    let mut writer = BufWriter::new(SinkWriter(sink));
-    serde_json::to_writer_pretty(&mut writer, value).map_err(|error| SinkError(error.to_string()))?;
-    writer
-        .write_all(b"\n")
-        .and_then(|()| writer.flush())
-        .map_err(|error| SinkError(error.to_string()))
+fn write_json(value: &impl serde::Serialize, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    writeln!(out)
+}
+
+/// A row for each cut. Operations, layers and cuts are counted from 1.
+fn write_plan(plan: &PlannedJob, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "operation,layer,cut,x_mm,z_mm,swing_deg,tip")?;
+    for (number, operation) in (1_u32..).zip(&plan.operations) {
+        match operation {
+            PlannedOperation::RoughVcut(vcut) => write_vcut(number, vcut, out)?,
+        }
+    }
+    Ok(())
+}
+
+fn write_vcut(number: u32, vcut: &PlannedVcut, out: &mut dyn Write) -> io::Result<()> {
+    let swing = vcut.parameters.swing.to_deg();
+    for layer in vcut.cuts.chunk_by(|a, b| a.layer == b.layer) {
+        for (cut, planned) in (1_u32..).zip(layer) {
+            let origin = match planned.origin {
+                TipOrigin::Lattice => "lattice",
+                TipOrigin::Lifted => "lifted",
+                TipOrigin::Shifted => "shifted",
+                TipOrigin::Relieved => "relieved",
+            };
+            let (layer, x, z) = (planned.layer, planned.tip.x, planned.tip.z);
+            writeln!(out, "{number},{layer},{cut},{x:.3},{z:.3},{swing:.3},{origin}")?;
+        }
+    }
+    Ok(())
 }
 
 /// A sink as a writer.
@@ -99,15 +128,14 @@ mod tests {
     fn files_are_named_after_the_job() {
         assert_eq!(file_name(InnerForm::Ir, "jobs/rib.vcut"), "rib.ir.json");
         assert_eq!(file_name(InnerForm::Ast, "rib"), "rib.ast.txt");
-        assert_eq!(file_name(InnerForm::Plan, "<stdin>"), "stdin.plan.txt");
+        assert_eq!(file_name(InnerForm::Plan, "<stdin>"), "stdin.plan.csv");
     }
 
     #[test]
     fn a_value_streams_into_the_file_whole() {
         let mut bundle = Bundle::default();
-        bundle.file("a.json").unwrap();
         let value: Vec<u32> = (0..10_000).collect();
-        json(&value, &mut bundle).unwrap();
+        file(&mut bundle, "a.json", |out| write_json(&value, out)).unwrap();
         let bytes = bundle.get("a.json").unwrap();
         assert_eq!(serde_json::from_slice::<Vec<u32>>(bytes).unwrap(), value);
     }

@@ -35,7 +35,6 @@ mod files;
 mod inner;
 mod output;
 mod progress;
-mod suggest;
 mod targets;
 
 use args::{Arguments, Command};

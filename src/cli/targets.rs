@@ -1,8 +1,8 @@
 //! `vcutc targets`: what programs can be written, and with which options.
 
 use super::console::{Console, Failure};
-use super::suggest::nearest;
 use super::{Exit, Targets};
+use crate::diag::suggest::nearest;
 use std::fmt::Write;
 use vcutc_backend_api::backend::{Backend, OptionKind, OptionSpec};
 
@@ -19,7 +19,7 @@ pub(super) fn find(targets: &Targets, id: &str) -> Result<&'static dyn Backend, 
         .find(|backend| backend.id() == id)
         .ok_or_else(|| {
             let failure = Failure::new(format!("there is no target `{id}`"));
-            let failure = match nearest(id, targets.iter().map(|backend| backend.id())) {
+            let failure = match nearest(id, targets.iter().map(|backend| backend.id())).first() {
                 Some(near) => failure.help(format!("did you mean `--target {near}`?")),
                 None => failure,
             };

@@ -5,6 +5,10 @@
 //! where the cause lies elsewhere, and says what to do.
 
 mod codes;
+pub mod fix;
+pub mod json;
+pub mod position;
+pub mod render;
 pub mod suggest;
 
 pub use codes::Code;

@@ -84,7 +84,11 @@ pub enum RequestError {
 pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<Outcome, RequestError> {
     progress(Stage::Reading);
     let mut outcome = Outcome::default();
-    let Request { path, loader, overrides } = request;
+    let Request {
+        path,
+        loader,
+        overrides,
+    } = request;
     let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
     let (ast, job) = sema::check(path, loader, overrides, sources, diagnostics)
         .map_err(|error| RequestError::Unreadable(error.to_string()))?;
@@ -111,7 +115,11 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
             outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
             if !has_errors(&outcome.diagnostics) {
                 let summary = summary(&plan, &proven.report);
-                outcome.compiled = Some(Compiled { program: proven.program, report: proven.report, summary });
+                outcome.compiled = Some(Compiled {
+                    program: proven.program,
+                    report: proven.report,
+                    summary,
+                });
             }
         }
         Err(faults) => outcome.diagnostics.push(internal(job, &faults)),
@@ -139,16 +147,28 @@ fn internal(job: &CheckedJob, faults: &[Fault]) -> Diagnostic {
 /// # Errors
 /// Diagnostics when the target cannot say the program, or the sink's own words.
 pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Result<(), EmitFailure> {
-    let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else { return Ok(()) };
+    let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
+        return Ok(());
+    };
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
     let emission = backend.check(&compiled.program, &options).map_err(|issues| {
-        EmitFailure::Diagnostics(target::diagnose(job, backend, compiled.program.program(), &issues))
+        EmitFailure::Diagnostics(target::diagnose(
+            job,
+            backend,
+            compiled.program.program(),
+            &issues,
+        ))
     })?;
     emission.write(sink).map_err(|error| match error {
         EmitError::Sink(error) => EmitFailure::Sink(error.0),
         EmitError::Internal(what) => EmitFailure::Diagnostics(vec![
-            Diagnostic::new(Code::Internal, what, job.name_span, "while writing this job's program")
-                .help("nothing was written; please report the job together with this message"),
+            Diagnostic::new(
+                Code::Internal,
+                what,
+                job.name_span,
+                "while writing this job's program",
+            )
+            .help("nothing was written; please report the job together with this message"),
         ]),
     })
 }

@@ -12,13 +12,24 @@ use vcutc_backend_api::ir::{OpId, Program};
 pub(super) fn unknown_targets(job: &CheckedJob) -> Vec<Diagnostic> {
     let known: Vec<&str> = registry::backends().iter().map(|backend| backend.id()).collect();
     let blocks = job.machine.iter().flat_map(|machine| &machine.targets);
-    blocks.filter(|block| !known.contains(&block.target.as_str())).map(|block| unknown_target(block, &known)).collect()
+    blocks
+        .filter(|block| !known.contains(&block.target.as_str()))
+        .map(|block| unknown_target(block, &known))
+        .collect()
 }
 
 fn unknown_target(block: &TargetOptions, known: &[&str]) -> Diagnostic {
-    let message = format!("a machine has no block `{}`, and there is no target of that name", block.target);
-    let diagnostic = Diagnostic::new(Code::UnknownBlock, message, block.span, "neither a field nor a target")
-        .help(format!("targets are: {}", known.join(", ")));
+    let message = format!(
+        "a machine has no block `{}`, and there is no target of that name",
+        block.target
+    );
+    let diagnostic = Diagnostic::new(
+        Code::UnknownBlock,
+        message,
+        block.span,
+        "neither a field nor a target",
+    )
+    .help(format!("targets are: {}", known.join(", ")));
     match nearest(&block.target, known.iter().copied()).first() {
         Some(near) => diagnostic.fix(format!("use `{near}`"), block.span, *near),
         None => diagnostic,
@@ -31,7 +42,10 @@ pub(super) fn options(job: &CheckedJob, backend: &dyn Backend) -> Result<Options
     let mut options = Options::defaults(specs);
     let mut diagnostics = Vec::new();
     let blocks = job.machine.iter().flat_map(|machine| &machine.targets);
-    for given in blocks.filter(|block| block.target == backend.id()).flat_map(|block| &block.given) {
+    for given in blocks
+        .filter(|block| block.target == backend.id())
+        .flat_map(|block| &block.given)
+    {
         match specs.iter().find(|spec| spec.key == given.key) {
             Some(spec) => {
                 if let Err(allowed) = set(&mut options, spec, &given.value) {
@@ -41,19 +55,26 @@ pub(super) fn options(job: &CheckedJob, backend: &dyn Backend) -> Result<Options
             None => diagnostics.push(unknown_option(given, backend)),
         }
     }
-    if diagnostics.is_empty() { Ok(options) } else { Err(diagnostics) }
+    if diagnostics.is_empty() {
+        Ok(options)
+    } else {
+        Err(diagnostics)
+    }
 }
 
 fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(), String> {
     // What cannot be converted is set to a value of another kind, so that the refusal is worded in one place.
     let none = OptionValue::Lines(Vec::new());
     let value = match (spec.kind, given) {
-        (OptionKind::Integer { .. }, GivenValue::Ratio(ratio)) => whole(*ratio).map_or(none, OptionValue::Integer),
+        (OptionKind::Integer { .. }, GivenValue::Ratio(ratio)) => {
+            whole(*ratio).map_or(none, OptionValue::Integer)
+        }
         (OptionKind::Length { .. }, GivenValue::Length(length)) => OptionValue::Length(*length),
         (OptionKind::Lines, GivenValue::Texts(lines)) => OptionValue::Lines(lines.clone()),
-        (OptionKind::Choice { of }, GivenValue::Word(word)) => {
-            of.iter().find(|known| *known == word).map_or(none, |known| OptionValue::Choice(known))
-        }
+        (OptionKind::Choice { of }, GivenValue::Word(word)) => of
+            .iter()
+            .find(|known| *known == word)
+            .map_or(none, |known| OptionValue::Choice(known)),
         (OptionKind::Lines, GivenValue::Ratio(_) | GivenValue::Length(_) | GivenValue::Word(_)) => {
             return Err("text in quotes".to_owned());
         }
@@ -65,7 +86,11 @@ fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(
 /// A number without fraction that fits.
 fn whole(ratio: f64) -> Option<u32> {
     let fits = ratio.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&ratio);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked on the line above")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked on the line above"
+    )]
     let number = ratio as u32;
     fits.then_some(number)
 }
@@ -93,11 +118,17 @@ pub(super) fn diagnose(
     program: &Program,
     issues: &[BackendIssue],
 ) -> Vec<Diagnostic> {
-    issues.iter().map(|issue| objection(job, backend.id(), program, issue)).collect()
+    issues
+        .iter()
+        .map(|issue| objection(job, backend.id(), program, issue))
+        .collect()
 }
 
 fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendIssue) -> Diagnostic {
-    let machine = job.machine.as_ref().map_or(job.name_span, |machine| machine.head_span);
+    let machine = job
+        .machine
+        .as_ref()
+        .map_or(job.name_span, |machine| machine.head_span);
     match issue {
         BackendIssue::MissingMachine => Diagnostic::new(
             Code::MissingMachine,
@@ -149,12 +180,17 @@ fn example(field: &str) -> String {
 
 fn option_span(machine: Option<&Machine>, target: &str, key: &str) -> Option<Span> {
     let blocks = machine?.targets.iter().filter(|block| block.target == target);
-    blocks.flat_map(|block| &block.given).find(|given| given.key == key).map(|given| given.value_span)
+    blocks
+        .flat_map(|block| &block.given)
+        .find(|given| given.key == key)
+        .map(|given| given.value_span)
 }
 
 /// Where the job asks for an op: the operation it belongs to, or the job as a whole.
 fn place_of(job: &CheckedJob, program: &Program, op: OpId) -> Span {
     let operation = program.ops.get(op.0 as usize).and_then(|op| op.site.operation());
     let asked = operation.and_then(|id| job.operations.get(usize::from(id.0)));
-    asked.map_or(job.name_span, |crate::job::Operation::RoughVcut(vcut)| vcut.head_span)
+    asked.map_or(job.name_span, |crate::job::Operation::RoughVcut(vcut)| {
+        vcut.head_span
+    })
 }

@@ -17,7 +17,7 @@ mod sample;
 mod spline;
 
 pub use super::point::{LARGEST_COORDINATE, Point2};
-pub use sample::{SampleError, sample};
+pub use sample::{MOST_SAMPLES, SampleError, sample};
 
 use arc::Arc;
 use bezier::Bezier;
@@ -26,7 +26,7 @@ use vcutc_backend_api::units::Length;
 /// Most control points of a Bezier curve, its ends included.
 pub const MOST_CONTROL_POINTS: usize = 64;
 
-/// Most points that one curve or formula may be flattened into.
+/// Most points that one curve may be flattened into.
 pub const MOST_POINTS: usize = 2_000_000;
 
 /// Points closer than this count as one, in mm. Far below any tolerance, far above rounding.

@@ -17,7 +17,7 @@
 
 mod cap;
 
-use super::point::Point2;
+use super::point::{LARGEST_COORDINATE, Point2};
 use super::profile::{Profile, least_step};
 use cap::Cap;
 use vcutc_backend_api::units::Length;
@@ -43,11 +43,12 @@ struct Stretch {
 /// The profile raised by a distance measured along its normal: the upper boundary of everything that is nearer to the
 /// part than `distance`, over the profile's span. The result is never below the true offset and at most 1 um above
 /// it, along the normal (arcs at convex corners become tangent polygons; for spans above 1 km, one part in
-/// 10^9 of the span). A distance of zero or less gives the profile itself.
+/// 10^9 of the span). A distance of zero or less gives the profile itself; the largest is
+/// the largest coordinate.
 #[must_use]
 pub fn offset_up(profile: &Profile, distance: Length) -> Profile {
-    let radius = distance.to_mm();
-    if !(radius > 0.0 && radius.is_finite()) {
+    let radius = distance.to_mm().min(LARGEST_COORDINATE);
+    if !(radius > 0.0 && distance.is_finite()) {
         return profile.clone();
     }
     let (start, end) = profile.span();

@@ -1,8 +1,8 @@
 //! The part's profile: a height for every x.
 //!
 //! A profile is a polyline with strictly increasing x. Questions about a height are answered by bisection; questions
-//! about a region (the nearest point, the nearest place below a height) by walking over blocks of segments, of which
-//! each knows how low and high it reaches, so that most blocks are passed over unopened.
+//! about a region (the nearest point, the nearest place below a height) by way of blocks of segments, of which each
+//! knows how low and high it reaches, so that most blocks are passed over unopened.
 
 mod blocks;
 mod level;

@@ -37,7 +37,9 @@ impl Builder {
         let cell = self.program.cell.as_ref();
         let exists = match action {
             Action::Home => cell.is_some_and(|cell| cell.home.is_some()),
-            Action::Ultrasonic { .. } | Action::AwaitReady => cell.is_some_and(|cell| cell.ultrasonic.is_some()),
+            Action::Ultrasonic { .. } | Action::AwaitReady => {
+                cell.is_some_and(|cell| cell.ultrasonic.is_some())
+            }
             Action::Travel { .. }
             | Action::Approach { .. }
             | Action::Retract { .. }

@@ -44,5 +44,9 @@ fn cell(plan: &PlannedJob) -> Option<Cell> {
 }
 
 fn source_ref(sources: &SourceMap, span: Span) -> SourceRef {
-    SourceRef { file: sources.name(span.file).to_owned(), start: span.start, end: span.end }
+    SourceRef {
+        file: sources.name(span.file).to_owned(),
+        start: span.start,
+        end: span.end,
+    }
 }

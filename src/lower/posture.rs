@@ -59,7 +59,9 @@ impl Holder {
         let lean = -feed.sigma() * (core::f64::consts::FRAC_PI_2 - self.rake.to_rad());
         let held = DQuat::from_rotation_y(alpha) * DQuat::from_rotation_x(lean) * upright();
         let about_its_axis = match (self.edges, feed) {
-            (Edges::Double, Feed::Forward | Feed::Backward) | (Edges::Single, Feed::Forward) => DQuat::IDENTITY,
+            (Edges::Double, Feed::Forward | Feed::Backward) | (Edges::Single, Feed::Forward) => {
+                DQuat::IDENTITY
+            }
             (Edges::Single, Feed::Backward) => DQuat::from_rotation_z(core::f64::consts::PI),
         };
         orientation(held * about_its_axis)
@@ -94,12 +96,19 @@ mod tests {
     use nalgebra::{Matrix3, Rotation3, Vector3};
     use proptest::prelude::*;
 
-    const PAPER: Holder = Holder { swing: Angle::deg(34.16), rake: Angle::deg(60.0), edges: Edges::Double };
+    const PAPER: Holder = Holder {
+        swing: Angle::deg(34.16),
+        rake: Angle::deg(60.0),
+        edges: Edges::Double,
+    };
 
     /// The formula of the process reference, by another crate.
     fn by_matrices(alpha: f64, theta: f64, sigma: f64) -> Matrix3<f64> {
         let r0 = Matrix3::from_columns(&[Vector3::y(), Vector3::x(), -Vector3::z()]);
-        let about_x = Rotation3::from_axis_angle(&Vector3::x_axis(), -sigma * (core::f64::consts::FRAC_PI_2 - theta));
+        let about_x = Rotation3::from_axis_angle(
+            &Vector3::x_axis(),
+            -sigma * (core::f64::consts::FRAC_PI_2 - theta),
+        );
         let about_y = Rotation3::from_axis_angle(&Vector3::y_axis(), alpha);
         about_y.matrix() * about_x.matrix() * r0
     }
@@ -152,7 +161,9 @@ mod tests {
 
     #[test]
     fn the_papers_turn_is_88_4_degrees() {
-        let turn = PAPER.cutting(Flank::Left, Feed::Forward).angle_to(PAPER.cutting(Flank::Right, Feed::Backward));
+        let turn = PAPER
+            .cutting(Flank::Left, Feed::Forward)
+            .angle_to(PAPER.cutting(Flank::Right, Feed::Backward));
         assert!((turn.to_deg() - 88.4).abs() < 0.05, "{}", turn.to_deg());
     }
 }

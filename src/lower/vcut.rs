@@ -9,7 +9,7 @@
 use super::builder::Builder;
 use super::posture::{Feed, Holder};
 use crate::job::{Direction, Order};
-use crate::plan::{PlannedCut, PlannedVcut};
+use crate::plan::{PlannedCut, PlannedVcut, Way};
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
@@ -39,7 +39,10 @@ pub(super) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut Buil
     for (layer, cuts) in layers(&planned.cuts) {
         writer.layer(layer, cuts);
     }
-    writer.builder.op(Site::Operation(operation), Action::Ultrasonic { state: Switch::Off });
+    writer.builder.op(
+        Site::Operation(operation),
+        Action::Ultrasonic { state: Switch::Off },
+    );
 }
 
 /// The cuts layer by layer.
@@ -57,6 +60,7 @@ struct Pass {
     x: f64,
     z: f64,
     flank: Flank,
+    way: Way,
 }
 
 /// Where the blade is between passes.
@@ -92,9 +96,15 @@ impl<'b> Writer<'b> {
         let asked = &planned.asked;
         let stock = builder.stock();
         let extension = planned.parameters.extension.to_mm();
-        let holder =
-            Holder { swing: planned.parameters.swing, rake: asked.rake.value, edges: asked.blade.edges };
-        let (cut_feed, travel_feed) = (builder.feed(asked.cut_feed.value), builder.feed(asked.travel_feed.value));
+        let holder = Holder {
+            swing: planned.parameters.swing,
+            rake: asked.rake.value,
+            edges: asked.blade.edges,
+        };
+        let (cut_feed, travel_feed) = (
+            builder.feed(asked.cut_feed.value),
+            builder.feed(asked.travel_feed.value),
+        );
         let rate = builder.rate(asked.reorient_rate.value);
         let safe = (stock.height + asked.clearance.value).to_mm();
         Self {
@@ -119,25 +129,38 @@ impl<'b> Writer<'b> {
     /// Cuts a layer and leaves it.
     fn layer(&mut self, layer: NonZeroU32, cuts: &[PlannedCut]) {
         let operation = self.operation;
-        let pass = |(index, cut): (u32, &PlannedCut), flank| {
+        let pass = |(index, cut): (u32, &PlannedCut), flank, way| {
             let number = NonZeroU32::MIN.saturating_add(index);
-            Pass { site: Site::Cut { operation, layer, cut: number }, x: cut.tip.x, z: cut.tip.z, flank }
+            Pass {
+                site: Site::Cut {
+                    operation,
+                    layer,
+                    cut: number,
+                },
+                x: cut.tip.x,
+                z: cut.tip.z,
+                flank,
+                way,
+            }
         };
         let numbered = || (0_u32..).zip(cuts);
         match self.order {
             Order::Point => {
                 for cut in numbered() {
-                    self.pass(pass(cut, Flank::Left));
-                    self.pass(pass(cut, Flank::Right));
+                    self.pass(pass(cut, Flank::Left, cut.1.way));
+                    self.pass(pass(cut, Flank::Right, Way::Beside));
                 }
             }
             Order::Layer => {
                 for cut in numbered() {
-                    self.pass(pass(cut, Flank::Left));
+                    self.pass(pass(cut, Flank::Left, cut.1.way));
                 }
+                // On the way back, a cut is reached by the way that led from it to the next one.
                 let back: Vec<_> = numbered().collect();
+                let mut way = Way::Beside;
                 for &cut in back.iter().rev() {
-                    self.pass(pass(cut, Flank::Right));
+                    self.pass(pass(cut, Flank::Right, way));
+                    way = cut.1.way;
                 }
             }
         }
@@ -151,19 +174,29 @@ impl<'b> Writer<'b> {
             (Direction::Alternate | Direction::Forward, _) => Feed::Forward,
             (Direction::Backward, _) => Feed::Backward,
         };
-        let one_way = match self.direction {
-            Direction::Alternate => false,
+        let over = match self.direction {
+            Direction::Alternate => pass.way == Way::Over,
             Direction::Forward | Direction::Backward => true,
         };
-        if one_way && self.at != Place::Above {
+        if over && self.at != Place::Above {
             self.retract(pass.site);
         }
         match self.at {
             Place::Above => self.descend(pass, feed),
             Place::Beside(_) => self.go_beside(pass, feed),
         }
-        let end = Point3 { y: self.far(feed), ..self.tip };
-        self.builder.op(pass.site, Action::Cut { flank: pass.flank, to: end, feed: self.cut_feed });
+        let end = Point3 {
+            y: self.far(feed),
+            ..self.tip
+        };
+        self.builder.op(
+            pass.site,
+            Action::Cut {
+                flank: pass.flank,
+                to: end,
+                feed: self.cut_feed,
+            },
+        );
         self.tip = end;
         self.at = Place::Beside(feed.reversed());
     }
@@ -180,12 +213,19 @@ impl<'b> Writer<'b> {
             // The generator starts at the safe plane over the first cut and runs until the program's end: it must be up
             // before the blade enters, and idling between layers costs nothing but waiting for it again would.
             let operation = Site::Operation(self.operation);
-            self.builder.op(operation, Action::Ultrasonic { state: Switch::On });
+            self.builder
+                .op(operation, Action::Ultrasonic { state: Switch::On });
             self.builder.op(operation, Action::AwaitReady);
             self.running = Switch::On;
         }
         let start = Point3 { z: pass.z, ..above };
-        self.builder.op(pass.site, Action::Approach { to: start, feed: self.travel_feed });
+        self.builder.op(
+            pass.site,
+            Action::Approach {
+                to: start,
+                feed: self.travel_feed,
+            },
+        );
         self.tip = start;
     }
 
@@ -204,7 +244,12 @@ impl<'b> Writer<'b> {
     fn travel(&mut self, site: Site, to: Point3, posture: Orientation) {
         self.pass_between(site, posture);
         let orientation = self.builder.orientation(posture);
-        let action = Action::Travel { to, orientation, feed: self.travel_feed, rate: self.rate };
+        let action = Action::Travel {
+            to,
+            orientation,
+            feed: self.travel_feed,
+            rate: self.rate,
+        };
         self.builder.op(site, action);
         self.tip = to;
         self.held = Some(posture);
@@ -212,7 +257,10 @@ impl<'b> Writer<'b> {
 
     /// A turn that comes near half a revolution goes by way of the posture in between.
     fn pass_between(&mut self, site: Site, posture: Orientation) {
-        if self.held.is_some_and(|held| held.angle_to(posture) > LARGEST_SINGLE_TURN) {
+        if self
+            .held
+            .is_some_and(|held| held.angle_to(posture) > LARGEST_SINGLE_TURN)
+        {
             self.turn(site, self.holder.between());
         }
     }
@@ -227,8 +275,17 @@ impl<'b> Writer<'b> {
 
     /// Straight up to the safe plane.
     fn retract(&mut self, site: Site) {
-        let to = Point3 { z: self.safe, ..self.tip };
-        self.builder.op(site, Action::Retract { to, feed: self.travel_feed });
+        let to = Point3 {
+            z: self.safe,
+            ..self.tip
+        };
+        self.builder.op(
+            site,
+            Action::Retract {
+                to,
+                feed: self.travel_feed,
+            },
+        );
         self.tip = to;
         self.at = Place::Above;
     }

@@ -30,7 +30,11 @@ impl Flanks {
     #[must_use]
     pub fn new(cutting_length: Length, half_apex: Angle, rake: Angle, swing: Angle) -> Self {
         let vertical = swing.cos() * (rake - half_apex).sin();
-        Self { slope: 1.0 / swing.tan(), reach: cutting_length * vertical, edge_per_reach: 1.0 / vertical }
+        Self {
+            slope: 1.0 / swing.tan(),
+            reach: cutting_length * vertical,
+            edge_per_reach: 1.0 / vertical,
+        }
     }
 }
 
@@ -43,10 +47,19 @@ struct OlderTips {
 impl OlderTips {
     fn of(lattice: Lattice, step: f64) -> Self {
         match lattice {
-            Lattice::Orthogonal => Self { first: step, spacing: step },
-            Lattice::Interlaced => Self { first: step / 2.0, spacing: step },
+            Lattice::Orthogonal => Self {
+                first: step,
+                spacing: step,
+            },
+            Lattice::Interlaced => Self {
+                first: step / 2.0,
+                spacing: step,
+            },
             // Anywhere: at worst the flank just misses a tip, and the next lies a whole step further.
-            Lattice::Free => Self { first: 0.0, spacing: step },
+            Lattice::Free => Self {
+                first: 0.0,
+                spacing: step,
+            },
         }
     }
 }
@@ -64,7 +77,9 @@ pub fn needed_reach(lattice: Lattice, layer: Length, step: Length, slope: f64) -
     let tips = OlderTips::of(lattice, s);
     match lattice {
         Lattice::Orthogonal | Lattice::Interlaced => {
-            let missed = ((h - TOUCH - slope * tips.first) / (slope * tips.spacing)).ceil().max(0.0);
+            let missed = ((h - TOUCH - slope * tips.first) / (slope * tips.spacing))
+                .ceil()
+                .max(0.0);
             Length::mm((h + slope * (tips.first + missed * tips.spacing)) / 2.0).max(layer)
         }
         Lattice::Free => Length::mm(h + slope * s / 2.0),
@@ -150,12 +165,19 @@ mod tests {
         let mut surface = Surface::flat(width, top);
         let mut worst: f64 = 0.0;
         for j in 1..=5_u32 {
-            let shift = if lattice == Lattice::Interlaced && j % 2 == 0 { step / 2.0 } else { 0.0 };
+            let shift = if lattice == Lattice::Interlaced && j % 2 == 0 {
+                step / 2.0
+            } else {
+                0.0
+            };
             let z = top - f64::from(j) * layer;
             let mut x = shift;
             let mut vees = Vec::new();
             while x <= width {
-                vees.push(Vee { tip: Point2 { x, z }, slope });
+                vees.push(Vee {
+                    tip: Point2 { x, z },
+                    slope,
+                });
                 x += step;
             }
             for vee in vees {
@@ -204,7 +226,12 @@ mod tests {
 
     #[test]
     fn largest_layers_of_the_paper() {
-        let flanks = Flanks::new(Length::mm(10.0), Angle::deg(7.13), Angle::deg(60.0), Angle::deg(34.16));
+        let flanks = Flanks::new(
+            Length::mm(10.0),
+            Angle::deg(7.13),
+            Angle::deg(60.0),
+            Angle::deg(34.16),
+        );
         // [Cui 4] and Table 1.
         let orthogonal = largest_layer(Lattice::Orthogonal, 0.0, flanks.reach);
         assert!((orthogonal.to_mm() - 4.40).abs() < 0.005, "{orthogonal:?}");
@@ -212,7 +239,12 @@ mod tests {
         assert!((largest_layer(Lattice::Interlaced, 0.0, flanks.reach) / flanks.reach - 1.0).abs() < 1e-12);
         assert!((largest_layer(Lattice::Free, 0.0, flanks.reach) / flanks.reach - 0.5).abs() < 1e-12);
         // Overlap a half, at 35.75 degrees: 6.47 mm instead of [Cui 4]'s 4.31 mm.
-        let flanks = Flanks::new(Length::mm(10.0), Angle::deg(7.13), Angle::deg(60.0), Angle::deg(35.75));
+        let flanks = Flanks::new(
+            Length::mm(10.0),
+            Angle::deg(7.13),
+            Angle::deg(60.0),
+            Angle::deg(35.75),
+        );
         assert!((largest_layer(Lattice::Orthogonal, 0.5, flanks.reach).to_mm() - 6.470).abs() < 1e-3);
         // [Cui 12] at Table 1's optimum: 9.29 mm.
         let slope = 1.0 / Angle::deg(34.16).tan();

@@ -34,7 +34,10 @@ mod tests {
     #[test]
     fn rounds_each_way_and_leaves_grid_points_alone() {
         assert_eq!([nearest(1.2344), up(1.2344), down(1.2344)], [1.234, 1.235, 1.234]);
-        assert_eq!([nearest(-1.2346), up(-1.2346), down(-1.2346)], [-1.235, -1.234, -1.235]);
+        assert_eq!(
+            [nearest(-1.2346), up(-1.2346), down(-1.2346)],
+            [-1.235, -1.234, -1.235]
+        );
         for point in [0.3, 0.7, 8.29, 1024.001] {
             assert_eq!([nearest(point), up(point), down(point)], [point; 3]);
         }

@@ -7,8 +7,8 @@
 
 use super::grid;
 use super::parameters::VcutParameters;
-use crate::geom::profile::Profile;
 use crate::geom::curve::Point2;
+use crate::geom::profile::Profile;
 use crate::job::Lattice;
 use vcutc_backend_api::ir::Stock;
 
@@ -82,8 +82,16 @@ impl<'c> Layout<'c> {
         // Down to the first layer that lies wholly below the floor: its tips may still be raised onto it. Interlaced columns
         // are visited every other layer only, so they get one more.
         let extra = if lattice == Lattice::Interlaced { 1.0 } else { 0.0 };
-        let layers = if depth > 0.0 { (depth / layout.layer).ceil() + extra } else { 0.0 };
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive; saturates")]
+        let layers = if depth > 0.0 {
+            (depth / layout.layer).ceil() + extra
+        } else {
+            0.0
+        };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "positive; saturates"
+        )]
         {
             layout.layers = layers as u32;
         }
@@ -103,7 +111,11 @@ impl<'c> Layout<'c> {
     #[must_use]
     pub fn most_tips(&self) -> usize {
         let a_layer = (self.width / self.step).ceil() + 1.0;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive; saturates")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "positive; saturates"
+        )]
         let most = (a_layer * f64::from(self.layers)) as usize;
         most
     }
@@ -124,9 +136,18 @@ impl<'c> Layout<'c> {
     #[must_use]
     pub fn row(&self, layer: u32) -> Row<'_> {
         match &self.rows {
-            Rows::Same(columns) => Row::Columns { parity: Parity::Odd, columns },
-            Rows::Alternating { odd, .. } if layer % 2 == 1 => Row::Columns { parity: Parity::Odd, columns: odd },
-            Rows::Alternating { even, .. } => Row::Columns { parity: Parity::Even, columns: even },
+            Rows::Same(columns) => Row::Columns {
+                parity: Parity::Odd,
+                columns,
+            },
+            Rows::Alternating { odd, .. } if layer % 2 == 1 => Row::Columns {
+                parity: Parity::Odd,
+                columns: odd,
+            },
+            Rows::Alternating { even, .. } => Row::Columns {
+                parity: Parity::Even,
+                columns: even,
+            },
             Rows::Free => Row::Free(self.free_tips(self.height(layer))),
         }
     }
@@ -146,14 +167,25 @@ impl<'c> Layout<'c> {
     fn lay_out(&self, lattice: Lattice) -> Rows {
         let column = |x: f64| {
             let x = grid::nearest(x);
-            Column { x, floor: self.floor(x) }
+            Column {
+                x,
+                floor: self.floor(x),
+            }
         };
         let count = (self.width / self.step).ceil().max(1.0);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, bounded by MOST_CUTS")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "positive, bounded by MOST_CUTS"
+        )]
         let points = count as u32;
         // On the grid, so that a step on the grid keeps all tips exactly a step apart.
         let first = grid::down((self.width - (count - 1.0) * self.step) / 2.0);
-        let row = || (0..points).map(|i| column(first + f64::from(i) * self.step)).collect();
+        let row = || {
+            (0..points)
+                .map(|i| column(first + f64::from(i) * self.step))
+                .collect()
+        };
         match lattice {
             Lattice::Orthogonal => Rows::Same(row()),
             Lattice::Interlaced => {
@@ -176,7 +208,10 @@ impl<'c> Layout<'c> {
             for x in spread(from, to, at_part, self.step) {
                 let x = grid::nearest(x);
                 // Rounding x may have brought the tip a hair into the part.
-                tips.push(Point2 { x, z: z.max(self.floor(x)) });
+                tips.push(Point2 {
+                    x,
+                    z: z.max(self.floor(x)),
+                });
             }
         }
         tips
@@ -193,13 +228,21 @@ fn spread(from: f64, to: f64, on_part: [bool; 2], step: f64) -> impl Iterator<It
     if count > 1.0 && length < step / 4.0 {
         count = 1.0;
     }
-    let spacing = if count - 1.0 + halves > 0.0 { length / (count - 1.0 + halves) } else { 0.0 };
+    let spacing = if count - 1.0 + halves > 0.0 {
+        length / (count - 1.0 + halves)
+    } else {
+        0.0
+    };
     let first = match (on_part[0], count > 1.0 || halves > 0.0) {
         (true, true) => from,
         (true, false) => from + length / 2.0,
         (false, _) => from + spacing / 2.0,
     };
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, bounded by MOST_CUTS")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive, bounded by MOST_CUTS"
+    )]
     let count = count as u32;
     (0..count).map(move |i| first + f64::from(i) * spacing)
 }

@@ -12,7 +12,6 @@ pub mod grid;
 pub mod lattice;
 pub mod parameters;
 pub mod residual;
-pub mod show;
 pub mod time_model;
 
 #[cfg(test)]
@@ -75,6 +74,17 @@ pub struct PlannedCut {
     pub tip: Point2,
     /// How the tip came to be where it is.
     pub origin: TipOrigin,
+    /// How the blade gets there from the cut before in the same layer.
+    pub way: Way,
+}
+
+/// The way between two neighbouring cuts of a layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Beside the work at working height.
+    Beside,
+    /// Over the safe plane: material in between stands so high that the leaning blade would meet it.
+    Over,
 }
 
 /// How a tip came to be where it is.
@@ -138,8 +148,17 @@ fn plan_vcut(
         diagnostics.push(nothing_to_cut(job, asked, &parameters, &clearance));
         return None;
     }
-    let estimate = parameters.time_model(job, asked).estimate(parameters.swing, parameters.layer, parameters.step);
-    Some(PlannedVcut { asked: asked.clone(), parameters, bound, estimate, cuts })
+    let estimate =
+        parameters
+            .time_model(job, asked)
+            .estimate(parameters.swing, parameters.layer, parameters.step);
+    Some(PlannedVcut {
+        asked: asked.clone(),
+        parameters,
+        bound,
+        estimate,
+        cuts,
+    })
 }
 
 fn nothing_to_cut(
@@ -151,9 +170,20 @@ fn nothing_to_cut(
     let lowest = clearance.lowest().z + parameters.drop.to_mm();
     let depth = job.stock.height.to_mm() - lowest;
     let message = "this operation leaves nothing to cut";
-    let diagnostic = Diagnostic::new(Code::NothingToCut, message, asked.head_span, "no tip fits between part and stock")
-        .and(job.profile_span, format!("the lowest tip that clears the part lies at z {lowest:.3} mm"))
-        .and(job.stock_span, format!("the stock ends at z {:.3} mm", job.stock.height.to_mm()));
+    let diagnostic = Diagnostic::new(
+        Code::NothingToCut,
+        message,
+        asked.head_span,
+        "no tip fits between part and stock",
+    )
+    .and(
+        job.profile_span,
+        format!("the lowest tip that clears the part lies at z {lowest:.3} mm"),
+    )
+    .and(
+        job.stock_span,
+        format!("the stock ends at z {:.3} mm", job.stock.height.to_mm()),
+    );
     if depth > 0.0 {
         diagnostic
             .note(format!(

@@ -31,6 +31,8 @@ pub struct VcutParameters {
     pub drop: Length,
     /// Slope and reach of the flanks.
     pub flanks: Flanks,
+    /// How high above the tip material may stand while the blade moves or turns beside it: the blade leans over the work.
+    pub clear_height: Length,
 }
 
 /// A parameter that was left to the compiler, and what it came out as.
@@ -53,11 +55,17 @@ impl VcutParameters {
     #[must_use]
     pub fn choices(&self, asked: &RoughVcut) -> Vec<Choice> {
         let length = |name, open: Auto<Length>, value: Length| match open {
-            Auto::Auto => Some(Choice { name, value: format!("{:.3} mm", value.to_mm()) }),
+            Auto::Auto => Some(Choice {
+                name,
+                value: format!("{:.3} mm", value.to_mm()),
+            }),
             Auto::Given(_) => None,
         };
         let swing = match asked.swing.value {
-            Auto::Auto => Some(Choice { name: "swing", value: format!("{:.3} deg", self.swing.to_deg()) }),
+            Auto::Auto => Some(Choice {
+                name: "swing",
+                value: format!("{:.3} deg", self.swing.to_deg()),
+            }),
             Auto::Given(_) => None,
         };
         [
@@ -97,7 +105,7 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
     let before = diagnostics.len();
     check_rake(asked, diagnostics);
     let swing = resolve_swing(asked, diagnostics);
-    let extension = resolve_extension(asked, diagnostics);
+    check_extension(asked, diagnostics);
     if diagnostics.len() > before {
         return None;
     }
@@ -113,7 +121,62 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
         swing,
     );
     let (layer, step) = resolve_layer_and_step(asked, &flanks, drop);
-    Some(VcutParameters { swing, layer, step, extension, standoff, drop, flanks })
+    let lean = Lean::new(asked, swing);
+    let extension = match asked.extension.value {
+        Auto::Auto => {
+            // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
+            let teeth = layer + step * (flanks.slope / 2.0);
+            lean.overhang(teeth).max(edge_overhang(asked)) + asked.run_out.value
+        }
+        Auto::Given(extension) => extension,
+    };
+    let extension = Length::mm(grid::up(extension.to_mm()));
+    let clear_height = lean.clear_height(extension);
+    Some(VcutParameters {
+        swing,
+        layer,
+        step,
+        extension,
+        standoff,
+        drop,
+        flanks,
+        clear_height,
+    })
+}
+
+/// How far the edge lies over the work by its projection on y [Cui 5]; the whole cutting length, as deep cuts use it.
+fn edge_overhang(asked: &RoughVcut) -> Length {
+    asked.blade.cutting_length.value * (asked.rake.value - asked.blade.half_apex.value).cos()
+}
+
+/// How the blade leans over the work while its tip is beside it. Above the cutting length it is taken to go on along the tool
+/// axis as wide as it is there.
+struct Lean {
+    /// Half the blade's width at its full cutting length, measured along y: `L sin(beta) / sin(theta)`.
+    half_width: Length,
+    /// How far the tool axis leans along y for each millimetre of height: `cot(theta) / cos(alpha)`.
+    per_height: f64,
+}
+
+impl Lean {
+    fn new(asked: &RoughVcut, swing: Angle) -> Self {
+        let (blade, rake) = (&asked.blade, asked.rake.value);
+        Self {
+            half_width: blade.cutting_length.value * (blade.half_apex.value.sin() / rake.sin()),
+            per_height: rake.cos().max(0.0) / (rake.sin() * swing.cos()),
+        }
+    }
+
+    /// How far the blade lies over the work at a height above the tip.
+    fn overhang(&self, height: Length) -> Length {
+        self.half_width + height * self.per_height
+    }
+
+    /// The height up to which the blade is clear of the work with its tip that far beside it.
+    fn clear_height(&self, extension: Length) -> Length {
+        let upright = 1e-9;
+        Length::mm((extension - self.half_width).to_mm().max(0.0) / self.per_height.max(upright))
+    }
 }
 
 fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
@@ -125,15 +188,24 @@ fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.push(
         Diagnostic::new(
             Code::RakeTooFlat,
-            format!("with a rake of {} deg the leading edge does not cut", show(rake.to_deg())),
+            format!(
+                "with a rake of {} deg the leading edge does not cut",
+                show(rake.to_deg())
+            ),
             span,
-            format!("the edge leads the feed by rake less half apex, {} deg", show((rake - half_apex).to_deg())),
+            format!(
+                "the edge leads the feed by rake less half apex, {} deg",
+                show((rake - half_apex).to_deg())
+            ),
         )
         .and(
             asked.blade.half_apex.span.unwrap_or(asked.blade.span),
             format!("half the blade's apex angle is {} deg", show(half_apex.to_deg())),
         )
-        .help(format!("use a rake well above {} deg, such as 60 deg", show(half_apex.to_deg()))),
+        .help(format!(
+            "use a rake well above {} deg, such as 60 deg",
+            show(half_apex.to_deg())
+        )),
     );
 }
 
@@ -143,8 +215,14 @@ fn resolve_swing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Angle 
         (Auto::Auto, None) => AUTO_SWING,
         (Auto::Auto, Some(limit)) => AUTO_SWING.min(limit.value),
         (Auto::Given(swing), Some(limit)) if swing > limit.value => {
-            let (limit_deg, span) = (show(limit.value.to_deg()), asked.swing.span.unwrap_or(asked.head_span));
-            let message = format!("a swing of {} deg is above its limit of {limit_deg} deg", show(swing.to_deg()));
+            let (limit_deg, span) = (
+                show(limit.value.to_deg()),
+                asked.swing.span.unwrap_or(asked.head_span),
+            );
+            let message = format!(
+                "a swing of {} deg is above its limit of {limit_deg} deg",
+                show(swing.to_deg())
+            );
             let diagnostic = Diagnostic::new(Code::OutOfRange, message, span, "larger than the limit allows")
                 .and(limit.span.unwrap_or(asked.head_span), "the limit")
                 .help(format!("use at most {limit_deg} deg, or raise the limit"))
@@ -156,34 +234,34 @@ fn resolve_swing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Angle 
     }
 }
 
-fn resolve_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Length {
+fn check_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
     let blade = &asked.blade;
-    // The edge lies over the work by its projection on y [Cui 5]; the whole cutting length, as deep cuts use all of it.
-    let overhang = blade.cutting_length.value * (asked.rake.value - blade.half_apex.value).cos();
-    let least = Length::mm(grid::up(overhang.to_mm()));
-    match asked.extension.value {
-        Auto::Auto => Length::mm(grid::up((overhang + asked.run_out.value).to_mm())),
-        Auto::Given(extension) if extension >= least => Length::mm(grid::up(extension.to_mm())),
-        Auto::Given(extension) => {
-            let span = asked.extension.span.unwrap_or(asked.head_span);
-            let least = show(least.to_mm());
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::ExtensionTooShort,
-                    format!("with an extension of {} mm the blade would turn within the work", show(extension.to_mm())),
-                    span,
-                    format!("the edge lies {least} mm over the work"),
-                )
-                .and(
-                    blade.cutting_length.span.unwrap_or(blade.span),
-                    format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
-                )
-                .help(format!("use at least {least} mm, or leave it `auto`"))
-                .fix("let the compiler choose", span, "auto"),
-            );
-            extension
-        }
+    let least = Length::mm(grid::up(edge_overhang(asked).to_mm()));
+    let Auto::Given(extension) = asked.extension.value else {
+        return;
+    };
+    if extension >= least {
+        return;
     }
+    let span = asked.extension.span.unwrap_or(asked.head_span);
+    let least = show(least.to_mm());
+    diagnostics.push(
+        Diagnostic::new(
+            Code::ExtensionTooShort,
+            format!(
+                "with an extension of {} mm the blade would turn within the work",
+                show(extension.to_mm())
+            ),
+            span,
+            format!("the edge lies {least} mm over the work"),
+        )
+        .and(
+            blade.cutting_length.span.unwrap_or(blade.span),
+            format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
+        )
+        .help(format!("use at least {least} mm, or leave it `auto`"))
+        .fix("let the compiler choose", span, "auto"),
+    );
 }
 
 /// Layer and step, as far as they are open: the largest layer that blade and scallop limit allow, the widest step.
@@ -205,7 +283,9 @@ fn fits(lattice: Lattice, layer: Length, step: Length, flanks: &Flanks) -> bool 
     let needed = |layer: Length, step: Length| blade_reach::needed_reach(lattice, layer, step, flanks.slope);
     let layers = around(layer, grid::SPACING);
     let steps = around(step, grid::SPACING * tips_per_step(lattice));
-    let worst = layers.iter().flat_map(|&layer| steps.iter().map(move |&step| needed(layer, step)));
+    let worst = layers
+        .iter()
+        .flat_map(|&layer| steps.iter().map(move |&step| needed(layer, step)));
     worst.fold(Length::ZERO, Length::max) <= flanks.reach + Length::mm(1e-6)
 }
 
@@ -213,7 +293,11 @@ fn fits(lattice: Lattice, layer: Length, step: Length, flanks: &Flanks) -> bool 
 /// grid spacing more or less.
 fn around(value: Length, unit: f64) -> [Length; 3] {
     let multiple = value.to_mm() / unit;
-    let off = if (multiple - multiple.round()).abs() < 1e-6 { 0.0 } else { grid::SPACING };
+    let off = if (multiple - multiple.round()).abs() < 1e-6 {
+        0.0
+    } else {
+        grid::SPACING
+    };
     [-off, 0.0, off].map(|off| (value + Length::mm(off)).max(Length::mm(grid::SPACING)))
 }
 
@@ -227,7 +311,12 @@ const fn tips_per_step(lattice: Lattice) -> f64 {
 
 /// The largest layer on the grid, starting from a closed form, that fits with the step it gets: rounding may cost a few
 /// spacings.
-fn largest_fitting(lattice: Lattice, closed_form: Length, flanks: &Flanks, step: impl Fn(Length) -> Length) -> Length {
+fn largest_fitting(
+    lattice: Lattice,
+    closed_form: Length,
+    flanks: &Flanks,
+    step: impl Fn(Length) -> Length,
+) -> Length {
     let mut layer = on_grid(closed_form);
     for _ in 0..1000 {
         if layer.to_mm() <= grid::SPACING || fits(lattice, layer, step(layer), flanks) {
@@ -241,7 +330,10 @@ fn largest_fitting(lattice: Lattice, closed_form: Length, flanks: &Flanks, step:
 /// What of the scallop limit is left for the lattice: allowance and standoff stand on the part anyway.
 fn scallop_room(asked: &RoughVcut, drop: Length) -> Option<Length> {
     let smallest = Length::mm(grid::SPACING);
-    asked.limits.scallop.map(|limit| (limit.value - asked.allowance.value - drop).max(smallest))
+    asked
+        .limits
+        .scallop
+        .map(|limit| (limit.value - asked.allowance.value - drop).max(smallest))
 }
 
 /// The largest layer with the step left open, for error messages and for `auto`.
@@ -252,7 +344,9 @@ pub fn largest_layer(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> Length
     let by_scallop = scallop_room(asked, drop)
         .map(|room| blade_reach::largest_layer_for_scallop(lattice, overlap, flanks.slope, room));
     let closed_form = by_scallop.map_or(by_reach, |layer| layer.min(by_reach));
-    largest_fitting(lattice, closed_form, flanks, |layer| widest_step(lattice, layer, overlap, flanks))
+    largest_fitting(lattice, closed_form, flanks, |layer| {
+        widest_step(lattice, layer, overlap, flanks)
+    })
 }
 
 /// The largest layer at a given step.
@@ -294,5 +388,9 @@ fn widest_step(lattice: Lattice, layer: Length, overlap: f64, flanks: &Flanks) -
 pub fn show(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
 }

@@ -11,7 +11,7 @@
 
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
-use super::{PlannedCut, TipOrigin, blade_reach, grid, smallest_gain};
+use super::{PlannedCut, TipOrigin, Way, blade_reach, grid, smallest_gain};
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{Residual, RoughVcut};
@@ -47,7 +47,12 @@ impl<'p> LayerPlanner<'p> {
         surface: &'p mut Surface,
     ) -> Self {
         let lattice = asked.lattice.value;
-        let bound = blade_reach::scallop_bound(lattice, parameters.layer, parameters.step, parameters.flanks.slope);
+        let bound = blade_reach::scallop_bound(
+            lattice,
+            parameters.layer,
+            parameters.step,
+            parameters.flanks.slope,
+        );
         let inherent = bound + asked.allowance.value + parameters.drop;
         let tolerated = asked.limits.scallop.map_or(inherent, |limit| limit.value);
         let relieves = asked.residual.value == Residual::Auto && parameters.lattice_fits(lattice);
@@ -103,10 +108,30 @@ impl<'p> LayerPlanner<'p> {
             return;
         }
         self.layers_cut += 1;
-        for (tip, origin) in tips {
-            self.surface.release(self.vee(tip));
-            self.cuts.push(PlannedCut { layer: self.layers_cut, tip, origin });
+        let mut before: Option<Point2> = None;
+        for &(tip, origin) in &tips {
+            let way = before.map_or(Way::Over, |before| self.way(before, tip));
+            self.cuts.push(PlannedCut {
+                layer: self.layers_cut,
+                tip,
+                origin,
+                way,
+            });
+            before = Some(tip);
         }
+        for (tip, _) in tips {
+            self.surface.release(self.vee(tip));
+        }
+    }
+
+    /// How the blade gets from one cut to the next, judged before any chip of the layer is out.
+    fn way(&mut self, from: Point2, to: Point2) -> Way {
+        let highest = from.z.min(to.z) + self.parameters.clear_height.to_mm();
+        let clear = self
+            .surface
+            .corners_between(from.x, to.x)
+            .all(|corner| corner.z <= highest);
+        if clear { Way::Beside } else { Way::Over }
     }
 
     /// A tip whose V would enter the part.
@@ -133,18 +158,26 @@ impl<'p> LayerPlanner<'p> {
                 }
                 let lifted = self.lifted(column).filter(|&(tip, _)| self.comes_free(tip));
                 let shifted = |planner: &mut Self| {
-                    planner.shifted(index, column, z, columns).filter(|&(tip, _)| planner.comes_free(tip))
+                    planner
+                        .shifted(index, column, z, columns)
+                        .filter(|&(tip, _)| planner.comes_free(tip))
                 };
-                lifted
-                    .or_else(|| shifted(self))
-                    .or_else(|| self.relieved(Point2 { x: column.x, z: column.floor }))
+                lifted.or_else(|| shifted(self)).or_else(|| {
+                    self.relieved(Point2 {
+                        x: column.x,
+                        z: column.floor,
+                    })
+                })
             }
         }
     }
 
     /// Raised onto the part, where that still cuts something.
     fn lifted(&mut self, column: Column) -> Option<(Point2, TipOrigin)> {
-        let tip = Point2 { x: column.x, z: column.floor };
+        let tip = Point2 {
+            x: column.x,
+            z: column.floor,
+        };
         self.gains(tip).then_some((tip, TipOrigin::Lifted))
     }
 
@@ -158,7 +191,10 @@ impl<'p> LayerPlanner<'p> {
     ) -> Option<(Point2, TipOrigin)> {
         let step = self.layout.step();
         let x = grid::nearest(self.layout.nearest_clear(column.x, z)?);
-        let tip = Point2 { x, z: z.max(self.layout.floor(x)) };
+        let tip = Point2 {
+            x,
+            z: z.max(self.layout.floor(x)),
+        };
         let crowded = [index.checked_sub(1), index.checked_add(1)]
             .into_iter()
             .flatten()
@@ -199,14 +235,23 @@ impl<'p> LayerPlanner<'p> {
         Some((at(free), TipOrigin::Relieved))
     }
 
-    /// Whether both flanks come out within the blade's reach, with room for its body.
+    /// Whether both flanks come out within the blade's reach, with room for its body, and the chip is low enough for the blade
+    /// to turn beside it.
     fn comes_free(&mut self, tip: Point2) -> bool {
         let reach = self.parameters.flanks.reach.to_mm();
         let vee = self.vee(tip);
-        [Side::Left, Side::Right].into_iter().all(|side| {
-            let run = self.surface.flank(vee, side);
-            run.reach <= reach && run.blocked_at.is_none()
-        })
+        let runs = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
+        if runs
+            .iter()
+            .any(|run| run.reach > reach || run.blocked_at.is_some())
+        {
+            return false;
+        }
+        let [left, right] = runs;
+        let highest = tip.z + self.parameters.clear_height.to_mm();
+        self.surface
+            .corners_between(left.exit.x, right.exit.x)
+            .all(|corner| corner.z <= highest)
     }
 
     fn gains(&mut self, tip: Point2) -> bool {
@@ -218,13 +263,24 @@ impl<'p> LayerPlanner<'p> {
         let half = self.layout.step() / 2.0;
         let (from, to) = self.part.span();
         let (from, to) = ((x - half).max(from), (x + half).min(to));
-        let ends = [from, to].map(|end| Point2 { x: end, z: self.surface.height(end) });
+        let ends = [from, to].map(|end| Point2 {
+            x: end,
+            z: self.surface.height(end),
+        });
         let part = self.part;
-        let inner = self.surface.corners_between(from, to).map(|corner| part.nearest_distance(corner));
-        inner.chain(ends.map(|end| part.nearest_distance(end))).fold(0.0, f64::max)
+        let inner = self
+            .surface
+            .corners_between(from, to)
+            .map(|corner| part.nearest_distance(corner));
+        inner
+            .chain(ends.map(|end| part.nearest_distance(end)))
+            .fold(0.0, f64::max)
     }
 
     const fn vee(&self, tip: Point2) -> Vee {
-        Vee { tip, slope: self.parameters.flanks.slope }
+        Vee {
+            tip,
+            slope: self.parameters.flanks.slope,
+        }
     }
 }

@@ -18,7 +18,11 @@ fn given<T>(value: T) -> Sourced<T> {
 
 fn nowhere() -> Span {
     let mut sources = SourceMap::default();
-    Span { file: sources.add("test", ""), start: 0, end: 0 }
+    Span {
+        file: sources.add("test", ""),
+        start: 0,
+        end: 0,
+    }
 }
 
 /// The block of the paper, its blade and speeds; everything else at its default or `auto`.
@@ -28,7 +32,11 @@ pub(crate) fn paper_job(profile: Vec<Point2>) -> CheckedJob {
     CheckedJob {
         name: "block".to_owned(),
         name_span: span,
-        stock: Stock { width: Length::mm(85.0), depth: Length::mm(50.0), height: Length::mm(50.0) },
+        stock: Stock {
+            width: Length::mm(85.0),
+            depth: Length::mm(50.0),
+            height: Length::mm(50.0),
+        },
         stock_span: span,
         profile: Profile::new(profile).unwrap(),
         profile_span: span,
@@ -49,7 +57,10 @@ pub(crate) fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             layer: given(Auto::Auto),
             step: given(Auto::Auto),
             overlap: given(0.0),
-            limits: Limits { swing: None, scallop: None },
+            limits: Limits {
+                swing: None,
+                scallop: None,
+            },
             allowance: mm(0.0),
             residual: given(Residual::Auto),
             order: given(Order::Point),

@@ -67,9 +67,19 @@ mod tests {
     fn reproduces_the_paper() {
         let time = |swing: f64, layer: f64, step: f64| {
             let swing = Angle::deg(swing);
-            paper(swing, layer).estimate(swing, Length::mm(layer), Length::mm(step)).to_s()
+            paper(swing, layer)
+                .estimate(swing, Length::mm(layer), Length::mm(step))
+                .to_s()
         };
-        assert!((time(45.0, 3.0, 6.0) - 515.3).abs() < 0.05, "{}", time(45.0, 3.0, 6.0));
-        assert!((time(34.16, 4.40, 5.97) - 307.6).abs() < 0.4, "{}", time(34.16, 4.40, 5.97));
+        assert!(
+            (time(45.0, 3.0, 6.0) - 515.3).abs() < 0.05,
+            "{}",
+            time(45.0, 3.0, 6.0)
+        );
+        assert!(
+            (time(34.16, 4.40, 5.97) - 307.6).abs() < 0.4,
+            "{}",
+            time(34.16, 4.40, 5.97)
+        );
     }
 }

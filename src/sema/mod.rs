@@ -1,9 +1,152 @@
-//! placeholder until meaning lands
-use crate::diag::Diagnostic;
-use crate::job::CheckedJob;
+//! Meaning: from trees to a checked job.
+//!
+//! Files are loaded ([`files`]), their definitions gathered ([`gather`]), `let`s worked out in whatever order they
+//! need each other ([`lets`]), and then every block is read against the table of its fields. Every check reports what
+//! it finds and hands back a token instead of a value ([`report::Reported`]); whoever needs the value passes the token
+//! on. So one run shows all faults, and none of their consequences.
+
+mod arguments;
+mod blade;
+mod cell;
+mod dimension;
+mod eval;
+mod fields;
+mod files;
+mod functions;
+mod gather;
+mod heads;
+mod lets;
+mod machine;
+mod mismatch;
+mod missing;
+mod names;
+mod options;
+mod overrides;
+mod profile;
+mod quantity;
+mod range;
+mod read;
+mod report;
+mod rough_vcut;
+mod session;
+mod stock;
+mod units;
+
+use crate::diag::{Diagnostic, has_errors};
+use crate::job::{CheckedJob, Operation};
 use crate::source::{LoadError, Loader, SourceMap};
 use crate::syntax::ast::Ast;
-/// placeholder
+use eval::Scope;
+use files::{File, Files};
+use missing::Missing;
+use overrides::Overrides;
+use report::Checked;
+use session::Session;
+
+/// Loads a job and everything it uses, and works out what it means.
+///
+/// Gives the root file's tree, and the job when it is without errors of meaning. What there is to tell goes to
+/// `diagnostics` in the order of the source, file by file; all texts go to `sources`. `overrides` are texts of the
+/// form `name=value`.
+///
+/// # Errors
+/// When the root file cannot be loaded.
 pub fn check(
-    _root: &str, _loader: &dyn Loader, _overrides: &[String], _sources: &mut SourceMap, _diagnostics: &mut Vec<Diagnostic>,
-) -> Result<(Option<Ast>, Option<CheckedJob>), LoadError> { Ok((None, None)) }
+    root: &str,
+    loader: &dyn Loader,
+    overrides: &[String],
+    sources: &mut SourceMap,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<(Option<Ast>, Option<CheckedJob>), LoadError> {
+    let mut session = Session::new(loader, sources);
+    let files = files::load(root, &mut session)?;
+    let overrides = overrides::read(overrides, &mut session);
+    let job = files
+        .first()
+        .map(|root| understand(root, &files, &overrides, &mut session));
+    let mut found = session.reports.into_vec();
+    found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
+    let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
+    diagnostics.append(&mut found);
+    let tree = files.into_iter().next().map(|file| file.ast);
+    Ok((tree, job))
+}
+
+/// What the files mean.
+fn understand(
+    root: &File,
+    files: &Files,
+    overrides: &Overrides,
+    session: &mut Session<'_>,
+) -> Checked<CheckedJob> {
+    let all = gather::gather(files, overrides, session);
+    let values = lets::evaluate(&all.lets, &all.names, &mut session.reports);
+    let scope = Scope {
+        names: &all.names,
+        lets: &all.lets,
+        values: &values,
+        variable: None,
+    };
+    let blades: Vec<_> = all
+        .blades
+        .iter()
+        .map(|(name, placed)| blade::check(*name, placed.block, placed.place, scope, session))
+        .collect();
+    let machines: Vec<_> = all
+        .machines
+        .iter()
+        .map(|machine| {
+            machine::check(
+                &machine.head,
+                machine.placed.block,
+                machine.placed.place,
+                scope,
+                session,
+            )
+        })
+        .collect();
+    let missing = Missing::of(root, &all, session);
+    let name = match all.job {
+        Some(name) => Ok(name),
+        None => Err(missing.job(session)),
+    };
+    let stock = match all.stock {
+        Some(placed) => stock::check(placed.block, placed.place, scope, session),
+        None => Err(missing.stock(session)),
+    };
+    let profile = match all.profile {
+        Some(placed) => profile::check(placed.block, placed.place, stock, scope, session),
+        None => Err(missing.profile(stock.ok(), session)),
+    };
+    let operations: Vec<Checked<Operation>> = all
+        .roughings
+        .iter()
+        .map(|placed| {
+            let operation = rough_vcut::check(placed.block, placed.place, scope, &blades, session);
+            operation.map(Operation::RoughVcut)
+        })
+        .collect();
+    let operations = match operations.is_empty() {
+        false => operations.into_iter().collect(),
+        true => Err(missing.operation(session)),
+    };
+    let machine = cell::choose(
+        all.cell,
+        &all.machines,
+        &machines,
+        missing.anchor(),
+        scope,
+        session,
+    );
+    let (name, stock) = (name?, stock?);
+    Ok(CheckedJob {
+        name: name.node.clone(),
+        name_span: name.span,
+        stock: stock.node,
+        stock_span: stock.span,
+        profile: profile?,
+        profile_span: all.profile.map_or(stock.span, |placed| placed.place.whole),
+        operations: operations?,
+        machine: machine?,
+    })
+}

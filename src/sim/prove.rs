@@ -167,7 +167,12 @@ impl<'p> Player<'p> {
             Action::Turn { to, .. } => self.held = to,
             Action::Cut { flank, to, .. } => {
                 self.tip = to;
-                if let Site::Cut { operation, layer, cut } = site {
+                if let Site::Cut {
+                    operation,
+                    layer,
+                    cut,
+                } = site
+                {
                     self.cut(operation, layer, cut, flank);
                 }
             }
@@ -181,8 +186,16 @@ impl<'p> Player<'p> {
 
     fn cut(&mut self, operation: OperationId, layer: NonZeroU32, cut: NonZeroU32, flank: Flank) {
         self.enter(operation, layer);
-        let Some(&geometry) = self.flanks.get(self.held.0 as usize) else { return };
-        let vee = Vee { tip: Point2 { x: self.tip.x, z: self.tip.z }, slope: geometry.slope };
+        let Some(&geometry) = self.flanks.get(self.held.0 as usize) else {
+            return;
+        };
+        let vee = Vee {
+            tip: Point2 {
+                x: self.tip.x,
+                z: self.tip.z,
+            },
+            slope: geometry.slope,
+        };
         let side = match flank {
             Flank::Left => Side::Left,
             Flank::Right => Side::Right,
@@ -190,10 +203,20 @@ impl<'p> Player<'p> {
         if self.surface.covers(vee.tip) {
             let run = self.surface.flank(vee, side);
             let needed = run.reach * geometry.edge_per_height;
-            let finding = |fault| Finding { operation, layer, cut, tip: vee.tip, fault };
+            let finding = |fault| Finding {
+                operation,
+                layer,
+                cut,
+                tip: vee.tip,
+                fault,
+            };
             self.note_edge(needed, finding);
             if let Some(at) = run.blocked_at {
-                note(&mut self.findings.blocked, finding(CutFault::Blocked { at }), |_, _| false);
+                note(
+                    &mut self.findings.blocked,
+                    finding(CutFault::Blocked { at }),
+                    |_, _| false,
+                );
             }
             self.longest_edge = self.longest_edge.max(needed);
         }
@@ -202,11 +225,15 @@ impl<'p> Player<'p> {
 
     /// Notes a flank that needs more edge than the blade has.
     fn note_edge(&mut self, needed: f64, finding: impl Fn(CutFault) -> Finding) {
-        let Some(available) = self.blade_length() else { return };
+        let Some(available) = self.blade_length() else {
+            return;
+        };
         // The plan leaves out nothing below a nanometre; neither does the proof.
         if needed > available + 1e-6 {
-            let fault =
-                CutFault::NotFreed { needed: Length::mm(needed), available: Length::mm(available) };
+            let fault = CutFault::NotFreed {
+                needed: Length::mm(needed),
+                available: Length::mm(available),
+            };
             note(&mut self.findings.not_freed, finding(fault), is_longer);
         }
     }
@@ -226,15 +253,26 @@ impl<'p> Player<'p> {
                 *cuts += 1;
             }
         }
-        let Some(done) = self.half_done.get_mut(index) else { return };
+        let Some(done) = self.half_done.get_mut(index) else {
+            return;
+        };
         if done.is_none() {
             *done = Some(flank);
             return;
         }
         self.surface.release(vee);
         if let Some(guard) = &mut self.guard {
-            let drop = self.bounds.get(usize::from(operation.0)).map_or(0.0, |bound| bound.drop.to_mm());
-            guard.release(Vee { tip: Point2 { z: vee.tip.z - drop, ..vee.tip }, ..vee });
+            let drop = self
+                .bounds
+                .get(usize::from(operation.0))
+                .map_or(0.0, |bound| bound.drop.to_mm());
+            guard.release(Vee {
+                tip: Point2 {
+                    z: vee.tip.z - drop,
+                    ..vee.tip
+                },
+                ..vee
+            });
         }
     }
 
@@ -252,7 +290,9 @@ impl<'p> Player<'p> {
     }
 
     fn geometry_of(&self, operation: OperationId) -> Vec<FlankGeometry> {
-        let Some(operation) = self.program.operations.get(usize::from(operation.0)) else { return Vec::new() };
+        let Some(operation) = self.program.operations.get(usize::from(operation.0)) else {
+            return Vec::new();
+        };
         let half_apex = operation.blade.half_apex;
         let of = |orientation: &vcutc_backend_api::geometry::Orientation| {
             let m = orientation.matrix();
@@ -285,13 +325,24 @@ impl<'p> Player<'p> {
         let deepest = self
             .bounds
             .iter()
-            .map(|bound| deepest_entry(&corners, &below_top(bound.part, self.program.stock.height.to_mm())))
+            .map(|bound| {
+                deepest_entry(
+                    &corners,
+                    &below_top(bound.part, self.program.stock.height.to_mm()),
+                )
+            })
             .min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         let (at, gap) = deepest;
         if gap >= -OVERCUT {
             return None;
         }
-        self.cut_through(at, CutFault::Overcut { at, depth: Length::mm(-gap) })
+        self.cut_through(
+            at,
+            CutFault::Overcut {
+                at,
+                depth: Length::mm(-gap),
+            },
+        )
     }
 
     /// The cut whose V, on the blade's side towards the part, passes lowest through a point's x.
@@ -300,13 +351,40 @@ impl<'p> Player<'p> {
         let mut lowest: Option<(f64, Finding)> = None;
         for op in &self.program.ops {
             player.op(op.site, op.action);
-            let (Action::Cut { .. }, Site::Cut { operation, layer, cut }) = (op.action, op.site) else { continue };
-            let Some(geometry) = player.flanks.get(player.held.0 as usize) else { continue };
-            let drop = self.bounds.get(usize::from(operation.0)).map_or(0.0, |bound| bound.drop.to_mm());
-            let tip = Point2 { x: player.tip.x, z: player.tip.z };
+            let (
+                Action::Cut { .. },
+                Site::Cut {
+                    operation,
+                    layer,
+                    cut,
+                },
+            ) = (op.action, op.site)
+            else {
+                continue;
+            };
+            let Some(geometry) = player.flanks.get(player.held.0 as usize) else {
+                continue;
+            };
+            let drop = self
+                .bounds
+                .get(usize::from(operation.0))
+                .map_or(0.0, |bound| bound.drop.to_mm());
+            let tip = Point2 {
+                x: player.tip.x,
+                z: player.tip.z,
+            };
             let height = tip.z - drop + (at.x - tip.x).abs() * geometry.slope;
             if lowest.is_none_or(|(known, _)| height < known) {
-                lowest = Some((height, Finding { operation, layer, cut, tip, fault }));
+                lowest = Some((
+                    height,
+                    Finding {
+                        operation,
+                        layer,
+                        cut,
+                        tip,
+                        fault,
+                    },
+                ));
             }
         }
         lowest.map(|(_, finding)| finding)
@@ -345,9 +423,15 @@ fn below_top(part: &Profile, top: f64) -> Vec<Point2> {
             && (from.z - top) * (point.z - top) < 0.0
         {
             let share = (top - from.z) / (point.z - from.z);
-            clipped.push(Point2 { x: from.x + (point.x - from.x) * share, z: top });
+            clipped.push(Point2 {
+                x: from.x + (point.x - from.x) * share,
+                z: top,
+            });
         }
-        clipped.push(Point2 { z: point.z.min(top), ..point });
+        clipped.push(Point2 {
+            z: point.z.min(top),
+            ..point
+        });
         before = Some(point);
     }
     clipped
@@ -379,7 +463,9 @@ pub(super) fn merge_heights(a: &[Point2], b: &[Point2], visit: &mut impl FnMut(f
 
 /// Height at x, which lies between corner `next - 1` and corner `next`.
 fn height_before(corners: &[Point2], next: usize, x: f64) -> f64 {
-    let Some(&to) = corners.get(next) else { return corners.last().map_or(0.0, |last| last.z) };
+    let Some(&to) = corners.get(next) else {
+        return corners.last().map_or(0.0, |last| last.z);
+    };
     match next.checked_sub(1).and_then(|before| corners.get(before)) {
         Some(&from) if to.x > from.x => from.z + (to.z - from.z) * ((x - from.x) / (to.x - from.x)),
         Some(_) | None => to.z,

@@ -73,7 +73,10 @@ fn area_under(corners: &[Point2]) -> f64 {
 /// The surface's point farthest from the part: over a corner of the surface, or where the surface is flat over a hollow,
 /// over a corner of the part.
 fn highest(corners: &[Point2], part: &Profile) -> Scallop {
-    let mut highest = Scallop { height: Length::ZERO, peak: Point2 { x: 0.0, z: 0.0 } };
+    let mut highest = Scallop {
+        height: Length::ZERO,
+        peak: Point2 { x: 0.0, z: 0.0 },
+    };
     let mut look = |x: f64, surface: f64, part_height: f64| {
         // The distance is at most the height above the part, so low points need no search.
         if surface - part_height > highest.height.to_mm() {
@@ -92,10 +95,16 @@ fn highest(corners: &[Point2], part: &Profile) -> Scallop {
 const SAMPLES: u32 = 1000;
 
 fn resample(points: &[Point2]) -> Vec<f64> {
-    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
+    let (Some(first), Some(last)) = (points.first(), points.last()) else {
+        return Vec::new();
+    };
     let step = (last.x - first.x) / f64::from(SAMPLES - 1);
-    let grid: Vec<Point2> =
-        (0..SAMPLES).map(|i| Point2 { x: first.x + f64::from(i) * step, z: 0.0 }).collect();
+    let grid: Vec<Point2> = (0..SAMPLES)
+        .map(|i| Point2 {
+            x: first.x + f64::from(i) * step,
+            z: 0.0,
+        })
+        .collect();
     let mut heights = Vec::with_capacity(grid.len());
     let mut next = 0;
     merge_heights(points, &grid, &mut |x, z, _| {

@@ -96,8 +96,16 @@ impl Surface {
     pub fn flank(&mut self, vee: Vee, side: Side) -> FlankRun {
         self.go_to(vee.tip.x);
         let walk = self.walk(vee, side);
-        let blocked_at = if vee.slope < self.steepest - 1e-12 { self.beyond(vee, side, walk.passed) } else { None };
-        FlankRun { exit: walk.exit, reach: walk.exit.z - vee.tip.z, blocked_at }
+        let blocked_at = if vee.slope < self.steepest - 1e-12 {
+            self.beyond(vee, side, walk.passed)
+        } else {
+            None
+        };
+        FlankRun {
+            exit: walk.exit,
+            reach: walk.exit.z - vee.tip.z,
+            blocked_at,
+        }
     }
 
     /// Takes the chip of a V out. A V whose tip is not covered changes nothing.
@@ -125,7 +133,11 @@ impl Surface {
     /// The corners between two x, from left to right.
     pub fn corners_between(&mut self, from: f64, to: f64) -> impl Iterator<Item = Point2> + '_ {
         self.go_to(from);
-        self.right.iter().rev().copied().take_while(move |corner| corner.x <= to)
+        self.right
+            .iter()
+            .rev()
+            .copied()
+            .take_while(move |corner| corner.x <= to)
     }
 
     /// Moves the place of work to x.
@@ -142,7 +154,10 @@ impl Surface {
     /// Follows a flank from the place of work (which is the tip's x) to where it comes out.
     fn walk(&self, vee: Vee, side: Side) -> FlankWalk {
         let stack = self.stack(side);
-        let mut before = Point2 { x: vee.tip.x, z: self.height_here(vee.tip.x) };
+        let mut before = Point2 {
+            x: vee.tip.x,
+            z: self.height_here(vee.tip.x),
+        };
         for (passed, &corner) in stack.iter().rev().enumerate() {
             let above = corner.z - vee.height(corner.x);
             if above > TOUCH {
@@ -151,13 +166,23 @@ impl Surface {
             }
             let above_before = before.z - vee.height(before.x);
             // The surface comes down from `before` to `corner` through the flank, or touches it in `corner`.
-            let share = if above >= -TOUCH { 1.0 } else { above_before / (above_before - above) };
+            let share = if above >= -TOUCH {
+                1.0
+            } else {
+                above_before / (above_before - above)
+            };
             let x = before.x + (corner.x - before.x) * share;
-            return FlankWalk { passed, exit: Point2 { x, z: vee.height(x) } };
+            return FlankWalk {
+                passed,
+                exit: Point2 { x, z: vee.height(x) },
+            };
         }
         // Out at the side of the stock.
         let x = before.x;
-        FlankWalk { passed: stack.len(), exit: Point2 { x, z: vee.height(x) } }
+        FlankWalk {
+            passed: stack.len(),
+            exit: Point2 { x, z: vee.height(x) },
+        }
     }
 
     /// The first corner beyond a flank's exit that stands above it.
@@ -230,15 +255,24 @@ mod tests {
     }
 
     fn a_vee() -> impl Strategy<Value = Vee> {
-        (0.0..100.0_f64, 1.0..40.0_f64, prop::sample::select(vec![0.7, 1.0, 1.5]))
-            .prop_map(|(x, z, slope)| Vee { tip: Point2 { x, z }, slope })
+        (
+            0.0..100.0_f64,
+            1.0..40.0_f64,
+            prop::sample::select(vec![0.7, 1.0, 1.5]),
+        )
+            .prop_map(|(x, z, slope)| Vee {
+                tip: Point2 { x, z },
+                slope,
+            })
     }
 
     /// Releases the Vs that a program may release: tip in the material, blade's body clear. Gives those back.
     fn release_possible(surface: &mut Surface, vees: &[Vee]) -> Vec<Vee> {
         let possible = |surface: &mut Surface, vee: Vee| {
             surface.covers(vee.tip)
-                && [Side::Left, Side::Right].into_iter().all(|side| surface.flank(vee, side).blocked_at.is_none())
+                && [Side::Left, Side::Right]
+                    .into_iter()
+                    .all(|side| surface.flank(vee, side).blocked_at.is_none())
         };
         let mut released = Vec::new();
         for &vee in vees {
@@ -280,8 +314,16 @@ mod tests {
     fn cuts_at_the_sides_of_the_stock() {
         let mut surface = Surface::flat(10.0, 10.0);
         for x in [0.0, 10.0] {
-            let vee = Vee { tip: Point2 { x, z: 5.0 }, slope: 1.0 };
-            assert_eq!(surface.flank(vee, if x > 0.0 { Side::Right } else { Side::Left }).reach, 0.0);
+            let vee = Vee {
+                tip: Point2 { x, z: 5.0 },
+                slope: 1.0,
+            };
+            assert_eq!(
+                surface
+                    .flank(vee, if x > 0.0 { Side::Right } else { Side::Left })
+                    .reach,
+                0.0
+            );
             surface.release(vee);
         }
         assert_eq!(surface.height(0.0), 5.0);
@@ -294,8 +336,14 @@ mod tests {
     fn a_wide_cut_next_to_a_steep_wall_is_blocked_above_its_exit() {
         let mut surface = Surface::flat(100.0, 40.0);
         // A narrow slot leaves a steep wall; a wide V beside it comes out in the slot, but its blade runs on into the wall.
-        surface.release(Vee { tip: Point2 { x: 50.0, z: 10.0 }, slope: 10.0 });
-        let wide = Vee { tip: Point2 { x: 45.0, z: 12.0 }, slope: 1.0 };
+        surface.release(Vee {
+            tip: Point2 { x: 50.0, z: 10.0 },
+            slope: 10.0,
+        });
+        let wide = Vee {
+            tip: Point2 { x: 45.0, z: 12.0 },
+            slope: 1.0,
+        };
         let run = surface.flank(wide, Side::Right);
         assert!(run.exit.x < 50.0);
         assert_eq!(run.blocked_at, Some(Point2 { x: 53.0, z: 40.0 }));
@@ -313,15 +361,26 @@ mod tests {
             j += 1;
             let mut x = if j % 2 == 0 { first + shift } else { first };
             while x <= 85.0 {
-                let vee = Vee { tip: Point2 { x, z: 50.0 - f64::from(j) * layer }, slope: 1.0 / swing.tan() };
-                reach = reach.max(surface.flank(vee, Side::Left).reach).max(surface.flank(vee, Side::Right).reach);
+                let vee = Vee {
+                    tip: Point2 {
+                        x,
+                        z: 50.0 - f64::from(j) * layer,
+                    },
+                    slope: 1.0 / swing.tan(),
+                };
+                reach = reach
+                    .max(surface.flank(vee, Side::Left).reach)
+                    .max(surface.flank(vee, Side::Right).reach);
                 surface.release(vee);
                 cuts += 1;
                 x += step;
             }
         }
         let corners: Vec<_> = surface.corners().collect();
-        let removed = corners.windows(2).map(|p| (p[1].x - p[0].x) * (50.0 - (p[0].z + p[1].z) / 2.0)).sum();
+        let removed = corners
+            .windows(2)
+            .map(|p| (p[1].x - p[0].x) * (50.0 - (p[0].z + p[1].z) / 2.0))
+            .sum();
         (cuts, j, removed, reach / (swing.cos() * lead.sin()))
     }
 

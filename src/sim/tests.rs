@@ -26,14 +26,19 @@ fn a_layer_too_deep_needs_the_edge_that_geometry_says() {
     let plan = choose(&job).0.unwrap();
     let findings = prove(&plan, &SourceMap::default()).unwrap().findings;
     let (count, worst) = findings.not_freed.unwrap();
-    let CutFault::NotFreed { needed, available } = worst.fault else { panic!("{worst:?}") };
+    let CutFault::NotFreed { needed, available } = worst.fault else {
+        panic!("{worst:?}")
+    };
     // Orthogonal without overlap: 3h/2 of vertical reach [Cui 4].
     let expected = 1.5 * 5.0 / (Angle::deg(34.16).cos() * Angle::deg(60.0 - 7.13).sin());
     assert!((needed.to_mm() - expected).abs() < 2e-3, "{needed:?} {expected}");
     assert_eq!(available, Length::mm(10.0));
     // The first layer comes free, all others fail but for the cuts at the right side of the stock.
     assert_eq!(worst.layer.get(), 2);
-    assert!(count > 60 && findings.blocked.is_none() && findings.overcut.is_none(), "{count}");
+    assert!(
+        count > 60 && findings.blocked.is_none() && findings.overcut.is_none(),
+        "{count}"
+    );
 }
 
 #[test]
@@ -42,25 +47,63 @@ fn a_cut_into_the_part_is_found_with_its_place_and_depth() {
     let plan = choose(&job).0.unwrap();
     let program = verify(lower(&plan, &SourceMap::default())).unwrap();
     let PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
-    let lowest = vcut.cuts.iter().map(|cut| cut.tip.z).fold(f64::INFINITY, f64::min);
+    let lowest = vcut
+        .cuts
+        .iter()
+        .map(|cut| cut.tip.z)
+        .fold(f64::INFINITY, f64::min);
     // A part that stands a little higher than the one planned for, in one place only.
-    let victim = vcut.cuts.iter().rev().find(|cut| cut.tip.z <= lowest).unwrap().tip;
+    let victim = vcut
+        .cuts
+        .iter()
+        .rev()
+        .find(|cut| cut.tip.z <= lowest)
+        .unwrap()
+        .tip;
     let bump = Profile::new(vec![
         Point2 { x: 0.0, z: 13.1 },
-        Point2 { x: victim.x - 0.5, z: 13.1 },
-        Point2 { x: victim.x, z: victim.z + 0.25 },
-        Point2 { x: victim.x + 0.5, z: 13.1 },
+        Point2 {
+            x: victim.x - 0.5,
+            z: 13.1,
+        },
+        Point2 {
+            x: victim.x,
+            z: victim.z + 0.25,
+        },
+        Point2 {
+            x: victim.x + 0.5,
+            z: 13.1,
+        },
         Point2 { x: 85.0, z: 13.1 },
     ])
     .unwrap();
-    let found = replay(&program, &[Bound { part: &bump, drop: Length::ZERO }]).findings.overcut.unwrap();
-    let CutFault::Overcut { at, depth } = found.fault else { panic!("{found:?}") };
-    assert!((at.x - victim.x).abs() < 1e-9 && (depth.to_mm() - 0.25).abs() < 1e-9, "{found:?}");
+    let found = replay(
+        &program,
+        &[Bound {
+            part: &bump,
+            drop: Length::ZERO,
+        }],
+    )
+    .findings
+    .overcut
+    .unwrap();
+    let CutFault::Overcut { at, depth } = found.fault else {
+        panic!("{found:?}")
+    };
+    assert!(
+        (at.x - victim.x).abs() < 1e-9 && (depth.to_mm() - 0.25).abs() < 1e-9,
+        "{found:?}"
+    );
     assert_eq!(found.tip, victim);
     // The blade's thickness lowers its side towards the part.
-    let thick = Bound { part: &plan.profile, drop: Length::mm(lowest - 13.1 + 0.1) };
+    let thick = Bound {
+        part: &plan.profile,
+        drop: Length::mm(lowest - 13.1 + 0.1),
+    };
     let found = replay(&program, &[thick]).findings.overcut.unwrap();
-    let CutFault::Overcut { depth, .. } = found.fault else { panic!("{found:?}") };
+    let CutFault::Overcut { depth, .. } = found.fault else {
+        panic!("{found:?}")
+    };
     assert!((depth.to_mm() - 0.1).abs() < 1e-9);
 }
 
@@ -81,7 +124,9 @@ fn wide_cuts_after_narrow_ones_are_blocked_by_their_walls() {
     let plan = choose(&job).0.unwrap();
     let findings = prove(&plan, &SourceMap::default()).unwrap().findings;
     let (_, first) = findings.blocked.unwrap();
-    let CutFault::Blocked { at } = first.fault else { panic!("{first:?}") };
+    let CutFault::Blocked { at } = first.fault else {
+        panic!("{first:?}")
+    };
     assert!(at.z > first.tip.z, "{first:?}");
 }
 
@@ -103,6 +148,13 @@ fn program_time_is_the_papers_time_of_each_cut() {
     // On to the next point while turning back, max(phi / omega, s / v2); between layers up, across and down.
     let along = (cuts - layers) * turn.max(vcut.parameters.step.to_mm() / 200.0);
     let across = t.travel.to_s() - along;
-    let depths: f64 = vcut.cuts.chunk_by(|a, b| a.layer == b.layer).map(|layer| 60.0 - layer[0].tip.z).sum();
-    assert!((across - (2.0 * depths / 200.0 + (layers - 1.0) * turn)).abs() < 0.2, "{across}");
+    let depths: f64 = vcut
+        .cuts
+        .chunk_by(|a, b| a.layer == b.layer)
+        .map(|layer| 60.0 - layer[0].tip.z)
+        .sum();
+    assert!(
+        (across - (2.0 * depths / 200.0 + (layers - 1.0) * turn)).abs() < 0.2,
+        "{across}"
+    );
 }

@@ -32,7 +32,11 @@ impl Timing {
 /// Adds up a program's times.
 #[must_use]
 pub fn timing(program: &VerifiedProgram) -> Timing {
-    let mut clock = Clock { program: program.program(), at: None, timing: Timing::default() };
+    let mut clock = Clock {
+        program: program.program(),
+        at: None,
+        timing: Timing::default(),
+    };
     for op in &program.program().ops {
         clock.op(op.action);
     }
@@ -49,7 +53,12 @@ impl Clock<'_> {
     fn op(&mut self, action: Action) {
         match action {
             Action::Home => self.at = None,
-            Action::Travel { to, orientation, feed, rate } => {
+            Action::Travel {
+                to,
+                orientation,
+                feed,
+                rate,
+            } => {
                 if let Some((from, held)) = self.at {
                     let moving = self.line(from, to, feed);
                     self.timing.travel += moving.max(self.turn(held, orientation, rate));
@@ -81,7 +90,9 @@ impl Clock<'_> {
     }
 
     fn straight(&mut self, to: Point3, feed: FeedId) -> Duration {
-        let Some((from, held)) = self.at else { return Duration::ZERO };
+        let Some((from, held)) = self.at else {
+            return Duration::ZERO;
+        };
         self.at = Some((to, held));
         self.line(from, to, feed)
     }

@@ -8,7 +8,7 @@
 
 use super::lexical::{Bracket, Token, TokenKind, tokens};
 use super::reports::Reports;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Edit, Fix};
 use crate::source::{FileId, Span};
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ pub(super) struct Balanced {
 /// Balances the brackets of `text`.
 pub(super) fn balance(file: FileId, text: &str) -> Balanced {
     let strict = Scan::run(file, text, Trust::Brackets);
-    let scan = if strict.reports.is_empty() {
+    let scan = if strict.is_matched {
         strict
     } else {
         Scan::run(file, text, Trust::Indentation)
@@ -55,6 +55,8 @@ struct Scan<'t> {
     open: Vec<(Bracket, Token)>,
     /// Where brackets became too deep, and how many more are open since.
     too_deep: Option<(usize, usize)>,
+    /// Whether each bracket has its partner so far.
+    is_matched: bool,
     /// The token before, comments left out.
     previous: Option<Token>,
     /// Where the last block of the file ended.
@@ -72,6 +74,7 @@ impl<'t> Scan<'t> {
             mended: text.as_bytes().to_vec(),
             open: Vec::new(),
             too_deep: None,
+            is_matched: true,
             previous: None,
             last_end: 0,
             reports: Reports::default(),
@@ -215,13 +218,14 @@ impl<'t> Scan<'t> {
 
     /// Reports an opening bracket that nothing closes before `missed` (or the end of the file), and mends the copy.
     fn unclosed(&mut self, bracket: Bracket, opener: Token, missed: Option<Token>) {
+        self.is_matched = false;
         let (opening, closing) = (bracket.opening(), bracket.closing());
         let end = self.previous.map_or(opener.end, |token| token.end);
         let report = Diagnostic::new(
             Code::UnclosedBracket,
             format!("this `{opening}` is never closed"),
             self.span(opener.start..opener.end),
-            format!("`{opening}` opened here"),
+            "opened here",
         );
         let report = match missed {
             Some(_) => report.and(self.span(end..end), format!("expected `{closing}` here")),
@@ -287,6 +291,7 @@ impl<'t> Scan<'t> {
     }
 
     fn unopened(&mut self, bracket: Bracket, token: Token) {
+        self.is_matched = false;
         let closing = bracket.closing();
         let report = Diagnostic::new(
             Code::UnopenedBracket,
@@ -341,10 +346,7 @@ impl<'t> Scan<'t> {
     }
 
     fn unclosed_text(&mut self, token: Token) {
-        let body = self.text.get(token.start..token.end).unwrap_or_default();
-        // Brackets and commas at the end of the line are more likely the job's than the text's.
-        let end = token.start + body.trim_end_matches([' ', '\t', ',', ')', '}']).len();
-        let end = end.max(token.start + 1);
+        let end = token.end;
         self.reports.push(
             Diagnostic::new(
                 Code::UnclosedText,
@@ -377,29 +379,36 @@ impl<'t> Scan<'t> {
         self.blank(token.start..token.end);
     }
 
+    /// Reports backslashes that escape nothing: most likely a path of Windows.
     fn escapes(&mut self, token: Token) {
         let body = self.text.get(token.start..token.end).unwrap_or_default();
+        let mut strays = Vec::new();
         let mut characters = body.char_indices();
         while let Some((at, c)) = characters.next() {
-            if c != '\\' {
-                continue;
-            }
-            let Some((_, escaped)) = characters.next() else {
-                return;
-            };
-            if !matches!(escaped, '"' | '\\') {
+            if c == '\\' && !matches!(characters.next(), Some((_, '"' | '\\'))) {
                 let start = token.start + at;
-                let report = Diagnostic::new(
-                    Code::UnexpectedText,
-                    format!("`\\{escaped}` means nothing in a text"),
-                    self.span(start..start + 1 + escaped.len_utf8()),
-                    "only `\\\"` and `\\\\` are known after a backslash",
-                )
-                .help("write `/` between the folders of a path; write `\\\\` for a backslash");
-                self.reports.push(report);
-                return;
+                strays.push(self.span(start..start + 1));
             }
         }
+        let Some(&first) = strays.first() else {
+            return;
+        };
+        let mut report = Diagnostic::new(
+            Code::UnexpectedText,
+            "a backslash that means nothing",
+            first,
+            "a backslash in a text goes before `\"` or another backslash",
+        )
+        .help("for a backslash itself, write two");
+        let edit = |span| Edit {
+            span,
+            replacement: "/".to_owned(),
+        };
+        report.fixes.push(Fix {
+            title: "between the folders of a path, write `/`".to_owned(),
+            edits: strays.into_iter().map(edit).collect(),
+        });
+        self.reports.push(report);
     }
 
     fn end(&mut self) {

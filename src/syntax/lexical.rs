@@ -167,19 +167,26 @@ fn recognise(rest: &str) -> Option<(TokenKind, usize)> {
     })
 }
 
-/// A text up to its second quote, or to the end of the line if there is none.
+/// A text up to its second quote. If there is none it ends with the line, but brackets and commas at the end of the
+/// line are more likely the job's than the text's.
 fn text_in_quotes(rest: &str) -> (TokenKind, usize) {
     let mut escaped = false;
     for (at, c) in rest.char_indices().skip(1) {
         match c {
-            '\n' | '\r' => return (TokenKind::UnclosedText, at),
+            '\n' | '\r' => return (TokenKind::UnclosedText, unclosed_text(rest.get(..at))),
             _ if escaped => escaped = false,
             '\\' => escaped = true,
             '"' => return (TokenKind::Text, at + 1),
             _ => {}
         }
     }
-    (TokenKind::UnclosedText, rest.len())
+    (TokenKind::UnclosedText, unclosed_text(Some(rest)))
+}
+
+/// Length of a text without its second quote.
+fn unclosed_text(line: Option<&str>) -> usize {
+    let line = line.unwrap_or_default();
+    line.trim_end_matches([' ', '\t', ',', ')', '}']).len().max(1)
 }
 
 /// Length of a decimal number.

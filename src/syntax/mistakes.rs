@@ -5,7 +5,7 @@
 
 use super::build::Place;
 use super::grammar::{Mismatch, Rule, read};
-use super::lexical::{Token, TokenKind, tokens};
+use super::lexical::{Bracket, Token, TokenKind, tokens};
 use super::slips;
 use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
@@ -184,7 +184,34 @@ pub(super) fn mismatch(bad: &Bad<'_>, position: usize, expected: &[Rule]) -> Dia
         next,
         expected,
     };
-    slips::find(bad, &fault).unwrap_or_else(|| plain(bad, &fault))
+    slips::find(bad, &fault)
+        .or_else(|| lost_mark(bad, &fault))
+        .unwrap_or_else(|| plain(bad, &fault))
+}
+
+/// A value where only `=` or `,` is missing before it.
+fn lost_mark(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {
+    let (before, found) = (fault.before?, fault.found?);
+    let is_value = match found.kind {
+        TokenKind::Number | TokenKind::Text | TokenKind::Word => true,
+        TokenKind::Open(bracket) => bracket == Bracket::Round,
+        _ => false,
+    };
+    let span = bad.span(found.start..found.end);
+    let gap = bad.span(before.end..found.start);
+    match wanted(fault)? {
+        "`=`" if is_value => Some(missing_equals(&context(bad, before), span, gap)),
+        "`,` or `)`" if is_value => Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                format!("expected `,` or `)` after `{}`", context(bad, before)),
+                span,
+                format!("found `{}`", shown(bad.token(found))),
+            )
+            .fix("put a comma between the values", gap, ", "),
+        ),
+        _ => None,
+    }
 }
 
 /// A mistake within a statement.
@@ -263,11 +290,11 @@ fn wanted(fault: &Fault<'_>) -> Option<&'static str> {
         () if expects(Rule::to_word) => "`to`",
         () if expects(Rule::arc_radius) || expects(Rule::radius_word) => "`radius`, `center` or `through`",
         () if fault.expects_value() => "a value",
+        () if expects(Rule::text) && !expects(Rule::name) => "a text in quotes",
         // The head of a block can go on with `=` too, but a brace is what it lacks.
         () if expects(Rule::block_open) && expects(Rule::equals) && !expects(Rule::at_most) => "`{`",
         () if expects(Rule::equals) => "`=`",
         () if expects(Rule::block_open) => "`{`",
-        () if expects(Rule::text) && !expects(Rule::name) => "a text in quotes",
         () if expects(Rule::job) || expects(Rule::job_word) => "`job`, `use`, `let` or a block",
         () if expects(Rule::name) || expects(Rule::good_entry) => "a name",
         () => return None,
@@ -279,13 +306,15 @@ fn wanted(fault: &Fault<'_>) -> Option<&'static str> {
 fn help(fault: &Fault<'_>) -> Option<&'static str> {
     match wanted(fault)? {
         "`,` and a second coordinate" => Some("a point is written `(x, z)`, as in `(20 mm, 30 mm)`"),
-        "a point" | "a point or `to`" => Some("write a point such as `(20 mm, 30 mm)`"),
-        "`to`" => Some("the last point of a curve follows the word `to`, as in `line to (20 mm, 30 mm)`"),
+        "a point" => Some("write a point such as `(20 mm, 30 mm)`"),
+        "`to`" | "a point or `to`" => {
+            Some("the last point of a curve follows the word `to`, as in `to (20 mm, 30 mm)`")
+        }
         "`radius`, `center` or `through`" => {
             Some("say how the arc runs: `radius 30 mm`, `center (20 mm, 0 mm)` or `through (20 mm, 30 mm)`")
         }
         "a value" => Some("write a value such as `4.4 mm`, `auto` or `\"text\"`"),
-        "a text in quotes" => Some("write it in quotes, as in `\"shop/blades.vcut\"`"),
+        "a text in quotes" => Some("put it in double quotes, as in `\"shop/blades.vcut\"`"),
         _ => None,
     }
 }
@@ -293,15 +322,15 @@ fn help(fault: &Fault<'_>) -> Option<&'static str> {
 /// The words before a mistake, as many as help to find it.
 fn context(bad: &Bad<'_>, before: Token) -> String {
     const LONGEST: usize = 28;
-    let mut start = before.start;
-    for token in tokens(bad.mended) {
-        let is_near = token.line == before.line && before.end - token.start.min(before.end) <= LONGEST;
-        if is_near {
-            start = token.start;
-            break;
-        }
+    let is_near = |token: &Token| token.line == before.line && token.end + LONGEST >= before.end;
+    let line_start = tokens(bad.mended).find(|token| token.line == before.line);
+    let first = tokens(bad.mended).find(is_near).unwrap_or(before);
+    let words = shown(bad.slice(first.start.min(before.start)..before.end));
+    if line_start.is_some_and(|start| start.start < first.start) {
+        format!("...{words}")
+    } else {
+        words
     }
-    shown(bad.slice(start.min(before.start)..before.end))
 }
 
 /// A piece of text in a form that fits a message.

@@ -27,11 +27,6 @@ impl Reports {
         }
     }
 
-    /// Whether nothing is wrong.
-    pub(super) const fn is_empty(&self) -> bool {
-        self.list.is_empty()
-    }
-
     /// The list in the order of the text; the last one says how many more there are.
     pub(super) fn finish(mut self) -> Vec<Diagnostic> {
         self.list.sort_by_key(|report| report.primary.span);

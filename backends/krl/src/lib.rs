@@ -34,7 +34,7 @@
 //! # Long programs
 //!
 //! The pendant's editor becomes unusable with some thousands of lines, so a long program is a main module that calls
-//! parts `NAME_p001( )`, `NAME_p002( )`, ... one after the other ([`split`] has the rule). Each part sets everything up
+//! parts `NAME_p001( )`, `NAME_p002( )`, ... one after the other (the module `split` has the rule). Each part sets everything up
 //! again, and repeats the pose and the state of the generator that the part before it ended with.
 //!
 //! # Sources

@@ -7,11 +7,11 @@
 use crate::text::trimmed_text;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::BackendIssue;
-use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{
     Action, Cell, FeedId, Load, MachineKind, OpId, Program, RateId, Ready, Registered,
 };
-use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::units::{Angle, Duration};
 use vcutc_backend_api::verify::VerifiedProgram;
 
 /// Largest coordinate, in mm. KRL's `REAL` has seven digits, so beyond this a hundredth of a millimetre is lost; no
@@ -45,7 +45,13 @@ const SIGNALS: u32 = 4096;
 /// Inputs that the controller itself holds at TRUE and FALSE: the one never waits, the other waits for ever.
 const FIXED_INPUTS: [u32; 2] = [1025, 1026];
 
-/// The cell of a program and everything that stands in the way of writing it.
+const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "home",
+    why: "a KRL program begins with a move of all six axes, which also decides the posture of the arm in every straight \
+          move after it",
+};
+
+/// The cell of a program, or everything that stands in the way of writing it.
 pub(crate) fn check(program: &VerifiedProgram) -> Result<&Cell, Vec<BackendIssue>> {
     let Some(cell) = &program.program().cell else {
         return Err(vec![BackendIssue::MissingMachine]);
@@ -116,38 +122,9 @@ impl Findings {
         match cell.kind {
             MachineKind::Robot => {}
         }
-        match cell.home {
-            Some(home) => {
-                for angle in home {
-                    let number = Number {
-                        what: "home angle",
-                        value: angle.to_deg(),
-                        unit: "deg",
-                    };
-                    self.range(None, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
-                }
-            }
-            None => self.tell(
-                "home",
-                BackendIssue::MissingMachineField {
-                    field: "home",
-                    why: "a KRL program begins with a move of all six axes, which also decides how the wrist is turned \
-                          in every straight move after it",
-                },
-            ),
-        }
-        match cell.tool {
-            Registered::Value(tool) => {
-                self.point(None, ["tool X", "tool Y", "tool Z"], tool.origin);
-            }
-            Registered::Number(number) => self.number("tool number", number, TOOLS),
-        }
-        match cell.base {
-            Registered::Value(base) => {
-                self.point(None, ["base X", "base Y", "base Z"], base.origin);
-            }
-            Registered::Number(number) => self.number("base number", number, BASES),
-        }
+        self.home(cell.home);
+        self.frame(cell.tool, ["tool X", "tool Y", "tool Z"], ("tool number", TOOLS));
+        self.frame(cell.base, ["base X", "base Y", "base Z"], ("base number", BASES));
         match cell.load {
             Some(Registered::Value(load)) => self.load(load),
             Some(Registered::Number(number)) => self.number("load number", number, TOOLS),
@@ -159,6 +136,33 @@ impl Findings {
         match cell.ready {
             Ready::Input(input) => self.input(input),
             Ready::After(time) => self.wait(None, "time until ready", time),
+        }
+    }
+
+    fn home(&mut self, home: Option<[Angle; 6]>) {
+        let Some(angles) = home else {
+            self.tell("home", HOME_MISSING);
+            return;
+        };
+        for angle in angles {
+            let number = Number {
+                what: "home angle",
+                value: angle.to_deg(),
+                unit: "deg",
+            };
+            self.range(None, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
+        }
+    }
+
+    fn frame(
+        &mut self,
+        frame: Registered<Frame>,
+        coordinates: [&'static str; 3],
+        (what, highest): (&'static str, u32),
+    ) {
+        match frame {
+            Registered::Value(frame) => self.point(None, coordinates, frame.origin),
+            Registered::Number(number) => self.number(what, number, highest),
         }
     }
 

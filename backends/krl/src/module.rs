@@ -4,7 +4,7 @@ use crate::body::{self, Source};
 use crate::keywords::{HOME, part_name};
 use crate::options::PartNames;
 use crate::split::Part;
-use crate::state::{Place, State};
+use crate::state::Place;
 use crate::text::{Text, Written, push_trimmed};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::{Frame, Point3};
@@ -195,13 +195,7 @@ enum Home {
 fn needs_home(source: Source<'_>, part: &Part) -> Home {
     let ops = source.program.ops.get(part.ops.clone()).unwrap_or_default();
     let moves_there = ops.iter().any(|op| matches!(op.action, Action::Home));
-    let starts_there = matches!(
-        part.start,
-        State {
-            place: Place::Home,
-            ..
-        }
-    );
+    let starts_there = part.start.place == Place::Home;
     if moves_there || starts_there {
         Home::Used
     } else {

@@ -90,3 +90,53 @@ impl Tally {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use vcutc_backend_api::ir::Edges;
+    use vcutc_backend_api::testkit::{Passes, Recipe};
+
+    fn lines_of(ops: &[Op]) -> u64 {
+        let mut tally = Tally::start(0, State::START);
+        ops.iter().map(|op| tally.take(op)).last().unwrap_or_default()
+    }
+
+    proptest! {
+        /// Parts lie end to end, begin only where they may, and no two neighbours fit into the limit together.
+        #[test]
+        fn parts_tile_the_program_and_are_as_long_as_may_be(
+            (layers, cuts, limit) in (0..6_u32, 0..6_u32, 1..200_u32),
+            by_layer in any::<bool>(),
+            single in any::<bool>(),
+        ) {
+            let ops = Recipe {
+                layers,
+                cuts,
+                passes: if by_layer { Passes::Layer } else { Passes::Point },
+                edges: if single { Edges::Single } else { Edges::Double },
+                ..Recipe::default()
+            }
+            .program()
+            .ops;
+            let parts = split(&ops, NonZeroU32::new(limit));
+            let mut state = State::START;
+            let mut end = 0;
+            for part in &parts {
+                prop_assert_eq!(part.ops.start, end);
+                prop_assert_eq!(part.start, state);
+                prop_assert!(end == 0 || may_begin(&ops, end));
+                state = ops[part.ops.clone()].iter().fold(state, |state, op| state.after(&op.action));
+                end = part.ops.end;
+            }
+            prop_assert_eq!(end, ops.len());
+            for pair in parts.windows(2) {
+                // The next part is taken whole or not at all, up to its own first border.
+                let next = (pair[1].ops.start + 1..pair[1].ops.end).find(|&at| may_begin(&ops, at));
+                let joined = pair[0].ops.start..next.unwrap_or(pair[1].ops.end);
+                prop_assert!(lines_of(&ops[joined]) > u64::from(limit));
+            }
+        }
+    }
+}

@@ -136,7 +136,7 @@ fn plain(words: &str) -> impl Iterator<Item = u8> {
     })
 }
 
-/// A `f64` that a controller's parser could not read back is a fault of the compiler, never a line of text.
+/// What writing comes to: lines in the sink, or why not.
 pub(crate) type Written = Result<(), EmitError>;
 
 #[cfg(test)]

@@ -4,11 +4,14 @@
 //! uniform grid, and accept an interval only when the formula stays within half the tolerance of the chord at five
 //! places inside, unevenly spaced so that a periodic formula cannot meet the chord at all of them by chance.
 
-use super::{LARGEST_COORDINATE, MOST_POINTS, Point2};
+use super::{LARGEST_COORDINATE, Point2};
 use vcutc_backend_api::units::Length;
 
 /// Intervals of the first grid.
 const FIRST_GRID: usize = 256;
+
+/// Most points of a formula. Fewer than of a curve: each costs five evaluations or more.
+pub const MOST_SAMPLES: usize = 500_000;
 
 /// Where an interval is tested besides its middle, as shares of its width.
 const TESTS: [f64; 4] = [0.113, 0.289, 0.717, 0.891];
@@ -32,7 +35,7 @@ pub enum SampleError {
     },
     /// The range is empty or not in the range of coordinates.
     BadRange,
-    /// The tolerance asks for more than [`MOST_POINTS`].
+    /// The tolerance asks for more than [`MOST_SAMPLES`].
     TooManyPoints,
 }
 
@@ -83,7 +86,7 @@ fn refine(
             good &= (evaluate(f, chord.x)?.z - chord.z).abs() <= accepted;
         }
         if good {
-            if points.len() >= MOST_POINTS {
+            if points.len() >= MOST_SAMPLES {
                 return Err(SampleError::TooManyPoints);
             }
             points.push(b);

@@ -58,17 +58,13 @@ impl Cap {
     }
 
     /// Gives the corners of a polyline over the cap from one x to another, without the end: nowhere below the cap and
-    /// at most `tolerance` above it along the normal.
+    /// at most `tolerance` above it along the normal. Where the segment passes into a disc there is no corner: the
+    /// tangent polygon around the disc starts on the segment's own line.
     pub(super) fn outline(&self, from: f64, to: f64, tolerance: f64, corner: &mut dyn FnMut(Point2)) {
         let (start, end) = (self.shifted(self.left), self.shifted(self.right));
         corner(self.at(from));
         if from < start.x {
             self.around(self.left, from, to.min(start.x), tolerance, corner);
-        }
-        for bend in [start, end] {
-            if from < bend.x && bend.x < to {
-                corner(bend);
-            }
         }
         if to > end.x {
             self.around(self.right, from.max(end.x), to, tolerance, corner);

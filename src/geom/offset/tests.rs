@@ -83,13 +83,13 @@ fn a_fine_arc_is_raised_to_the_larger_arc() {
         let above = libm::hypot(p.x, p.z) - 57.0;
         assert!((-1e-6..1e-3).contains(&above));
     }
-    assert!(raised.points().len() < 70_000);
+    assert!(raised.points().len() < 45_000);
 }
 
 #[test]
 fn huge_numbers_do_no_harm() {
     let far = profile(&[(-1e9, -1e9), (0.0, 1e9), (1.0, -1e9), (1e9, 1e9)]);
-    for distance in [1e-9, 1.0, 1e9] {
+    for distance in [1e-300, 1e-9, 1.0, 1e9, 1e300] {
         let raised = offset_up(&far, Length::mm(distance));
         assert!(raised.points().windows(2).all(|p| p[0].x < p[1].x));
         assert!(raised.points().iter().all(|p| p.z.is_finite()));

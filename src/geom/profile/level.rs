@@ -18,7 +18,7 @@ impl Profile {
                 continue;
             };
             match intervals.last_mut() {
-                Some(last) if open && left.z <= z => last.1 = end,
+                Some(last) if open => last.1 = end,
                 _ => intervals.push((start, end)),
             }
             open = right.z <= z;

@@ -1,54 +1,71 @@
 //! The distance from a point to the profile.
 
-use super::blocks::BLOCK;
+use super::blocks::Block;
 use super::{Point2, Profile};
 
 impl Profile {
     /// The distance from a point to the nearest point of the profile, in mm.
     ///
-    /// Starts with the block of segments under the point and goes outwards both ways, as long as a block is nearer in
-    /// x than the best so far. The vertical gap is the first such bound, so only what lies within it in x counts.
+    /// Goes down the blocks of segments, the nearer half first, and leaves out every block whose box is no nearer than
+    /// the best so far. Takes logarithmic time in practice, also for points far above a profile of fine segments.
     #[must_use]
     pub fn nearest_distance(&self, point: Point2) -> f64 {
-        let home = self.segment_index(point.x) / BLOCK;
+        // All distances here are squared.
         let mut best = f64::INFINITY;
-        for block in home..self.blocks.count() {
-            if self.block_starts(block) - point.x >= best {
-                break;
+        // Blocks still to look at, the next one last, with the distances of their boxes. At most one a level waits.
+        let mut waiting = vec![(self.blocks.whole(), 0.0)];
+        while let Some((block, box_distance)) = waiting.pop() {
+            if box_distance >= best {
+                continue;
             }
-            best = best.min(self.distance_to_block(block, point, best));
-        }
-        for block in (0..home).rev() {
-            if point.x - self.block_starts(block + 1) >= best {
-                break;
+            match block.halves() {
+                None => best = best.min(self.distance_to_segments(block, point)),
+                Some(halves) => {
+                    let mut halves = halves.map(|half| (half, self.distance_to_box(half, point)));
+                    halves.sort_by(|a, b| b.1.total_cmp(&a.1));
+                    waiting.extend(halves);
+                }
             }
-            best = best.min(self.distance_to_block(block, point, best));
         }
-        best
+        best.sqrt()
     }
 
-    /// The x of the first corner of a block.
-    fn block_starts(&self, block: usize) -> f64 {
-        self.points
-            .get(block * BLOCK)
-            .map_or(f64::INFINITY, |corner| corner.x)
+    /// The squared distance to the box around a block; infinite for a block that does not exist.
+    fn distance_to_box(&self, block: Block, point: Point2) -> f64 {
+        let corners = block.corners();
+        let last = (corners.end - 1).min(self.points.len().saturating_sub(1));
+        match (
+            self.blocks.range(block),
+            self.points.get(corners.start),
+            self.points.get(last),
+        ) {
+            (Some([low, high]), Some(start), Some(end)) => {
+                squared(outside(point.x, start.x, end.x)) + squared(outside(point.z, low, high))
+            }
+            _ => f64::INFINITY,
+        }
     }
 
-    /// The distance to a block's segments; it may be overstated when it is `best` or more.
-    fn distance_to_block(&self, block: usize, point: Point2, best: f64) -> f64 {
-        if self.blocks.vertical_gap(block, point.z) >= best {
-            return best;
-        }
-        let first = block * BLOCK;
-        let end = (first + BLOCK + 1).min(self.points.len());
+    /// The squared distance to the segments of a block.
+    fn distance_to_segments(&self, block: Block, point: Point2) -> f64 {
+        let corners = block.corners();
+        let end = corners.end.min(self.points.len());
         self.points
-            .get(first..end)
+            .get(corners.start..end)
             .unwrap_or_default()
             .windows(2)
             .map(|pair| squared_distance(point, pair[0], pair[1]))
             .fold(f64::INFINITY, f64::min)
-            .sqrt()
     }
+}
+
+/// How far a value is outside a range; 0 within.
+const fn outside(value: f64, low: f64, high: f64) -> f64 {
+    (low - value).max(value - high).max(0.0)
+}
+
+const fn squared(value: f64) -> f64 {
+    value * value
 }
 
 /// Squared distance from a point to a segment between points that differ in x.

@@ -194,6 +194,35 @@ fn speeds_are_written_where_they_change() {
 }
 
 #[test]
+fn every_cut_has_its_comment_within_the_fold_of_its_layer() {
+    let recipe = Recipe {
+        layers: 3,
+        cuts: 1,
+        ..Recipe::default()
+    };
+    let lines = lines(&emit(&verified(recipe.program()), &[]), "sample.src");
+    let headings: Vec<&str> = lines
+        .iter()
+        .filter(|line| line.contains("layer"))
+        .map(String::as_str)
+        .collect();
+    assert_eq!(
+        headings,
+        [
+            ";FOLD layer 1",
+            "; layer 1 cut 1",
+            ";ENDFOLD (layer 1)",
+            ";FOLD layer 2",
+            "; layer 2 cut 1",
+            ";ENDFOLD (layer 2)",
+            ";FOLD layer 3",
+            "; layer 3 cut 1",
+            ";ENDFOLD (layer 3)",
+        ]
+    );
+}
+
+#[test]
 fn corners_are_rounded_only_when_asked_for_and_only_in_the_air() {
     let rounded = |values: &[(&str, OptionValue)]| {
         events(&Recipe::default(), values)

@@ -5,6 +5,7 @@ use crate::support::reader::{self, Event};
 use crate::support::{emit, lines, verified};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::bundle::Bundle;
+use vcutc_backend_api::ir::{Action, Edges};
 use vcutc_backend_api::testkit::{Recipe, samples};
 
 fn limit(lines: u32) -> [(&'static str, OptionValue); 1] {
@@ -89,6 +90,20 @@ fn the_flanks_of_a_v_stay_together() {
 }
 
 #[test]
+fn the_way_back_through_the_air_does_not_part_the_flanks_of_a_v() {
+    let recipe = Recipe {
+        edges: Edges::Single,
+        ..Recipe::default()
+    };
+    let bundle = emit(&verified(recipe.program()), &limit(1));
+    for part in part_names(&bundle).iter().skip(2) {
+        let body = body(&bundle, part);
+        let feeds = body.iter().filter(|line| *line == "$VEL.CP=0.2").count();
+        assert_eq!(feeds, 2, "{part}: {body:?}");
+    }
+}
+
+#[test]
 fn a_part_sets_everything_up_again() {
     let program = verified(Recipe::default().program());
     let bundle = emit(&program, &limit(30));
@@ -157,4 +172,23 @@ fn the_main_program_calls_each_part_once_in_order() {
         .collect();
     assert_eq!(called, part_names(&bundle));
     assert_eq!(called[0], "sample_p001");
+}
+
+#[test]
+fn a_part_that_begins_while_the_generator_starts_does_not_wait_for_it_early() {
+    let mut program = Recipe::default().program();
+    let ready = program
+        .ops
+        .iter()
+        .position(|op| op.action == Action::AwaitReady)
+        .unwrap();
+    assert!(matches!(program.ops[ready + 1].action, Action::Travel { .. }));
+    program.ops.swap(ready, ready + 1);
+    let program = verified(program);
+    let bundle = emit(&program, &limit(1));
+    let got = reader::run(&bundle, "sample").unwrap();
+    compare(&got, &expected::events(&program), Rounding::of_decimals(3)).unwrap();
+    let body = body(&bundle, "sample_p003");
+    let output = body.iter().position(|line| line == "$OUT[12]=TRUE").unwrap();
+    assert!(body[output + 1].starts_with("LIN"), "{body:?}");
 }

@@ -3,7 +3,7 @@
 use crate::support::issues;
 use vcutc_backend_api::backend::{BackendIssue, OptionValue};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{Action, Load, Op, OpId, Program, Ready, Registered, Site};
+use vcutc_backend_api::ir::{Action, Load, Op, OpId, Program, RateId, Ready, Registered, Site};
 use vcutc_backend_api::testkit::{CellRecipe, Recipe};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 
@@ -125,6 +125,24 @@ fn speeds_beyond_the_machine_data() {
     assert_eq!(refused(with_speeds(1e-7, 400.0)), ["tip speed"]);
     assert_eq!(refused(with_speeds(3.0, 400.001)), ["reorientation rate"]);
     assert_eq!(refused(with_speeds(3.0, 1e-9)), ["reorientation rate"]);
+}
+
+#[test]
+fn a_rate_that_only_a_turn_has_and_a_wait_that_never_ends() {
+    let mut program = Recipe {
+        dwell: Some(Duration::s(1.0)),
+        ..Recipe::default()
+    }
+    .program();
+    program.rates.push(AngularSpeed::deg_per_s(500.0));
+    for op in &mut program.ops {
+        match &mut op.action {
+            Action::Turn { rate, .. } => *rate = RateId(1),
+            Action::Dwell { time } => *time = Duration::s(1e9),
+            _ => {}
+        }
+    }
+    assert_eq!(refused(program), ["waiting time", "reorientation rate"]);
 }
 
 #[test]

@@ -1,0 +1,223 @@
+//! Calls that describe a thing of a machine, such as `frame(x = 0 mm, ...)` or `output(12)`.
+
+use super::names::did_you_mean;
+use super::range::Range;
+use super::read::{Reader, looks_like};
+use super::report::{Checked, Reports};
+use crate::diag::suggest::nearest;
+use crate::diag::{Code, Diagnostic};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Argument, Expr};
+
+/// A named value of a call.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Parameter {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Its range.
+    pub(crate) range: Range,
+    /// A typical value.
+    pub(crate) typical: &'static str,
+}
+
+/// A call that a field takes.
+pub(crate) struct Arguments<'a> {
+    /// Which of the calls that the field takes.
+    pub(crate) function: &'static str,
+    /// How a whole call looks.
+    example: &'static str,
+    span: Span,
+    given: &'a [Argument],
+}
+
+/// The call that a field's value is. `known` are the calls it takes, each with an example.
+pub(crate) fn calls<'a>(
+    field: &str,
+    expr: &'a Spanned<Expr>,
+    known: &[(&'static str, &'static str)],
+    reports: &mut Reports,
+) -> Checked<Arguments<'a>> {
+    let forms: Vec<String> = known
+        .iter()
+        .map(|(_, example)| format!("`{field} = {example}`"))
+        .collect();
+    let help = format!("write it like {}", forms.join(" or "));
+    let Expr::Call { function, arguments } = &expr.node else {
+        let names: Vec<String> = known.iter().map(|(name, _)| format!("`{name}(...)`")).collect();
+        let wanted = names.join(" or ");
+        let diagnostic = Diagnostic::new(
+            Code::WrongKind,
+            format!("`{field}` takes {wanted}, not {}", looks_like(&expr.node)),
+            expr.span,
+            format!("{wanted} is wanted here"),
+        );
+        return Err(reports.push(diagnostic.help(help)));
+    };
+    if let Some(&(name, example)) = known.iter().find(|(name, _)| *name == function.node) {
+        return Ok(Arguments {
+            function: name,
+            example,
+            span: expr.span,
+            given: arguments,
+        });
+    }
+    let diagnostic = Diagnostic::new(
+        Code::WrongKind,
+        format!("`{field}` does not take `{}(...)`", function.node),
+        function.span,
+        "not taken here",
+    );
+    let near = nearest(&function.node, known.iter().map(|(name, _)| *name));
+    Err(reports.push(did_you_mean(diagnostic, function.span, &near).help(help)))
+}
+
+impl<'a> Arguments<'a> {
+    /// The only value, without a name.
+    pub(crate) fn single(&self, reports: &mut Reports) -> Checked<&'a Spanned<Expr>> {
+        match self.given {
+            [Argument { name: None, value }] => Ok(value),
+            [
+                Argument {
+                    name: Some(label), ..
+                },
+            ] => Err(reports.push(self.misfit(
+                format!("the value of `{}` has no name", self.function),
+                label.span,
+                "not expected here",
+            ))),
+            several => Err(reports.push(self.misfit(
+                format!("`{}` takes one value, not {}", self.function, several.len()),
+                self.span,
+                "one value is wanted here",
+            ))),
+        }
+    }
+
+    /// A fixed count of values without names.
+    pub(crate) fn listed<const N: usize>(
+        &self,
+        range: Range,
+        taker: &str,
+        reader: &mut Reader<'_>,
+    ) -> Checked<[f64; N]> {
+        if let Some(label) = self.given.iter().find_map(|argument| argument.name.as_ref()) {
+            let message = format!("the values of `{}` have no names", self.function);
+            return Err(reader
+                .reports
+                .push(self.misfit(message, label.span, "not expected here")));
+        }
+        let values: Vec<Checked<f64>> = self
+            .given
+            .iter()
+            .map(|argument| reader.within(&argument.value, range, taker, None))
+            .collect();
+        let count = values.len();
+        let values: Vec<f64> = values.into_iter().collect::<Checked<_>>()?;
+        <[f64; N]>::try_from(values).map_err(|_| {
+            let message = format!("`{}` takes {N} values, not {count}", self.function);
+            reader
+                .reports
+                .push(self.misfit(message, self.span, format!("{count} values")))
+        })
+    }
+
+    /// Values with names, all of which must be given, in the order of the parameters.
+    pub(crate) fn named<const N: usize>(
+        &self,
+        parameters: &'static [Parameter],
+        reader: &mut Reader<'_>,
+    ) -> Checked<[f64; N]> {
+        let mut fault = None;
+        for (at, argument) in self.given.iter().enumerate() {
+            if let Some(diagnostic) = self.misnamed(at, argument, parameters) {
+                fault = Some(reader.reports.push(diagnostic));
+            }
+        }
+        let mut values = Vec::new();
+        for parameter in parameters {
+            match self.find(parameter.name) {
+                Some(argument) => {
+                    let taker = format!("`{}`", parameter.name);
+                    match reader.within(&argument.value, parameter.range, &taker, Some(parameter.typical)) {
+                        Ok(value) => values.push(value),
+                        Err(reported) => fault = Some(reported),
+                    }
+                }
+                // A misnamed value may be the one that is missing.
+                None if fault.is_none() => fault = Some(reader.reports.push(self.lacks(parameter))),
+                None => {}
+            }
+        }
+        match (fault, <[f64; N]>::try_from(values)) {
+            (None, Ok(values)) => Ok(values),
+            (Some(reported), _) => Err(reported),
+            (None, Err(_)) => Err(reader.reports.push(Diagnostic::new(
+                Code::Internal,
+                format!("`{}` is read with a wrong count of values", self.function),
+                self.span,
+                "here",
+            ))),
+        }
+    }
+
+    fn find(&self, name: &str) -> Option<&'a Argument> {
+        let is_it = |argument: &&Argument| argument.name.as_ref().is_some_and(|label| label.node == name);
+        self.given.iter().find(is_it)
+    }
+
+    /// What is wrong with the name of an argument.
+    fn misnamed(&self, at: usize, argument: &Argument, parameters: &[Parameter]) -> Option<Diagnostic> {
+        let Some(label) = &argument.name else {
+            let diagnostic = self.misfit(
+                format!("the values of `{}` need names", self.function),
+                argument.value.span,
+                "which value is this?",
+            );
+            return Some(diagnostic);
+        };
+        let earlier = self.given.iter().take(at).filter_map(|other| other.name.as_ref());
+        if let Some(first) = earlier.into_iter().find(|other| other.node == label.node) {
+            let diagnostic = Diagnostic::new(
+                Code::FieldTwice,
+                format!("`{}` is given twice", label.node),
+                label.span,
+                "given here again",
+            )
+            .and(first.span, "given here first");
+            return Some(diagnostic.help("take one of the two out"));
+        }
+        if parameters.iter().any(|parameter| parameter.name == label.node) {
+            return None;
+        }
+        let diagnostic = self.misfit(
+            format!("`{}` has no `{}`", self.function, label.node),
+            label.span,
+            "not one of its values",
+        );
+        let near = nearest(&label.node, parameters.iter().map(|parameter| parameter.name));
+        Some(did_you_mean(diagnostic, label.span, &near))
+    }
+
+    /// A parameter that is not given.
+    fn lacks(&self, parameter: &Parameter) -> Diagnostic {
+        let diagnostic = Diagnostic::new(
+            Code::BadCall,
+            format!("`{}` needs `{}`", self.function, parameter.name),
+            self.span,
+            format!("`{}` is missing here", parameter.name),
+        );
+        let sample = format!("{} = {}", parameter.name, parameter.typical);
+        match self.given.last() {
+            Some(last) => diagnostic.fix(
+                format!("add `{sample}`"),
+                last.value.span.after(),
+                format!(", {sample}"),
+            ),
+            None => diagnostic.help(format!("write it like `{}`", self.example)),
+        }
+    }
+
+    fn misfit(&self, message: String, span: Span, label: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(Code::BadCall, message, span, label).help(format!("write it like `{}`", self.example))
+    }
+}

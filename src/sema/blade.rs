@@ -1,0 +1,54 @@
+//! `blade NAME { ... }`.
+
+use super::eval::Scope;
+use super::fields::{BlockSpec, Fields, Inner, Place, value};
+use super::range::{DISTANCE, HALF_APEX, SIZE};
+use super::read::Reader;
+use super::report::Checked;
+use super::session::Session;
+use crate::job::Blade;
+use crate::source::Spanned;
+use crate::syntax::ast::Block;
+use vcutc_backend_api::ir::Edges;
+
+const SPEC: BlockSpec = BlockSpec {
+    title: "`blade`",
+    fields: &[
+        value("cutting_length", "10 mm"),
+        value("half_apex", "7.13 deg"),
+        value("thickness", "1.5 mm"),
+        value("edges", "double"),
+    ],
+    inner: Inner::Refused,
+};
+
+const EDGES: &[(&str, Edges)] = &[("single", Edges::Single), ("double", Edges::Double)];
+
+/// A blade.
+pub(crate) fn check(
+    name: Spanned<&str>,
+    block: &Block,
+    place: Place,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Blade> {
+    let fields = Fields::sort(&SPEC, place, &block.entries, session);
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
+    let cutting_length = reader.required(&fields, "cutting_length", SIZE);
+    let half_apex = reader.required(&fields, "half_apex", HALF_APEX);
+    let thickness = reader.required(&fields, "thickness", DISTANCE);
+    let edges = fields
+        .required_value("edges", reader.reports)
+        .and_then(|expr| reader.word("edges", expr, EDGES));
+    Ok(Blade {
+        name: name.node.to_owned(),
+        span: name.span,
+        cutting_length: cutting_length?,
+        half_apex: half_apex?,
+        thickness: thickness?,
+        edges: edges?.value,
+    })
+}

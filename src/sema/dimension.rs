@@ -1,0 +1,197 @@
+//! Dimensions: what kind of quantity a value is, as exponents of length, angle, time and mass.
+//!
+//! The plane angle counts as a dimension of its own (unlike in the SI), so that `rake = 60` and `sin(3 mm)` are
+//! caught and degrees never mix with pure numbers.
+
+use core::f64::consts::PI;
+use std::fmt::Write as _;
+
+/// Exponents of the base dimensions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Dimension {
+    /// Of length.
+    pub(crate) length: i8,
+    /// Of angle.
+    pub(crate) angle: i8,
+    /// Of time.
+    pub(crate) time: i8,
+    /// Of mass.
+    pub(crate) mass: i8,
+}
+
+impl Dimension {
+    /// A pure number.
+    pub(crate) const PURE: Self = Self::new(0, 0, 0, 0);
+    /// A length.
+    pub(crate) const LENGTH: Self = Self::new(1, 0, 0, 0);
+    /// An angle.
+    pub(crate) const ANGLE: Self = Self::new(0, 1, 0, 0);
+    /// A time.
+    pub(crate) const TIME: Self = Self::new(0, 0, 1, 0);
+    /// A mass.
+    pub(crate) const MASS: Self = Self::new(0, 0, 0, 1);
+    /// A speed.
+    pub(crate) const SPEED: Self = Self::new(1, 0, -1, 0);
+    /// A turning rate.
+    pub(crate) const TURNING_RATE: Self = Self::new(0, 1, -1, 0);
+
+    /// From the four exponents.
+    pub(crate) const fn new(length: i8, angle: i8, time: i8, mass: i8) -> Self {
+        Self {
+            length,
+            angle,
+            time,
+            mass,
+        }
+    }
+
+    /// Each pair of exponents joined; none when one leaves the range of exponents.
+    fn zip(self, other: Self, join: fn(i8, i8) -> Option<i8>) -> Option<Self> {
+        Some(Self::new(
+            join(self.length, other.length)?,
+            join(self.angle, other.angle)?,
+            join(self.time, other.time)?,
+            join(self.mass, other.mass)?,
+        ))
+    }
+
+    /// Of a product; none when an exponent grows out of all sense.
+    pub(crate) fn times(self, other: Self) -> Option<Self> {
+        self.zip(other, i8::checked_add)
+    }
+
+    /// Of a quotient; none when an exponent grows out of all sense.
+    pub(crate) fn over(self, other: Self) -> Option<Self> {
+        self.zip(other, i8::checked_sub)
+    }
+
+    /// Of a whole power; none when an exponent grows out of all sense.
+    pub(crate) fn power(self, exponent: i8) -> Option<Self> {
+        self.zip(Self::new(exponent, exponent, exponent, exponent), i8::checked_mul)
+    }
+
+    /// Of a square root; none when an exponent is odd.
+    pub(crate) fn root(self) -> Option<Self> {
+        let half = |exponent: i8, two: i8| (exponent % two == 0).then_some(exponent / two);
+        self.zip(Self::new(2, 2, 2, 2), half)
+    }
+
+    /// In words, with article: `a length`.
+    pub(crate) fn words(self) -> String {
+        let name = match (self.length, self.angle, self.time, self.mass) {
+            (0, 0, 0, 0) => "a pure number",
+            (1, 0, 0, 0) => "a length",
+            (2, 0, 0, 0) => "an area",
+            (3, 0, 0, 0) => "a volume",
+            (0, 1, 0, 0) => "an angle",
+            (0, 0, 1, 0) => "a time",
+            (0, 0, 0, 1) => "a mass",
+            (1, 0, -1, 0) => "a speed",
+            (0, 1, -1, 0) => "a turning rate",
+            (1, 0, -2, 0) => "an acceleration",
+            _ => return format!("a quantity in {}", self.unit()),
+        };
+        name.to_owned()
+    }
+
+    /// The unit that people use for it: `mm`, `deg`, `mm/s`; empty for a pure number.
+    pub(crate) fn unit(self) -> String {
+        let powers = [
+            ("mm", self.length),
+            ("deg", self.angle),
+            ("s", self.time),
+            ("kg", self.mass),
+        ];
+        let mut above = String::new();
+        let mut below = String::new();
+        for (unit, exponent) in powers {
+            let (side, separator) = match exponent {
+                1.. if above.is_empty() => (&mut above, ""),
+                1.. => (&mut above, "*"),
+                _ => (&mut below, "/"),
+            };
+            // Writing to a String cannot fail.
+            let _ = match exponent.unsigned_abs() {
+                0 => Ok(()),
+                1 => write!(side, "{separator}{unit}"),
+                power => write!(side, "{separator}{unit}^{power}"),
+            };
+        }
+        if above.is_empty() && !below.is_empty() {
+            above.push('1');
+        }
+        above + &below
+    }
+
+    /// How much one of [`Self::unit`] is in the units that values are held in (mm, rad, s, kg).
+    pub(crate) fn unit_size(self) -> f64 {
+        match self.angle {
+            0 => 1.0,
+            1 => PI / 180.0,
+            exponent => libm::pow(PI / 180.0, f64::from(exponent)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn words_and_units() {
+        assert_eq!(Dimension::LENGTH.words(), "a length");
+        assert_eq!(Dimension::TURNING_RATE.unit(), "deg/s");
+        assert_eq!(Dimension::new(1, 0, -2, 0).unit(), "mm/s^2");
+        assert_eq!(Dimension::new(0, 0, -1, 0).words(), "a quantity in 1/s");
+        assert_eq!(Dimension::new(1, 1, -1, -2).unit(), "mm*deg/s/kg^2");
+        assert_eq!(Dimension::PURE.unit(), "");
+    }
+
+    #[test]
+    fn exponents_do_not_overflow() {
+        let huge = Dimension::new(100, 0, 0, 0);
+        assert_eq!(huge.times(huge), None);
+        assert_eq!(huge.power(2), None);
+        assert_eq!(Dimension::new(-100, 0, 0, 0).over(huge), None);
+        assert_eq!(Dimension::LENGTH.root(), None);
+        assert_eq!(
+            Dimension::LENGTH
+                .times(Dimension::LENGTH)
+                .and_then(Dimension::root),
+            Some(Dimension::LENGTH)
+        );
+    }
+
+    /// Exponents as a plain vector of wide integers.
+    fn vector(d: Dimension) -> [i32; 4] {
+        [d.length, d.angle, d.time, d.mass].map(i32::from)
+    }
+
+    fn any_dimension() -> impl Strategy<Value = Dimension> {
+        (any::<i8>(), any::<i8>(), any::<i8>(), any::<i8>())
+            .prop_map(|(l, a, t, m)| Dimension::new(l, a, t, m))
+    }
+
+    fn narrow(wide: [i32; 4]) -> Option<[i32; 4]> {
+        wide.iter().all(|&e| i8::try_from(e).is_ok()).then_some(wide)
+    }
+
+    proptest! {
+        #[test]
+        fn arithmetic_is_that_of_exponent_vectors(a in any_dimension(), b in any_dimension(), n in any::<i8>()) {
+            let (va, vb) = (vector(a), vector(b));
+            let sum = core::array::from_fn(|i| va[i] + vb[i]);
+            let difference = core::array::from_fn(|i| va[i] - vb[i]);
+            let multiple = va.map(|e| e * i32::from(n));
+            prop_assert_eq!(a.times(b).map(vector), narrow(sum));
+            prop_assert_eq!(a.over(b).map(vector), narrow(difference));
+            prop_assert_eq!(a.power(n).map(vector), narrow(multiple));
+            if let Some(root) = a.root() {
+                prop_assert_eq!(vector(root).map(|e| 2 * e), va);
+            } else {
+                prop_assert!(va.iter().any(|e| e % 2 != 0));
+            }
+        }
+    }
+}

@@ -1,0 +1,384 @@
+//! The value of an expression.
+//!
+//! Arithmetic keeps dimensions, every step must come out finite, and both sides of an operator are evaluated even
+//! when one fails, so that one run shows all faults. Long chains such as `a + b + c + ...` lean to the left in the
+//! tree and are walked in a loop; only real nesting costs depth, and that is bounded.
+
+use super::dimension::Dimension;
+use super::functions;
+use super::lets::Let;
+use super::mismatch::{Mismatch, mend};
+use super::names::{Names, Thing, did_you_mean};
+use super::quantity::{Quantity, number};
+use super::report::{Checked, Reports};
+use super::units;
+use crate::diag::{Code, Diagnostic};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Expr, Operator};
+
+/// Deepest nesting of an expression.
+const DEEPEST: usize = 200;
+
+/// What names stand for while an expression is evaluated.
+#[derive(Clone, Copy)]
+pub(crate) struct Scope<'a> {
+    /// All names of the job.
+    pub(crate) names: &'a Names<'a>,
+    /// The job's `let`s.
+    pub(crate) lets: &'a [Let<'a>],
+    /// Their values; none while they are still being worked out.
+    pub(crate) values: &'a [Option<Checked<Quantity>>],
+    /// The variable of a formula.
+    pub(crate) variable: Option<(&'a str, Quantity)>,
+}
+
+/// A value with the expression it came from.
+#[derive(Clone, Copy)]
+pub(crate) struct Operand<'e> {
+    /// The expression.
+    pub(crate) expr: &'e Spanned<Expr>,
+    /// Its value.
+    pub(crate) quantity: Quantity,
+}
+
+impl Scope<'_> {
+    /// The value of an expression.
+    pub(crate) fn evaluate(&self, expr: &Spanned<Expr>, reports: &mut Reports) -> Checked<Quantity> {
+        self.at_depth(expr, 0, reports)
+    }
+
+    /// The value of an expression that must have a certain dimension, in mm, rad, s, kg.
+    pub(crate) fn expect(
+        &self,
+        expr: &Spanned<Expr>,
+        wanted: Dimension,
+        taker: &str,
+        typical: Option<&str>,
+        reports: &mut Reports,
+    ) -> Checked<f64> {
+        let found = self.evaluate(expr, reports)?;
+        if found.dimension == wanted {
+            return Ok(found.value);
+        }
+        let mismatch = Mismatch {
+            taker,
+            wanted,
+            expr,
+            found,
+            typical,
+        };
+        Err(reports.push(mismatch.diagnostic(self)))
+    }
+
+    /// The `let` whose name the expression is.
+    pub(crate) fn let_named_by(&self, expr: &Spanned<Expr>) -> Option<&Let<'_>> {
+        let Expr::Name(name) = &expr.node else { return None };
+        match self.names.get(name)?.thing {
+            Thing::Let(index) => self.lets.get(index),
+            Thing::Blade(_) | Thing::Machine(_) => None,
+        }
+    }
+
+    /// The value of an expression that stands `depth` levels deep in another.
+    pub(super) fn at_depth(
+        &self,
+        expr: &Spanned<Expr>,
+        depth: usize,
+        reports: &mut Reports,
+    ) -> Checked<Quantity> {
+        if depth > DEEPEST {
+            let diagnostic = Diagnostic::new(
+                Code::NestedTooDeeply,
+                "this expression is nested too deeply",
+                expr.span,
+                format!("more than {DEEPEST} levels deep"),
+            )
+            .help("give a part of it a name with `let`");
+            return Err(reports.push(diagnostic));
+        }
+        let value = match &expr.node {
+            Expr::Number { value, unit: None } => Quantity::pure(*value),
+            Expr::Number {
+                value,
+                unit: Some(unit),
+            } => units::quantity(*value, &unit.node).ok_or_else(|| reports.push(unknown_unit(unit)))?,
+            Expr::Name(name) => return self.name(name, expr.span, reports),
+            Expr::Call { function, arguments } => {
+                functions::call(self, expr.span, function, arguments, depth, reports)?
+            }
+            Expr::Negate(inner) => {
+                let inner = self.at_depth(inner, depth + 1, reports)?;
+                Quantity::new(-inner.value, inner.dimension)
+            }
+            Expr::Binary { .. } => return self.chain(expr, depth, reports),
+            Expr::Text(_) => return Err(reports.push(wrong_kind(expr.span, "a text"))),
+            Expr::Tuple(_) => return Err(reports.push(wrong_kind(expr.span, "a list of values"))),
+        };
+        sensible(value, expr.span, reports)
+    }
+
+    /// Walks down the left sides of operators, then computes upwards again.
+    fn chain(&self, expr: &Spanned<Expr>, depth: usize, reports: &mut Reports) -> Checked<Quantity> {
+        let mut steps = Vec::new();
+        let mut first = expr;
+        while let Expr::Binary {
+            operator,
+            left,
+            right,
+        } = &first.node
+        {
+            steps.push((first, operator, left.as_ref(), right.as_ref()));
+            first = left;
+        }
+        let mut value = self.at_depth(first, depth + 1, reports);
+        for (whole, operator, left, right) in steps.into_iter().rev() {
+            let beside = self.at_depth(right, depth + 1, reports);
+            value = value.and_then(|quantity| {
+                let left = Operand { expr: left, quantity };
+                let right = Operand {
+                    expr: right,
+                    quantity: beside?,
+                };
+                let result = combine(*operator, left, right).map_err(|fault| reports.push(*fault))?;
+                sensible(result, whole.span, reports)
+            });
+        }
+        value
+    }
+
+    fn name(&self, name: &str, span: Span, reports: &mut Reports) -> Checked<Quantity> {
+        if let Some((_, value)) = self.variable.filter(|(variable, _)| *variable == name) {
+            return Ok(value);
+        }
+        match name {
+            "pi" => return Ok(Quantity::pure(core::f64::consts::PI)),
+            "auto" => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongKind,
+                    "`auto` is no value to calculate with",
+                    span,
+                    "a value is needed here",
+                )
+                .help("`auto` stands alone, behind a field that the compiler may choose");
+                return Err(reports.push(diagnostic));
+            }
+            _ => {}
+        }
+        let Some(definition) = self.names.get(name) else {
+            return Err(match self.names.incomplete {
+                Some(reported) => reported,
+                None => {
+                    let is_let = |thing| matches!(thing, Thing::Let(_));
+                    reports.push(self.names.unknown("value", name, span, is_let))
+                }
+            });
+        };
+        match definition.thing {
+            Thing::Let(index) => match self.values.get(index) {
+                Some(Some(value)) => *value,
+                // Only while other definitions are being worked out; the order of work avoids it.
+                Some(None) | None => Err(reports.push(Diagnostic::new(
+                    Code::Internal,
+                    format!("`{name}` is needed before its value is known"),
+                    span,
+                    "needed here",
+                ))),
+            },
+            thing @ (Thing::Blade(_) | Thing::Machine(_)) => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongKind,
+                    format!("`{name}` is {}, not a value", thing.words()),
+                    span,
+                    "a value is needed here",
+                )
+                .and(definition.span, "defined here");
+                Err(reports.push(diagnostic))
+            }
+        }
+    }
+}
+
+/// A result that is a number and of a size that can mean something.
+fn sensible(value: Quantity, span: Span, reports: &mut Reports) -> Checked<Quantity> {
+    if value.is_sensible() {
+        return Ok(value);
+    }
+    let label = if value.value.is_finite() {
+        format!("this comes out as {}", value.text())
+    } else {
+        "this is too large to hold".to_owned()
+    };
+    let diagnostic = Diagnostic::new(
+        Code::NotFinite,
+        "this value is beyond all that a job can mean",
+        span,
+        label,
+    )
+    .note("values end at 1e9 mm, rad, s or kg")
+    .help("check the units, and what is divided by what");
+    Err(reports.push(diagnostic))
+}
+
+/// What an operator makes of its two sides.
+fn combine(
+    operator: Spanned<Operator>,
+    left: Operand<'_>,
+    right: Operand<'_>,
+) -> Result<Quantity, Box<Diagnostic>> {
+    let (a, b) = (left.quantity, right.quantity);
+    match operator.node {
+        Operator::Add => {
+            same_dimension("+", left, right).map(|dimension| Quantity::new(a.value + b.value, dimension))
+        }
+        Operator::Subtract => {
+            same_dimension("-", left, right).map(|dimension| Quantity::new(a.value - b.value, dimension))
+        }
+        Operator::Multiply => match a.dimension.times(b.dimension) {
+            Some(dimension) => Ok(Quantity::new(a.value * b.value, dimension)),
+            None => Err(no_dimension(operator.span)),
+        },
+        Operator::Divide if b.value == 0.0 => Err(Box::new(
+            Diagnostic::new(
+                Code::NotFinite,
+                "division by zero",
+                right.expr.span,
+                "this is zero",
+            )
+            .and(left.expr.span, format!("{} is divided by it", a.text())),
+        )),
+        Operator::Divide => match a.dimension.over(b.dimension) {
+            Some(dimension) => Ok(Quantity::new(a.value / b.value, dimension)),
+            None => Err(no_dimension(operator.span)),
+        },
+        Operator::Power => power(left, right),
+    }
+}
+
+/// The common dimension of two values that are added or compared; `joint` is what joins them, as it is written.
+pub(super) fn same_dimension(
+    joint: &str,
+    left: Operand<'_>,
+    right: Operand<'_>,
+) -> Result<Dimension, Box<Diagnostic>> {
+    let (a, b) = (left.quantity.dimension, right.quantity.dimension);
+    if a == b {
+        return Ok(a);
+    }
+    let diagnostic = Diagnostic::new(
+        Code::WrongDimension,
+        format!(
+            "`{joint}` takes values of one kind, not {} and {}",
+            a.words(),
+            b.words()
+        ),
+        right.expr.span,
+        format!("this is {}", b.words()),
+    )
+    .and(left.expr.span, format!("this is {}", a.words()));
+    // The one without a unit is the one to mend.
+    let diagnostic = match (a == Dimension::PURE, b == Dimension::PURE) {
+        (true, false) => mend(diagnostic, left.expr, b),
+        (false, true) => mend(diagnostic, right.expr, a),
+        _ => diagnostic.help("give both the same kind of unit"),
+    };
+    Err(Box::new(diagnostic))
+}
+
+fn no_dimension(span: Span) -> Box<Diagnostic> {
+    let diagnostic = Diagnostic::new(
+        Code::WrongDimension,
+        "this product has no sensible dimension",
+        span,
+        "an exponent of its unit grows beyond 127",
+    );
+    Box::new(diagnostic.help("check which values are multiplied"))
+}
+
+fn power(base: Operand<'_>, exponent: Operand<'_>) -> Result<Quantity, Box<Diagnostic>> {
+    let (a, b) = (base.quantity, exponent.quantity);
+    if b.dimension != Dimension::PURE {
+        let diagnostic = Diagnostic::new(
+            Code::WrongDimension,
+            format!("an exponent is a pure number, not {}", b.dimension.words()),
+            exponent.expr.span,
+            format!("this is {}", b.dimension.words()),
+        );
+        return Err(Box::new(mend(diagnostic, exponent.expr, Dimension::PURE)));
+    }
+    if a.value == 0.0 && b.value < 0.0 {
+        let diagnostic = Diagnostic::new(
+            Code::NotFinite,
+            "division by zero",
+            base.expr.span,
+            "this is zero",
+        )
+        .and(exponent.expr.span, "a negative power divides by it");
+        return Err(Box::new(diagnostic));
+    }
+    let is_whole = libm::trunc(b.value) == b.value;
+    if a.value < 0.0 && !is_whole {
+        let diagnostic = Diagnostic::new(
+            Code::NotFinite,
+            format!("a negative number has no power of {}", number(b.value)),
+            base.expr.span,
+            format!("this is {}", a.text()),
+        )
+        .and(exponent.expr.span, "not a whole number");
+        return Err(Box::new(diagnostic));
+    }
+    let dimension = if a.dimension == Dimension::PURE {
+        Some(Dimension::PURE)
+    } else {
+        whole_exponent(b.value).and_then(|whole| a.dimension.power(whole))
+    };
+    match dimension {
+        Some(dimension) => Ok(Quantity::new(libm::pow(a.value, b.value), dimension)),
+        None => Err(Box::new(
+            Diagnostic::new(
+                Code::WrongDimension,
+                format!(
+                    "{} to the power {} has no dimension",
+                    a.dimension.words(),
+                    number(b.value)
+                ),
+                exponent.expr.span,
+                "a value with a unit takes small whole powers",
+            )
+            .and(base.expr.span, format!("this is {}", a.dimension.words()))
+            .help("take `sqrt(...)` for a square root, or divide by one unit first to get a pure number"),
+        )),
+    }
+}
+
+/// A whole number small enough for an exponent of a dimension.
+fn whole_exponent(value: f64) -> Option<i8> {
+    let fits = libm::trunc(value) == value && value.abs() <= f64::from(i8::MAX);
+    #[expect(clippy::cast_possible_truncation, reason = "whole and within the range")]
+    fits.then_some(value as i8)
+}
+
+fn unknown_unit(unit: &Spanned<String>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(
+        Code::UnknownUnit,
+        format!("there is no unit `{}`", unit.node),
+        unit.span,
+        "not a unit of the language",
+    );
+    let meant = units::meant(&unit.node);
+    let near: Vec<&str> = meant.iter().map(String::as_str).collect();
+    let diagnostic = did_you_mean(diagnostic, unit.span, &near);
+    diagnostic.note(format!(
+        "units are {}, and quotients of two such as mm/s",
+        units::list()
+    ))
+}
+
+fn wrong_kind(span: Span, what: &str) -> Diagnostic {
+    Diagnostic::new(
+        Code::WrongKind,
+        format!("{what} stands where a single value is wanted"),
+        span,
+        format!("this is {what}"),
+    )
+    .help("give one value with its unit, such as `4 mm`")
+}

@@ -1,0 +1,294 @@
+//! The functions of expressions.
+
+use super::dimension::Dimension;
+use super::eval::{Operand, Scope, same_dimension};
+use super::mismatch::Mismatch;
+use super::names::did_you_mean;
+use super::quantity::{Quantity, number};
+use super::report::{Checked, Reports};
+use crate::diag::suggest::nearest;
+use crate::diag::{Code, Diagnostic};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::Argument;
+
+/// A function.
+struct Function {
+    name: &'static str,
+    form: Form,
+    /// A call of it.
+    example: &'static str,
+}
+
+/// How many values a function takes, and what it makes of them.
+enum Form {
+    One(fn(&Apply<'_>, Operand<'_>) -> Applied),
+    Two(fn(&Apply<'_>, Operand<'_>, Operand<'_>) -> Applied),
+    Three(fn(&Apply<'_>, Operand<'_>, Operand<'_>, Operand<'_>) -> Applied),
+    /// Two or more.
+    Several(fn(&Apply<'_>, Operand<'_>, &[Operand<'_>]) -> Applied),
+}
+
+const fn function(name: &'static str, form: Form, example: &'static str) -> Function {
+    Function { name, form, example }
+}
+
+/// All functions.
+const FUNCTIONS: &[Function] = &[
+    function("sin", Form::One(|f, a| f.of_angle(a, libm::sin)), "sin(30 deg)"),
+    function("cos", Form::One(|f, a| f.of_angle(a, libm::cos)), "cos(30 deg)"),
+    function("tan", Form::One(|f, a| f.of_angle(a, libm::tan)), "tan(30 deg)"),
+    function(
+        "asin",
+        Form::One(|f, a| f.to_angle(a, 1.0, libm::asin)),
+        "asin(0.5)",
+    ),
+    function(
+        "acos",
+        Form::One(|f, a| f.to_angle(a, 1.0, libm::acos)),
+        "acos(0.5)",
+    ),
+    function(
+        "atan",
+        Form::One(|f, a| f.to_angle(a, f64::INFINITY, libm::atan)),
+        "atan(0.5)",
+    ),
+    function("atan2", Form::Two(|f, a, b| f.atan2(a, b)), "atan2(3 mm, 4 mm)"),
+    function("sqrt", Form::One(|_, a| root(a)), "sqrt(2)"),
+    function("abs", Form::One(|_, a| Ok(absolute(a.quantity))), "abs(-3 mm)"),
+    function(
+        "min",
+        Form::Several(|f, a, rest| f.fold(a, rest, f64::min)),
+        "min(3 mm, 4 mm)",
+    ),
+    function(
+        "max",
+        Form::Several(|f, a, rest| f.fold(a, rest, f64::max)),
+        "max(3 mm, 4 mm)",
+    ),
+    function(
+        "clamp",
+        Form::Three(|f, a, b, c| f.clamp(a, b, c)),
+        "clamp(5 mm, 0 mm, 10 mm)",
+    ),
+];
+
+/// Calls that are values only of certain fields, and where they belong.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("frame", "behind `tool` and `base` of a machine"),
+    ("number", "behind `tool`, `base` and `load` of a machine"),
+    ("load", "behind `load` of a machine"),
+    ("joints", "behind `home` of a machine"),
+    ("output", "behind `ultrasonic` of a machine"),
+    ("input", "behind `ready` of a machine"),
+    ("after", "behind `ready` of a machine"),
+];
+
+/// The value of a call.
+pub(super) fn call(
+    scope: &Scope<'_>,
+    whole: Span,
+    function: &Spanned<String>,
+    arguments: &[Argument],
+    depth: usize,
+    reports: &mut Reports,
+) -> Checked<Quantity> {
+    let Some(known) = FUNCTIONS.iter().find(|known| known.name == function.node) else {
+        return Err(reports.push(unknown(function)));
+    };
+    // All arguments first, so that every one of them is checked.
+    let values: Vec<Checked<Operand<'_>>> = arguments
+        .iter()
+        .map(|argument| {
+            let quantity = scope.at_depth(&argument.value, depth + 1, reports)?;
+            match &argument.name {
+                Some(label) => Err(reports.push(named(known, label))),
+                None => Ok(Operand {
+                    expr: &argument.value,
+                    quantity,
+                }),
+            }
+        })
+        .collect();
+    let values: Vec<Operand<'_>> = values.into_iter().collect::<Checked<_>>()?;
+    let apply = Apply {
+        name: known.name,
+        scope,
+    };
+    let result = match (&known.form, values.as_slice()) {
+        (Form::One(f), &[a]) => f(&apply, a),
+        (Form::Two(f), &[a, b]) => f(&apply, a, b),
+        (Form::Three(f), &[a, b, c]) => f(&apply, a, b, c),
+        (Form::Several(f), [a, rest @ ..]) if !rest.is_empty() => f(&apply, *a, rest),
+        (Form::One(_) | Form::Two(_) | Form::Three(_) | Form::Several(_), values) => {
+            Err(Box::new(wrong_count(whole, known, values.len())))
+        }
+    };
+    result.map_err(|fault| reports.push(*fault))
+}
+
+/// A function at work.
+struct Apply<'a> {
+    name: &'static str,
+    scope: &'a Scope<'a>,
+}
+
+type Applied = Result<Quantity, Box<Diagnostic>>;
+
+impl Apply<'_> {
+    fn wanted(&self, operand: Operand<'_>, wanted: Dimension) -> Result<f64, Box<Diagnostic>> {
+        if operand.quantity.dimension == wanted {
+            return Ok(operand.quantity.value);
+        }
+        let mismatch = Mismatch {
+            taker: &format!("`{}`", self.name),
+            wanted,
+            expr: operand.expr,
+            found: operand.quantity,
+            typical: None,
+        };
+        Err(Box::new(mismatch.diagnostic(self.scope)))
+    }
+
+    fn of_angle(&self, operand: Operand<'_>, f: fn(f64) -> f64) -> Applied {
+        Ok(Quantity::pure(f(self.wanted(operand, Dimension::ANGLE)?)))
+    }
+
+    fn to_angle(&self, operand: Operand<'_>, largest: f64, f: fn(f64) -> f64) -> Applied {
+        let value = self.wanted(operand, Dimension::PURE)?;
+        if value.abs() <= largest {
+            return Ok(Quantity::new(f(value), Dimension::ANGLE));
+        }
+        let diagnostic = Diagnostic::new(
+            Code::NotFinite,
+            format!("`{}` has no value at {}", self.name, number(value)),
+            operand.expr.span,
+            format!("this is {}", number(value)),
+        );
+        Err(Box::new(
+            diagnostic.help(format!("`{}` takes numbers from -1 to 1", self.name)),
+        ))
+    }
+
+    fn atan2(&self, y: Operand<'_>, x: Operand<'_>) -> Applied {
+        same_dimension(self.name, y, x)?;
+        let angle = libm::atan2(y.quantity.value, x.quantity.value);
+        Ok(Quantity::new(angle, Dimension::ANGLE))
+    }
+
+    fn fold(&self, first: Operand<'_>, rest: &[Operand<'_>], choose: fn(f64, f64) -> f64) -> Applied {
+        let mut value = first.quantity.value;
+        for operand in rest {
+            same_dimension(self.name, first, *operand)?;
+            value = choose(value, operand.quantity.value);
+        }
+        Ok(Quantity::new(value, first.quantity.dimension))
+    }
+
+    fn clamp(&self, value: Operand<'_>, low: Operand<'_>, high: Operand<'_>) -> Applied {
+        let dimension = same_dimension(self.name, value, low)?;
+        same_dimension(self.name, value, high)?;
+        let (least, most) = (low.quantity.value, high.quantity.value);
+        if least > most {
+            let diagnostic = Diagnostic::new(
+                Code::NotFinite,
+                "`clamp` has no value between bounds that cross",
+                high.expr.span,
+                format!("the upper bound is {}", high.quantity.text()),
+            )
+            .and(
+                low.expr.span,
+                format!("the lower bound is {}", low.quantity.text()),
+            )
+            .help("write the lower bound second and the upper bound third");
+            return Err(Box::new(diagnostic));
+        }
+        Ok(Quantity::new(
+            value.quantity.value.max(least).min(most),
+            dimension,
+        ))
+    }
+}
+
+const fn absolute(quantity: Quantity) -> Quantity {
+    Quantity::new(quantity.value.abs(), quantity.dimension)
+}
+
+fn root(operand: Operand<'_>) -> Applied {
+    let quantity = operand.quantity;
+    let Some(dimension) = quantity.dimension.root() else {
+        let words = quantity.dimension.words();
+        let diagnostic = Diagnostic::new(
+            Code::WrongDimension,
+            format!("the square root of {words} has no dimension"),
+            operand.expr.span,
+            format!("this is {words}"),
+        );
+        return Err(Box::new(
+            diagnostic.help("`sqrt` takes a pure number, an area, or another square"),
+        ));
+    };
+    if quantity.value < 0.0 {
+        let diagnostic = Diagnostic::new(
+            Code::NotFinite,
+            "a negative value has no square root",
+            operand.expr.span,
+            format!("this is {}", quantity.text()),
+        );
+        return Err(Box::new(
+            diagnostic.help("keep it at zero with `max(0, ...)` if that is what you mean"),
+        ));
+    }
+    Ok(Quantity::new(libm::sqrt(quantity.value), dimension))
+}
+
+fn unknown(function: &Spanned<String>) -> Diagnostic {
+    if let Some((name, place)) = ELSEWHERE.iter().find(|(name, _)| *name == function.node) {
+        return Diagnostic::new(
+            Code::WrongKind,
+            format!("`{name}(...)` is no value to calculate with"),
+            function.span,
+            format!("belongs {place}"),
+        )
+        .help("give a value with its unit, such as `4 mm`");
+    }
+    let diagnostic = Diagnostic::new(
+        Code::BadCall,
+        format!("there is no function `{}`", function.node),
+        function.span,
+        "not a function of the language",
+    );
+    let near = nearest(&function.node, FUNCTIONS.iter().map(|known| known.name));
+    let names: Vec<&str> = FUNCTIONS.iter().map(|known| known.name).collect();
+    did_you_mean(diagnostic, function.span, &near).note(format!("the functions are {}", names.join(", ")))
+}
+
+fn wrong_count(whole: Span, known: &Function, given: usize) -> Diagnostic {
+    let takes = match known.form {
+        Form::One(_) => "1 value",
+        Form::Two(_) => "2 values",
+        Form::Three(_) => "3 values",
+        Form::Several(_) => "2 values or more",
+    };
+    let given = if given == 1 {
+        "1 value".to_owned()
+    } else {
+        format!("{given} values")
+    };
+    Diagnostic::new(
+        Code::BadCall,
+        format!("`{}` takes {takes}, but is given {given}", known.name),
+        whole,
+        format!("{given} here"),
+    )
+    .help(format!("write it as `{}`", known.example))
+}
+
+fn named(known: &Function, label: &Spanned<String>) -> Diagnostic {
+    Diagnostic::new(
+        Code::BadCall,
+        format!("the values of `{}` have no names", known.name),
+        label.span,
+        format!("`{}` is not expected here", label.node),
+    )
+    .help(format!("write it as `{}`", known.example))
+}

@@ -1,0 +1,163 @@
+//! Names: what the files define, gathered before anything is evaluated, so that order does not matter.
+//!
+//! `let`s, blades and machines share one space of names over all files: whoever reads `dagger` anywhere in a job
+//! knows that it means one thing.
+
+use super::report::{Reported, Reports};
+use crate::diag::suggest::nearest;
+use crate::diag::{Code, Diagnostic};
+use crate::source::{Span, Spanned};
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
+/// What a name stands for, with its place in the list of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Thing {
+    /// A `let`.
+    Let(usize),
+    /// A blade.
+    Blade(usize),
+    /// A machine.
+    Machine(usize),
+}
+
+impl Thing {
+    /// With article.
+    pub(crate) const fn words(self) -> &'static str {
+        match self {
+            Self::Let(_) => "a value",
+            Self::Blade(_) => "a blade",
+            Self::Machine(_) => "a machine",
+        }
+    }
+}
+
+/// A name's definition.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Definition {
+    /// What it stands for.
+    pub(crate) thing: Thing,
+    /// Where the name is defined.
+    pub(crate) span: Span,
+}
+
+/// All names of a job.
+#[derive(Debug, Default)]
+pub(crate) struct Names<'a> {
+    table: BTreeMap<&'a str, Definition>,
+    /// Set when definitions may be missing for a reason that has been reported.
+    pub(crate) incomplete: Option<Reported>,
+}
+
+/// Words with a meaning of their own in values.
+const RESERVED: &[&str] = &["auto", "pi"];
+
+impl<'a> Names<'a> {
+    /// Defines a name, or reports why it cannot be defined.
+    pub(crate) fn define(&mut self, name: Spanned<&'a str>, thing: Thing, reports: &mut Reports) {
+        let Spanned { node: name, span } = name;
+        let fault = if RESERVED.contains(&name) {
+            Diagnostic::new(
+                Code::DefinedTwice,
+                format!("`{name}` has a meaning of its own in the language"),
+                span,
+                "cannot be defined anew",
+            )
+            .help(format!("choose another name, such as `my_{name}`"))
+        } else {
+            match self.table.entry(name) {
+                Entry::Vacant(entry) => {
+                    entry.insert(Definition { thing, span });
+                    return;
+                }
+                Entry::Occupied(entry) => twice(name, span, entry.get().span),
+            }
+        };
+        reports.push(fault);
+    }
+
+    /// The definition of a name.
+    pub(crate) fn get(&self, name: &str) -> Option<Definition> {
+        self.table.get(name).copied()
+    }
+
+    /// Names of one kind.
+    fn of_kind(&self, is_wanted: fn(Thing) -> bool) -> impl Iterator<Item = &'a str> {
+        self.table
+            .iter()
+            .filter(move |(_, definition)| is_wanted(definition.thing))
+            .map(|(name, _)| *name)
+    }
+
+    /// Names of `let`s that are near a wanted one.
+    pub(crate) fn lets_near(&self, wanted: &str) -> Vec<&'a str> {
+        nearest(wanted, self.of_kind(|thing| matches!(thing, Thing::Let(_))))
+    }
+
+    /// All names of a kind, for a help line; none when there are none, or too many to read.
+    pub(crate) fn list(&self, is_wanted: fn(Thing) -> bool) -> Option<String> {
+        let names: Vec<String> = self
+            .of_kind(is_wanted)
+            .take(13)
+            .map(|name| format!("`{name}`"))
+            .collect();
+        (1..=12).contains(&names.len()).then(|| names.join(", "))
+    }
+
+    /// The diagnostic for a name of some kind that is defined nowhere.
+    pub(crate) fn unknown(
+        &self,
+        what: &str,
+        name: &str,
+        span: Span,
+        is_wanted: fn(Thing) -> bool,
+    ) -> Diagnostic {
+        let mut diagnostic = Diagnostic::new(
+            Code::UnknownName,
+            format!("there is no {what} named `{name}`"),
+            span,
+            "not defined in this file or in any that it uses",
+        );
+        let near = nearest(
+            name,
+            self.of_kind(is_wanted).chain(what.eq("value").then_some("pi")),
+        );
+        diagnostic = did_you_mean(diagnostic, span, &near);
+        if near.is_empty() {
+            diagnostic = match self.list(is_wanted) {
+                Some(list) => diagnostic.help(format!("the names defined are {list}")),
+                None => diagnostic.help("define it, or `use` the file that does"),
+            };
+        }
+        diagnostic
+    }
+}
+
+/// Adds near names: a fix when there is one, a help line when there are several.
+pub(crate) fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) -> Diagnostic {
+    match near {
+        [] => diagnostic,
+        [one] => diagnostic.fix(format!("did you mean `{one}`?"), span, *one),
+        several => {
+            let names: Vec<String> = several.iter().map(|name| format!("`{name}`")).collect();
+            diagnostic.help(format!("did you mean {}?", names.join(" or ")))
+        }
+    }
+}
+
+/// The diagnostic for something that is defined twice.
+pub(crate) fn twice(name: &str, second: Span, first: Span) -> Diagnostic {
+    let place = if first.file == second.file {
+        ""
+    } else {
+        ", in another file"
+    };
+    Diagnostic::new(
+        Code::DefinedTwice,
+        format!("`{name}` is defined twice"),
+        second,
+        "defined here again",
+    )
+    .and(first, format!("defined here first{place}"))
+    .help("take one of the two out, or give it another name")
+}

@@ -1,0 +1,178 @@
+//! Options for targets, such as `krl { ... }` in a machine: evaluated here, held against the target later.
+
+use super::dimension::Dimension;
+use super::eval::Scope;
+use super::fields::{curve_words, head_span};
+use super::names::Thing;
+use super::report::{Checked, Reported};
+use super::session::Session;
+use crate::diag::{Code, Diagnostic};
+use crate::job::{GivenOption, GivenValue, TargetOptions};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Block, Entry, Expr};
+use std::collections::BTreeMap;
+use vcutc_backend_api::units::Length;
+
+/// The options for all targets of a machine.
+pub(crate) fn read(
+    blocks: &[&Block],
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Vec<TargetOptions>> {
+    let mut first: BTreeMap<String, Span> = BTreeMap::new();
+    let mut targets = Vec::new();
+    let mut fault = None;
+    for block in blocks {
+        let span = head_span(block);
+        let target = session.sources.slice(span).to_owned();
+        if let Some(first) = first.get(&target) {
+            let diagnostic = Diagnostic::new(
+                Code::FieldTwice,
+                format!("the options for `{target}` are given twice"),
+                span,
+                "given here again",
+            )
+            .and(*first, "given here first")
+            .help("put them into one block");
+            fault = Some(session.reports.push(diagnostic));
+            continue;
+        }
+        first.insert(target.clone(), span);
+        match one(block, scope, session) {
+            Ok(given) => targets.push(TargetOptions { target, span, given }),
+            Err(reported) => fault = Some(reported),
+        }
+    }
+    match fault {
+        Some(reported) => Err(reported),
+        None => Ok(targets),
+    }
+}
+
+fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Vec<GivenOption>> {
+    let mut first: BTreeMap<&str, Span> = BTreeMap::new();
+    let mut options = Vec::new();
+    let mut fault = None;
+    for entry in &block.entries {
+        let option = match entry {
+            Entry::Field { name, value, .. } => match first.insert(&name.node, name.span) {
+                None => option(name, value, scope, session),
+                Some(earlier) => {
+                    let diagnostic = Diagnostic::new(
+                        Code::FieldTwice,
+                        format!("`{}` is given twice", name.node),
+                        name.span,
+                        "given here again",
+                    )
+                    .and(earlier, "given here first");
+                    Err(session.reports.push(diagnostic.help("take one of the two out")))
+                }
+            },
+            Entry::Limit { span, .. } => Err(misplaced("a limit", *span, session)),
+            Entry::Formula { span, .. } => Err(misplaced("a formula", *span, session)),
+            Entry::Curve { curve, span } => Err(misplaced(curve_words(curve), *span, session)),
+            Entry::Block(inner) => Err(misplaced("a block", head_span(inner), session)),
+        };
+        match option {
+            Ok(option) => options.push(option),
+            Err(reported) => fault = Some(reported),
+        }
+    }
+    match fault {
+        Some(reported) => Err(reported),
+        None => Ok(options),
+    }
+}
+
+fn misplaced(what: &str, span: Span, session: &mut Session<'_>) -> Reported {
+    let diagnostic = Diagnostic::new(
+        Code::Misplaced,
+        format!("{what} is no option of a target"),
+        span,
+        "options have the form `key = value`",
+    );
+    session
+        .reports
+        .push(diagnostic.help("take it out, or write it as `key = value`"))
+}
+
+fn option(
+    name: &Spanned<String>,
+    value: &Spanned<Expr>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<GivenOption> {
+    Ok(GivenOption {
+        key: name.node.clone(),
+        key_span: name.span,
+        value: given(name, value, scope, session)?,
+        value_span: value.span,
+    })
+}
+
+fn given(
+    name: &Spanned<String>,
+    value: &Spanned<Expr>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<GivenValue> {
+    match &value.node {
+        Expr::Text(text) => return Ok(GivenValue::Texts(vec![text.clone()])),
+        Expr::Tuple(values) => return texts(values, session).map(GivenValue::Texts),
+        // A word that is no `let` is a word of the target.
+        Expr::Name(word)
+            if !matches!(
+                scope.names.get(word).map(|known| known.thing),
+                Some(Thing::Let(_))
+            ) =>
+        {
+            return Ok(GivenValue::Word(word.clone()));
+        }
+        Expr::Name(_) | Expr::Number { .. } | Expr::Call { .. } | Expr::Negate(_) | Expr::Binary { .. } => {}
+    }
+    let quantity = scope.evaluate(value, &mut session.reports)?;
+    if quantity.dimension == Dimension::PURE {
+        return Ok(GivenValue::Ratio(quantity.value));
+    }
+    if quantity.dimension == Dimension::LENGTH {
+        return Ok(GivenValue::Length(Length::mm(quantity.value)));
+    }
+    let words = quantity.dimension.words();
+    let diagnostic = Diagnostic::new(
+        Code::WrongDimension,
+        format!(
+            "`{}` takes a length, a number, a text or a word, but this is {words}",
+            name.node
+        ),
+        value.span,
+        format!("this is {words}"),
+    );
+    Err(session
+        .reports
+        .push(diagnostic.help("see `vcutc targets` for the options of each target")))
+}
+
+/// A list of texts.
+fn texts(values: &[Spanned<Expr>], session: &mut Session<'_>) -> Checked<Vec<String>> {
+    let text = |value: &Spanned<Expr>| match &value.node {
+        Expr::Text(text) => Ok(text.clone()),
+        Expr::Name(_)
+        | Expr::Number { .. }
+        | Expr::Call { .. }
+        | Expr::Negate(_)
+        | Expr::Binary { .. }
+        | Expr::Tuple(_) => {
+            let diagnostic = Diagnostic::new(
+                Code::WrongKind,
+                "a list of lines holds texts in quotes",
+                value.span,
+                "this is no text",
+            );
+            Err(session
+                .reports
+                .push(diagnostic.help("write every line in quotes")))
+        }
+    };
+    let lines: Vec<Checked<String>> = values.iter().map(text).collect();
+    lines.into_iter().collect()
+}

@@ -1,0 +1,315 @@
+//! A profile drawn piece by piece: every piece begins where the one before ended.
+
+use super::{Piece, TOLERANCE, Trace, data, point};
+use crate::diag::{Code, Diagnostic};
+use crate::geom::curve::{Curve as Shape, CurveError, Point2};
+use crate::sema::dimension::Dimension;
+use crate::sema::eval::Scope;
+use crate::sema::fields::curve_words;
+use crate::sema::quantity::mm;
+use crate::sema::report::{Checked, Reported, Reports};
+use crate::sema::session::Session;
+use crate::source::Span;
+use crate::syntax::ast::{ArcBy, Curve, Point};
+use vcutc_backend_api::units::Length;
+
+/// The polyline of a chain of pieces.
+pub(super) fn trace(pieces: &[Piece<'_>], scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Trace> {
+    let mut drawing = Drawing {
+        scope,
+        trace: Trace::default(),
+        pen: Pen::Up,
+        fault: None,
+    };
+    for piece in pieces {
+        drawing.trace.begin(piece.span);
+        if let Err(reported) = drawing.draw(piece, session) {
+            drawing.fault = Some(reported);
+        }
+    }
+    match drawing.fault {
+        Some(reported) => Err(reported),
+        None => Ok(drawing.trace),
+    }
+}
+
+/// Where the next piece begins.
+#[derive(Clone, Copy)]
+enum Pen {
+    /// Nothing has been drawn yet.
+    Up,
+    /// At a point.
+    At(Point2),
+    /// At a point that could not be worked out.
+    Lost(Reported),
+}
+
+struct Drawing<'s> {
+    scope: Scope<'s>,
+    trace: Trace,
+    pen: Pen,
+    fault: Option<Reported>,
+}
+
+impl Drawing<'_> {
+    fn draw(&mut self, piece: &Piece<'_>, session: &mut Session<'_>) -> Checked<()> {
+        match piece.curve {
+            Curve::Start(start) => self.start(piece, start, session),
+            Curve::Line { to } => self.line(piece, to, &mut session.reports),
+            Curve::Arc { to, by } => self.arc(piece, to, by, session),
+            Curve::Bezier { control, to } => self.through(piece, control, to, Shape::bezier, session),
+            Curve::Spline { through, to } => self.through(piece, through, to, Shape::spline, session),
+            Curve::Polyline { through, to } => self.through(piece, through, to, Shape::polyline, session),
+            Curve::Points { path, options } => {
+                self.must_be_first(piece, &mut session.reports)?;
+                let points = data::points(path, options, piece.span, self.scope, session);
+                self.place_data(points)
+            }
+            Curve::Airfoil { path, options } => {
+                self.must_be_first(piece, &mut session.reports)?;
+                let points = data::airfoil(path, options, piece.span, self.scope, session);
+                self.place_data(points)
+            }
+        }
+    }
+
+    fn must_be_first(&self, piece: &Piece<'_>, reports: &mut Reports) -> Checked<()> {
+        let first = match (self.pen, self.trace.pieces.first()) {
+            (Pen::Up, _) | (_, None) => return Ok(()),
+            (Pen::At(_) | Pen::Lost(_), Some(first)) => *first,
+        };
+        let words = curve_words(piece.curve);
+        let diagnostic = Diagnostic::new(
+            Code::Misplaced,
+            format!("{words} can only begin a profile"),
+            piece.span,
+            "stands behind another piece",
+        )
+        .and(first, "the profile begins here")
+        .help(format!(
+            "move {words} to the front, or draw this part with curves"
+        ));
+        Err(reports.push(diagnostic))
+    }
+
+    fn place_data(&mut self, points: Checked<Vec<Point2>>) -> Checked<()> {
+        match points {
+            Ok(points) => {
+                if let Some(last) = points.last() {
+                    self.pen = Pen::At(*last);
+                }
+                self.trace.extend(points);
+                Ok(())
+            }
+            Err(reported) => {
+                self.pen = Pen::Lost(reported);
+                Err(reported)
+            }
+        }
+    }
+
+    fn start(&mut self, piece: &Piece<'_>, start: &Point, session: &mut Session<'_>) -> Checked<()> {
+        let place = point(start, &self.scope, &mut session.reports);
+        self.must_be_first(piece, &mut session.reports)?;
+        match place {
+            Ok(place) => {
+                self.pen = Pen::At(place);
+                self.trace.extend(vec![place]);
+                Ok(())
+            }
+            Err(reported) => {
+                self.pen = Pen::Lost(reported);
+                Err(reported)
+            }
+        }
+    }
+
+    /// Where a piece begins.
+    fn begin(&mut self, piece: &Piece<'_>, reports: &mut Reports) -> Checked<Point2> {
+        match self.pen {
+            Pen::At(place) => Ok(place),
+            Pen::Lost(reported) => Err(reported),
+            Pen::Up => {
+                let diagnostic = Diagnostic::new(
+                    Code::MissingField,
+                    "the profile has no `start`",
+                    piece.span,
+                    format!("{} begins nowhere", curve_words(piece.curve)),
+                );
+                let at = Span {
+                    end: piece.span.start,
+                    ..piece.span
+                };
+                let diagnostic =
+                    diagnostic.fix("say where the profile starts", at, "start (0 mm, 10 mm)\n  ");
+                Err(reports.push(diagnostic))
+            }
+        }
+    }
+
+    /// Ends a piece, whether or not it could be drawn.
+    fn end(&mut self, to: Checked<Point2>) {
+        self.pen = match to {
+            Ok(place) => Pen::At(place),
+            Err(reported) => Pen::Lost(reported),
+        };
+    }
+
+    fn line(&mut self, piece: &Piece<'_>, to: &Point, reports: &mut Reports) -> Checked<()> {
+        let from = self.begin(piece, reports);
+        let end = point(to, &self.scope, reports);
+        self.end(end);
+        let shape = Shape::line(from?, end?);
+        self.flatten(piece, shape, &[piece.span, to.span], reports)
+    }
+
+    fn arc(&mut self, piece: &Piece<'_>, to: &Point, by: &ArcBy, session: &mut Session<'_>) -> Checked<()> {
+        let reports = &mut session.reports;
+        let from = self.begin(piece, reports);
+        let end = point(to, &self.scope, reports);
+        let (shape, spans) = match by {
+            ArcBy::Radius(radius) => {
+                let length =
+                    self.scope
+                        .expect(radius, Dimension::LENGTH, "`radius`", Some("100 mm"), reports);
+                self.end(end);
+                (
+                    Shape::arc_by_radius(from?, end?, Length::mm(length?)),
+                    [to.span, radius.span],
+                )
+            }
+            ArcBy::Center(center) => {
+                let place = point(center, &self.scope, reports);
+                self.end(end);
+                (Shape::arc_by_center(from?, end?, place?), [to.span, center.span])
+            }
+            ArcBy::Through(through) => {
+                let place = point(through, &self.scope, reports);
+                self.end(end);
+                (Shape::arc_through(from?, place?, end?), [through.span, to.span])
+            }
+        };
+        self.flatten(
+            piece,
+            shape,
+            &[piece.span, spans[0], spans[1]],
+            &mut session.reports,
+        )
+    }
+
+    /// A curve given by its start, points on the way and its end.
+    fn through(
+        &mut self,
+        piece: &Piece<'_>,
+        between: &[Point],
+        to: &Point,
+        make: fn(Vec<Point2>) -> Result<Shape, CurveError>,
+        session: &mut Session<'_>,
+    ) -> Checked<()> {
+        let reports = &mut session.reports;
+        let mut points = vec![self.begin(piece, reports)];
+        points.extend(
+            between
+                .iter()
+                .chain([to])
+                .map(|place| point(place, &self.scope, reports)),
+        );
+        if let Some(end) = points.last() {
+            self.end(*end);
+        }
+        let points: Vec<Point2> = points.into_iter().collect::<Checked<_>>()?;
+        let spans: Vec<Span> = [piece.span]
+            .into_iter()
+            .chain(between.iter().chain([to]).map(|place| place.span))
+            .collect();
+        self.flatten(piece, make(points), &spans, reports)
+    }
+
+    /// Adds a curve's polyline. `spans` are the places of the points handed over, for faults that name one.
+    fn flatten(
+        &mut self,
+        piece: &Piece<'_>,
+        shape: Result<Shape, CurveError>,
+        spans: &[Span],
+        reports: &mut Reports,
+    ) -> Checked<()> {
+        let mut points = Vec::new();
+        let outcome = shape.and_then(|shape| shape.flatten(TOLERANCE, &mut points));
+        match outcome {
+            Ok(()) => {
+                self.trace.extend(points);
+                Ok(())
+            }
+            Err(error) => Err(reports.push(impossible(piece, error, spans))),
+        }
+    }
+}
+
+/// The diagnostic for a curve that does not exist. `spans` are: all of the piece for its start, then its points.
+fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnostic {
+    let words = curve_words(piece.curve);
+    let last = spans.last().copied().unwrap_or(piece.span);
+    let place = |index: usize| spans.get(index).copied().unwrap_or(piece.span);
+    let fault = |message: String, span: Span, label: &str| {
+        Diagnostic::new(Code::ImpossibleCurve, message, span, label)
+    };
+    match error {
+        CurveError::RadiusTooSmall { smallest } => {
+            // Rounded up, so that the number shown works.
+            let smallest = libm::ceil(smallest.to_mm() * 1000.0) / 1000.0;
+            fault(
+                format!("the radius is too small to reach from one end of the arc to the other"),
+                last,
+                "too small",
+            )
+            .help(format!("use a radius of at least {}", mm(smallest)))
+        }
+        CurveError::CenterNotEquidistant { to_start, to_end } => fault(
+            "the centre of the arc is not equally far from both of its ends".to_owned(),
+            last,
+            "not the centre of any such arc",
+        )
+        .note(format!(
+            "it is {} from the start and {} from the end",
+            mm(to_start.to_mm()),
+            mm(to_end.to_mm())
+        ))
+        .help("move the centre, or give the arc by `radius` or `through`"),
+        CurveError::Collinear => fault(
+            "no arc leads through three points on one line".to_owned(),
+            place(1),
+            "on the line between start and end",
+        )
+        .help("move this point off the line, or use `line`"),
+        CurveError::PointsCoincide { index } => fault(
+            format!("{words} passes the same point twice in a row"),
+            place(index),
+            "the same point as the one before",
+        )
+        .help("take one of the two out"),
+        CurveError::TooFewPoints => fault(
+            format!("{words} needs at least two points"),
+            piece.span,
+            "too few points",
+        )
+        .help("add where it ends with `to (x, z)`"),
+        CurveError::TooManyControlPoints => fault(
+            format!("{words} has too many control points"),
+            piece.span,
+            "more than 64 points, its ends included",
+        )
+        .help("split it into several curves, or use `spline`"),
+        CurveError::OutOfRange { index } => fault(
+            format!("{words} has a point out of all range"),
+            place(index),
+            "beyond 1e9 mm",
+        )
+        .help("check the units of its coordinates"),
+        CurveError::TooManyPoints => fault(
+            format!("{words} is too large to follow within 1 um"),
+            piece.span,
+            "millions of points are not enough for it",
+        )
+        .help("check the units of its coordinates"),
+    }
+}

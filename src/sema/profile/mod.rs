@@ -1,0 +1,216 @@
+//! `profile { ... }`: the part's height over x.
+//!
+//! The pieces are turned into one polyline, the [`Trace`], in which every point knows the piece it came from. The
+//! trace is then cut to the stock and held against the rules of a profile ([`shape`]); a breach is shown at the piece
+//! that causes it.
+
+mod curves;
+mod data;
+mod formula;
+mod shape;
+
+use super::eval::Scope;
+use super::fields::{Place, curve_words, head_span};
+use super::report::{Checked, Reports};
+use super::session::Session;
+use crate::diag::{Code, Diagnostic};
+use crate::geom::curve::Point2;
+use crate::geom::profile::Profile;
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Block, Curve, Entry, Expr};
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
+
+/// Curves become polylines that stay this close to them: far below what a knife can do in honeycomb.
+const TOLERANCE: Length = Length::mm(0.001);
+
+/// The polyline of a profile as it is drawn, with where its points come from.
+#[derive(Debug, Default)]
+pub(crate) struct Trace {
+    points: Vec<Point2>,
+    /// For each point the piece that leads to it, as a place in `pieces`.
+    owners: Vec<usize>,
+    /// Where the pieces stand.
+    pieces: Vec<Span>,
+}
+
+impl Trace {
+    /// Starts a new piece.
+    fn begin(&mut self, span: Span) {
+        self.pieces.push(span);
+    }
+
+    /// Adds points of the piece begun last.
+    fn extend(&mut self, points: Vec<Point2>) {
+        let owner = self.pieces.len().saturating_sub(1);
+        self.owners
+            .resize(self.points.len().saturating_add(points.len()), owner);
+        self.points.extend(points);
+    }
+
+    /// The piece that leads to a point, or the last of them.
+    fn piece_at(&self, point: usize) -> Option<Span> {
+        let owner = self.owners.get(point).or_else(|| self.owners.last())?;
+        self.pieces.get(*owner).copied()
+    }
+}
+
+/// A profile's formula.
+struct Formula<'a> {
+    name: &'a Spanned<String>,
+    variable: &'a Spanned<String>,
+    value: &'a Spanned<Expr>,
+    span: Span,
+}
+
+/// A profile's piece.
+struct Piece<'a> {
+    curve: &'a Curve,
+    span: Span,
+}
+
+/// What a profile is made of.
+enum Content<'a> {
+    Formula(Formula<'a>),
+    Pieces(Vec<Piece<'a>>),
+}
+
+/// The profile across the stock. A profile without a stock is still checked in itself.
+pub(crate) fn check(
+    block: &Block,
+    place: Place,
+    stock: Checked<Spanned<Stock>>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Profile> {
+    let trace = match sort(block, place, session)? {
+        Content::Formula(formula) => {
+            formula::check_name(&formula, &mut session.reports)?;
+            formula::trace(&formula, stock?, scope, &mut session.reports)?
+        }
+        Content::Pieces(pieces) => curves::trace(&pieces, scope, session)?,
+    };
+    // A piece that could not be read is no gap in the profile.
+    match session.damage_at(place.whole) {
+        Some(reported) => Err(reported),
+        None => shape::check(&trace, stock?, &mut session.reports),
+    }
+}
+
+/// Sorts the entries: either one formula or a chain of pieces.
+fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checked<Content<'a>> {
+    let mut formula: Option<Formula<'a>> = None;
+    let mut pieces = Vec::new();
+    let mut fault = None;
+    for entry in &block.entries {
+        let found = match entry {
+            Entry::Curve { curve, span } => {
+                pieces.push(Piece { curve, span: *span });
+                continue;
+            }
+            Entry::Formula {
+                name,
+                variable,
+                value,
+                span,
+            } => match &formula {
+                None => {
+                    formula = Some(Formula {
+                        name,
+                        variable,
+                        value,
+                        span: *span,
+                    });
+                    continue;
+                }
+                Some(first) => second_formula(*span, first.span),
+            },
+            Entry::Field { name, .. } => no_field(name),
+            Entry::Limit { name, .. } => no_field(name),
+            Entry::Block(inner) => no_block(inner),
+        };
+        fault = Some(session.reports.push(found));
+    }
+    match (formula, pieces.as_slice(), fault) {
+        (Some(formula), [piece, ..], _) => Err(session.reports.push(mixed(piece, &formula))),
+        (_, _, Some(reported)) => Err(reported),
+        (Some(formula), [], None) => Ok(Content::Formula(formula)),
+        (None, [], None) => Err(match session.damage_at(place.whole) {
+            Some(reported) => reported,
+            None => session.reports.push(empty(place)),
+        }),
+        (None, [_, ..], None) => Ok(Content::Pieces(pieces)),
+    }
+}
+
+fn second_formula(second: Span, first: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::FieldTwice,
+        "the profile has two formulas",
+        second,
+        "given here again",
+    )
+    .and(first, "given here first")
+    .help("take one of the two out")
+}
+
+const FORMS: &str = "a profile holds start, line, arc, bezier, spline, polyline, points, airfoil, or a formula \
+                     z(x) = ...";
+
+fn no_field(name: &Spanned<String>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(
+        Code::UnknownField,
+        format!("`profile` has no field `{}`", name.node),
+        name.span,
+        "not a piece of a profile",
+    );
+    let diagnostic = if name.node == "z" {
+        diagnostic.fix("make it a formula", name.span, "z(x)")
+    } else {
+        diagnostic
+    };
+    diagnostic.note(FORMS)
+}
+
+fn no_block(inner: &Block) -> Diagnostic {
+    Diagnostic::new(
+        Code::UnknownBlock,
+        "`profile` holds no block like this",
+        head_span(inner),
+        "not a piece of a profile",
+    )
+    .note(FORMS)
+}
+
+fn mixed(piece: &Piece<'_>, formula: &Formula<'_>) -> Diagnostic {
+    Diagnostic::new(
+        Code::Misplaced,
+        "a formula is the whole profile",
+        piece.span,
+        format!("{} cannot be joined to it", curve_words(piece.curve)),
+    )
+    .and(formula.span, "the formula")
+    .help("keep either the formula or the curves")
+}
+
+fn empty(place: Place) -> Diagnostic {
+    Diagnostic::new(
+        Code::MissingField,
+        "the profile is empty",
+        place.head,
+        "no height is given",
+    )
+    .note(FORMS)
+    .help("start with a point and a line, like `start (0 mm, 18 mm) line to (85 mm, 14 mm)`")
+}
+
+/// A point of the profile.
+fn point(point: &crate::syntax::ast::Point, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Point2> {
+    use super::dimension::Dimension;
+    let mut coordinate = |expr: &Spanned<Expr>, taker: &str| {
+        scope.expect(expr, Dimension::LENGTH, taker, Some("10 mm"), reports)
+    };
+    let x = coordinate(&point.x, "the x of a point");
+    let z = coordinate(&point.z, "the z of a point");
+    Ok(Point2::new(x?, z?))
+}

@@ -1,0 +1,349 @@
+//! What makes a polyline a profile of the stock: one height at every x, from side to side, within the stock.
+//!
+//! What the drawing does beyond the two sides of the stock does not matter, so it is cut away first.
+
+use super::Trace;
+use crate::diag::{Code, Diagnostic};
+use crate::geom::curve::Point2;
+use crate::geom::profile::{Profile, ProfileError};
+use crate::sema::quantity::mm;
+use crate::sema::report::{Checked, Reports};
+use crate::source::{Span, Spanned};
+use vcutc_backend_api::ir::Stock;
+
+/// Places closer than this count as one, in mm: a nanometre.
+const SAME: f64 = 1e-6;
+
+/// The profile of a trace across the stock.
+pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports) -> Checked<Profile> {
+    let width = stock.node.width.to_mm();
+    let strip = Strip::cut(trace, width);
+    if let Some(diagnostic) = gap(trace, &strip, stock) {
+        return Err(reports.push(diagnostic));
+    }
+    let profile = match Profile::new(strip.points.clone()) {
+        Ok(profile) => profile.clipped(0.0, width).ok_or(ProfileError::TooFew),
+        Err(error) => Err(error),
+    };
+    let profile = match profile {
+        Ok(profile) => profile,
+        Err(ProfileError::NotSingleValued { index }) => {
+            return Err(reports.push(two_heights(&strip, trace, index, stock.span)));
+        }
+        Err(ProfileError::TooFew | ProfileError::OutOfRange { .. }) => {
+            let span = trace.piece_at(0).unwrap_or(stock.span);
+            let diagnostic = Diagnostic::new(
+                Code::ProfileTooShort,
+                "the profile has no extent",
+                span,
+                "a single point",
+            )
+            .help("add a line to the other side of the stock");
+            return Err(reports.push(diagnostic));
+        }
+    };
+    let mut fault = None;
+    for leaving in outside(&strip, stock.node.height.to_mm()) {
+        fault = Some(reports.push(leaving.diagnostic(&strip, trace, stock)));
+    }
+    match fault {
+        Some(reported) => Err(reported),
+        None => Ok(profile),
+    }
+}
+
+/// The part of a trace between the sides of the stock.
+struct Strip {
+    points: Vec<Point2>,
+    /// For each point the point of the trace to which it belongs.
+    sources: Vec<usize>,
+}
+
+impl Strip {
+    fn cut(trace: &Trace, width: f64) -> Self {
+        let mut strip = Self {
+            points: Vec::new(),
+            sources: Vec::new(),
+        };
+        for (index, pair) in trace.points.windows(2).enumerate() {
+            let [from, to] = pair else { continue };
+            let Some((first, last)) = segment_within(*from, *to, width) else {
+                continue;
+            };
+            if strip.points.last() != Some(&first) {
+                strip.push(first, index + 1);
+            }
+            strip.push(last, index + 1);
+        }
+        strip
+    }
+
+    fn push(&mut self, point: Point2, source: usize) {
+        self.points.push(point);
+        self.sources.push(source);
+    }
+
+    fn piece_at(&self, trace: &Trace, index: usize, otherwise: Span) -> Span {
+        let source = self.sources.get(index).copied().unwrap_or(0);
+        trace.piece_at(source).unwrap_or(otherwise)
+    }
+}
+
+/// The part of a straight line between x = 0 and x = width; none when it only touches a side or runs along it.
+fn segment_within(from: Point2, to: Point2, width: f64) -> Option<(Point2, Point2)> {
+    let dx = to.x - from.x;
+    let at = |side: f64| from.lerp(to, (side - from.x) / dx);
+    let inside = |point: Point2| (0.0..=width).contains(&point.x);
+    let cut = |point: Point2| match point {
+        point if inside(point) => point,
+        point if point.x < 0.0 => Point2 { x: 0.0, ..at(0.0) },
+        _ => Point2 {
+            x: width,
+            ..at(width)
+        },
+    };
+    if from.x.max(to.x) <= 0.0 || from.x.min(to.x) >= width {
+        return None;
+    }
+    Some((cut(from), cut(to)))
+}
+
+/// A profile that does not reach both sides.
+fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic> {
+    let width = stock.node.width.to_mm();
+    let first = trace.points.first()?;
+    let last = trace.points.last()?;
+    let (leftmost, rightmost) = trace
+        .points
+        .iter()
+        .fold((first.x, first.x), |(left, right), point| {
+            (left.min(point.x), right.max(point.x))
+        });
+    if leftmost <= SAME && rightmost >= width - SAME && !strip.points.is_empty() {
+        return None;
+    }
+    let runs_right = first.x <= last.x;
+    let piece_of = |is_left: bool| {
+        let end = if is_left == runs_right {
+            0
+        } else {
+            trace.points.len().saturating_sub(1)
+        };
+        trace.piece_at(end).unwrap_or(stock.span)
+    };
+    let sides = format!("the stock reaches from x = 0 mm to x = {}", mm(width));
+    let (span, label, help) = if leftmost > SAME {
+        let help = format!("let the profile begin at x = 0 mm, {} further left", mm(leftmost));
+        (piece_of(true), format!("begins at x = {}", mm(leftmost)), help)
+    } else {
+        let missing = width - rightmost;
+        let help = if rightmost > SAME {
+            format!(
+                "lead the profile on to x = {}, or make the stock {} wide",
+                mm(width),
+                mm(rightmost)
+            )
+        } else {
+            format!("lead the profile on to x = {}", mm(width))
+        };
+        (
+            piece_of(false),
+            format!("ends at x = {}, {} too early", mm(rightmost), mm(missing)),
+            help,
+        )
+    };
+    let diagnostic = Diagnostic::new(
+        Code::ProfileTooShort,
+        "the profile does not reach across the stock",
+        span,
+        label,
+    );
+    let diagnostic = diagnostic.and(stock.span, sides);
+    let both = leftmost > SAME && rightmost < width - SAME;
+    let diagnostic = if both {
+        diagnostic.note(format!("it also ends too early, at x = {}", mm(rightmost)))
+    } else {
+        diagnostic
+    };
+    Some(diagnostic.help(help))
+}
+
+/// The diagnostic for a profile that turns back or rises straight up at a point of the strip.
+fn two_heights(strip: &Strip, trace: &Trace, index: usize, otherwise: Span) -> Diagnostic {
+    let span = strip.piece_at(trace, index, otherwise);
+    let (before, rest) = strip.points.split_at(index.min(strip.points.len()));
+    let (Some(turn), Some(back)) = (before.last(), rest.first()) else {
+        return Diagnostic::new(
+            Code::NotSingleValued,
+            "the profile has two heights at one x",
+            span,
+            "here",
+        );
+    };
+    if (turn.x - back.x).abs() < SAME {
+        return Diagnostic::new(
+            Code::NotSingleValued,
+            format!("the profile has two heights at x = {}", mm(back.x)),
+            span,
+            format!("it steps from z = {} to z = {} here", mm(turn.z), mm(back.z)),
+        )
+        .help(format!(
+            "lean the step, for example over 0.1 mm, to x = {}",
+            mm(back.x + 0.1)
+        ));
+    }
+    let backwards = (back.x - turn.x).signum();
+    // How far it runs back, and the middle of that stretch as the example.
+    let mut end = *back;
+    for next in rest
+        .iter()
+        .skip(1)
+        .take_while(|next| (next.x - turn.x) * backwards > 0.0)
+    {
+        if (next.x - end.x) * backwards > 0.0 {
+            end = *next;
+        }
+    }
+    let reach = before.first().map_or(turn.x, |first| first.x);
+    let limit = if backwards < 0.0 {
+        end.x.max(reach)
+    } else {
+        end.x.min(reach)
+    };
+    let x = f64::midpoint(turn.x, limit);
+    let there = height_at(before.iter().rev(), x).unwrap_or(turn.z);
+    let again = height_at([turn].into_iter().chain(rest), x).unwrap_or(back.z);
+    Diagnostic::new(
+        Code::NotSingleValued,
+        format!("the profile has two heights at x = {}", mm(x)),
+        span,
+        format!(
+            "it turns back at x = {}; at x = {} it is at z = {} and at z = {}",
+            mm(turn.x),
+            mm(x),
+            mm(there),
+            mm(again)
+        ),
+    )
+    .note("blades come from above, so a part has one height at every x")
+    .help("draw the profile from left to right without turning back")
+}
+
+/// The height of the first piece of a polyline that passes x.
+fn height_at<'a>(points: impl Iterator<Item = &'a Point2>, x: f64) -> Option<f64> {
+    let mut last: Option<&Point2> = None;
+    for point in points {
+        if let Some(last) = last {
+            let (low, high) = (last.x.min(point.x), last.x.max(point.x));
+            if (low..=high).contains(&x) && high > low {
+                return Some(last.lerp(*point, (x - last.x) / (point.x - last.x)).z);
+            }
+        }
+        last = Some(point);
+    }
+    None
+}
+
+/// The two ways to leave the stock.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Above,
+    Below,
+}
+
+/// A stretch of the profile outside of the stock.
+struct Leaving {
+    way: Way,
+    from_x: f64,
+    to_x: f64,
+    /// By how much, at most.
+    excess: f64,
+    /// The point of the strip that is farthest out.
+    farthest: usize,
+}
+
+/// The worst stretch above the stock and the worst below.
+fn outside(strip: &Strip, height: f64) -> Vec<Leaving> {
+    [Way::Above, Way::Below]
+        .into_iter()
+        .filter_map(|way| {
+            let excess = |point: &Point2| match way {
+                Way::Above => point.z - height,
+                Way::Below => -point.z,
+            };
+            worst_stretch(strip, way, &excess)
+        })
+        .collect()
+}
+
+fn worst_stretch(strip: &Strip, way: Way, excess: &dyn Fn(&Point2) -> f64) -> Option<Leaving> {
+    let (farthest, point) = strip
+        .points
+        .iter()
+        .enumerate()
+        .max_by(|(_, a), (_, b)| excess(a).total_cmp(&excess(b)))?;
+    let most = excess(point);
+    if most <= SAME {
+        return None;
+    }
+    let (before, behind) = strip.points.split_at(farthest);
+    let from_x = crossing(point, before.iter().rev(), excess);
+    let to_x = crossing(point, behind.iter().skip(1), excess);
+    Some(Leaving {
+        way,
+        from_x: from_x.min(to_x),
+        to_x: from_x.max(to_x),
+        excess: most,
+        farthest,
+    })
+}
+
+/// The x at which a run of points, starting outside, comes back into the stock.
+fn crossing<'a>(
+    start: &'a Point2,
+    points: impl Iterator<Item = &'a Point2>,
+    excess: &dyn Fn(&Point2) -> f64,
+) -> f64 {
+    let mut last = start;
+    for point in points {
+        let (out, now) = (excess(last), excess(point));
+        if now <= 0.0 {
+            return last.lerp(*point, out / (out - now)).x;
+        }
+        last = point;
+    }
+    last.x
+}
+
+impl Leaving {
+    fn diagnostic(&self, strip: &Strip, trace: &Trace, stock: Spanned<Stock>) -> Diagnostic {
+        let span = strip.piece_at(trace, self.farthest, stock.span);
+        let height = stock.node.height.to_mm();
+        let (headline, help) = match self.way {
+            Way::Above => (
+                "the profile rises above the stock",
+                format!(
+                    "make the stock at least {} high, or lower the profile by {}",
+                    mm(height + self.excess),
+                    mm(self.excess)
+                ),
+            ),
+            Way::Below => (
+                "the profile sinks below the stock",
+                format!("raise the profile by {}", mm(self.excess)),
+            ),
+        };
+        let label = format!(
+            "from x = {} to x = {}, by up to {}",
+            mm(self.from_x),
+            mm(self.to_x),
+            mm(self.excess)
+        );
+        Diagnostic::new(Code::ProfileOutsideStock, headline, span, label)
+            .and(
+                stock.span,
+                format!("the stock reaches from z = 0 mm to z = {}", mm(height)),
+            )
+            .help(help)
+    }
+}

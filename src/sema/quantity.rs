@@ -1,0 +1,155 @@
+//! Quantities: a number with its dimension, held in mm, rad, s and kg.
+
+use super::dimension::Dimension;
+use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+
+/// A number with its dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Quantity {
+    /// In mm, rad, s, kg and their products.
+    pub(crate) value: f64,
+    /// What it is.
+    pub(crate) dimension: Dimension,
+}
+
+/// No quantity of a job is larger than this in mm, rad, s or kg: a million metres, or thirty years. Products of
+/// several dimensions may be accordingly larger.
+const LARGEST: f64 = 1e9;
+
+impl Quantity {
+    /// A value held in the units of its dimension.
+    pub(crate) const fn new(value: f64, dimension: Dimension) -> Self {
+        Self { value, dimension }
+    }
+
+    /// A pure number.
+    pub(crate) const fn pure(value: f64) -> Self {
+        Self::new(value, Dimension::PURE)
+    }
+
+    /// A length, in mm.
+    pub(crate) const fn length(mm: f64) -> Self {
+        Self::new(mm, Dimension::LENGTH)
+    }
+
+    /// Whether it is a number of a size that can mean something.
+    pub(crate) fn is_sensible(self) -> bool {
+        let Dimension {
+            length,
+            angle,
+            time,
+            mass,
+        } = self.dimension;
+        let degree: i32 = [length, angle, time, mass]
+            .into_iter()
+            .map(|e| i32::from(e.max(0)))
+            .sum();
+        self.value.is_finite() && self.value.abs() <= libm::pow(LARGEST, f64::from(degree.max(1)))
+    }
+
+    /// As people write it, to six digits: `34.16 deg`.
+    pub(crate) fn text(self) -> String {
+        with_unit(self.value / self.dimension.unit_size(), self.dimension)
+    }
+}
+
+/// A number of the dimension's usual unit, with that unit: `34.16 deg`.
+pub(crate) fn with_unit(number_of_units: f64, dimension: Dimension) -> String {
+    let (number, unit) = (number(number_of_units), dimension.unit());
+    if unit.is_empty() {
+        number
+    } else {
+        format!("{number} {unit}")
+    }
+}
+
+/// A length as people write it.
+pub(crate) fn mm(value: f64) -> String {
+    Quantity::length(value).text()
+}
+
+/// A number to six digits, without trailing zeros.
+pub(crate) fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-4..1e10).contains(&magnitude) {
+        return format!("{value:.2e}");
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "between -4 and 10")]
+    let before_point = libm::floor(libm::log10(magnitude)) as i32;
+    let decimals = usize::try_from(5 - before_point).unwrap_or(0);
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// A type of the later stages that a quantity turns into.
+pub(crate) trait Measured: Copy {
+    /// What a value must be to become one.
+    const DIMENSION: Dimension;
+
+    /// From a value in mm, rad, s, kg.
+    fn from_base(value: f64) -> Self;
+}
+
+macro_rules! measured {
+    ($($type:ty, $dimension:ident, $make:expr;)+) => {
+        $(impl Measured for $type {
+            const DIMENSION: Dimension = Dimension::$dimension;
+            fn from_base(value: f64) -> Self {
+                $make(value)
+            }
+        })+
+    };
+}
+
+measured! {
+    f64, PURE, core::convert::identity;
+    Length, LENGTH, Length::mm;
+    Angle, ANGLE, Angle::rad;
+    Duration, TIME, Duration::s;
+    Mass, MASS, Mass::kg;
+    Speed, SPEED, Speed::mm_per_s;
+    AngularSpeed, TURNING_RATE, AngularSpeed::rad_per_s;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(number(0.0), "0");
+        assert_eq!(number(4.0), "4");
+        assert_eq!(number(-0.5), "-0.5");
+        assert_eq!(number(1.0 / 3.0), "0.333333");
+        assert_eq!(number(100_000.0), "100000");
+        assert_eq!(number(123_456.7), "123457");
+        assert_eq!(number(1.5e-7), "1.50e-7");
+        assert_eq!(number(9.999_999_9), "10");
+    }
+
+    #[test]
+    fn quantities_are_shown_in_the_units_of_the_trade() {
+        assert_eq!(
+            Quantity::new(core::f64::consts::FRAC_PI_2, Dimension::ANGLE).text(),
+            "90 deg"
+        );
+        assert_eq!(Quantity::new(200.0, Dimension::SPEED).text(), "200 mm/s");
+        assert_eq!(Quantity::pure(0.25).text(), "0.25");
+    }
+
+    #[test]
+    fn absurd_sizes_are_told_apart() {
+        assert!(Quantity::length(1e9).is_sensible());
+        assert!(!Quantity::length(1.1e9).is_sensible());
+        assert!(Quantity::new(1e12, Dimension::new(2, 0, 0, 0)).is_sensible());
+        assert!(!Quantity::pure(f64::NAN).is_sensible());
+        assert!(!Quantity::pure(f64::NEG_INFINITY).is_sensible());
+    }
+}

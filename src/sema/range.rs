@@ -1,0 +1,125 @@
+//! Legal ranges of fields, in the unit that people use for them.
+
+use super::dimension::Dimension;
+use super::quantity::with_unit;
+
+/// Lower end of a range.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Low {
+    /// The end itself is not legal.
+    Above(f64),
+    /// The end itself is legal.
+    AtLeast(f64),
+}
+
+/// Upper end of a range.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum High {
+    /// The end itself is not legal.
+    Below(f64),
+    /// The end itself is legal.
+    AtMost(f64),
+}
+
+/// A range of values of one dimension, in its usual unit (mm, deg, mm/s, deg/s, s, kg).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Range {
+    /// What the values are.
+    pub(crate) dimension: Dimension,
+    low: Low,
+    high: High,
+}
+
+const fn range(dimension: Dimension, low: Low, high: High) -> Range {
+    Range { dimension, low, high }
+}
+
+/// Nothing in a cell is longer than a hundred metres.
+const LONGEST: f64 = 100_000.0;
+
+/// Lengths of things that exist.
+pub(crate) const SIZE: Range = range(Dimension::LENGTH, Low::Above(0.0), High::AtMost(LONGEST));
+/// Lengths that may be nothing.
+pub(crate) const DISTANCE: Range = range(Dimension::LENGTH, Low::AtLeast(0.0), High::AtMost(LONGEST));
+/// Coordinates.
+pub(crate) const COORDINATE: Range = range(Dimension::LENGTH, Low::AtLeast(-LONGEST), High::AtMost(LONGEST));
+/// Half the apex angle of a blade.
+pub(crate) const HALF_APEX: Range = range(Dimension::ANGLE, Low::AtLeast(0.0), High::Below(90.0));
+/// Rake: at 90 deg the blade stands square to the feed.
+pub(crate) const RAKE: Range = range(Dimension::ANGLE, Low::Above(0.0), High::AtMost(90.0));
+/// Swing: half the opening angle of a V.
+pub(crate) const SWING: Range = range(Dimension::ANGLE, Low::Above(0.0), High::Below(90.0));
+/// Angles of a frame.
+pub(crate) const FRAME_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-360.0), High::AtMost(360.0));
+/// Angles of robot axes, which may turn more than once.
+pub(crate) const AXIS_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-1080.0), High::AtMost(1080.0));
+/// Speeds of the tip, up to 100 m/s.
+pub(crate) const SPEED: Range = range(Dimension::SPEED, Low::Above(0.0), High::AtMost(100_000.0));
+/// Rates of turning the blade.
+pub(crate) const TURNING_RATE: Range =
+    range(Dimension::TURNING_RATE, Low::Above(0.0), High::AtMost(10_000.0));
+/// Overlap of neighbouring cuts.
+pub(crate) const OVERLAP: Range = range(Dimension::PURE, Low::AtLeast(0.0), High::Below(1.0));
+/// Waiting times, up to an hour.
+pub(crate) const WAIT: Range = range(Dimension::TIME, Low::AtLeast(0.0), High::AtMost(3600.0));
+/// Masses on a flange.
+pub(crate) const MASS: Range = range(Dimension::MASS, Low::AtLeast(0.0), High::AtMost(10_000.0));
+/// Factors by which a file's points are stretched.
+pub(crate) const SCALE: Range = range(Dimension::PURE, Low::Above(0.0), High::AtMost(1e6));
+/// Numbers of inputs and outputs of a controller.
+pub(crate) const SIGNAL: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(65_535.0));
+/// Numbers of a controller's own tables, counted from 1.
+pub(crate) const TABLE_NUMBER: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(9_999.0));
+
+impl Range {
+    /// Whether a value in mm, rad, s, kg lies within.
+    pub(crate) fn holds(self, value: f64) -> bool {
+        // Ends are converted, not the value, so that `90 deg` is exactly the end at 90 deg.
+        let unit = self.dimension.unit_size();
+        let above = match self.low {
+            Low::Above(end) => value > end * unit,
+            Low::AtLeast(end) => value >= end * unit,
+        };
+        let below = match self.high {
+            High::Below(end) => value < end * unit,
+            High::AtMost(end) => value <= end * unit,
+        };
+        above && below
+    }
+
+    /// In words: `above 0 deg and at most 90 deg`.
+    pub(crate) fn words(self) -> String {
+        let low = match self.low {
+            Low::Above(end) => format!("above {}", with_unit(end, self.dimension)),
+            Low::AtLeast(end) => format!("at least {}", with_unit(end, self.dimension)),
+        };
+        let high = match self.high {
+            High::Below(end) => format!("below {}", with_unit(end, self.dimension)),
+            High::AtMost(end) => format!("at most {}", with_unit(end, self.dimension)),
+        };
+        format!("{low} and {high}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vcutc_backend_api::units::Angle;
+
+    #[test]
+    fn ends_belong_or_not() {
+        assert!(RAKE.holds(Angle::deg(90.0).to_rad()));
+        assert!(!RAKE.holds(Angle::deg(90.000_001).to_rad()));
+        assert!(!RAKE.holds(0.0));
+        assert!(!SWING.holds(Angle::deg(90.0).to_rad()));
+        assert!(HALF_APEX.holds(0.0));
+        assert!(!SIZE.holds(f64::NAN));
+    }
+
+    #[test]
+    fn ranges_in_words() {
+        assert_eq!(RAKE.words(), "above 0 deg and at most 90 deg");
+        assert_eq!(OVERLAP.words(), "at least 0 and below 1");
+        assert_eq!(SIZE.words(), "above 0 mm and at most 100000 mm");
+    }
+}

@@ -1,0 +1,249 @@
+//! Reading fields: from an expression to a typed value within its range.
+
+use super::eval::Scope;
+use super::fields::Fields;
+use super::names::did_you_mean;
+use super::quantity::{Measured, Quantity, number};
+use super::range::Range;
+use super::report::{Checked, Reports};
+use crate::diag::suggest::nearest;
+use crate::diag::{Code, Diagnostic};
+use crate::job::{Auto, Sourced};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::Expr;
+
+/// Reads values, and reports what is wrong with them.
+pub(crate) struct Reader<'s> {
+    /// What names stand for.
+    pub(crate) scope: Scope<'s>,
+    /// Where faults go.
+    pub(crate) reports: &'s mut Reports,
+}
+
+/// A value that stands in the text.
+pub(crate) const fn sourced<T>(value: T, span: Span) -> Sourced<T> {
+    Sourced {
+        value,
+        span: Some(span),
+    }
+}
+
+/// A value that is a default.
+pub(crate) const fn default<T>(value: T) -> Sourced<T> {
+    Sourced { value, span: None }
+}
+
+impl Reader<'_> {
+    /// The value of an expression within a range, in mm, rad, s, kg. `taker` names who takes it: `` `rake` ``.
+    pub(crate) fn within(
+        &mut self,
+        expr: &Spanned<Expr>,
+        range: Range,
+        taker: &str,
+        typical: Option<&str>,
+    ) -> Checked<f64> {
+        let value = self
+            .scope
+            .expect(expr, range.dimension, taker, typical, self.reports)?;
+        if range.holds(value) {
+            return Ok(value);
+        }
+        let text = Quantity::new(value, range.dimension).text();
+        let diagnostic = Diagnostic::new(
+            Code::OutOfRange,
+            format!("{taker} is {}, not {text}", range.words()),
+            expr.span,
+            format!("this is {text}"),
+        );
+        let diagnostic = match self.scope.let_named_by(expr) {
+            Some(by) => diagnostic.and(by.value.span, format!("`{}` gets its value here", by.name.node)),
+            None => diagnostic,
+        };
+        let diagnostic = match typical {
+            Some(typical) if typical != "auto" => diagnostic.help(format!("a typical value is `{typical}`")),
+            _ => diagnostic,
+        };
+        Err(self.reports.push(diagnostic))
+    }
+
+    /// The value of a field, if it is given.
+    pub(crate) fn optional<T: Measured>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        range: Range,
+    ) -> Checked<Option<Sourced<T>>> {
+        match fields.value(name)? {
+            Some(expr) => self.field(fields, name, expr, range).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// The value of a field that must be given.
+    pub(crate) fn required<T: Measured>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        range: Range,
+    ) -> Checked<Sourced<T>> {
+        let expr = fields.required_value(name, self.reports)?;
+        self.field(fields, name, expr, range)
+    }
+
+    /// The value of a field that has a default.
+    pub(crate) fn defaulted<T: Measured>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        range: Range,
+        otherwise: T,
+    ) -> Checked<Sourced<T>> {
+        let given = self.optional(fields, name, range)?;
+        Ok(given.unwrap_or(default(otherwise)))
+    }
+
+    /// The value of a field that may be left to the compiler, which is also its default.
+    pub(crate) fn auto<T: Measured>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        range: Range,
+    ) -> Checked<Sourced<Auto<T>>> {
+        let Some(expr) = fields.value(name)? else {
+            return Ok(default(Auto::Auto));
+        };
+        if matches!(&expr.node, Expr::Name(word) if word == "auto") {
+            return Ok(sourced(Auto::Auto, expr.span));
+        }
+        let given: Sourced<T> = self.field(fields, name, expr, range)?;
+        Ok(sourced(Auto::Given(given.value), expr.span))
+    }
+
+    fn field<T: Measured>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        expr: &Spanned<Expr>,
+        range: Range,
+    ) -> Checked<Sourced<T>> {
+        if matches!(&expr.node, Expr::Name(word) if word == "auto") {
+            let diagnostic = Diagnostic::new(
+                Code::WrongKind,
+                format!("`{name}` cannot be left to the compiler"),
+                expr.span,
+                "`auto` is not taken here",
+            );
+            let diagnostic = match fields.typical(name) {
+                Some(typical) => diagnostic.help(format!("give a value, for example `{name} = {typical}`")),
+                None => diagnostic.help("give a value"),
+            };
+            return Err(self.reports.push(diagnostic));
+        }
+        debug_assert_eq!(
+            range.dimension,
+            T::DIMENSION,
+            "the range of `{name}` is one of another dimension"
+        );
+        let value = self.within(expr, range, &format!("`{name}`"), fields.typical(name))?;
+        Ok(sourced(T::from_base(value), expr.span))
+    }
+
+    /// One of a few words, if the field is given.
+    pub(crate) fn choice<T: Copy>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        words: &[(&'static str, T)],
+    ) -> Checked<Option<Sourced<T>>> {
+        match fields.value(name)? {
+            Some(expr) => self.word(name, expr, words).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// One of a few words.
+    pub(crate) fn word<T: Copy>(
+        &mut self,
+        name: &str,
+        expr: &Spanned<Expr>,
+        words: &[(&'static str, T)],
+    ) -> Checked<Sourced<T>> {
+        let find = |given: &str| words.iter().find(|(word, _)| *word == given);
+        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let list = format!("`{name}` takes one of {}", known.join(", "));
+        let diagnostic = match &expr.node {
+            Expr::Name(word) => match find(word) {
+                Some((_, choice)) => return Ok(sourced(*choice, expr.span)),
+                None => {
+                    let diagnostic = Diagnostic::new(
+                        Code::UnknownChoice,
+                        format!("`{name}` cannot be `{word}`"),
+                        expr.span,
+                        "not one of its words",
+                    );
+                    let near = nearest(word, known.iter().copied());
+                    did_you_mean(diagnostic, expr.span, &near).help(list)
+                }
+            },
+            Expr::Text(text) => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongKind,
+                    format!("`{name}` takes a word, not a text in quotes"),
+                    expr.span,
+                    "this is a text",
+                );
+                match find(text) {
+                    Some((word, _)) => diagnostic.fix("take the quotes away", expr.span, *word),
+                    None => diagnostic.help(list),
+                }
+            }
+            Expr::Number { .. }
+            | Expr::Call { .. }
+            | Expr::Negate(_)
+            | Expr::Binary { .. }
+            | Expr::Tuple(_) => Diagnostic::new(
+                Code::WrongKind,
+                format!("`{name}` takes a word, not a value"),
+                expr.span,
+                "this is a value",
+            )
+            .help(list),
+        };
+        Err(self.reports.push(diagnostic))
+    }
+
+    /// A whole number within a range.
+    pub(crate) fn whole(&mut self, expr: &Spanned<Expr>, range: Range, taker: &str) -> Checked<u32> {
+        let value = self.within(expr, range, taker, None)?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "whole and within a range of u32, by the comparison"
+        )]
+        let whole = value as u32;
+        if f64::from(whole).total_cmp(&value).is_eq() {
+            return Ok(whole);
+        }
+        let diagnostic = Diagnostic::new(
+            Code::OutOfRange,
+            format!("{taker} is a whole number, not {}", number(value)),
+            expr.span,
+            "not a whole number",
+        );
+        Err(self
+            .reports
+            .push(diagnostic.help(format!("write `{whole}`, or another whole number"))))
+    }
+}
+
+/// What an expression is called in a sentence, by its looks.
+pub(crate) const fn looks_like(expr: &Expr) -> &'static str {
+    match expr {
+        Expr::Number { .. } | Expr::Negate(_) => "a number",
+        Expr::Text(_) => "a text",
+        Expr::Name(_) => "a name",
+        Expr::Call { .. } => "a call",
+        Expr::Binary { .. } => "a calculation",
+        Expr::Tuple(_) => "a list of values",
+    }
+}

@@ -1,0 +1,39 @@
+//! Where the checks put what they find, and the token that says "somebody has been told".
+//!
+//! A check that cannot go on returns [`Reported`], which only [`Reports::push`] makes. So nothing fails silently, and
+//! whoever builds on the failed part stays quiet instead of complaining about a consequence.
+
+use crate::diag::Diagnostic;
+
+/// Proof that a diagnostic has been reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Reported(());
+
+/// A value, or the proof that its fault has been reported.
+pub(crate) type Checked<T> = Result<T, Reported>;
+
+/// The diagnostics of one run, or of one trial evaluation.
+#[derive(Debug, Default)]
+pub(crate) struct Reports {
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Reports {
+    /// Takes a diagnostic.
+    pub(crate) fn push(&mut self, diagnostic: Diagnostic) -> Reported {
+        self.diagnostics.push(diagnostic);
+        Reported(())
+    }
+
+    /// Takes what another stage has found; the token when that was anything.
+    pub(crate) fn append(&mut self, found: Vec<Diagnostic>) -> Option<Reported> {
+        let token = (!found.is_empty()).then_some(Reported(()));
+        self.diagnostics.extend(found);
+        token
+    }
+
+    /// All of them, in the order in which they were found.
+    pub(crate) fn into_vec(self) -> Vec<Diagnostic> {
+        self.diagnostics
+    }
+}

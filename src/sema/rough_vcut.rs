@@ -1,0 +1,245 @@
+//! `rough vcut { ... }`: V-shaped roughing.
+
+use super::eval::Scope;
+use super::fields::{BlockSpec, Fields, Inner, Place, block, head_span, limit, value};
+use super::names::Thing;
+use super::range::{DISTANCE, OVERLAP, RAKE, SIZE, SPEED, SWING, TURNING_RATE};
+use super::read::{Reader, default, looks_like};
+use super::report::Checked;
+use super::session::Session;
+use crate::diag::{Code, Diagnostic};
+use crate::job::{Blade, Direction, Lattice, Limits, Order, Residual, RoughVcut, Sourced};
+use crate::source::Spanned;
+use crate::syntax::ast::{Block, Expr};
+use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
+
+const SPEC: BlockSpec = BlockSpec {
+    title: "`rough vcut`",
+    fields: &[
+        value("blade", "dagger"),
+        value("lattice", "orthogonal"),
+        value("rake", "60 deg"),
+        value("swing", "auto"),
+        value("layer", "auto"),
+        value("step", "auto"),
+        value("overlap", "0 %"),
+        block("limits", "{ swing <= 50 deg, scallop <= 10 mm }"),
+        value("allowance", "0.5 mm"),
+        value("residual", "auto"),
+        value("order", "point"),
+        value("direction", "alternate"),
+        block(
+            "feed",
+            "{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
+        ),
+        value("clearance", "10 mm"),
+        value("extension", "auto"),
+        value("run_out", "2 mm"),
+        value("standoff", "auto"),
+    ],
+    inner: Inner::Refused,
+};
+
+const LIMITS: BlockSpec = BlockSpec {
+    title: "`limits`",
+    fields: &[limit("swing", "50 deg"), limit("scallop", "10 mm")],
+    inner: Inner::Refused,
+};
+
+const FEED: BlockSpec = BlockSpec {
+    title: "`feed`",
+    fields: &[
+        value("cut", "200 mm/s"),
+        value("travel", "200 mm/s"),
+        value("reorient", "90 deg/s"),
+    ],
+    inner: Inner::Refused,
+};
+
+const LATTICES: &[(&str, Lattice)] = &[
+    ("orthogonal", Lattice::Orthogonal),
+    ("interlaced", Lattice::Interlaced),
+    ("free", Lattice::Free),
+];
+
+const RESIDUALS: &[(&str, Residual)] = &[
+    ("discard", Residual::Discard),
+    ("lift", Residual::Lift),
+    ("shift", Residual::Shift),
+    ("auto", Residual::Auto),
+];
+
+const ORDERS: &[(&str, Order)] = &[("point", Order::Point), ("layer", Order::Layer)];
+
+const DIRECTIONS: &[(&str, Direction)] = &[
+    ("alternate", Direction::Alternate),
+    ("forward", Direction::Forward),
+    ("backward", Direction::Backward),
+];
+
+/// Air between the blade and the stock where it turns, when the job does not say.
+const RUN_OUT: Length = Length::mm(2.0);
+
+/// The operation.
+pub(crate) fn check(
+    operation: &Block,
+    place: Place,
+    scope: Scope<'_>,
+    blades: &[Checked<Blade>],
+    session: &mut Session<'_>,
+) -> Checked<RoughVcut> {
+    let fields = Fields::sort(&SPEC, place, &operation.entries, session);
+    // Blocks within first: they need the session, of which the reader holds a part.
+    let limits = fields
+        .block("limits")
+        .and_then(|inner| limits(inner, scope, session));
+    let feeds = fields
+        .required_block("feed", &mut session.reports)
+        .and_then(|inner| feeds(inner, scope, session));
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
+    let blade = fields
+        .required_value("blade", reader.reports)
+        .and_then(|expr| find_blade(expr, blades, &mut reader));
+    let lattice = fields
+        .required_value("lattice", reader.reports)
+        .and_then(|expr| reader.word("lattice", expr, LATTICES));
+    let rake = reader.required(&fields, "rake", RAKE);
+    let swing = reader.auto(&fields, "swing", SWING);
+    let layer = reader.auto(&fields, "layer", SIZE);
+    let step = reader.auto(&fields, "step", SIZE);
+    let overlap = reader.defaulted(&fields, "overlap", OVERLAP, 0.0);
+    let allowance = reader.defaulted(&fields, "allowance", DISTANCE, Length::ZERO);
+    let residual = reader.choice(&fields, "residual", RESIDUALS);
+    let order = reader.choice(&fields, "order", ORDERS);
+    let direction = reader.choice(&fields, "direction", DIRECTIONS);
+    let clearance = reader.required(&fields, "clearance", SIZE);
+    let extension = reader.auto(&fields, "extension", DISTANCE);
+    let run_out = reader.defaulted(&fields, "run_out", DISTANCE, RUN_OUT);
+    let standoff = reader.auto(&fields, "standoff", DISTANCE);
+    let feeds = feeds?;
+    Ok(RoughVcut {
+        span: place.whole,
+        head_span: place.head,
+        blade: blade?,
+        lattice: lattice?,
+        rake: rake?,
+        swing: swing?,
+        layer: layer?,
+        step: step?,
+        overlap: overlap?,
+        limits: limits?,
+        allowance: allowance?,
+        residual: residual?.unwrap_or(default(Residual::Auto)),
+        order: order?.unwrap_or(default(Order::Point)),
+        direction: direction?.unwrap_or(default(Direction::Alternate)),
+        cut_feed: feeds.cut,
+        travel_feed: feeds.travel,
+        reorient_rate: feeds.reorient,
+        clearance: clearance?,
+        extension: extension?,
+        run_out: run_out?,
+        standoff: standoff?,
+    })
+}
+
+/// The place of a block within the operation.
+fn inner_place(inner: &Block) -> Place {
+    Place {
+        head: head_span(inner),
+        whole: inner.span,
+    }
+}
+
+fn limits(inner: Option<&Block>, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Limits> {
+    let Some(inner) = inner else {
+        return Ok(Limits {
+            swing: None,
+            scallop: None,
+        });
+    };
+    let fields = Fields::sort(&LIMITS, inner_place(inner), &inner.entries, session);
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
+    let swing = reader.optional(&fields, "swing", SWING);
+    let scallop = reader.optional(&fields, "scallop", SIZE);
+    Ok(Limits {
+        swing: swing?,
+        scallop: scallop?,
+    })
+}
+
+/// Speeds of the operation.
+struct Feeds {
+    cut: Sourced<Speed>,
+    travel: Sourced<Speed>,
+    reorient: Sourced<AngularSpeed>,
+}
+
+fn feeds(inner: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Feeds> {
+    let fields = Fields::sort(&FEED, inner_place(inner), &inner.entries, session);
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
+    let cut = reader.required(&fields, "cut", SPEED);
+    let travel = reader.required(&fields, "travel", SPEED);
+    let reorient = reader.required(&fields, "reorient", TURNING_RATE);
+    Ok(Feeds {
+        cut: cut?,
+        travel: travel?,
+        reorient: reorient?,
+    })
+}
+
+/// The blade that the operation names.
+fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Reader<'_>) -> Checked<Blade> {
+    let names = reader.scope.names;
+    let is_blade = |thing| matches!(thing, Thing::Blade(_));
+    let Expr::Name(name) = &expr.node else {
+        let diagnostic = Diagnostic::new(
+            Code::WrongKind,
+            format!(
+                "`blade` takes the name of a blade, not {}",
+                looks_like(&expr.node)
+            ),
+            expr.span,
+            "the name of a blade is wanted here",
+        );
+        let diagnostic = match names.list(is_blade) {
+            Some(list) => diagnostic.help(format!("the blades defined are {list}")),
+            None => diagnostic.help("define one with `blade dagger { ... }` and write `blade = dagger`"),
+        };
+        return Err(reader.reports.push(diagnostic));
+    };
+    match names.get(name) {
+        None => Err(match names.incomplete {
+            Some(reported) => reported,
+            None => reader
+                .reports
+                .push(names.unknown("blade", name, expr.span, is_blade)),
+        }),
+        Some(definition) => match definition.thing {
+            Thing::Blade(index) => match blades.get(index) {
+                Some(blade) => blade.clone(),
+                None => Err(reader
+                    .reports
+                    .push(names.unknown("blade", name, expr.span, is_blade))),
+            },
+            thing @ (Thing::Let(_) | Thing::Machine(_)) => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongKind,
+                    format!("`{name}` is {}, not a blade", thing.words()),
+                    expr.span,
+                    "the name of a blade is wanted here",
+                )
+                .and(definition.span, "defined here");
+                Err(reader.reports.push(diagnostic))
+            }
+        },
+    }
+}

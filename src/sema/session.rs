@@ -1,0 +1,62 @@
+//! What the checks of one run share: the loader, the source texts, and what has been found so far.
+
+use super::report::{Reported, Reports};
+use crate::source::{FileId, Loader, SourceMap, Span};
+use std::collections::BTreeMap;
+
+/// One run.
+pub(crate) struct Session<'a> {
+    /// Where files come from.
+    pub(crate) loader: &'a dyn Loader,
+    /// All texts so far.
+    pub(crate) sources: &'a mut SourceMap,
+    /// What there is to tell.
+    pub(crate) reports: Reports,
+    /// Files of which a part could not be read. What seems to be missing there may be in the unreadable part.
+    damaged: BTreeMap<FileId, Reported>,
+    /// Set when definitions may be missing because a file could not be had or read in full.
+    incomplete: Option<Reported>,
+}
+
+impl<'a> Session<'a> {
+    /// A run that has found nothing yet.
+    pub(crate) fn new(loader: &'a dyn Loader, sources: &'a mut SourceMap) -> Self {
+        Self {
+            loader,
+            sources,
+            reports: Reports::default(),
+            damaged: BTreeMap::new(),
+            incomplete: None,
+        }
+    }
+
+    /// Remembers that a part of a file could not be read.
+    pub(crate) fn set_damaged(&mut self, file: FileId, reported: Reported) {
+        self.damaged.insert(file, reported);
+        self.incomplete = Some(reported);
+    }
+
+    /// Remembers that a whole file is missing.
+    pub(crate) const fn set_incomplete(&mut self, reported: Reported) {
+        self.incomplete = Some(reported);
+    }
+
+    /// Whether a part of the file at that place could not be read.
+    pub(crate) fn damage_at(&self, place: Span) -> Option<Reported> {
+        self.damaged.get(&place.file).copied()
+    }
+
+    /// Whether definitions may be missing.
+    pub(crate) const fn incomplete(&self) -> Option<Reported> {
+        self.incomplete
+    }
+}
+
+/// The whole text of a file as a place of no extent at its start.
+pub(crate) const fn start_of(file: FileId) -> Span {
+    Span {
+        file,
+        start: 0,
+        end: 0,
+    }
+}

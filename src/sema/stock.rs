@@ -1,0 +1,63 @@
+//! `stock { ... }`: the box that is cut from.
+
+use super::eval::Scope;
+use super::fields::{BlockSpec, Fields, Inner, Place, value};
+use super::range::SIZE;
+use super::read::{Reader, looks_like};
+use super::report::{Checked, Reported};
+use super::session::Session;
+use crate::diag::{Code, Diagnostic};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Block, Expr};
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
+
+const SPEC: BlockSpec = BlockSpec {
+    title: "`stock`",
+    fields: &[value("size", "(85 mm, 50 mm, 50 mm)")],
+    inner: Inner::Refused,
+};
+
+/// The stock and where its size stands.
+pub(crate) fn check(
+    block: &Block,
+    place: Place,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Spanned<Stock>> {
+    let fields = Fields::sort(&SPEC, place, &block.entries, session);
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
+    let size = fields.required_value("size", reader.reports)?;
+    let Expr::Tuple(sides) = &size.node else {
+        return Err(reader.reports.push(not_three(size.span, looks_like(&size.node))));
+    };
+    let [width, depth, height] = sides.as_slice() else {
+        let count = format!("a list of {}", sides.len());
+        return Err(reader.reports.push(not_three(size.span, &count)));
+    };
+    let mut side = |expr: &Spanned<Expr>, taker: &str| -> Result<Length, Reported> {
+        reader.within(expr, SIZE, taker, Some("50 mm")).map(Length::mm)
+    };
+    let width = side(width, "the width (along x)");
+    let depth = side(depth, "the depth (along y)");
+    let height = side(height, "the height (along z)");
+    let stock = Stock {
+        width: width?,
+        depth: depth?,
+        height: height?,
+    };
+    Ok(Spanned::new(stock, size.span))
+}
+
+fn not_three(span: Span, what: &str) -> Diagnostic {
+    Diagnostic::new(
+        Code::WrongKind,
+        format!("`size` takes three lengths, not {what}"),
+        span,
+        "three lengths are wanted here",
+    )
+    .help("give width (x), depth (y) and height (z), like `size = (85 mm, 50 mm, 50 mm)`")
+}

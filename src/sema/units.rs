@@ -1,0 +1,177 @@
+//! The units of the language, and what people write instead of them.
+
+use super::dimension::Dimension;
+use super::quantity::Quantity;
+use core::f64::consts::PI;
+
+/// A unit.
+struct Unit {
+    name: &'static str,
+    /// One of it in mm, rad, s, kg.
+    size: f64,
+    dimension: Dimension,
+}
+
+const fn unit(name: &'static str, size: f64, dimension: Dimension) -> Unit {
+    Unit {
+        name,
+        size,
+        dimension,
+    }
+}
+
+/// All simple units. The inch is 25.4 mm exactly (international yard and pound agreement, 1959).
+const UNITS: &[Unit] = &[
+    unit("um", 0.001, Dimension::LENGTH),
+    unit("mm", 1.0, Dimension::LENGTH),
+    unit("cm", 10.0, Dimension::LENGTH),
+    unit("m", 1000.0, Dimension::LENGTH),
+    unit("in", 25.4, Dimension::LENGTH),
+    unit("ft", 304.8, Dimension::LENGTH),
+    unit("deg", PI / 180.0, Dimension::ANGLE),
+    unit("rad", 1.0, Dimension::ANGLE),
+    unit("ms", 0.001, Dimension::TIME),
+    unit("s", 1.0, Dimension::TIME),
+    unit("min", 60.0, Dimension::TIME),
+    unit("h", 3600.0, Dimension::TIME),
+    unit("g", 0.001, Dimension::MASS),
+    unit("kg", 1.0, Dimension::MASS),
+    unit("%", 0.01, Dimension::PURE),
+];
+
+/// What people write, and the unit they mean.
+const ALIASES: &[(&str, &str)] = &[
+    ("inch", "in"),
+    ("inches", "in"),
+    ("foot", "ft"),
+    ("feet", "ft"),
+    ("micron", "um"),
+    ("microns", "um"),
+    ("µm", "um"),
+    ("μm", "um"),
+    ("millimeter", "mm"),
+    ("millimeters", "mm"),
+    ("millimetre", "mm"),
+    ("millimetres", "mm"),
+    ("meter", "m"),
+    ("meters", "m"),
+    ("metre", "m"),
+    ("metres", "m"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("radian", "rad"),
+    ("radians", "rad"),
+    ("sec", "s"),
+    ("secs", "s"),
+    ("second", "s"),
+    ("seconds", "s"),
+    ("minute", "min"),
+    ("minutes", "min"),
+    ("hr", "h"),
+    ("hour", "h"),
+    ("hours", "h"),
+    ("gram", "g"),
+    ("grams", "g"),
+    ("kilogram", "kg"),
+    ("kilograms", "kg"),
+    ("percent", "%"),
+];
+
+/// What people write for a compound unit.
+const COMPOUND_ALIASES: &[(&str, &str)] = &[
+    ("mps", "m/s"),
+    ("mmps", "mm/s"),
+    ("mpm", "m/min"),
+    ("mmpm", "mm/min"),
+    ("ipm", "in/min"),
+    ("ips", "in/s"),
+    ("dps", "deg/s"),
+];
+
+fn find(name: &str) -> Option<&'static Unit> {
+    UNITS.iter().find(|unit| unit.name == name)
+}
+
+/// So many of a unit, which is a simple one or a quotient such as `mm/s`; none when there is no such unit.
+pub(crate) fn quantity(number: f64, name: &str) -> Option<Quantity> {
+    let Some((above, below)) = split(name) else {
+        let unit = find(name)?;
+        return Some(Quantity::new(number * unit.size, unit.dimension));
+    };
+    let (above, below) = (find(above)?, find(below)?);
+    let dimension = above.dimension.over(below.dimension)?;
+    Some(Quantity::new(number * above.size / below.size, dimension))
+}
+
+/// The two sides of a quotient of units.
+fn split(name: &str) -> Option<(&str, &str)> {
+    let (above, below) = name.split_once('/')?;
+    Some((above.trim(), below.trim()))
+}
+
+/// The units somebody may have meant, best first.
+pub(crate) fn meant(name: &str) -> Vec<String> {
+    if let Some(&(_, compound)) = COMPOUND_ALIASES
+        .iter()
+        .find(|(alias, _)| alias.eq_ignore_ascii_case(name))
+    {
+        return vec![compound.to_owned()];
+    }
+    let Some((above, below)) = split(name) else {
+        return meant_simple(name).into_iter().map(str::to_owned).collect();
+    };
+    let firsts = meant_simple(above);
+    let seconds = meant_simple(below);
+    match (firsts.first(), seconds.first()) {
+        (Some(first), Some(second)) => vec![format!("{first}/{second}")],
+        _ => Vec::new(),
+    }
+}
+
+fn meant_simple(name: &str) -> Vec<&'static str> {
+    if let Some(unit) = find(name) {
+        return vec![unit.name];
+    }
+    if let Some(&(_, unit)) = ALIASES.iter().find(|(alias, _)| alias.eq_ignore_ascii_case(name)) {
+        return vec![unit];
+    }
+    crate::diag::suggest::nearest(name, UNITS.iter().map(|unit| unit.name))
+}
+
+/// All simple units, for a help line.
+pub(crate) fn list() -> String {
+    let names: Vec<&str> = UNITS.iter().map(|unit| unit.name).collect();
+    names.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_exact_where_decimals_are() {
+        assert_eq!(quantity(2.0, "in"), Some(Quantity::length(50.8)));
+        assert_eq!(
+            quantity(6.0, "m/min"),
+            Some(Quantity::new(100.0, Dimension::SPEED))
+        );
+        assert_eq!(quantity(0.2, "m/s"), Some(Quantity::new(200.0, Dimension::SPEED)));
+        assert_eq!(
+            quantity(180.0, "deg/s"),
+            Some(Quantity::new(PI, Dimension::TURNING_RATE))
+        );
+        assert_eq!(quantity(30.0, "%"), Some(Quantity::pure(0.3)));
+        assert_eq!(quantity(5.0, "furlong"), None);
+        assert_eq!(quantity(5.0, "mm/furlong"), None);
+    }
+
+    #[test]
+    fn the_unit_meant_is_named() {
+        assert_eq!(meant("inch"), ["in"]);
+        assert_eq!(meant("Degrees"), ["deg"]);
+        assert_eq!(meant("mm/sec"), ["mm/s"]);
+        assert_eq!(meant("mps"), ["m/s"]);
+        assert_eq!(meant("MM"), ["mm"]);
+        assert!(meant("parsec/fortnight").is_empty());
+    }
+}

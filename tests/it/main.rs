@@ -1,0 +1,15 @@
+//! Tests across stages, in one binary, one module a subject.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "tests read files, start the compiler, and stop at the first surprise"
+)]
+
+#[cfg(feature = "cli")]
+mod cli;
+mod repository;
+mod schema;
+mod syntax;
+mod tidy;

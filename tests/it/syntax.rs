@@ -1,0 +1,134 @@
+//! Job files that can be read, and job files that cannot: each of the latter names the codes it expects in its first
+//! line, and its snapshot shows it together with what people get to see.
+
+use std::fs;
+use std::path::Path;
+use vcutc::diag::Diagnostic;
+use vcutc::diag::render::{ColorChoice, render};
+use vcutc::diag::{Code, fix};
+use vcutc::source::{FileId, SourceMap, Span, text_from_bytes};
+use vcutc::syntax::parse;
+
+struct Case {
+    sources: SourceMap,
+    file: FileId,
+    text: String,
+    diagnostics: Vec<Diagnostic>,
+}
+
+fn read(path: &Path) -> Case {
+    let name = path.file_name().unwrap().to_string_lossy().into_owned();
+    let text = fs::read_to_string(path).unwrap();
+    let mut sources = SourceMap::default();
+    let file = sources.add(name, text.clone());
+    let mut diagnostics = Vec::new();
+    parse(file, &text, &mut diagnostics);
+    Case {
+        sources,
+        file,
+        text,
+        diagnostics,
+    }
+}
+
+fn expected_codes(text: &str) -> Vec<&str> {
+    let first = text.lines().next().unwrap_or_default();
+    let list = first
+        .strip_prefix("// expect: ")
+        .expect("the first line reads `// expect: VCnnnn ...`");
+    list.split_whitespace().collect()
+}
+
+#[test]
+fn right_files_are_read() {
+    insta::glob!("../syntax/ok", "*.vcut", |path| {
+        let case = read(path);
+        let told = render(&case.diagnostics, &case.sources, ColorChoice::Plain);
+        assert_eq!(told, "", "{}", path.display());
+    });
+}
+
+#[test]
+fn wrong_files_are_explained() {
+    let mut surprises = Vec::new();
+    insta::glob!("../syntax/err", "*.vcut", |path| {
+        let case = read(path);
+        let told = render(&case.diagnostics, &case.sources, ColorChoice::Plain);
+        insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
+            insta::assert_snapshot!(format!("{}\n{told}", case.text));
+        });
+        let codes: Vec<&str> = case.diagnostics.iter().map(|d| d.code.number()).collect();
+        if codes != expected_codes(&case.text) {
+            surprises.push(format!("{}: {codes:?}", path.display()));
+        }
+    });
+    assert!(surprises.is_empty(), "{surprises:#?}");
+}
+
+/// A fix that is offered must mend what it is offered for.
+#[test]
+fn fixes_mend_what_they_are_offered_for() {
+    insta::glob!("../syntax/err", "*.vcut", |path| {
+        let case = read(path);
+        let offered = case.diagnostics.iter().flat_map(|d| d.fixes.first());
+        let edits: Vec<_> = offered.flat_map(|fix| fix.edits.clone()).collect();
+        let left = case.diagnostics.iter().filter(|d| d.fixes.is_empty()).count();
+        let fixed = fix::apply(&case.text, case.file, &edits).expect("fixes fit the text");
+        let mut diagnostics = Vec::new();
+        parse(case.file, &fixed, &mut diagnostics);
+        let told = render(&diagnostics, &case.sources, ColorChoice::Plain);
+        assert!(diagnostics.len() <= left, "{}\n{fixed}\n{told}", path.display());
+    });
+}
+
+#[test]
+fn every_code_of_the_syntax_has_an_example() {
+    for code in Code::ALL.iter().filter(|code| code.number().starts_with("VC01")) {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check/err");
+        let is_its_own = |path: &Path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with(code.number())
+        };
+        let mut paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let path = paths.find(|path| is_its_own(path));
+        let path = path.unwrap_or_else(|| panic!("{} has no example", code.number()));
+        let codes = match text_from_bytes(fs::read(&path).unwrap()) {
+            Err(_) => vec![Code::NotUtf8.number()],
+            Ok(_) => {
+                let case = read(&path);
+                case.diagnostics.iter().map(|d| d.code.number()).collect()
+            }
+        };
+        assert_eq!(codes, [code.number()], "{}", path.display());
+    }
+}
+
+#[test]
+fn any_span_can_be_drawn() {
+    let texts = [
+        "",
+        "\n",
+        "aé\r\nµ\t\u{2028}x\r",
+        "\u{feff}end\n\n",
+        "\u{1b}[31m\u{202e}",
+    ];
+    for text in texts {
+        let mut sources = SourceMap::default();
+        let file = sources.add("t.vcut", text);
+        for start in 0..=u32::try_from(text.len()).unwrap() + 2 {
+            for end in 0..=u32::try_from(text.len()).unwrap() + 2 {
+                let span = Span { file, start, end };
+                let diagnostic = Diagnostic::new(Code::UnexpectedText, "m", span, "label one")
+                    .and(span.after(), "label two")
+                    .note("n");
+                let told = render(&[diagnostic], &sources, ColorChoice::Plain);
+                assert!(told.starts_with("error[VC0101]: m\n"));
+                assert!(
+                    told.contains("label one") && told.contains("label two"),
+                    "{text:?} {span:?}\n{told}"
+                );
+                assert!(!told.contains('\u{1b}') && !told.contains('\u{202e}'));
+            }
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! The rules of `ARCHITECTURE.md` and `CONTRIBUTING.md` that no compiler checks, by reading the sources.
+//!
+//! A rule reports all breaches in one run, each with file and line.
+
+use crate::repository::{TextFile, files, read, root};
+use vcutc::diag::Code;
+
+/// Longest source file. Beyond it a file is about more than one subject.
+const MOST_LINES: usize = 700;
+
+/// Which module of `src` may use which others.
+const MAY_USE: &[(&str, &[&str])] = &[
+    ("source", &[]),
+    ("registry", &[]),
+    ("geom", &[]),
+    ("diag", &["source"]),
+    ("job", &["geom", "source"]),
+    ("syntax", &["diag", "source"]),
+    ("sema", &["diag", "geom", "job", "source", "syntax"]),
+    ("sim", &["geom"]),
+    ("plan", &["diag", "geom", "job", "sim", "source"]),
+    ("lower", &["geom", "job", "plan", "source"]),
+    ("summary", &["plan", "sim"]),
+    (
+        "verdict",
+        &["diag", "geom", "job", "lower", "plan", "sim", "source"],
+    ),
+    (
+        "driver",
+        &[
+            "diag", "job", "plan", "registry", "sema", "sim", "source", "summary", "syntax", "verdict",
+        ],
+    ),
+    ("cli", &["diag", "driver", "plan", "registry", "source"]),
+];
+
+/// Packages and library modules, and the only files (or folders) of `src` that may name them.
+const ONLY_IN: &[(&str, &[&str])] = &[
+    ("ariadne::", &["src/diag/render.rs"]),
+    ("pest::", &["src/syntax/"]),
+    ("pest_derive::", &["src/syntax/"]),
+    ("strsim::", &["src/diag/suggest.rs"]),
+    ("glam::", &["src/geom/", "src/lower/", "src/plan/", "src/sim/"]),
+    ("anstream::", &["src/cli/"]),
+    ("clap::", &["src/cli/"]),
+    ("indicatif::", &["src/cli/"]),
+    ("tempfile::", &["src/cli/"]),
+    ("std::fs", &["src/cli/"]),
+    ("std::net", &[]),
+    ("std::env::", &["src/cli/"]),
+    ("std::process", &["src/cli/", "src/main.rs"]),
+    ("std::thread", &["src/cli/"]),
+    ("std::time", &["src/cli/"]),
+];
+
+#[test]
+fn imports_follow_the_flow() {
+    let mut breaches = Vec::new();
+    for file in files("src", ".rs") {
+        let Some(module) = module(&file.path) else {
+            continue;
+        };
+        let allowed = MAY_USE
+            .iter()
+            .find(|(name, _)| *name == module)
+            .unwrap_or_else(|| panic!("{}: a module the rules do not know", file.path))
+            .1;
+        for (number, line) in file.code() {
+            for used in modules_used(line) {
+                if used != module && !allowed.contains(&used) {
+                    breaches.push(format!("{}:{number}: {module} uses {used}", file.path));
+                }
+            }
+        }
+    }
+    assert_none(&breaches);
+}
+
+#[test]
+fn packages_stay_where_they_belong() {
+    let mut breaches = Vec::new();
+    for file in files("src", ".rs") {
+        for (number, line) in file.code() {
+            for (name, places) in ONLY_IN {
+                let allowed = places.iter().any(|place| file.path.starts_with(place));
+                if names(line, name) && !allowed {
+                    breaches.push(format!("{}:{number}: {name} belongs in {places:?}", file.path));
+                }
+            }
+        }
+    }
+    assert_none(&breaches);
+}
+
+#[test]
+fn backends_know_the_api_only() {
+    let mut breaches = Vec::new();
+    for manifest in files("backends", "Cargo.toml") {
+        let is_api = manifest.path == "backends/api/Cargo.toml";
+        for line in dependencies(&manifest.text) {
+            if line.starts_with("vcutc") && (is_api || !line.starts_with("vcutc-backend-api.")) {
+                breaches.push(format!("{}: {line}", manifest.path));
+            }
+        }
+    }
+    for file in files("backends", ".rs") {
+        let outside = [
+            "std::fs",
+            "std::env::",
+            "std::net",
+            "std::process",
+            "std::time",
+            "std::thread",
+        ];
+        for (number, line) in file.code() {
+            breaches.extend(
+                outside
+                    .iter()
+                    .filter(|name| names(line, name))
+                    .map(|name| format!("{}:{number}: {name} in a backend", file.path)),
+            );
+        }
+    }
+    assert_none(&breaches);
+}
+
+#[test]
+fn files_are_short_and_say_what_they_are_about() {
+    let mut breaches = Vec::new();
+    for file in sources() {
+        let lines = file.text.lines().count();
+        if lines > MOST_LINES {
+            breaches.push(format!("{}: {lines} lines, at most {MOST_LINES}", file.path));
+        }
+        let first = file.text.lines().next().unwrap_or_default();
+        let is_documented = first.starts_with("//! ") && first.len() > "//! ".len() + 8;
+        if !is_documented && !first.starts_with("#![doc = include_str!(") {
+            breaches.push(format!("{}: no module comment in the first line", file.path));
+        }
+    }
+    assert_none(&breaches);
+}
+
+#[test]
+fn nothing_is_left_for_later() {
+    // In pieces, so that this file does not find itself.
+    let marks = [concat!("TO", "DO"), concat!("FIX", "ME"), concat!("X", "XX")];
+    let mut breaches = Vec::new();
+    for file in sources().into_iter().chain(documents()) {
+        for (number, line) in (1..).zip(file.text.lines()) {
+            for mark in marks {
+                let mut words = line.split(|c: char| !c.is_ascii_alphanumeric());
+                if words.any(|word| word == mark) {
+                    breaches.push(format!("{}:{number}: {mark}", file.path));
+                }
+            }
+        }
+    }
+    assert_none(&breaches);
+}
+
+#[test]
+fn every_code_has_a_page_that_teaches() {
+    let breaches: Vec<_> = Code::ALL
+        .iter()
+        .map(|code| (code.number(), missing_on_page(code.number(), code.page())))
+        .filter(|(_, missing)| !missing.is_empty())
+        .map(|(number, missing)| format!("docs/diagnostics/{number}.md: no {}", missing.join(", no ")))
+        .collect();
+    assert_none(&breaches);
+}
+
+/// What a page of a code lacks.
+fn missing_on_page(number: &str, page: &str) -> Vec<&'static str> {
+    let (meaning, rest) = page.split_once("\n## Example\n").unwrap_or((page, ""));
+    let (example, remedy) = rest.split_once("\n## What to do\n").unwrap_or((rest, ""));
+    let words = |text: &str| text.split_whitespace().count();
+    let wanted = [
+        ("title with the code", page.starts_with(&format!("# {number}: "))),
+        ("explanation of a few sentences", words(meaning) >= 20),
+        ("example in a ```vcut block", example.contains("```vcut\n")),
+        ("section `## What to do` with advice", words(remedy) >= 8),
+    ];
+    wanted
+        .into_iter()
+        .filter(|(_, is_there)| !is_there)
+        .map(|(what, _)| what)
+        .collect()
+}
+
+#[test]
+fn every_page_has_its_code() {
+    let breaches: Vec<_> = files("docs/diagnostics", ".md")
+        .into_iter()
+        .filter(|page| {
+            let name = page
+                .path
+                .trim_start_matches("docs/diagnostics/")
+                .trim_end_matches(".md");
+            Code::from_number(name).is_none()
+        })
+        .map(|page| format!("{}: no such code", page.path))
+        .collect();
+    assert_none(&breaches);
+}
+
+#[test]
+fn the_readme_says_what_is_run() {
+    let (readme, run) = (read("README.md"), read(".ci/run"));
+    let commands: Vec<_> = readme.lines().filter(|line| line.starts_with("cargo ")).collect();
+    let tests: Vec<_> = commands
+        .iter()
+        .filter(|line| line.starts_with("cargo test"))
+        .collect();
+    let [test] = tests.as_slice() else {
+        panic!("the README has one command that runs all tests, not {tests:?}");
+    };
+    assert_eq!(
+        run.lines().last(),
+        Some(**test),
+        "the last command of .ci/run is the README's"
+    );
+    let job = commands
+        .iter()
+        .find_map(|line| line.strip_prefix("cargo run --release -- "))
+        .and_then(|rest| rest.split(' ').next())
+        .expect("the README has a command that compiles a job");
+    assert!(root().join(job).is_file(), "{job}");
+}
+
+#[test]
+fn links_between_documents_lead_somewhere() {
+    let mut breaches = Vec::new();
+    for document in documents() {
+        let folder = document.path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        for (number, line) in (1..).zip(document.text.lines()) {
+            for target in link_targets(line) {
+                if !root().join(folder).join(target).exists() {
+                    breaches.push(format!("{}:{number}: {target}", document.path));
+                }
+            }
+        }
+    }
+    assert_none(&breaches);
+}
+
+fn assert_none(breaches: &[String]) {
+    assert!(breaches.is_empty(), "\n{}\n", breaches.join("\n"));
+}
+
+/// All sources of the workspace.
+fn sources() -> Vec<TextFile> {
+    ["src", "backends", "tests"]
+        .into_iter()
+        .flat_map(|folder| files(folder, ".rs"))
+        .collect()
+}
+
+/// All documents of the workspace.
+fn documents() -> Vec<TextFile> {
+    files("", ".md")
+}
+
+/// `src/plan/grid.rs` belongs to `plan`; `src/lib.rs` and `src/main.rs` to none.
+fn module(path: &str) -> Option<&str> {
+    let inside = path.strip_prefix("src/")?;
+    let module = inside.split('/').next()?.trim_end_matches(".rs");
+    (!matches!(module, "lib" | "main")).then_some(module)
+}
+
+/// The modules that a line names as `crate::module`.
+fn modules_used(line: &str) -> impl Iterator<Item = &str> {
+    line.match_indices("crate::").filter_map(|(at, found)| {
+        let rest = &line[at + found.len()..];
+        let end = rest
+            .find(|c: char| !(c.is_alphanumeric() || c == '_'))
+            .unwrap_or(rest.len());
+        let begins_word = line[..at]
+            .chars()
+            .next_back()
+            .is_none_or(|c| !(c.is_alphanumeric() || c == '_' || c == '$'));
+        begins_word.then_some(&rest[..end])
+    })
+}
+
+/// Whether a line names a path such as `std::fs`, and not one that merely ends or begins alike.
+fn names(line: &str, name: &str) -> bool {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    line.match_indices(name).any(|(at, found)| {
+        let before = line[..at].chars().next_back();
+        let after = line[at + found.len()..].chars().next();
+        let free_before = before.is_none_or(|c| !is_word(c) && c != ':');
+        let free_after = name.ends_with(':') || after.is_none_or(|c| !is_word(c));
+        free_before && free_after
+    })
+}
+
+/// The lines of `[dependencies]` (not those for tests).
+fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
+    manifest
+        .lines()
+        .skip_while(|line| *line != "[dependencies]")
+        .skip(1)
+        .take_while(|line| !line.starts_with('['))
+}
+
+/// Where the links of a line of Markdown lead, as far as that is inside of the repository.
+fn link_targets(line: &str) -> impl Iterator<Item = &str> {
+    let targets = line
+        .split("](")
+        .skip(1)
+        .chain(line.split("src=\"").skip(1))
+        .filter_map(|rest| rest.split([')', '"', '#']).next());
+    targets.filter(|target| !target.is_empty() && !target.contains("://"))
+}
