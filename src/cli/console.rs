@@ -66,8 +66,8 @@ pub(super) struct Summary<'a> {
     pub(super) lines: &'a [String],
     /// Files that were written, as people see them.
     pub(super) files: &'a [String],
-    /// Why there are no files though the job is well, when that needs saying.
-    pub(super) remark: Option<String>,
+    /// What else there is to say of files, or of there being none.
+    pub(super) remark: Option<&'a str>,
     /// Stages with the time each took.
     pub(super) timings: &'a [(&'static str, Duration)],
 }
@@ -181,17 +181,10 @@ impl Console {
         for file in summary.files {
             text += &format!("wrote {file}\n");
         }
-        if errors > 0 {
-            text += &format!(
-                "{}: {}, nothing was written\n",
-                summary.job,
-                tally(errors, warnings)
-            );
-        } else if let Some(remark) = &summary.remark {
-            text += &format!("{}: {}; {remark}\n", summary.job, tally(errors, warnings));
-        } else {
-            text += &format!("{}: {}\n", summary.job, tally(errors, warnings));
-        }
+        let remark = summary
+            .remark
+            .map_or(String::new(), |remark| format!("; {remark}"));
+        text += &format!("{}: {}{remark}\n", summary.job, tally(errors, warnings));
         self.stderr(&text);
     }
 

@@ -7,12 +7,14 @@
     reason = "tests read files, start the compiler, and stop at the first surprise"
 )]
 
+mod check;
 #[cfg(feature = "cli")]
 mod cli;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;
 #[cfg(feature = "krl")]
 mod krl_text;
+mod pages;
 #[cfg(feature = "krl")]
 mod pipeline;
 mod repository;
