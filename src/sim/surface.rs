@@ -305,7 +305,10 @@ mod tests {
             for side in [Side::Left, Side::Right] {
                 let sampled = exit_by_sampling(100.0, 40.0, &vees, vee, side);
                 let run = surface.flank(vee, side);
-                prop_assert!((run.reach - sampled).abs() < 0.04, "{:?} {}", run, sampled);
+                // Looking from hundredth to hundredth passes over narrower gaps: it may find the exit later, not earlier.
+                prop_assert!(run.reach < sampled + 0.04, "{:?} {}", run, sampled);
+                let above = lowest(40.0, &vees, run.exit.x) - run.exit.z;
+                prop_assert!(above < 1e-5, "{:?} is {} below", run, above);
             }
         }
     }

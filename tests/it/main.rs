@@ -11,6 +11,10 @@ mod check;
 #[cfg(feature = "cli")]
 mod cli;
 mod codes;
+#[cfg(feature = "krl")]
+mod examples;
+#[cfg(feature = "krl")]
+mod hostile;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;
 #[cfg(feature = "krl")]
