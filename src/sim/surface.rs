@@ -307,8 +307,9 @@ mod tests {
                 let run = surface.flank(vee, side);
                 // Looking from hundredth to hundredth passes over narrower gaps: it may find the exit later, not earlier.
                 prop_assert!(run.reach < sampled + 0.04, "{:?} {}", run, sampled);
-                let above = lowest(40.0, &vees, run.exit.x) - run.exit.z;
-                prop_assert!(above < 1e-5, "{:?} is {} below", run, above);
+                let at_side = !(1e-9..=100.0 - 1e-9).contains(&run.exit.x);
+                let below = lowest(40.0, &vees, run.exit.x) - run.exit.z;
+                prop_assert!(at_side || below < 1e-5, "{:?} is {} below", run, below);
             }
         }
     }

@@ -49,6 +49,7 @@ pub(crate) fn write(source: Source<'_>, part: &Part, text: &mut Text<'_>) -> Wri
     let mut rest = ops;
     if let [first, after @ ..] = rest {
         body.lead(first)?;
+        body.first_speeds(ops)?;
         body.restate()?;
         body.op(first, after.first())?;
         rest = after;
@@ -161,6 +162,21 @@ impl Body<'_, '_, '_> {
         self.text.put(target);
         self.text.trimmed(value)?;
         Ok(self.text.end_line()?)
+    }
+
+    /// The speeds of the move that repeats the pose in which the part begins.
+    fn first_speeds(&mut self, ops: &[Op]) -> Written {
+        if self.state.place.tip().is_none() {
+            return Ok(());
+        }
+        let (feed, rate) = self.modal.first_speeds(ops);
+        if let Some(feed) = feed {
+            self.feed(feed)?;
+        }
+        if let Some(rate) = rate {
+            self.rate(rate)?;
+        }
+        Ok(())
     }
 
     /// Repeats the state in which the part begins. Called from the main program this changes nothing; a part started
