@@ -5,6 +5,8 @@
 
 mod builder;
 pub mod posture;
+#[cfg(test)]
+mod tests;
 mod vcut;
 
 use crate::plan::{PlannedJob, PlannedOperation};

@@ -56,10 +56,10 @@ fn assert_frame(got: &Setting, want: Registered<Frame>, rounding: Rounding) {
 fn decimals(outcome: &Outcome) -> i32 {
     let machine = outcome.job.as_ref().and_then(|job| job.machine.as_ref()).unwrap();
     let given = machine.targets.iter().flat_map(|target| &target.given);
-    let decimals = given
+    let mut decimals = given
         .filter(|option| option.key == "decimals")
         .map(|option| &option.value);
-    decimals.last().map_or(3, |value| match value {
+    decimals.next_back().map_or(3, |value| match value {
         GivenValue::Ratio(number) => format!("{number}").parse().unwrap(),
         GivenValue::Length(_) | GivenValue::Texts(_) | GivenValue::Word(_) => panic!("{value:?}"),
     })

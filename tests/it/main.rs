@@ -24,6 +24,7 @@ mod pages;
 mod pipeline;
 #[cfg(feature = "krl")]
 mod process_errors;
+mod published;
 mod repository;
 mod schema;
 mod syntax;
