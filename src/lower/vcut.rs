@@ -2,8 +2,8 @@
 //!
 //! Cuts start and end an extension away from the stock, where the blade may turn. In `point` order both flanks of a V are
 //! cut before the next one: there with the shank leaning left, turn about the still tip, back with the shank leaning right,
-//! and over to the next V while turning back \[Cui\]. In `layer` order all left flanks of a layer come first, to and fro,
-//! then all right flanks on the way back \[Yu\]. With one feed direction only, every cut is followed by a way back over the
+//! and over to the next V while turning back [Cui 2020]. In `layer` order all left flanks of a layer come first, to and fro,
+//! then all right flanks on the way back [Yu 2019]. With one feed direction only, every cut is followed by a way back over the
 //! safe plane.
 
 use super::builder::Builder;

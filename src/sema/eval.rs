@@ -244,7 +244,8 @@ fn combine(
                 right.expr.span,
                 "this is zero",
             )
-            .and(left.expr.span, format!("{} is divided by it", a.text())),
+            .and(left.expr.span, format!("{} is divided by it", a.text()))
+            .help("make sure that the divisor cannot become zero"),
         )),
         Operator::Divide => match a.dimension.over(b.dimension) {
             Some(dimension) => Ok(Quantity::new(a.value / b.value, dimension)),

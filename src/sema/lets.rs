@@ -3,9 +3,10 @@
 //! A `let` is worked out after all those it names. The walk keeps its own stack, so that a chain of a hundred
 //! thousand `let`s is as good as one; a path that comes back to itself is a circle and is reported whole.
 
+use super::dimension::Dimension;
 use super::eval::Scope;
 use super::names::{Names, Thing};
-use super::quantity::Quantity;
+use super::quantity::{Quantity, with_unit};
 use super::report::{Checked, Reports};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{Span, Spanned};
@@ -153,6 +154,11 @@ fn keeps_dimension(
     }
     let name = &subject.name.node;
     let (wanted, found) = (before.dimension.words(), value.dimension.words());
+    let sample = if value.dimension == Dimension::PURE {
+        with_unit(value.value, before.dimension)
+    } else {
+        before.text()
+    };
     let diagnostic = Diagnostic::new(
         Code::WrongDimension,
         format!("`{name}` is {wanted}, but `--set` makes it {found}"),
@@ -160,7 +166,7 @@ fn keeps_dimension(
         format!("this is {found}"),
     )
     .and(original.span, format!("{wanted} in the file: {}", before.text()))
-    .help(format!("give it like `--set \"{name}={}\"`", before.text()));
+    .help(format!("give it like `--set \"{name}={sample}\"`"));
     Err(reports.push(diagnostic))
 }
 

@@ -32,6 +32,9 @@ mod session;
 mod stock;
 mod units;
 
+#[cfg(test)]
+mod tests;
+
 use crate::diag::{Diagnostic, has_errors};
 use crate::job::{CheckedJob, Operation};
 use crate::source::{LoadError, Loader, SourceMap};
@@ -67,6 +70,9 @@ pub fn check(
     let mut found = session.reports.into_vec();
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
     let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
+    for diagnostic in &mut found {
+        overrides.keep_fixes_to_files(diagnostic);
+    }
     diagnostics.append(&mut found);
     let tree = files.into_iter().next().map(|file| file.ast);
     Ok((tree, job))
