@@ -126,12 +126,31 @@ impl<'a> Names<'a> {
                 );
                 reports.push(diagnostic.and(definition.span, "defined here"))
             }
-            (None, Some(reported)) => reported,
-            (None, None) => {
+            // Its definition may stand in text that could not be read, unless it looks like a slip of a known name.
+            (None, Some(reported)) if self.near(what, name, is_wanted, reports).is_empty() => reported,
+            (None, Some(_) | None) => {
                 let fault = self.unknown(what, name, span, is_wanted, reports);
                 reports.push(fault)
             }
         }
+    }
+
+    /// Names of a kind that are near a wanted one.
+    fn near(
+        &self,
+        what: &str,
+        name: &str,
+        is_wanted: fn(Thing) -> bool,
+        reports: &Reports,
+    ) -> Vec<&'a str> {
+        // Comparing every name with every other one would take for ever where both are many.
+        if reports.are_many() || self.table.len() > MOST_COMPARED {
+            return Vec::new();
+        }
+        nearest(
+            name,
+            self.of_kind(is_wanted).chain(what.eq("value").then_some("pi")),
+        )
     }
 
     /// The diagnostic for a name of some kind that is defined nowhere.
@@ -149,14 +168,7 @@ impl<'a> Names<'a> {
             span,
             "not defined in this file or in any that it uses",
         );
-        // Comparing every name with every other one would take for ever where both are many.
-        if reports.are_many() || self.table.len() > MOST_COMPARED {
-            return diagnostic;
-        }
-        let near = nearest(
-            name,
-            self.of_kind(is_wanted).chain(what.eq("value").then_some("pi")),
-        );
+        let near = self.near(what, name, is_wanted, reports);
         diagnostic = did_you_mean(diagnostic, span, &near);
         if near.is_empty() {
             diagnostic = match self.list(is_wanted) {
