@@ -155,10 +155,13 @@ fn not_freed(
             }
         }
         Some(Remedy::ResidualAuto) => {
-            let diagnostic = diagnostic
-                .note("cuts dropped, raised or moved to clear the part left more material than the lattice assumes");
+            let diagnostic = diagnostic.note(
+                "cuts dropped, raised or moved to clear the part left more material than the lattice assumes",
+            );
             match asked.residual.span {
-                Some(span) => diagnostic.fix("let the compiler mend such cuts: `residual = auto`", span, "auto"),
+                Some(span) => {
+                    diagnostic.fix("let the compiler mend such cuts: `residual = auto`", span, "auto")
+                }
                 None => diagnostic.help("add `residual = auto`, which mends such cuts"),
             }
         }
