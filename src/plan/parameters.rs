@@ -379,7 +379,8 @@ fn widest_step(lattice: Lattice, layer: Length, overlap: f64, flanks: &Flanks) -
     let unit = grid::SPACING * tips_per_step(lattice);
     let [_, _, layer] = around(layer, grid::SPACING);
     let ideal = 2.0 * (1.0 - overlap) * layer.to_mm() / flanks.slope / unit;
-    let steps = [(ideal + ON_GRID).floor(), (ideal - ON_GRID).ceil()].map(|count| Length::mm(count.max(1.0) * unit));
+    let steps =
+        [(ideal + ON_GRID).floor(), (ideal - ON_GRID).ceil()].map(|count| Length::mm(count.max(1.0) * unit));
     let [narrow, wide] = steps.map(|step| blade_reach::needed_reach(lattice, layer, step, flanks.slope));
     let jump = Length::mm(unit * (1.0 + flanks.slope));
     let [down, up] = steps;

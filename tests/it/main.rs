@@ -10,6 +10,7 @@
 mod check;
 #[cfg(feature = "cli")]
 mod cli;
+mod pages;
 mod repository;
 mod schema;
 mod syntax;

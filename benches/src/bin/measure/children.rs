@@ -1,0 +1,170 @@
+//! What is measured, each in a process of its own.
+
+use crate::Figures;
+use crate::clock::{medians, time};
+use crate::machine::peak_memory;
+use std::path::PathBuf;
+use vcutc_backend_api::bundle::Bundle;
+use vcutc_benches::contour::{self, Axes, Height, Polygons};
+use vcutc_benches::emission::{self, Folder, Lines};
+use vcutc_benches::stages::{self, Discard};
+use vcutc_benches::jobs;
+
+/// Runs one of them.
+pub(crate) fn run(what: &str, cuts: u32) -> Figures {
+    let text = jobs::text(cuts);
+    let figures = match what {
+        "stages" => stages(&text),
+        "memory" => memory(&text),
+        "emission" => emission(&text),
+        "contour" => contour(&text),
+        "instructions" => {
+            instructions(&text);
+            Vec::new()
+        }
+        _ => panic!("nothing is called {what}"),
+    };
+    figures.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+/// A folder for files, beside those of other runs.
+fn folder(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("vcutc-measure-{}-{name}", std::process::id()))
+}
+
+/// Time of each stage in ns.
+fn stages(text: &str) -> Vec<(&'static str, f64)> {
+    let options = stages::options();
+    let path = folder("stages");
+    let mut cuts = 0;
+    let [parse, check, plan, lower, contour, report, emit, to_files] = medians(|| {
+        let (parse, _) = time(|| stages::parse(text));
+        let (check, (sources, job)) = time(|| stages::check(text));
+        let (plan, planned) = time(|| stages::plan(&job));
+        cuts = stages::cuts(&planned);
+        let (lower, program) = time(|| stages::lower(&planned, &sources));
+        let (contour, replay) = time(|| stages::contour(&planned, &program));
+        let (report, _) = time(|| stages::report(&planned, &program, replay));
+        let (emit, ()) = time(|| stages::emit(&program, &options, &mut Discard::default()));
+        let mut folder = Folder::new(&path);
+        let (to_files, ()) = time(|| stages::emit(&program, &options, &mut folder));
+        [parse, check, plan, lower, contour, report, emit, to_files]
+    });
+    remove(&path);
+    vec![
+        ("cuts", cuts as f64),
+        ("parse", parse),
+        ("check", check),
+        ("plan", plan),
+        ("lower", lower),
+        ("contour", contour),
+        ("report", report),
+        ("emit", emit),
+        ("to_files", to_files),
+    ]
+}
+
+/// Peak memory after each stage in KiB above that at the start, everything being kept as the driver keeps it.
+fn memory(text: &str) -> Vec<(&'static str, f64)> {
+    let before = peak_memory();
+    let peak = || peak_memory() - before;
+    let _ast = stages::parse(text);
+    let (sources, job) = stages::check(text);
+    let check = peak();
+    let planned = stages::plan(&job);
+    let plan = peak();
+    let program = stages::lower(&planned, &sources);
+    let lower = peak();
+    let replay = stages::contour(&planned, &program);
+    let contour = peak();
+    let _removed = stages::report(&planned, &program, replay);
+    let path = folder("memory");
+    stages::emit(&program, &stages::options(), &mut Folder::new(&path));
+    let emit = peak();
+    remove(&path);
+    let cuts = stages::cuts(&planned) as f64;
+    vec![
+        ("cuts", cuts),
+        ("check", check),
+        ("plan", plan),
+        ("lower", lower),
+        ("contour", contour),
+        ("emit", emit),
+    ]
+}
+
+/// Time of each way of writing the same files, in ns.
+fn emission(text: &str) -> Vec<(&'static str, f64)> {
+    let (sources, job) = stages::check(text);
+    let program = stages::lower(&stages::plan(&job), &sources);
+    let options = stages::options();
+    let mut bundle = Bundle::default();
+    stages::emit(&program, &options, &mut bundle);
+    let lines = Lines::of(&bundle);
+
+    let paths = ["backend", "formatted", "finished"].map(folder);
+    let [memory, backend, formatted, finished] = medians(|| {
+        let mut folders = paths.each_ref().map(|path| Folder::new(path));
+        let (memory, ()) = time(|| stages::emit(&program, &options, &mut Discard::default()));
+        let (backend, ()) = time(|| stages::emit(&program, &options, &mut folders[0]));
+        let (formatted, ()) = time(|| lines.write(&folders[1]));
+        let (finished, ()) = time(|| emission::write_finished(&bundle, &folders[2]));
+        [memory, backend, formatted, finished]
+    });
+    for path in &paths {
+        emission::assert_same_files(&bundle, path);
+        remove(path);
+    }
+    vec![
+        ("lines", lines.count() as f64),
+        ("moves", lines.moves() as f64),
+        ("files", bundle.files().len() as f64),
+        ("bytes", bundle.files().iter().map(|(_, bytes)| bytes.len()).sum::<usize>() as f64),
+        ("memory", memory),
+        ("backend", backend),
+        ("formatted", formatted),
+        ("finished", finished),
+    ]
+}
+
+/// Time of the replay and of polygon clipping, in ns.
+fn contour(text: &str) -> Vec<(&'static str, f64)> {
+    let (sources, job) = stages::check(text);
+    let planned = stages::plan(&job);
+    let program = stages::lower(&planned, &sources);
+    let replay = stages::contour(&planned, &program);
+    let ours = contour::ours(&replay);
+
+    let polygons = |height, axes| Polygons::new(&planned, &replay, height, axes);
+    let clipper = [Height::BladeReach, Height::ReachInUse].map(|height| polygons(height, Axes::Swapped).for_clipper());
+    let i_overlay =
+        [Height::BladeReach, Height::ReachInUse].map(|height| polygons(height, Axes::Swapped).for_i_overlay());
+    let times = medians(|| {
+        let (replay, _) = time(|| stages::contour(&planned, &program));
+        let (clipper_reach, a) = time(|| contour::clipper(&clipper[0]));
+        let (clipper_used, b) = time(|| contour::clipper(&clipper[1]));
+        let (i_overlay_reach, c) = time(|| contour::i_overlay(&i_overlay[0]));
+        let (i_overlay_used, d) = time(|| contour::i_overlay(&i_overlay[1]));
+        for (peer, theirs) in [("Clipper2", a), ("Clipper2", b), ("i_overlay", c), ("i_overlay", d)] {
+            contour::assert_same_area(peer, theirs, ours);
+        }
+        [replay, clipper_reach, clipper_used, i_overlay_reach, i_overlay_used]
+    });
+    let names = ["replay", "clipper_reach", "clipper_used", "i_overlay_reach", "i_overlay_used"];
+    let cuts = ("cuts", stages::cuts(&planned) as f64);
+    names.into_iter().zip(times).chain([cuts]).collect()
+}
+
+/// Each stage once.
+fn instructions(text: &str) {
+    let (sources, job) = stages::check(text);
+    let planned = stages::plan(&job);
+    let program = stages::lower(&planned, &sources);
+    let replay = stages::contour(&planned, &program);
+    let _removed = stages::report(&planned, &program, replay);
+    stages::emit(&program, &stages::options(), &mut Discard::default());
+}
+
+fn remove(path: &PathBuf) {
+    std::fs::remove_dir_all(path).expect("files can be removed");
+}

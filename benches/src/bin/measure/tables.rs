@@ -1,0 +1,165 @@
+//! The whole run as Markdown.
+
+use crate::{EMISSION_SIZE, Figures, PEER_SIZES, SIZES, child, machine};
+
+/// A goal: what is measured, the value, and whether it is met.
+struct Goal {
+    what: String,
+    wanted: String,
+    got: String,
+    met: bool,
+}
+
+/// Measures everything and prints the tables.
+pub(crate) fn print() {
+    let machine = machine::describe();
+    let stages = SIZES.map(|cuts| child("stages", cuts));
+    let memory = SIZES.map(|cuts| child("memory", cuts));
+    let emission = child("emission", EMISSION_SIZE);
+    let contour = PEER_SIZES.map(|cuts| child("contour", cuts));
+
+    println!("Measured on:\n");
+    for line in machine {
+        println!("- {line}");
+    }
+    println!("\n### Goals\n");
+    print_goals(&goals(&stages, &memory, &emission, &contour));
+    println!("\n### Stages, ns per cut\n");
+    print_stages(&stages);
+    println!("\n### Peak memory\n");
+    print_memory(&memory);
+    println!("\n### Writing the same files\n");
+    print_emission(&emission);
+    println!("\n### Machined contour, ns per cut\n");
+    print_contour(&contour);
+}
+
+/// Names of the timed stages, with what they are called in the table.
+const STAGES: [(&str, &str); 7] = [
+    ("check", "parse and check"),
+    ("plan", "plan"),
+    ("lower", "lower and verify"),
+    ("contour", "contour"),
+    ("report", "figures"),
+    ("emit", "emit, in memory"),
+    ("to_files", "emit, to files"),
+];
+
+fn per_cut(figures: &Figures, name: &str) -> f64 {
+    figures[name] / figures["cuts"]
+}
+
+/// Text to files, in ns per cut. The reading of the text is left out: it costs the same for any number of cuts.
+fn whole_run(figures: &Figures) -> f64 {
+    ["plan", "lower", "contour", "report", "to_files"].iter().map(|name| per_cut(figures, name)).sum()
+}
+
+fn goals(stages: &[Figures; 3], memory: &[Figures; 3], emission: &Figures, contour: &[Figures; 2]) -> Vec<Goal> {
+    let growth = |cost: &dyn Fn(&Figures) -> f64| cost(&stages[2]) / cost(&stages[0]);
+    let at_most = |what: &str, wanted: f64, got: f64, unit: &str| Goal {
+        what: what.to_owned(),
+        wanted: format!("at most {wanted}{unit}"),
+        got: format!("{got:.2}{unit}"),
+        met: got <= wanted,
+    };
+    let at_least = |what: &str, wanted: f64, got: f64| Goal {
+        what: what.to_owned(),
+        wanted: format!("at least {wanted}x"),
+        got: format!("{got:.1}x"),
+        met: got >= wanted,
+    };
+    let peer = |name: &str| contour[1][name] / contour[1]["replay"];
+    let worst_memory = memory[1..].iter().map(|figures| per_cut(figures, "emit")).fold(0.0, f64::max);
+    vec![
+        at_most("cost per cut of the whole run, 10^6 cuts against 10^3", 1.25, growth(&whole_run), "x"),
+        at_most("cost per cut of the contour, 10^6 cuts against 10^3", 1.25, growth(&|f| per_cut(f, "contour")), "x"),
+        at_least("files faster than with `write!`", 6.0, emission["formatted"] / emission["backend"]),
+        at_most("files against writing the finished bytes", 2.5, emission["backend"] / emission["finished"], "x"),
+        at_least("contour of 10^5 cuts faster than Clipper2", 4.0, peer("clipper_reach")),
+        at_least("contour of 10^5 cuts faster than i_overlay", 20.0, peer("i_overlay_reach")),
+        at_most("peak memory per cut of the whole run, 10^5 cuts and more", 1.0, worst_memory, " KiB"),
+    ]
+}
+
+fn print_goals(goals: &[Goal]) {
+    println!("| | goal | measured | |");
+    println!("|---|---|---|---|");
+    for Goal { what, wanted, got, met } in goals {
+        let verdict = if *met { "met" } else { "**missed**" };
+        println!("| {what} | {wanted} | {got} | {verdict} |");
+    }
+}
+
+fn print_stages(stages: &[Figures; 3]) {
+    print_head("stage", stages);
+    for (name, title) in STAGES {
+        print_row(title, stages.iter().map(|figures| format!("{:.0}", per_cut(figures, name))));
+    }
+    print_row("plan to files", stages.iter().map(|figures| format!("{:.0}", whole_run(figures))));
+    let seconds = |figures: &Figures| (whole_run(figures) * figures["cuts"] + figures["check"]) * 1e-9;
+    print_row("text to files, in all", stages.iter().map(|figures| format!("{:.4} s", seconds(figures))));
+    let microseconds = |figures: &Figures, name: &str| format!("{:.0} us", figures[name] * 1e-3);
+    print_row("of which parse", stages.iter().map(|figures| microseconds(figures, "parse")));
+    print_row("of which parse and check", stages.iter().map(|figures| microseconds(figures, "check")));
+}
+
+fn print_memory(memory: &[Figures; 3]) {
+    print_head("after", memory);
+    for (name, title) in [("check", "check"), ("plan", "plan"), ("lower", "lower"), ("contour", "contour"), ("emit", "emit")]
+    {
+        let cell = |figures: &Figures| {
+            format!("{:.1} MiB, {:.0} B a cut", figures[name] / 1024.0, per_cut(figures, name) * 1024.0)
+        };
+        print_row(title, memory.iter().map(cell));
+    }
+}
+
+fn print_emission(emission: &Figures) {
+    let [lines, moves, files, bytes] = ["lines", "moves", "files", "bytes"].map(|name| emission[name]);
+    println!("{lines:.0} lines, of which {moves:.0} motions, in {files:.0} files with {:.1} MB.\n", bytes * 1e-6);
+    println!("| way | ns per line | ns per motion | MB/s | times the finished bytes |");
+    println!("|---|---|---|---|---|");
+    let ways = [
+        ("memory", "backend, bytes discarded"),
+        ("backend", "backend, to files"),
+        ("formatted", "`write!` through a `BufWriter`, to files"),
+        ("finished", "finished bytes, to files"),
+    ];
+    for (name, title) in ways {
+        let time = emission[name];
+        println!(
+            "| {title} | {:.0} | {:.0} | {:.0} | {:.2} |",
+            time / lines,
+            time / moves,
+            bytes / time * 1e3,
+            time / emission["finished"]
+        );
+    }
+}
+
+fn print_contour(contour: &[Figures; 2]) {
+    print_head("way", contour);
+    let ways = [
+        ("replay", "replay, with its proof"),
+        ("clipper_reach", "Clipper2, triangles as high as the blade reaches"),
+        ("clipper_used", "Clipper2, triangles as high as the longest flank"),
+        ("i_overlay_reach", "i_overlay, triangles as high as the blade reaches"),
+        ("i_overlay_used", "i_overlay, triangles as high as the longest flank"),
+    ];
+    for (name, title) in ways {
+        let cell = |figures: &Figures| {
+            format!("{:.0} ({:.1}x)", per_cut(figures, name), figures[name] / figures["replay"])
+        };
+        print_row(title, contour.iter().map(cell));
+    }
+}
+
+fn print_head(first: &str, columns: &[Figures]) {
+    print_row(first, columns.iter().map(|figures| format!("{:.0} cuts", figures["cuts"])));
+    print_row("---", columns.iter().map(|_| "---".to_owned()));
+}
+
+fn print_row(first: &str, cells: impl Iterator<Item = String>) {
+    let cells: Vec<String> = cells.collect();
+    println!("| {first} | {} |", cells.join(" | "));
+}

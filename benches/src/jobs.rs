@@ -1,0 +1,54 @@
+//! Jobs of a given size.
+//!
+//! All have the same cut: 0.5 mm layers, 1 mm steps, 45 degrees of swing and no overlap, so that larger jobs are larger
+//! and nothing else. Stock and number of layers grow alike, as they would in a deeper and wider part; the part's profile
+//! is a wave of 50 mm near the bottom, on which the last layers end.
+
+/// Height of the part's mean line above the stock's bottom, in mm.
+const PART: f64 = 3.0;
+
+/// Layer spacing in mm.
+const LAYER: f64 = 0.5;
+
+/// A job with about this many cuts, which should be a square number.
+#[must_use]
+pub fn text(cuts: u32) -> String {
+    let side = cuts.isqrt();
+    // A step is 1 mm, so columns are millimetres.
+    let width = side;
+    let height = PART + f64::from(side) * LAYER;
+    format!(
+        r#"job "bench_{cuts}"
+
+stock {{ size = ({width} mm, 50 mm, {height} mm) }}
+
+profile {{ z(x) = {PART} mm + 1 mm * cos(360 deg * x / 50 mm) }}
+
+blade dagger {{
+  cutting_length = 10 mm
+  half_apex      = 7.13 deg
+  thickness      = 0 mm
+  edges          = double
+}}
+
+rough vcut {{
+  blade     = dagger
+  lattice   = orthogonal
+  rake      = 60 deg
+  swing     = 45 deg
+  layer     = {LAYER} mm
+  step      = 1 mm
+  feed      {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}
+  clearance = 10 mm
+}}
+
+machine cell = robot "kuka/kr210_r3100" {{
+  tool       = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  base       = frame(x = 1800 mm, y = -25 mm, z = 700 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  home       = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
+  ultrasonic = output(12)
+  ready      = input(7)
+}}
+"#
+    )
+}

@@ -1,0 +1,15 @@
+//! What the benchmarks run: jobs of a given size, the compiler's stages one by one, and what they are compared with.
+//!
+//! * [`jobs`] writes job texts of about so many V-cuts.
+//! * [`stages`] runs one stage of the compiler each.
+//! * [`emission`] writes the same program text in other ways: with the standard library's formatting, and as bytes
+//!   that are already there.
+//! * [`contour`] finds the same machined contour by polygon clipping.
+//!
+//! The criterion benchmarks under `benches/` and the program `measure` use the same functions, and each comparison
+//! first makes sure that both sides give the same answer.
+
+pub mod contour;
+pub mod emission;
+pub mod jobs;
+pub mod stages;

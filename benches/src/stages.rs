@@ -1,0 +1,124 @@
+//! The compiler's stages, one function each, in the order of the driver.
+//!
+//! The jobs here are right, so whatever goes wrong is a fault of the compiler or of the benchmark: it ends the run.
+
+use vcutc::job::CheckedJob;
+use vcutc::plan::{self, PlannedJob, PlannedOperation};
+use vcutc::sema;
+use vcutc::sim::prove::{self, Bound, Findings, Replay};
+use vcutc::source::{LoadError, Loader, SourceMap};
+use vcutc::syntax::{self, ast::Ast};
+use vcutc::{lower, sim};
+use vcutc_backend_api::backend::{Backend, Emission, Options};
+use vcutc_backend_api::bundle::{Sink, SinkError};
+use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_backend_krl::Krl;
+
+/// Name of the one file there is.
+const PATH: &str = "bench.vcut";
+
+/// A loader with one text.
+struct OneText<'t>(&'t str);
+
+impl Loader for OneText<'_> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        if path == PATH { Ok(self.0.as_bytes().to_vec()) } else { Err(LoadError::NotFound) }
+    }
+}
+
+/// Takes everything and keeps nothing.
+#[derive(Debug, Default)]
+pub struct Discard {
+    /// Bytes taken, so that the work is not optimised away.
+    pub bytes: usize,
+}
+
+impl Sink for Discard {
+    fn file(&mut self, _name: &str) -> Result<(), SinkError> {
+        Ok(())
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), SinkError> {
+        self.bytes += std::hint::black_box(bytes).len();
+        Ok(())
+    }
+}
+
+/// Text to tree.
+#[must_use]
+pub fn parse(text: &str) -> Ast {
+    let mut sources = SourceMap::default();
+    let file = sources.add(PATH, text);
+    let mut diagnostics = Vec::new();
+    let ast = syntax::parse(file, text, &mut diagnostics);
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    ast
+}
+
+/// Text to meaning; reads the text again, as the driver does.
+#[must_use]
+pub fn check(text: &str) -> (SourceMap, CheckedJob) {
+    let mut sources = SourceMap::default();
+    let mut diagnostics = Vec::new();
+    let checked = sema::check(PATH, &OneText(text), &[], &mut sources, &mut diagnostics);
+    let (_, job) = checked.expect("the text is there");
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    (sources, job.expect("the job is right"))
+}
+
+/// Meaning to plan.
+#[must_use]
+pub fn plan(job: &CheckedJob) -> PlannedJob {
+    let (plan, diagnostics) = plan::choose(job);
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    plan.expect("the job can be planned")
+}
+
+/// Number of V-cuts in a plan.
+#[must_use]
+pub fn cuts(plan: &PlannedJob) -> usize {
+    plan.operations.iter().map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len()).sum()
+}
+
+/// Plan to verified program.
+#[must_use]
+pub fn lower(plan: &PlannedJob, sources: &SourceMap) -> VerifiedProgram {
+    verify(lower::lower(plan, sources)).expect("the program keeps the rules")
+}
+
+/// Program to machined contour, with the proof.
+#[must_use]
+pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
+    let bounds: Vec<Bound<'_>> = plan
+        .operations
+        .iter()
+        .map(|PlannedOperation::RoughVcut(vcut)| Bound { part: &vcut.bound, drop: vcut.parameters.drop })
+        .collect();
+    let replay = prove::replay(program, &bounds);
+    assert_eq!(replay.findings, Findings::default());
+    replay
+}
+
+/// Machined contour to figures; gives the removed area in mm2.
+#[must_use]
+pub fn report(plan: &PlannedJob, program: &VerifiedProgram, replay: Replay) -> f64 {
+    let timing = sim::timing::timing(program);
+    sim::report::report(replay, plan.stock, &plan.profile, timing).removed.to_mm2()
+}
+
+/// The default options of the KRL backend, which split a long program into parts.
+#[must_use]
+pub fn options() -> Options {
+    Options::defaults(Krl.options())
+}
+
+/// Program to lines, as far as that can go wrong.
+#[must_use]
+pub fn prepare<'p>(program: &'p VerifiedProgram, options: &'p Options) -> Box<dyn Emission + 'p> {
+    Krl.check(program, options).expect("KRL can say it")
+}
+
+/// Program to text.
+pub fn emit(program: &VerifiedProgram, options: &Options, sink: &mut dyn Sink) {
+    prepare(program, options).write(sink).expect("the sink takes everything");
+}
