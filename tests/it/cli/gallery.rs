@@ -7,7 +7,7 @@ use std::fs;
 #[test]
 fn the_readme_shows_what_the_compiler_prints() {
     let run = vcutc(
-        &root(),
+        root(),
         &["check", "examples/broken.vcut", "examples/too_deep.vcut"],
     );
     assert_eq!(run.code, Some(1));
