@@ -12,10 +12,10 @@ use tempfile::TempDir;
 
 /// What a run left behind.
 #[derive(Debug)]
-struct Run {
-    code: Option<i32>,
-    stdout: String,
-    stderr: String,
+pub(crate) struct Run {
+    pub(crate) code: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
 }
 
 /// An empty folder to work in.
@@ -43,7 +43,7 @@ fn run(mut command: Command) -> Run {
 }
 
 /// Runs the compiler in a folder.
-fn vcutc(folder: &Path, args: &[&str]) -> Run {
+pub(crate) fn vcutc(folder: &Path, args: &[&str]) -> Run {
     run(command(folder, args))
 }
 

@@ -10,7 +10,13 @@
 mod check;
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(all(feature = "cli", feature = "krl"))]
+mod jobs;
+#[cfg(feature = "krl")]
+mod krl_text;
 mod pages;
+#[cfg(feature = "krl")]
+mod pipeline;
 mod repository;
 mod schema;
 mod syntax;
