@@ -154,9 +154,9 @@ pub enum Residual {
 /// Order of the cuts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// Both flanks of a V, then the next V [Cui].
+    /// Both flanks of a V, then the next V [Cui 2020].
     Point,
-    /// All left flanks of a layer, then all its right flanks [Yu].
+    /// All left flanks of a layer, then all its right flanks [Yu 2019].
     Layer,
 }
 

@@ -148,19 +148,18 @@ fn not_freed(
     match remedy(job, vcut, finding.operation) {
         Some(Remedy::Layer(layer)) => {
             let value = format!("{} mm", show(layer.to_mm()));
-            let diagnostic = diagnostic.help(format!("use a `layer` of at most {value}"));
+            let advice = format!("use a `layer` of at most {value}");
             match asked.layer.span {
-                Some(span) => diagnostic.fix("use the largest layer that works", span, value),
-                None => diagnostic,
+                Some(span) => diagnostic.fix(advice, span, value),
+                None => diagnostic.help(advice),
             }
         }
         Some(Remedy::ResidualAuto) => {
             let diagnostic = diagnostic
-                .note("cuts dropped, raised or moved to clear the part left more material than the lattice assumes")
-                .help("set `residual = auto`, which mends such cuts");
+                .note("cuts dropped, raised or moved to clear the part left more material than the lattice assumes");
             match asked.residual.span {
-                Some(span) => diagnostic.fix("let the compiler mend it", span, "auto"),
-                None => diagnostic,
+                Some(span) => diagnostic.fix("let the compiler mend such cuts: `residual = auto`", span, "auto"),
+                None => diagnostic.help("add `residual = auto`, which mends such cuts"),
             }
         }
         None => diagnostic.help("use a longer blade, a smaller `swing` or a smaller `step`"),

@@ -11,6 +11,7 @@ use super::{Exit, Targets};
 use crate::diag::{Diagnostic, has_errors};
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage};
 use std::path::PathBuf;
+use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
 
 /// What is made of a job.
@@ -19,8 +20,11 @@ enum Product {
     Program(&'static dyn Backend, Destination),
     /// One of its inner forms.
     Inner(InnerForm, Destination),
-    /// Nothing: the job is only judged. The remark says why, where that is not plain.
-    Verdict(Option<String>),
+    /// Nothing: the job is only judged. The remark says why, where that needs saying.
+    Verdict {
+        /// Why nothing is made of it.
+        remark: Option<String>,
+    },
 }
 
 /// What came of making it.
@@ -28,7 +32,6 @@ enum Product {
 struct Made {
     files: Vec<String>,
     diagnostics: Vec<Diagnostic>,
-    remark: Option<String>,
 }
 
 /// Compiles one job.
@@ -43,7 +46,7 @@ pub(super) fn compile(args: &CompileArgs, targets: &Targets, console: &Console) 
 
 /// Checks jobs, each on its own. The worst of them decides how the run ends.
 pub(super) fn check(args: &CheckArgs, console: &Console) -> Exit {
-    let product = Product::Verdict(None);
+    let product = Product::Verdict { remark: None };
     args.jobs
         .iter()
         .map(|job| judge(job, &args.overrides.set, &product, console))
@@ -59,10 +62,12 @@ fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
             Ok(Product::Program(backend, program_destination(output)))
         }
         (None, Some(form)) => Ok(Product::Inner(form, inner_destination(output))),
-        (None, None) => Ok(Product::Verdict(Some(format!(
-            "nothing was written because no --target was given (targets: {})",
-            targets::names(targets)
-        )))),
+        (None, None) => Ok(Product::Verdict {
+            remark: Some(format!(
+                "no --target was given (targets: {}), so nothing was written",
+                targets::names(targets)
+            )),
+        }),
     }
 }
 
@@ -100,30 +105,52 @@ fn judge(job: &str, overrides: &[String], product: &Product, console: &Console) 
     let made = make(product, &outcome, disk.job(), &mut progress);
     let timings = progress.finish();
 
-    let (made, failure) = match made {
-        Ok(made) => (made, None),
-        Err(failure) => (Made::default(), Some(failure)),
-    };
-    let diagnostics = [outcome.diagnostics, made.diagnostics].concat();
-    console.diagnostics(&diagnostics, &outcome.sources);
-    if let Some(failure) = failure {
-        return console.failure(&failure);
+    match made {
+        Ok(made) => tell(disk.job(), outcome, &made, &timings, product, console),
+        Err(failure) => {
+            console.diagnostics(&outcome.diagnostics, &outcome.sources);
+            console.failure(&failure)
+        }
     }
+}
+
+/// Tells what came of a job.
+fn tell(
+    job: &str,
+    mut outcome: Outcome,
+    made: &Made,
+    timings: &[(&'static str, Duration)],
+    product: &Product,
+    console: &Console,
+) -> Exit {
+    outcome.diagnostics.extend_from_slice(&made.diagnostics);
+    let exit = if has_errors(&outcome.diagnostics) {
+        Exit::JobHasErrors
+    } else {
+        Exit::Success
+    };
+    console.diagnostics(&outcome.diagnostics, &outcome.sources);
     console.summary(&Summary {
-        job: disk.job(),
-        diagnostics: &diagnostics,
+        job,
+        diagnostics: &outcome.diagnostics,
         lines: outcome
             .compiled
             .as_ref()
             .map_or(&[], |compiled| &compiled.summary),
         files: &made.files,
-        remark: made.remark,
-        timings: &timings,
+        remark: remark(product, exit),
+        timings,
     });
-    if has_errors(&diagnostics) {
-        Exit::JobHasErrors
-    } else {
-        Exit::Success
+    exit
+}
+
+/// What needs saying of files that are not there.
+fn remark(product: &Product, exit: Exit) -> Option<&str> {
+    let is_well = exit == Exit::Success;
+    match product {
+        Product::Program(..) if !is_well => Some("nothing was written"),
+        Product::Verdict { remark } if is_well => remark.as_deref(),
+        Product::Program(..) | Product::Inner(..) | Product::Verdict { .. } => None,
     }
 }
 
@@ -138,15 +165,12 @@ fn make(product: &Product, outcome: &Outcome, job: &str, progress: &mut Progress
             write_program(*backend, destination, outcome)
         }
         Product::Inner(form, destination) => write_inner(*form, destination, outcome, job),
-        Product::Verdict(remark) => Ok(Made {
-            remark: remark.clone(),
-            ..Made::default()
-        }),
+        Product::Verdict { .. } => Ok(Made::default()),
     }
 }
 
 fn write_program(backend: &dyn Backend, to: &Destination, outcome: &Outcome) -> Result<Made, Failure> {
-    let mut output = Output::open(to).map_err(Failure::new)?;
+    let mut output = Output::to(to);
     match driver::emit(outcome, backend, &mut output) {
         Ok(()) => published(output),
         Err(EmitFailure::Diagnostics(diagnostics)) => Ok(Made {
@@ -158,7 +182,7 @@ fn write_program(backend: &dyn Backend, to: &Destination, outcome: &Outcome) -> 
 }
 
 fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) -> Result<Made, Failure> {
-    let mut output = Output::open(to).map_err(Failure::new)?;
+    let mut output = Output::to(to);
     match inner::write(form, outcome, job, &mut output) {
         Ok(Progressed::Written) => published(output),
         Ok(Progressed::NotSoFar) => Ok(Made::default()),

@@ -15,10 +15,11 @@
 //!
 //! Someone who brings a backend of their own links it into a binary of a few lines:
 //!
-//! ```ignore
+//! ```no_run
+//! # fn my_backend() -> &'static dyn vcutc_backend_api::backend::Backend { vcutc::registry::backends()[0] }
 //! fn main() -> std::process::ExitCode {
 //!     let mut targets = vcutc::registry::backends();
-//!     targets.push(&my_backend::MyBackend);
+//!     targets.push(my_backend());
 //!     vcutc::cli::run(&targets)
 //! }
 //! ```

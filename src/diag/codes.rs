@@ -148,3 +148,26 @@ codes! {
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_index_lists_every_code_with_its_title() {
+        let index = include_str!("../../docs/diagnostics.md");
+        for code in Code::ALL {
+            let (number, title) = (code.number(), code.title());
+            let line = format!("- [{number}](diagnostics/{number}.md): {title}");
+            assert!(index.lines().any(|listed| listed == line), "{line}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_unique_and_in_order() {
+        assert!(Code::ALL.is_sorted_by(|a, b| a.number() < b.number()));
+        for &code in Code::ALL {
+            assert_eq!(Code::from_number(&code.number().to_lowercase()), Some(code));
+        }
+    }
+}

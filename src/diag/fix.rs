@@ -40,11 +40,11 @@ mod tests {
         let mut sources = SourceMap::default();
         let (file, other) = (sources.add("a", ""), sources.add("b", ""));
         let edits = [
-            edit(file, 6, 7, "8"),
+            edit(file, 7, 8, "8"),
             edit(other, 0, 1, "!"),
             edit(file, 3, 3, " mm"),
         ];
-        assert_eq!(apply("a=4, b=5", file, &edits).as_deref(), Some("a=4 mm, b8=5"));
+        assert_eq!(apply("a=4, b=5", file, &edits).as_deref(), Some("a=4 mm, b=8"));
     }
 
     #[test]

@@ -227,7 +227,7 @@ impl Gallery<'_> {
             let place = position(&file.text, label.span.start);
             let _ = writeln!(
                 text,
-                "    --> {}:{}:{}: {}",
+                "  --> {}:{}:{}: {}",
                 one_line(&file.name),
                 place.line,
                 place.column,

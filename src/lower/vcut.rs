@@ -2,8 +2,8 @@
 //!
 //! Cuts start and end an extension away from the stock, where the blade may turn. In `point` order both flanks of a V are
 //! cut before the next one: there with the shank leaning left, turn about the still tip, back with the shank leaning right,
-//! and over to the next V while turning back [Cui]. In `layer` order all left flanks of a layer come first, to and fro,
-//! then all right flanks on the way back [Yu]. With one feed direction only, every cut is followed by a way back over the
+//! and over to the next V while turning back [Cui 2020]. In `layer` order all left flanks of a layer come first, to and fro,
+//! then all right flanks on the way back [Yu 2019]. With one feed direction only, every cut is followed by a way back over the
 //! safe plane.
 
 use super::builder::Builder;
@@ -210,12 +210,10 @@ impl<'b> Writer<'b> {
         let above = Point3::new(pass.x, self.near(feed), self.safe);
         self.travel(layer, above, self.holder.cutting(pass.flank, feed));
         if self.running == Switch::Off {
-            // The generator starts at the safe plane over the first cut and runs until the program's end: it must be up
+            // The generator starts at the safe plane over the first cut and runs until the operation's end: it must be up
             // before the blade enters, and idling between layers costs nothing but waiting for it again would.
-            let operation = Site::Operation(self.operation);
-            self.builder
-                .op(operation, Action::Ultrasonic { state: Switch::On });
-            self.builder.op(operation, Action::AwaitReady);
+            self.builder.op(layer, Action::Ultrasonic { state: Switch::On });
+            self.builder.op(layer, Action::AwaitReady);
             self.running = Switch::On;
         }
         let start = Point3 { z: pass.z, ..above };

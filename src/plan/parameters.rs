@@ -369,6 +369,9 @@ fn on_grid(layer: Length) -> Length {
     Length::mm(grid::down(layer.to_mm()).max(grid::SPACING))
 }
 
+/// A step this near to a grid step, in grid steps, is that one: 2 h tan(45 deg) comes out as 11.999 999 999 mm.
+const ON_GRID: f64 = 1e-6;
+
 /// The widest step at an overlap [Cui 7], on the grid. Rounded down, unless that hair makes flanks pass below the older
 /// tips they are meant to pass through, which takes far more reach: interlaced lattices without overlap, and others at
 /// overlaps like a half, are then rounded up.
@@ -376,7 +379,8 @@ fn widest_step(lattice: Lattice, layer: Length, overlap: f64, flanks: &Flanks) -
     let unit = grid::SPACING * tips_per_step(lattice);
     let [_, _, layer] = around(layer, grid::SPACING);
     let ideal = 2.0 * (1.0 - overlap) * layer.to_mm() / flanks.slope / unit;
-    let steps = [ideal.floor(), ideal.ceil()].map(|count| Length::mm(count.max(1.0) * unit));
+    let steps =
+        [(ideal + ON_GRID).floor(), (ideal - ON_GRID).ceil()].map(|count| Length::mm(count.max(1.0) * unit));
     let [narrow, wide] = steps.map(|step| blade_reach::needed_reach(lattice, layer, step, flanks.slope));
     let jump = Length::mm(unit * (1.0 + flanks.slope));
     let [down, up] = steps;

@@ -5,7 +5,7 @@
 //! will be made: cutting a neighbour first only lowers the surface, so a flank then comes out no later.
 //!
 //! With `auto`, a tip that would cut the part is dropped where leaving its material keeps the residual within the limit;
-//! otherwise it is raised, or if its chip would not come free there, moved sideways [Yu]. Dropped tips make the material
+//! otherwise it is raised, or if its chip would not come free there, moved sideways [Yu 2019]. Dropped tips make the material
 //! beside them stand higher than the lattice assumes, so that a regular tip near a steep part may find its flank too
 //! long: `auto` then raises it by as little as frees its chip, and the layers below follow as far as the blade reaches.
 

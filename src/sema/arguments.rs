@@ -209,7 +209,7 @@ impl<'a> Arguments<'a> {
         let sample = format!("{} = {}", parameter.name, parameter.typical);
         match self.given.last() {
             Some(last) => diagnostic.fix(
-                format!("add `{sample}`"),
+                format!("add `, {sample}`"),
                 last.value.span.after(),
                 format!(", {sample}"),
             ),

@@ -392,19 +392,15 @@ fn wrong_form(spec: &FieldSpec, written: Form, name: Span, whole: Span, value: O
                 None => diagnostic,
             }
         }
-        (Form::Value, Form::Limit) => {
-            let diagnostic = Diagnostic::new(
-                Code::Misplaced,
-                format!("`{}` is a value here, not a limit", spec.name),
-                between.unwrap_or(whole),
-                "a value is given with `=`",
-            )
-            .help("limits stand in `limits { ... }`");
-            match between {
-                Some(between) => diagnostic.fix("make it a value", between, " = "),
-                None => diagnostic,
-            }
-        }
+        (Form::Value, Form::Limit) => Diagnostic::new(
+            Code::Misplaced,
+            format!("`{}` is a value here, not a limit", spec.name),
+            between.unwrap_or(whole),
+            "a value is given with `=`",
+        )
+        .help(format!(
+            "give a value like `{sample}`, or move this line into `limits {{ ... }}`"
+        )),
         (Form::Block, _) => Diagnostic::new(
             Code::WrongKind,
             format!("`{}` is a block", spec.name),

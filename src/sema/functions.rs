@@ -235,7 +235,7 @@ fn root(operand: Operand<'_>) -> Applied {
             format!("this is {}", quantity.text()),
         );
         return Err(Box::new(
-            diagnostic.help("keep it at zero with `max(0, ...)` if that is what you mean"),
+            diagnostic.help("check the values that it is made of: it must be zero or more"),
         ));
     }
     Ok(Quantity::new(libm::sqrt(quantity.value), dimension))

@@ -73,17 +73,19 @@ pub(crate) fn gather<'a>(
     session: &mut Session<'_>,
 ) -> Definitions<'a> {
     let mut all = Definitions::default();
-    for (number, file) in files.iter().enumerate() {
-        let standing = if number == 0 {
-            Standing::Root
-        } else {
-            Standing::Used(file.used_at)
-        };
+    // The job's own file comes last: where names clash, it is the job that defines what the library has already.
+    let root = files.iter().take(1).map(|file| (file, Standing::Root));
+    let used = files
+        .iter()
+        .skip(1)
+        .map(|file| (file, Standing::Used(file.used_at)));
+    for (file, standing) in used.chain(root) {
         for item in &file.ast.items {
             all.item(item, standing, overrides, &mut session.reports);
         }
     }
-    all.names.incomplete = session.incomplete();
+    // A block that could not be made out may define the name that seems to be missing.
+    all.names.incomplete = session.incomplete().or(all.doubtful);
     if session.incomplete().is_none() {
         all.check_overrides(overrides, &mut session.reports);
     }
@@ -124,7 +126,7 @@ impl<'a> Definitions<'a> {
         let thing = Thing::Let(self.lets.len());
         self.names
             .define(Spanned::new(&name.node, name.span), thing, reports);
-        self.lets.push(match overrides.get(&name.node) {
+        self.lets.push(match overrides.by_name.get(&name.node) {
             Some(given) => Let {
                 name,
                 value: &given.value,
@@ -171,7 +173,7 @@ impl<'a> Definitions<'a> {
 
     /// Every value from the command line must meet a `let`.
     fn check_overrides(&self, overrides: &Overrides, reports: &mut Reports) {
-        for (name, given) in overrides {
+        for (name, given) in &overrides.by_name {
             let thing = self.names.get(name).map(|definition| definition.thing);
             let label = match thing {
                 Some(Thing::Let(_)) => continue,

@@ -150,7 +150,7 @@ fn rough<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Di
             let near = nearest(kind, ROUGHINGS.iter().copied());
             let diagnostic = did_you_mean(diagnostic, *span, &near);
             Err(Box::new(
-                diagnostic.note(format!("kinds of roughing are {}", ROUGHINGS.join(", "))),
+                diagnostic.note(format!("kinds of roughing: {}", ROUGHINGS.join(", "))),
             ))
         }
         _ => Err(incomplete("rough", "a kind of roughing", at)),
@@ -189,6 +189,6 @@ fn machine_kind(kind: &str, at: Span) -> Result<MachineKind, Box<Diagnostic>> {
     let near = nearest(kind, names.iter().copied());
     let diagnostic = did_you_mean(diagnostic, at, &near);
     Err(Box::new(
-        diagnostic.note(format!("kinds of machine are {}", names.join(", "))),
+        diagnostic.note(format!("kinds of machine: {}", names.join(", "))),
     ))
 }

@@ -165,7 +165,7 @@ fn optional<T>(
 /// A number of the controller's own table, from 1.
 fn registered(call: &Arguments<'_>, reader: &mut Reader<'_>) -> Checked<u32> {
     let number = call.single(reader.reports)?;
-    reader.whole(number, TABLE_NUMBER, "`number`")
+    reader.whole(number, TABLE_NUMBER, "a number of the controller's table")
 }
 
 fn frame(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Frame>> {

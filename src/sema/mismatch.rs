@@ -82,6 +82,7 @@ impl Mismatch<'_> {
             }
         };
         match self.typical {
+            Some("auto") => diagnostic.help("or leave it to the compiler with `auto`"),
             Some(typical) => diagnostic.help(format!("a typical value is `{typical}`")),
             None => diagnostic,
         }
@@ -123,12 +124,12 @@ pub(crate) fn mend(diagnostic: Diagnostic, expr: &Spanned<Expr>, wanted: Dimensi
     };
     match unit {
         None => units_for(wanted).iter().fold(diagnostic, |diagnostic, unit| {
-            let title = format!("write `{value} {unit}` if that is what you mean");
+            let title = format!("write `{value} {unit}`");
             diagnostic.fix(title, expr.span.after(), format!(" {unit}"))
         }),
         Some(unit) => match units_for(wanted).first() {
             Some(better) => {
-                let title = format!("write `{value} {better}` if that is what you mean");
+                let title = format!("write `{value} {better}`");
                 diagnostic.fix(title, unit.span, better.clone())
             }
             None => diagnostic.fix(format!("take the unit away: `{value}`"), unit.span, ""),

@@ -119,14 +119,8 @@ impl Missing {
             self.anchor.place,
             label,
         );
-        let first_line = example.lines().next().unwrap_or_default();
-        let title = if first_line == example {
-            format!("add one, for example `{example}`")
-        } else {
-            format!("add one, beginning with `{first_line}`")
-        };
         self.report(
-            diagnostic.fix(title, self.anchor.end, format!("\n\n{example}\n")),
+            diagnostic.fix("add one like this", self.anchor.end, format!("\n\n{example}\n")),
             session,
         )
     }

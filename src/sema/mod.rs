@@ -32,6 +32,9 @@ mod session;
 mod stock;
 mod units;
 
+#[cfg(test)]
+mod tests;
+
 use crate::diag::{Diagnostic, has_errors};
 use crate::job::{CheckedJob, Operation};
 use crate::source::{LoadError, Loader, SourceMap};
@@ -67,9 +70,27 @@ pub fn check(
     let mut found = session.reports.into_vec();
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
     let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
+    cut_short(&mut found);
+    for diagnostic in &mut found {
+        overrides.keep_fixes_to_files(diagnostic);
+    }
     diagnostics.append(&mut found);
     let tree = files.into_iter().next().map(|file| file.ast);
     Ok((tree, job))
+}
+
+/// Most diagnostics of one run. Nobody reads more, and a file gone wrong may have a million.
+const MOST_SHOWN: usize = 500;
+
+/// Keeps the first diagnostics, and says that there are more.
+fn cut_short(found: &mut Vec<Diagnostic>) {
+    let rest = found.len().saturating_sub(MOST_SHOWN);
+    found.truncate(MOST_SHOWN);
+    if let Some(last) = found.last_mut().filter(|_| rest > 0) {
+        last.notes.push(format!(
+            "there are {rest} more faults like these; mend the first ones, then look again"
+        ));
+    }
 }
 
 /// What the files mean.

@@ -4,11 +4,11 @@
 
 use super::report::Reports;
 use super::session::Session;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Fix};
 use crate::source::{FileId, Span, Spanned};
 use crate::syntax;
 use crate::syntax::ast::Expr;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A value from the command line.
 pub(crate) struct Override {
@@ -18,18 +18,38 @@ pub(crate) struct Override {
     pub(crate) value: Spanned<Expr>,
 }
 
-/// The values from the command line, by name.
-pub(crate) type Overrides = BTreeMap<String, Override>;
+/// The values from the command line.
+#[derive(Default)]
+pub(crate) struct Overrides {
+    /// By name.
+    pub(crate) by_name: BTreeMap<String, Override>,
+    /// Their texts in the source map.
+    texts: BTreeSet<FileId>,
+}
+
+impl Overrides {
+    /// Turns fixes that would change the command line, which nothing can do but the user, into help.
+    pub(crate) fn keep_fixes_to_files(&self, diagnostic: &mut Diagnostic) {
+        let is_typed = |fix: &Fix| fix.edits.iter().any(|edit| self.texts.contains(&edit.span.file));
+        let (typed, fixes) = core::mem::take(&mut diagnostic.fixes)
+            .into_iter()
+            .partition(is_typed);
+        diagnostic.fixes = fixes;
+        let typed: Vec<Fix> = typed;
+        diagnostic.help.extend(typed.into_iter().map(|fix| fix.title));
+    }
+}
 
 /// Reads all `--set`s.
 pub(crate) fn read(given: &[String], session: &mut Session<'_>) -> Overrides {
-    let mut overrides = Overrides::new();
+    let mut overrides = Overrides::default();
     for text in given {
         let id = session.sources.add(format!("--set {text}"), text.clone());
+        overrides.texts.insert(id);
         let Some(read) = parse(id, text, &mut session.reports) else {
             continue;
         };
-        if let Some(first) = overrides.get(&read.name.node) {
+        if let Some(first) = overrides.by_name.get(&read.name.node) {
             let diagnostic = Diagnostic::new(
                 Code::BadOverride,
                 format!("`{}` is set twice on the command line", read.name.node),
@@ -41,7 +61,7 @@ pub(crate) fn read(given: &[String], session: &mut Session<'_>) -> Overrides {
             session.reports.push(diagnostic);
             continue;
         }
-        overrides.insert(read.name.node.clone(), read);
+        overrides.by_name.insert(read.name.node.clone(), read);
     }
     overrides
 }

@@ -60,8 +60,9 @@ impl Reader<'_> {
             None => diagnostic,
         };
         let diagnostic = match typical {
-            Some(typical) if typical != "auto" => diagnostic.help(format!("a typical value is `{typical}`")),
-            _ => diagnostic,
+            Some("auto") => diagnostic.help("or leave it to the compiler with `auto`"),
+            Some(typical) => diagnostic.help(format!("a typical value is `{typical}`")),
+            None => diagnostic.help(format!("give a value that is {}", range.words())),
         };
         Err(self.reports.push(diagnostic))
     }

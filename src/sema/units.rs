@@ -129,7 +129,7 @@ pub(crate) fn meant(name: &str) -> Vec<String> {
 }
 
 fn meant_simple(name: &str) -> Vec<&'static str> {
-    if let Some(unit) = find(name) {
+    if let Some(unit) = UNITS.iter().find(|unit| unit.name.eq_ignore_ascii_case(name)) {
         return vec![unit.name];
     }
     if let Some(&(_, unit)) = ALIASES.iter().find(|(alias, _)| alias.eq_ignore_ascii_case(name)) {

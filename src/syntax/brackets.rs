@@ -95,6 +95,10 @@ impl<'t> Scan<'t> {
         Span::of_bytes(self.file, range)
     }
 
+    fn slice(&self, token: Token) -> &'t str {
+        self.text.get(token.start..token.end).unwrap_or_default()
+    }
+
     fn blank(&mut self, range: Range<usize>) {
         if let Some(bytes) = self.mended.get_mut(range) {
             for byte in bytes {
@@ -241,6 +245,10 @@ impl<'t> Scan<'t> {
             self.span(end..end),
             insertion,
         ));
+        if bracket == Bracket::Round {
+            // The value may lack more than its bracket, and the bracket put in is not the user's.
+            self.doubtful.push(opener.start..end.max(opener.end));
+        }
         let is_mended = match missed {
             Some(missed) => self.place(closing, end..missed.start),
             None => {
@@ -356,11 +364,12 @@ impl<'t> Scan<'t> {
             )
             .fix("end it with `\"`", self.span(end..end), "\""),
         );
-        let free = self.mended.get(end).copied();
-        match (free, self.mended.get_mut(end)) {
-            (Some(b' ' | b'\t' | b'\r' | b'\n'), Some(byte)) => *byte = b'"',
+        // A quote behind a backslash would not end the text.
+        let is_free = !self.slice(token).ends_with('\\');
+        match self.mended.get_mut(end) {
+            Some(byte @ (b' ' | b'\t' | b'\r' | b'\n')) if is_free => *byte = b'"',
             _ => {
-                self.blank(token.start..token.start + 1);
+                self.blank(token.start..token.end);
                 self.doubtful.push(token.start..token.end);
             }
         }
@@ -381,7 +390,7 @@ impl<'t> Scan<'t> {
 
     /// Reports backslashes that escape nothing: most likely a path of Windows.
     fn escapes(&mut self, token: Token) {
-        let body = self.text.get(token.start..token.end).unwrap_or_default();
+        let body = self.slice(token);
         let mut strays = Vec::new();
         let mut characters = body.char_indices();
         while let Some((at, c)) = characters.next() {
@@ -439,4 +448,33 @@ impl<'t> Scan<'t> {
 /// The byte order mark would be a token of its own.
 fn scan_starts_with_mark(text: &str, token: Token) -> bool {
     token.start == 0 && text.starts_with('\u{feff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::SourceMap;
+    use crate::syntax::tests::TOKENS;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What was balanced is balanced: the grammar relies on it for its speed.
+        #[test]
+        fn nothing_is_left_to_balance(tokens in prop::collection::vec(prop::sample::select(TOKENS), 0..80)) {
+            let text = tokens.concat();
+            let file = SourceMap::default().add("t", "");
+            let balanced = balance(file, &text).text;
+            let again = Scan::run(file, &balanced, Trust::Brackets);
+            prop_assert!(again.is_matched, "{text:?} became {balanced:?}");
+            let has_loose_end = tokens_of(&balanced).any(|kind| {
+                matches!(kind, TokenKind::UnclosedText | TokenKind::UnclosedComment)
+            });
+            prop_assert!(!has_loose_end, "{text:?} became {balanced:?}");
+            prop_assert!(balanced.len() >= text.len());
+        }
+    }
+
+    fn tokens_of(text: &str) -> impl Iterator<Item = TokenKind> {
+        tokens(text).map(|token| token.kind)
+    }
 }

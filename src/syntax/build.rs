@@ -19,14 +19,14 @@ pub(super) struct Place {
     file: FileId,
     /// Bytes of the file before the text.
     offset: usize,
+    /// Bytes of the text. Brackets that were put behind it to balance it are taken to stand at its end.
+    length: usize,
 }
 
 impl Place {
     pub(super) fn span(self, range: Range<usize>) -> Span {
-        Span::of_bytes(
-            self.file,
-            range.start.saturating_add(self.offset)..range.end.saturating_add(self.offset),
-        )
+        let offset = |at: usize| at.min(self.length).saturating_add(self.offset);
+        Span::of_bytes(self.file, offset(range.start)..offset(range.end))
     }
 
     pub(super) fn span_of(self, pair: &Pair<'_, Rule>) -> Span {
@@ -69,6 +69,7 @@ impl<'t> Builder<'t> {
             place: Place {
                 file,
                 offset: offset as usize,
+                length: text.len(),
             },
             text,
             doubtful: joined(doubtful),

@@ -293,10 +293,12 @@ fn wanted(fault: &Fault<'_>) -> Option<&'static str> {
         () if expects(Rule::text) && !expects(Rule::name) => "a text in quotes",
         // The head of a block can go on with `=` too, but a brace is what it lacks.
         () if expects(Rule::block_open) && expects(Rule::equals) && !expects(Rule::at_most) => "`{`",
+        () if expects(Rule::equals) && expects(Rule::block_open) && fault.found.is_none() => "`=` or `{`",
         () if expects(Rule::equals) => "`=`",
         () if expects(Rule::block_open) => "`{`",
-        () if expects(Rule::job) || expects(Rule::job_word) => "`job`, `use`, `let` or a block",
-        () if expects(Rule::name) || expects(Rule::good_entry) => "a name",
+        () if expects(Rule::only_item) => "`job`, `use`, `let` or a block",
+        () if expects(Rule::only_entry) => "the name of a field or block",
+        () if expects(Rule::name) => "a name",
         () => return None,
     };
     Some(words)
@@ -314,7 +316,7 @@ fn help(fault: &Fault<'_>) -> Option<&'static str> {
             Some("say how the arc runs: `radius 30 mm`, `center (20 mm, 0 mm)` or `through (20 mm, 30 mm)`")
         }
         "a value" => Some("write a value such as `4.4 mm`, `auto` or `\"text\"`"),
-        "a text in quotes" => Some("put it in double quotes, as in `\"shop/blades.vcut\"`"),
+        "a text in quotes" => Some("put it in double quotes, as in `\"spoiler_rib\"`"),
         _ => None,
     }
 }

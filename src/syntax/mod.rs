@@ -22,8 +22,8 @@ mod slips;
 #[cfg(test)]
 mod tests;
 
-use crate::diag::Diagnostic;
-use crate::source::{FileId, Spanned};
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Span, Spanned};
 use ast::{Ast, Expr};
 use build::Builder;
 use grammar::{Mismatch, Rule, read};
@@ -41,6 +41,20 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Ast
     };
     diagnostics.extend(builder.finish());
     ast
+}
+
+/// The report on a file that is no UTF-8. `span` is where the file is asked for, or its own beginning, `name` is what
+/// people call it, and `right` is the number of bytes before the first wrong one
+/// ([`text_from_bytes`](crate::source::text_from_bytes)).
+#[must_use]
+pub fn not_utf8(span: Span, name: &str, right: usize) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotUtf8,
+        format!("`{name}` is no text in UTF-8"),
+        span,
+        format!("the first {right} bytes of the file are text, the next one is not"),
+    )
+    .help("save the file again with the encoding UTF-8")
 }
 
 /// Reads a single value, such as that of `--set width=90mm`. `text` is the value alone, and `offset` says where it

@@ -3,7 +3,7 @@
 use super::grammar::Rule;
 use super::lexical::{Token, TokenKind};
 use super::mistakes::{Bad, Fault, shown};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Edit, Fix};
 
 /// The message for a usual slip, if the mistake is one.
 pub(super) fn find(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {
@@ -96,19 +96,8 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
             "a positive number has no sign before it",
             "",
         ),
-        "*" if fault.expects_value() => {
-            let star = fault.before.filter(|before| before.end == found.start)?;
-            (bad.token(star) == "*").then(|| {
-                let span = bad.span(star.start..found.end);
-                Diagnostic::new(
-                    Code::UnexpectedText,
-                    "`**` is no operator",
-                    span,
-                    "powers are written with `^`",
-                )
-                .fix("write `^`", span, "^")
-            })
-        }
+        "*" if fault.expects_value() => joined(bad, fault, "**", "`**` is no operator", "^"),
+        ">" if fault.expects_value() => joined(bad, fault, "=>", "`=>` is no relation", ">="),
         "[" => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
@@ -134,6 +123,21 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
     }
 }
 
+/// Two marks that are one elsewhere.
+fn joined(bad: &Bad<'_>, fault: &Fault<'_>, wrong: &str, headline: &str, right: &str) -> Option<Diagnostic> {
+    let range = fault.before?.start..fault.found?.end;
+    let span = bad.span(range.clone());
+    (bad.slice(range) == wrong).then(|| {
+        Diagnostic::new(
+            Code::UnexpectedText,
+            headline,
+            span,
+            format!("it is written `{right}` here"),
+        )
+        .fix(format!("write `{right}`"), span, right)
+    })
+}
+
 /// Characters of other keyboards and of word processors.
 fn characters(bad: &Bad<'_>, found: Token) -> Option<Diagnostic> {
     let c = bad.token(found).chars().next()?;
@@ -144,7 +148,7 @@ fn characters(bad: &Bad<'_>, found: Token) -> Option<Diagnostic> {
         '÷' => ("a division sign", "/"),
         '≤' => ("a sign that is written with two characters", "<="),
         '≥' => ("a sign that is written with two characters", ">="),
-        '\u{201c}' | '\u{201d}' | '\u{201e}' | '«' | '»' => ("a typographic quote", "\""),
+        c if is_fancy_quote(c) => return Some(fancy_quotes(bad, found)),
         c if c.is_whitespace() || c == '\u{feff}' || c == '\u{200b}' => ("a special blank", " "),
         _ => return None,
     };
@@ -163,4 +167,30 @@ fn characters(bad: &Bad<'_>, found: Token) -> Option<Diagnostic> {
         )
         .fix(help, span, right),
     )
+}
+
+const fn is_fancy_quote(c: char) -> bool {
+    matches!(c, '\u{201c}' | '\u{201d}' | '\u{201e}' | '«' | '»')
+}
+
+/// Quotes of a word processor come in pairs, so both are mended.
+fn fancy_quotes(bad: &Bad<'_>, found: Token) -> Diagnostic {
+    let line = bad.slice(found.start..bad.mended.len());
+    let line = line.lines().next().unwrap_or_default();
+    let quotes = line.char_indices().filter(|&(_, c)| is_fancy_quote(c));
+    let edits = quotes.map(|(at, c)| Edit {
+        span: bad.span(found.start + at..found.start + at + c.len_utf8()),
+        replacement: "\"".to_owned(),
+    });
+    let mut report = Diagnostic::new(
+        Code::UnexpectedText,
+        "a typographic quote does not belong here",
+        bad.span(found.start..found.end),
+        "texts are in straight double quotes",
+    );
+    report.fixes.push(Fix {
+        title: "write `\"`".to_owned(),
+        edits: edits.take(2).collect(),
+    });
+    report
 }

@@ -27,7 +27,7 @@ fn shape(text: &str) -> String {
             assert_eq!(diagnostics, []);
             shape_of(&value.node)
         }
-        None => format!("{}", diagnostics.first().map_or("?", |d| d.code.number())),
+        None => diagnostics.first().map_or("?", |d| d.code.number()).to_owned(),
     }
 }
 
@@ -421,12 +421,38 @@ fn a_megabyte_of_noise() {
     assert!(!codes(&tokens).is_empty());
 }
 
-const TOKENS: &[&str] = &[
+pub(super) const TOKENS: &[&str] = &[
     "job ", "use ", "let ", "stock ", "a ", "mm ", "start ", "line ", "to ", "arc ", "radius ", "points ",
     "auto ", "(", ")", "(", ")", "{", "}", "{", "}", "=", "=", "<=", ">=", ",", ",", "+", "-", "*", "/", "^",
     "%", "1", "2.5 mm", "1e999", "\"x\"", "\"", "\\", "// c\n", "/* c */", "/*", "\n", "\n", "\r\n", "\n  ",
     "$", ";", "°", "é", "\u{feff}",
 ];
+
+#[test]
+fn brackets_put_in_are_never_mentioned() {
+    for text in [
+        "a { b = f(",
+        "a {\n  b = (1 +\n  c = 2\n}",
+        "let a = (1, 2\nlet b = 3",
+        "a { b (// c\n",
+    ] {
+        let (_, diagnostics) = parsed(text);
+        let found: Vec<Code> = diagnostics.iter().map(|d| d.code).collect();
+        assert!(
+            found.iter().all(|&code| code == Code::UnclosedBracket),
+            "{text} {diagnostics:#?}"
+        );
+    }
+}
+
+#[test]
+fn a_block_without_its_end_ends_with_the_file() {
+    let (ast, _) = parsed("stock { a = 1");
+    let Some(Item::Block(block)) = ast.items.first() else {
+        panic!("{ast:?}");
+    };
+    assert_eq!((block.span.bytes(), block.entries.len()), (0..13, 1));
+}
 
 /// Whatever the text, it is read without a panic, its mistakes can be shown, and all places lie in the text.
 fn is_survived(text: &str) {

@@ -7,8 +7,10 @@
     reason = "tests read files, start the compiler, and stop at the first surprise"
 )]
 
+mod check;
 #[cfg(feature = "cli")]
 mod cli;
+mod pages;
 mod repository;
 mod schema;
 mod syntax;

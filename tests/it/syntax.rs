@@ -103,6 +103,96 @@ fn every_code_of_the_syntax_has_an_example() {
     }
 }
 
+/// The pages of the codes show a job that fails and the same job mended.
+#[test]
+fn pages_show_what_they_say() {
+    // What is no UTF-8 cannot be shown on a page.
+    let shown = |code: &&Code| code.number().starts_with("VC01") && **code != Code::NotUtf8;
+    for code in Code::ALL.iter().filter(shown) {
+        let blocks: Vec<&str> = code
+            .page()
+            .split("```vcut\n")
+            .skip(1)
+            .filter_map(|rest| rest.split("```").next())
+            .collect();
+        let [wrong, right] = blocks[..] else {
+            panic!("the page of {} has two examples", code.number());
+        };
+        let codes = |text: &str| {
+            let file = SourceMap::default().add("page", text);
+            let mut diagnostics = Vec::new();
+            parse(file, text, &mut diagnostics);
+            diagnostics.iter().map(|d| d.code).collect::<Vec<_>>()
+        };
+        assert_eq!(codes(wrong), [*code], "{wrong}");
+        assert_eq!(codes(right), [], "{right}");
+        let title = format!("# {}: {}\n", code.number(), code.title());
+        assert!(code.page().starts_with(&title), "{title}");
+    }
+}
+
+#[test]
+fn labels_lie_in_several_files() {
+    let mut sources = SourceMap::default();
+    let blades = "// Längen der Klingen\nblade dagger {\n  cutting_length = 10 mm\n}\n";
+    let shop = sources.add("shop/blades.vcut", blades);
+    let job = "rough vcut {\n  blade = dagger\n\n\n\n  layer = 12 mm  // größer als 10 mm\n}\n";
+    let rib = sources.add("rib.vcut", job);
+    let place = |file: FileId, text: &str, words: &str| {
+        let start = text.find(words).unwrap();
+        Span::of_bytes(file, start..start + words.len())
+    };
+    let diagnostic = Diagnostic::new(
+        Code::OutOfRange,
+        "the layers are further apart than the blade is long",
+        place(rib, job, "12 mm"),
+        "12 mm",
+    )
+    .and(place(shop, blades, "10 mm"), "the blade cuts with 10 mm")
+    .and(place(rib, job, "dagger"), "of this blade")
+    .note("a layer needs an edge of its own height\nand a little more")
+    .help("set `layer` to 9.2 mm or less")
+    .fix("leave it to the compiler", place(rib, job, "12 mm"), "auto");
+    insta::assert_snapshot!(render(&[diagnostic], &sources, ColorChoice::Plain), @r#"
+    error[VC0210]: the layers are further apart than the blade is long
+       ╭─[ rib.vcut:6:11 ]
+       │
+     2 │   blade = dagger
+       │           ┬─────
+       │           ╰─────── of this blade
+       │
+     6 │   layer = 12 mm  // größer als 10 mm
+       │           ┬────
+       │           ╰────── 12 mm
+       │
+       ├─[ shop/blades.vcut:3:20 ]
+       │
+     3 │   cutting_length = 10 mm
+       │                    ┬────
+       │                    ╰────── the blade cuts with 10 mm
+       │
+       = note: a layer needs an edge of its own height
+               and a little more
+       = help: set `layer` to 9.2 mm or less
+       = help: leave it to the compiler: `auto`
+    "#);
+}
+
+#[test]
+fn lines_too_long_to_draw_are_only_named() {
+    let text = format!("let a = {}$", "1 + ".repeat(200));
+    let mut sources = SourceMap::default();
+    let file = sources.add("long.vcut", text.clone());
+    let mut diagnostics = Vec::new();
+    parse(file, &text, &mut diagnostics);
+    insta::assert_snapshot!(render(&diagnostics, &sources, ColorChoice::Plain), @r#"
+    error[VC0101]: expected a value after `...+ 1 + 1 + 1 + 1 + 1 + 1 + 1 +`
+      --> long.vcut:1:809: found `$`
+       │
+       = help: write a value such as `4.4 mm`, `auto` or `"text"`
+    "#);
+}
+
 #[test]
 fn any_span_can_be_drawn() {
     let texts = [

@@ -1,8 +1,9 @@
 //! Where a long program is split into parts.
 //!
-//! The rule: a part begins only before a `Travel` that leads to another cut or layer than the op before it. There the
-//! blade is in the air, and the two flanks of a V stay together when they are cut one after the other. A part takes as
-//! many of these stretches as fit into the limit; a stretch longer than the limit is a part of its own.
+//! The rule: a part begins only before a `Travel`, or a `Turn` on the way to one, that leads to another cut or layer than
+//! the op before it. There the blade is in the air, and the two flanks of a V stay together when they are cut one after
+//! the other. A part takes as many of these stretches as fit into the limit; a stretch longer than the limit is a part of
+//! its own.
 
 use crate::listing::Modal;
 use crate::state::State;
@@ -50,7 +51,11 @@ pub(crate) fn split(ops: &[Op], limit: Option<NonZeroU32>) -> Vec<Part> {
 fn may_begin(ops: &[Op], at: usize) -> bool {
     let before = at.checked_sub(1).and_then(|before| ops.get(before));
     match (before, ops.get(at)) {
-        (Some(before), Some(op)) => matches!(op.action, Action::Travel { .. }) && before.site != op.site,
+        (Some(before), Some(op)) => {
+            // A blade that is turned half round begins its way to the next cut with a turn.
+            let leaves = matches!(op.action, Action::Travel { .. } | Action::Turn { .. });
+            leaves && before.site != op.site
+        }
         _ => false,
     }
 }

@@ -1,3 +1,5 @@
+//! The offset against brute force: no point of it is nearer to the part than asked.
+
 use super::*;
 use proptest::prelude::*;
 

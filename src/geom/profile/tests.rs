@@ -1,3 +1,5 @@
+//! Profiles against brute force over their corners.
+
 use super::*;
 use proptest::prelude::*;
 

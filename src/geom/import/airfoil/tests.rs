@@ -1,3 +1,5 @@
+//! Reading airfoil files: layouts, sides, scaling, and what is refused.
+
 use super::*;
 use proptest::prelude::*;
 

@@ -1,0 +1,229 @@
+//! Jobs that mean something, and jobs that do not: each of the latter names the codes it expects in its first line,
+//! and its snapshot shows it together with what people get to see.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use vcutc::diag::render::{ColorChoice, render};
+use vcutc::diag::{Code, Diagnostic, Fix, fix};
+use vcutc::job::CheckedJob;
+use vcutc::sema::check;
+use vcutc::source::{LoadError, Loader, SourceMap};
+
+/// The files of a folder, with one of them changed.
+struct Folder {
+    path: PathBuf,
+    changed: Option<(String, String)>,
+}
+
+impl Loader for Folder {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        match &self.changed {
+            Some((changed, text)) if changed == path => Ok(text.clone().into_bytes()),
+            _ => fs::read(self.path.join(path)).map_err(|_| LoadError::NotFound),
+        }
+    }
+}
+
+/// What came of checking a file.
+struct Outcome {
+    sources: SourceMap,
+    diagnostics: Vec<Diagnostic>,
+    job: Option<CheckedJob>,
+}
+
+impl Outcome {
+    fn codes(&self) -> Vec<&'static str> {
+        self.diagnostics
+            .iter()
+            .map(|diagnostic| diagnostic.code.number())
+            .collect()
+    }
+
+    fn told(&self) -> String {
+        render(&self.diagnostics, &self.sources, ColorChoice::Plain)
+    }
+}
+
+/// A case: a job file, whose first lines may read `// expect: CODES` and `// set: name=value`.
+struct Case {
+    folder: PathBuf,
+    name: String,
+    text: String,
+}
+
+impl Case {
+    fn read(path: &Path) -> Self {
+        Self {
+            folder: path.parent().unwrap().to_owned(),
+            name: path.file_name().unwrap().to_string_lossy().into_owned(),
+            text: String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned(),
+        }
+    }
+
+    fn expected(&self) -> Vec<&str> {
+        let first = self.text.lines().next().unwrap_or_default();
+        let list = first
+            .strip_prefix("// expect: ")
+            .expect("the first line reads `// expect: VCnnnn ...`");
+        list.split_whitespace().collect()
+    }
+
+    fn overrides(&self) -> Vec<String> {
+        let lines = self.text.lines().filter_map(|line| line.strip_prefix("// set: "));
+        lines.map(str::to_owned).collect()
+    }
+
+    fn check(&self, changed: Option<(String, String)>) -> Outcome {
+        let loader = Folder {
+            path: self.folder.clone(),
+            changed,
+        };
+        let mut sources = SourceMap::default();
+        let mut diagnostics = Vec::new();
+        let (_, job) = check(
+            &self.name,
+            &loader,
+            &self.overrides(),
+            &mut sources,
+            &mut diagnostics,
+        )
+        .unwrap();
+        Outcome {
+            sources,
+            diagnostics,
+            job,
+        }
+    }
+
+    /// The outcome after a fix has been made.
+    fn check_fixed(&self, before: &Outcome, fix: &Fix) -> Outcome {
+        let file = fix.edits[0].span.file;
+        let source = before.sources.get(file).unwrap();
+        let fixed = fix::apply(&source.text, file, &fix.edits).expect("the fix fits the text");
+        self.check(Some((source.name.clone(), fixed)))
+    }
+}
+
+#[test]
+fn right_jobs_check() {
+    insta::glob!("../check/ok", "*.vcut", |path| {
+        let outcome = Case::read(path).check(None);
+        assert_eq!(outcome.told(), "", "{}", path.display());
+        assert!(outcome.job.is_some(), "{}", path.display());
+    });
+}
+
+#[test]
+fn wrong_jobs_are_explained() {
+    let mut surprises = Vec::new();
+    insta::glob!("../check/err", "*.vcut", |path| {
+        let case = Case::read(path);
+        let outcome = case.check(None);
+        insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
+            insta::assert_snapshot!(format!("{}\n{}", case.text, outcome.told()));
+        });
+        assert!(outcome.job.is_none(), "{}", path.display());
+        if outcome.codes() != case.expected() {
+            surprises.push(format!("{}: {:?}", path.display(), outcome.codes()));
+        }
+    });
+    assert!(surprises.is_empty(), "{surprises:#?}");
+}
+
+/// Every fix that is offered takes away what it is offered for.
+#[test]
+fn fixes_mend_what_they_are_offered_for() {
+    insta::glob!("../check/err", "*.vcut", |path| {
+        let case = Case::read(path);
+        let outcome = case.check(None);
+        for diagnostic in &outcome.diagnostics {
+            let same = |other: &&Diagnostic| other.code == diagnostic.code;
+            let before = outcome.diagnostics.iter().filter(same).count();
+            for fix in &diagnostic.fixes {
+                let after = case.check_fixed(&outcome, fix);
+                let left = after.diagnostics.iter().filter(same).count();
+                assert!(
+                    left < before,
+                    "{}: {}\n{}",
+                    path.display(),
+                    fix.title,
+                    after.told()
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn every_code_of_text_and_meaning_has_a_failing_example() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check/err");
+    let mut shown = BTreeSet::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "vcut") {
+            let case = Case::read(&path);
+            let number = &case.name[..6];
+            assert!(
+                case.expected().contains(&number),
+                "{} does not expect {number}",
+                path.display()
+            );
+            shown.insert(number.to_owned());
+        }
+    }
+    let of_this_part = |code: &&Code| code.number() < "VC0300";
+    let missing: Vec<&str> = Code::ALL
+        .iter()
+        .filter(of_this_part)
+        .map(|code| code.number())
+        .filter(|&code| !shown.contains(code))
+        .collect();
+    assert!(missing.is_empty(), "no failing example of {missing:?}");
+}
+
+/// The `vcut` examples of a page.
+fn examples(page: &str) -> Vec<String> {
+    let blocks = page.split("```vcut\n").skip(1);
+    blocks
+        .filter_map(|block| Some(block.split_once("```")?.0.to_owned()))
+        .collect()
+}
+
+#[test]
+fn examples_of_the_manual_read_as_they_stand() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let manual = fs::read_to_string(docs.join("language.md")).unwrap();
+    let pages = Code::ALL
+        .iter()
+        .filter(|code| code.number().starts_with("VC02"))
+        .map(|code| code.page().to_owned());
+    let mut count = 0;
+    for page in pages.chain([manual]) {
+        for example in examples(&page) {
+            let mut sources = SourceMap::default();
+            let mut diagnostics = Vec::new();
+            let file = sources.add("example", example.clone());
+            vcutc::syntax::parse(file, &example, &mut diagnostics);
+            let told = render(&diagnostics, &sources, ColorChoice::Plain);
+            assert_eq!(told, "", "{example}");
+            count += 1;
+        }
+    }
+    assert!(count >= 48 + 10, "{count} examples");
+}
+
+#[test]
+fn the_first_example_of_the_manual_is_a_whole_job() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let manual = fs::read_to_string(docs.join("language.md")).unwrap();
+    let text = examples(&manual).swap_remove(0);
+    let case = Case {
+        folder: docs,
+        name: "example.vcut".to_owned(),
+        text: text.clone(),
+    };
+    let outcome = case.check(Some(("example.vcut".to_owned(), text)));
+    assert_eq!(outcome.told(), "");
+    assert!(outcome.job.is_some());
+}
