@@ -24,7 +24,10 @@ impl Folder {
             fs::remove_dir_all(path).expect("old files can be removed");
         }
         fs::create_dir_all(path).expect("a folder can be made");
-        Self { path: path.to_owned(), file: None }
+        Self {
+            path: path.to_owned(),
+            file: None,
+        }
     }
 
     fn create(&self, name: &str) -> File {
@@ -40,7 +43,8 @@ impl Sink for Folder {
 
     fn write(&mut self, bytes: &[u8]) -> Result<(), SinkError> {
         let file = self.file.as_mut().expect("a file comes before its bytes");
-        file.write_all(bytes).map_err(|error| SinkError(error.to_string()))
+        file.write_all(bytes)
+            .map_err(|error| SinkError(error.to_string()))
     }
 }
 
@@ -69,7 +73,9 @@ impl Lines {
             let text = std::str::from_utf8(bytes).expect("a program is text");
             (name.clone(), text.lines().map(line).collect())
         });
-        Self { files: files.collect() }
+        Self {
+            files: files.collect(),
+        }
     }
 
     /// How many lines are motions.
@@ -101,9 +107,13 @@ impl Lines {
 }
 
 fn line(line: &str) -> Line {
-    let inner = line.strip_prefix("LIN {X ").and_then(|rest| rest.strip_suffix('}'));
+    let inner = line
+        .strip_prefix("LIN {X ")
+        .and_then(|rest| rest.strip_suffix('}'));
     let numbers = inner.and_then(|inner| {
-        let mut values = inner.split(',').map(|field| field.trim_start_matches(['Y', 'Z', 'A', 'B', 'C', ' ']));
+        let mut values = inner
+            .split(',')
+            .map(|field| field.trim_start_matches(['Y', 'Z', 'A', 'B', 'C', ' ']));
         let mut next = || values.next()?.parse().ok();
         Some([next()?, next()?, next()?, next()?, next()?, next()?])
     });
@@ -113,7 +123,10 @@ fn line(line: &str) -> Line {
 fn write_line(out: &mut impl Write, line: &Line) -> std::io::Result<()> {
     match line {
         Line::Move([x, y, z, a, b, c]) => {
-            write!(out, "LIN {{X {x:.3},Y {y:.3},Z {z:.3},A {a:.4},B {b:.4},C {c:.4}}}\r\n")
+            write!(
+                out,
+                "LIN {{X {x:.3},Y {y:.3},Z {z:.3},A {a:.4},B {b:.4},C {c:.4}}}\r\n"
+            )
         }
         Line::Words(words) => write!(out, "{words}\r\n"),
     }
@@ -125,7 +138,10 @@ fn write_line(out: &mut impl Write, line: &Line) -> std::io::Result<()> {
 /// When the disk does not take them.
 pub fn write_finished(bundle: &Bundle, folder: &Folder) {
     for (name, bytes) in bundle.files() {
-        folder.create(name).write_all(bytes).expect("the disk takes everything");
+        folder
+            .create(name)
+            .write_all(bytes)
+            .expect("the disk takes everything");
     }
 }
 
