@@ -132,7 +132,8 @@ fn without_places(debug: &str) -> String {
         match skipping {
             Some(start) if indent > start => {}
             Some(_) => skipping = None,
-            None if line.contains("span: S") => skipping = Some(indent),
+            None if line.contains("span: Some(") => skipping = Some(indent),
+            None if line.contains("span: ") && !line.contains("span: None") => {}
             None => kept.push(line),
         }
     }
