@@ -10,6 +10,7 @@
 mod check;
 #[cfg(feature = "cli")]
 mod cli;
+mod codes;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;
 #[cfg(feature = "krl")]
@@ -17,6 +18,8 @@ mod krl_text;
 mod pages;
 #[cfg(feature = "krl")]
 mod pipeline;
+#[cfg(feature = "krl")]
+mod process_errors;
 mod repository;
 mod schema;
 mod syntax;
