@@ -4,6 +4,7 @@
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use vcutc_backend_api::bundle::{Bundle, Sink, SinkError};
 
 /// Writes each chunk to its file at once; nothing is gathered beyond what the backend gathers itself.
@@ -14,7 +15,10 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// An empty folder of that name.
+    /// An empty folder of that name, on a disk that has nothing left to do.
+    ///
+    /// What was written before is still on its way to the disk when the next file is begun, and while it is, writing is
+    /// several times slower, by chance: so it is waited for.
     ///
     /// # Panics
     /// When it cannot be made.
@@ -24,6 +28,8 @@ impl Folder {
             fs::remove_dir_all(path).expect("old files can be removed");
         }
         fs::create_dir_all(path).expect("a folder can be made");
+        let settled = Command::new("sync").status().expect("`sync` can be run");
+        assert!(settled.success());
         Self {
             path: path.to_owned(),
             file: None,

@@ -106,8 +106,6 @@ fn emission(text: &str) -> Vec<(&'static str, f64)> {
     let lines = Lines::of(&bundle);
 
     let path = folder("emission");
-    // Each way gets an empty folder, and its files are removed at once: pages that the system has yet to bring to the
-    // disk would slow the next way down.
     let to_files = |write: &dyn Fn(&mut Folder)| {
         let mut folder = Folder::new(&path);
         time(|| write(&mut folder)).0

@@ -49,12 +49,17 @@ fn per_cut(figures: &Figures, name: &str) -> f64 {
     figures[name] / figures["cuts"]
 }
 
-/// Text to files, in ns per cut. The reading of the text is left out: it costs the same for any number of cuts.
+/// Meaning to program text, in ns per cut. Left out is what does not grow with the number of cuts: reading the job, and
+/// the figures, most of which is a correlation over a fixed number of points.
 fn whole_run(figures: &Figures) -> f64 {
-    ["plan", "lower", "contour", "report", "to_files"]
-        .iter()
-        .map(|name| per_cut(figures, name))
-        .sum()
+    let stages = ["plan", "lower", "contour", "emit"];
+    stages.iter().map(|name| per_cut(figures, name)).sum()
+}
+
+/// Text to files, in s.
+fn seconds(figures: &Figures) -> f64 {
+    let stages = ["check", "plan", "lower", "contour", "report", "to_files"];
+    stages.iter().map(|name| figures[*name]).sum::<f64>() * 1e-9
 }
 
 fn goals(
@@ -83,7 +88,7 @@ fn goals(
         .fold(0.0, f64::max);
     vec![
         at_most(
-            "cost per cut of the whole run, 10^6 cuts against 10^3",
+            "cost per cut of plan, lower, contour and emit, 10^6 cuts against 10^3",
             1.25,
             growth(&whole_run),
             "x",
@@ -160,10 +165,9 @@ fn print_stages(stages: &[Figures; 3]) {
         );
     }
     print_row(
-        "plan to files",
+        "plan, lower, contour, emit in memory",
         stages.iter().map(|figures| format!("{:.0}", whole_run(figures))),
     );
-    let seconds = |figures: &Figures| (whole_run(figures) * figures["cuts"] + figures["check"]) * 1e-9;
     print_row(
         "text to files, in all",
         stages.iter().map(|figures| format!("{:.4} s", seconds(figures))),
