@@ -43,6 +43,18 @@ pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
             time(t.waiting)
         ),
     ));
+    let estimate = plan
+        .operations
+        .iter()
+        .map(|PlannedOperation::RoughVcut(vcut)| vcut.estimate)
+        .sum();
+    lines.push(row(
+        "estimate",
+        &format!(
+            "{} by the mean-value model, from the parameters alone",
+            time(estimate)
+        ),
+    ));
     lines.push(row(
         "area",
         &format!(

@@ -165,10 +165,10 @@ fn not_freed(
         }
         Some(Remedy::LargestLayer(layer)) => {
             let value = format!("{} mm", show(layer.to_mm()));
-            let diagnostic = diagnostic.help(format!("use a `layer` of at most {value}"));
+            let advice = format!("use a `layer` of at most {value}");
             match asked.layer.span {
-                Some(span) => diagnostic.fix("use the largest layer that works", span, value),
-                None => diagnostic,
+                Some(span) => diagnostic.fix(advice, span, value),
+                None => diagnostic.help(advice),
             }
         }
         Some(Remedy::SmallerLayer(layer)) => {
@@ -180,12 +180,14 @@ fn not_freed(
             }
         }
         Some(Remedy::ResidualAuto) => {
-            let diagnostic = diagnostic
-                .note("cuts dropped, raised or moved to clear the part left more material than the lattice assumes")
-                .help("set `residual = auto`, which mends such cuts");
+            let diagnostic = diagnostic.note(
+                "cuts dropped, raised or moved to clear the part left more material than the lattice assumes",
+            );
             match asked.residual.span {
-                Some(span) => diagnostic.fix("let the compiler mend it", span, "auto"),
-                None => diagnostic,
+                Some(span) => {
+                    diagnostic.fix("let the compiler mend such cuts: `residual = auto`", span, "auto")
+                }
+                None => diagnostic.help("add `residual = auto`, which mends such cuts"),
             }
         }
         None => diagnostic.help("use a longer blade, a smaller `swing` or a smaller `step`"),

@@ -1,12 +1,13 @@
 //! The machined contour by polygon clipping: one difference of the stock's rectangle and the triangles of all cuts.
 //!
-//! A cut takes out a triangle that stands on its tip and is as high as the blade reaches: every chip is freed within that
-//! height, so this leaves the same material as the exact replay ([`Polygons::new`] can also cut the triangles down to the
-//! reach that the job really uses, which gives the peers less overlap to resolve than a user could know beforehand).
-//! Coordinates are whole micrometres, the grid that tips lie on, which both peers take without converting.
+//! A cut takes out a triangle that stands on its tip. As high as the blade reaches it covers every chip of these jobs,
+//! which is all that can be said before the cuts have been replayed, so that is what the replay is held against. Triangles
+//! just as high as the lattice's chips leave the same material too; they give the peers the least overlap to resolve, but
+//! only because somebody knew the lattice. Either way the areas left are compared before a time counts.
 //!
-//! Both peers sweep along one axis. With x across the cuts, as drawn, a layer's many flanks are all active at once;
-//! `swapped` polygons are swept layer by layer.
+//! Coordinates are whole micrometres, the grid that tips lie on, which both peers take without converting. Both peers
+//! sweep along one axis, so how many edges are active at once depends on which way round the polygons lie: each peer gets
+//! the way that is faster for it.
 
 use clipper2_rust::core::{FillRule as ClipperFill, Paths64, Point64, area_paths};
 use clipper2_rust::difference_64;
@@ -22,8 +23,8 @@ use vcutc::sim::prove::Replay;
 pub enum Height {
     /// As high as the blade reaches.
     BladeReach,
-    /// As high as the longest flank of the job.
-    ReachInUse,
+    /// As high as a chip of the lattice.
+    Chip,
 }
 
 /// Which axis the polygons' x is.
@@ -46,10 +47,13 @@ pub struct Polygons {
 }
 
 impl Polygons {
-    /// The polygons of a plan that has been proven.
+    /// The polygons of a plan.
     #[must_use]
-    pub fn new(plan: &PlannedJob, replay: &Replay, height: Height, axes: Axes) -> Self {
-        let (width, top) = (micrometres(plan.stock.width.to_mm()), micrometres(plan.stock.height.to_mm()));
+    pub fn new(plan: &PlannedJob, height: Height, axes: Axes) -> Self {
+        let (width, top) = (
+            micrometres(plan.stock.width.to_mm()),
+            micrometres(plan.stock.height.to_mm()),
+        );
         let turned = |(x, z): Corner| match axes {
             Axes::AsDrawn => (x, z),
             Axes::Swapped => (z, x),
@@ -59,8 +63,8 @@ impl Polygons {
             let flanks = vcut.parameters.flanks;
             let reach = match height {
                 Height::BladeReach => flanks.reach.to_mm(),
-                // A micrometre more, because the replay grants a nanometre.
-                Height::ReachInUse => replay.longest_edge.to_mm() / flanks.edge_per_reach + 1e-3,
+                // Teeth of a lattice without overlap are a layer high, and stand a layer above the next tip.
+                Height::Chip => 2.0 * vcut.parameters.layer.to_mm(),
             };
             let (rise, run) = (micrometres(reach), micrometres(reach / flanks.slope));
             chips.extend(vcut.cuts.iter().map(|cut| {
@@ -68,14 +72,25 @@ impl Polygons {
                 [(x, z), (x + run, z + rise), (x - run, z + rise)].map(turned)
             }));
         }
-        Self { stock: [(0, 0), (width, 0), (width, top), (0, top)].map(turned), chips }
+        Self {
+            stock: [(0, 0), (width, 0), (width, top), (0, top)].map(turned),
+            chips,
+        }
     }
 
     /// The polygons in the form that Clipper2 takes.
     #[must_use]
     pub fn for_clipper(&self) -> (Paths64, Paths64) {
-        let path = |corners: &[Corner]| corners.iter().map(|&(x, y)| Point64::new(x, y)).collect::<Vec<_>>();
-        (vec![path(&self.stock)], self.chips.iter().map(|chip| path(chip)).collect())
+        let path = |corners: &[Corner]| {
+            corners
+                .iter()
+                .map(|&(x, y)| Point64::new(x, y))
+                .collect::<Vec<_>>()
+        };
+        (
+            vec![path(&self.stock)],
+            self.chips.iter().map(|chip| path(chip)).collect(),
+        )
     }
 
     /// The polygons in the form that i_overlay takes.
@@ -83,7 +98,10 @@ impl Polygons {
     pub fn for_i_overlay(&self) -> (Contours, Contours) {
         let point = |&(x, y): &Corner| IntPoint::new(narrow(x), narrow(y));
         let contour = |corners: &[Corner]| corners.iter().map(point).collect::<Vec<_>>();
-        (vec![contour(&self.stock)], self.chips.iter().map(|chip| contour(chip)).collect())
+        (
+            vec![contour(&self.stock)],
+            self.chips.iter().map(|chip| contour(chip)).collect(),
+        )
     }
 }
 
@@ -106,14 +124,23 @@ pub fn i_overlay((stock, chips): &(Contours, Contours)) -> f64 {
         i_overlay::core::solver::Solver::default(),
     );
     let shapes = overlay.overlay(OverlayRule::Difference, FillRule::NonZero);
-    shapes.iter().flatten().map(|contour| signed_area(contour)).sum::<f64>().abs() * 1e-6
+    shapes
+        .iter()
+        .flatten()
+        .map(|contour| signed_area(contour))
+        .sum::<f64>()
+        .abs()
+        * 1e-6
 }
 
 /// Area in mm2 that is left, by the compiler's own replay.
 #[must_use]
 pub fn ours(replay: &Replay) -> f64 {
     let corners: Vec<_> = replay.surface.corners().collect();
-    corners.windows(2).map(|pair| (pair[1].x - pair[0].x) * (pair[0].z + pair[1].z) / 2.0).sum()
+    corners
+        .windows(2)
+        .map(|pair| (pair[1].x - pair[0].x) * (pair[0].z + pair[1].z) / 2.0)
+        .sum()
 }
 
 /// Makes sure that the peer answers the same question.
@@ -121,7 +148,10 @@ pub fn ours(replay: &Replay) -> f64 {
 /// # Panics
 /// When the areas differ by more than 1e-4 of ours.
 pub fn assert_same_area(peer: &str, theirs: f64, ours: f64) {
-    assert!((theirs - ours).abs() <= 1e-4 * ours, "{peer} leaves {theirs} mm2, the replay {ours} mm2");
+    assert!(
+        (theirs - ours).abs() <= 1e-4 * ours,
+        "{peer} leaves {theirs} mm2, the replay {ours} mm2"
+    );
 }
 
 fn signed_area(contour: &[IntPoint<i32>]) -> f64 {

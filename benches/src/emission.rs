@@ -4,6 +4,7 @@
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use vcutc_backend_api::bundle::{Bundle, Sink, SinkError};
 
 /// Writes each chunk to its file at once; nothing is gathered beyond what the backend gathers itself.
@@ -14,7 +15,10 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// An empty folder of that name.
+    /// An empty folder of that name, on a disk that has nothing left to do.
+    ///
+    /// What was written before is still on its way to the disk when the next file is begun, and while it is, writing is
+    /// several times slower, by chance: so it is waited for.
     ///
     /// # Panics
     /// When it cannot be made.
@@ -24,7 +28,12 @@ impl Folder {
             fs::remove_dir_all(path).expect("old files can be removed");
         }
         fs::create_dir_all(path).expect("a folder can be made");
-        Self { path: path.to_owned(), file: None }
+        let settled = Command::new("sync").status().expect("`sync` can be run");
+        assert!(settled.success());
+        Self {
+            path: path.to_owned(),
+            file: None,
+        }
     }
 
     fn create(&self, name: &str) -> File {
@@ -40,7 +49,8 @@ impl Sink for Folder {
 
     fn write(&mut self, bytes: &[u8]) -> Result<(), SinkError> {
         let file = self.file.as_mut().expect("a file comes before its bytes");
-        file.write_all(bytes).map_err(|error| SinkError(error.to_string()))
+        file.write_all(bytes)
+            .map_err(|error| SinkError(error.to_string()))
     }
 }
 
@@ -69,7 +79,9 @@ impl Lines {
             let text = std::str::from_utf8(bytes).expect("a program is text");
             (name.clone(), text.lines().map(line).collect())
         });
-        Self { files: files.collect() }
+        Self {
+            files: files.collect(),
+        }
     }
 
     /// How many lines are motions.
@@ -101,9 +113,13 @@ impl Lines {
 }
 
 fn line(line: &str) -> Line {
-    let inner = line.strip_prefix("LIN {X ").and_then(|rest| rest.strip_suffix('}'));
+    let inner = line
+        .strip_prefix("LIN {X ")
+        .and_then(|rest| rest.strip_suffix('}'));
     let numbers = inner.and_then(|inner| {
-        let mut values = inner.split(',').map(|field| field.trim_start_matches(['Y', 'Z', 'A', 'B', 'C', ' ']));
+        let mut values = inner
+            .split(',')
+            .map(|field| field.trim_start_matches(['Y', 'Z', 'A', 'B', 'C', ' ']));
         let mut next = || values.next()?.parse().ok();
         Some([next()?, next()?, next()?, next()?, next()?, next()?])
     });
@@ -113,7 +129,10 @@ fn line(line: &str) -> Line {
 fn write_line(out: &mut impl Write, line: &Line) -> std::io::Result<()> {
     match line {
         Line::Move([x, y, z, a, b, c]) => {
-            write!(out, "LIN {{X {x:.3},Y {y:.3},Z {z:.3},A {a:.4},B {b:.4},C {c:.4}}}\r\n")
+            write!(
+                out,
+                "LIN {{X {x:.3},Y {y:.3},Z {z:.3},A {a:.4},B {b:.4},C {c:.4}}}\r\n"
+            )
         }
         Line::Words(words) => write!(out, "{words}\r\n"),
     }
@@ -125,7 +144,10 @@ fn write_line(out: &mut impl Write, line: &Line) -> std::io::Result<()> {
 /// When the disk does not take them.
 pub fn write_finished(bundle: &Bundle, folder: &Folder) {
     for (name, bytes) in bundle.files() {
-        folder.create(name).write_all(bytes).expect("the disk takes everything");
+        folder
+            .create(name)
+            .write_all(bytes)
+            .expect("the disk takes everything");
     }
 }
 

@@ -22,7 +22,11 @@ struct OneText<'t>(&'t str);
 
 impl Loader for OneText<'_> {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
-        if path == PATH { Ok(self.0.as_bytes().to_vec()) } else { Err(LoadError::NotFound) }
+        if path == PATH {
+            Ok(self.0.as_bytes().to_vec())
+        } else {
+            Err(LoadError::NotFound)
+        }
     }
 }
 
@@ -77,7 +81,10 @@ pub fn plan(job: &CheckedJob) -> PlannedJob {
 /// Number of V-cuts in a plan.
 #[must_use]
 pub fn cuts(plan: &PlannedJob) -> usize {
-    plan.operations.iter().map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len()).sum()
+    plan.operations
+        .iter()
+        .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len())
+        .sum()
 }
 
 /// Plan to verified program.
@@ -92,7 +99,10 @@ pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
     let bounds: Vec<Bound<'_>> = plan
         .operations
         .iter()
-        .map(|PlannedOperation::RoughVcut(vcut)| Bound { part: &vcut.bound, drop: vcut.parameters.drop })
+        .map(|PlannedOperation::RoughVcut(vcut)| Bound {
+            part: &vcut.bound,
+            drop: vcut.parameters.drop,
+        })
         .collect();
     let replay = prove::replay(program, &bounds);
     assert_eq!(replay.findings, Findings::default());
@@ -103,7 +113,9 @@ pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
 #[must_use]
 pub fn report(plan: &PlannedJob, program: &VerifiedProgram, replay: Replay) -> f64 {
     let timing = sim::timing::timing(program);
-    sim::report::report(replay, plan.stock, &plan.profile, timing).removed.to_mm2()
+    sim::report::report(replay, plan.stock, &plan.profile, timing)
+        .removed
+        .to_mm2()
 }
 
 /// The default options of the KRL backend, which split a long program into parts.
@@ -120,5 +132,7 @@ pub fn prepare<'p>(program: &'p VerifiedProgram, options: &'p Options) -> Box<dy
 
 /// Program to text.
 pub fn emit(program: &VerifiedProgram, options: &Options, sink: &mut dyn Sink) {
-    prepare(program, options).write(sink).expect("the sink takes everything");
+    prepare(program, options)
+        .write(sink)
+        .expect("the sink takes everything");
 }

@@ -170,7 +170,7 @@ fn make(product: &Product, outcome: &Outcome, job: &str, progress: &mut Progress
 }
 
 fn write_program(backend: &dyn Backend, to: &Destination, outcome: &Outcome) -> Result<Made, Failure> {
-    let mut output = Output::open(to).map_err(Failure::new)?;
+    let mut output = Output::to(to);
     match driver::emit(outcome, backend, &mut output) {
         Ok(()) => published(output),
         Err(EmitFailure::Diagnostics(diagnostics)) => Ok(Made {
@@ -182,7 +182,7 @@ fn write_program(backend: &dyn Backend, to: &Destination, outcome: &Outcome) -> 
 }
 
 fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) -> Result<Made, Failure> {
-    let mut output = Output::open(to).map_err(Failure::new)?;
+    let mut output = Output::to(to);
     match inner::write(form, outcome, job, &mut output) {
         Ok(Progressed::Written) => published(output),
         Ok(Progressed::NotSoFar) => Ok(Made::default()),

@@ -15,6 +15,9 @@ use std::time::Duration;
 /// Version of the JSON objects this module writes.
 const SCHEMA: u32 = 1;
 
+/// Most written files that are listed one by one.
+const MOST_FILES_LISTED: usize = 8;
+
 /// The way to the user.
 pub(super) struct Console {
     format: MessageFormat,
@@ -178,9 +181,7 @@ impl Console {
                 text += &format!("{stage:<10} {:>9.1} ms\n", milliseconds(*time));
             }
         }
-        for file in summary.files {
-            text += &format!("wrote {file}\n");
-        }
+        text += &written(summary.files);
         let remark = summary
             .remark
             .map_or(String::new(), |remark| format!("; {remark}"));
@@ -262,6 +263,16 @@ fn count(diagnostics: &[Diagnostic]) -> (usize, usize) {
     (errors, diagnostics.len() - errors)
 }
 
+/// A line for each file; a program of many parts is told in one.
+fn written(files: &[String]) -> String {
+    match files {
+        [first, .., last] if files.len() > MOST_FILES_LISTED => {
+            format!("wrote {} files, {first} to {last}\n", files.len())
+        }
+        few => few.iter().map(|file| format!("wrote {file}\n")).collect(),
+    }
+}
+
 /// `2 errors and 1 warning`, `no errors`.
 fn tally(errors: usize, warnings: usize) -> String {
     let plural = |n: usize, word: &str| match n {
@@ -278,6 +289,13 @@ fn tally(errors: usize, warnings: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_files_are_told_in_one_line() {
+        let files: Vec<_> = (1..=20).map(|n| format!("p{n:03}.src")).collect();
+        assert_eq!(written(&files), "wrote 20 files, p001.src to p020.src\n");
+        assert_eq!(written(&files[..2]), "wrote p001.src\nwrote p002.src\n");
+    }
 
     #[test]
     fn tallies_read_as_sentences() {

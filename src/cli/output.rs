@@ -47,11 +47,11 @@ pub(super) enum Output {
 }
 
 impl Output {
-    /// Opens a destination; makes the folder if there is none.
-    pub(super) fn open(destination: &Destination) -> Result<Self, String> {
+    /// Files on their way to a destination. A folder that does not exist is made for the first file.
+    pub(super) fn to(destination: &Destination) -> Self {
         match destination {
-            Destination::Folder(folder) => Folder::open(folder).map(Self::Folder),
-            Destination::Stdout(headings) => Ok(Self::Stdout(Spool::new(*headings))),
+            Destination::Folder(folder) => Self::Folder(Folder::new(folder)),
+            Destination::Stdout(headings) => Self::Stdout(Spool::new(*headings)),
         }
     }
 
@@ -102,14 +102,12 @@ struct Published {
 }
 
 impl Folder {
-    fn open(path: &Path) -> Result<Self, String> {
-        fs::create_dir_all(path)
-            .map_err(|error| format!("cannot make the folder {}: {error}", path.display()))?;
-        Ok(Self {
+    fn new(path: &Path) -> Self {
+        Self {
             path: path.to_owned(),
             current: None,
             complete: Vec::new(),
-        })
+        }
     }
 
     fn start(&mut self, name: &str) -> Result<(), String> {
@@ -125,10 +123,20 @@ impl Folder {
         {
             return Err(format!("file {name} is written twice"));
         }
-        let file = passing_file(&self.path)
-            .map_err(|error| format!("cannot write into {}: {error}", self.path.display()))?;
+        let file = fs::create_dir_all(&self.path)
+            .and_then(|()| passing_file(&self.path))
+            .map_err(|error| self.refused(&error))?;
         self.current = Some((name.to_owned(), BufWriter::new(file)));
         Ok(())
+    }
+
+    fn refused(&self, error: &io::Error) -> String {
+        let folder = self.path.display();
+        if self.path.is_file() {
+            format!("cannot write into {folder}: it is a file, not a folder")
+        } else {
+            format!("cannot write into {folder}: {error}")
+        }
     }
 
     fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
@@ -313,7 +321,7 @@ mod tests {
     use super::*;
 
     fn folder_with(path: &Path, files: &[(&str, &str)]) -> Folder {
-        let mut folder = Folder::open(path).unwrap();
+        let mut folder = Folder::new(path);
         for (name, text) in files {
             folder.start(name).unwrap();
             folder.append(text.as_bytes()).unwrap();
@@ -379,7 +387,7 @@ mod tests {
     #[test]
     fn names_that_leave_the_folder_are_refused() {
         let root = tempfile::tempdir().unwrap();
-        let mut folder = Folder::open(root.path()).unwrap();
+        let mut folder = Folder::new(root.path());
         for name in ["", ".", "..", "../a", "a/b", "/a", "a\\b", "C:a", "a\0b"] {
             assert!(folder.start(name).is_err(), "{name:?}");
         }

@@ -80,27 +80,13 @@ fn named(cell: Placed<'_>, scope: Scope<'_>, session: &mut Session<'_>) -> Check
         );
         return Err(session.reports.push(diagnostic));
     };
-    match scope.names.get(name) {
-        None => Err(match scope.names.incomplete {
-            Some(reported) => reported,
-            None => session
-                .reports
-                .push(scope.names.unknown("machine", name, expr.span, is_machine)),
-        }),
-        Some(definition) => match definition.thing {
-            Thing::Machine(index) => Ok(index),
-            thing @ (Thing::Let(_) | Thing::Blade(_)) => {
-                let diagnostic = Diagnostic::new(
-                    Code::WrongKind,
-                    format!("`{name}` is {}, not a machine", thing.words()),
-                    expr.span,
-                    "the name of a machine is wanted here",
-                );
-                Err(session
-                    .reports
-                    .push(diagnostic.and(definition.span, "defined here")))
-            }
-        },
+    match scope.names.get(name).map(|definition| definition.thing) {
+        Some(Thing::Machine(index)) => Ok(index),
+        Some(Thing::Let(_) | Thing::Blade(_)) | None => {
+            Err(scope
+                .names
+                .not_a("machine", name, expr.span, is_machine, &mut session.reports))
+        }
     }
 }
 

@@ -164,19 +164,11 @@ impl Scope<'_> {
             }
             _ => {}
         }
-        let Some(definition) = self.names.get(name) else {
-            return Err(match self.names.incomplete {
-                Some(reported) => reported,
-                None => {
-                    let is_let = |thing| matches!(thing, Thing::Let(_));
-                    reports.push(self.names.unknown("value", name, span, is_let))
-                }
-            });
-        };
-        match definition.thing {
-            Thing::Let(index) => match self.values.get(index) {
+        let is_let = |thing| matches!(thing, Thing::Let(_));
+        match self.names.get(name).map(|definition| definition.thing) {
+            Some(Thing::Let(index)) => match self.values.get(index) {
                 Some(Some(value)) => *value,
-                // Only while other definitions are being worked out; the order of work avoids it.
+                // Only in trials, before all values are known; the order of work avoids it elsewhere.
                 Some(None) | None => Err(reports.push(Diagnostic::new(
                     Code::Internal,
                     format!("`{name}` is needed before its value is known"),
@@ -184,18 +176,30 @@ impl Scope<'_> {
                     "needed here",
                 ))),
             },
-            thing @ (Thing::Blade(_) | Thing::Machine(_)) => {
-                let diagnostic = Diagnostic::new(
-                    Code::WrongKind,
-                    format!("`{name}` is {}, not a value", thing.words()),
-                    span,
-                    "a value is needed here",
-                )
-                .and(definition.span, "defined here");
-                Err(reports.push(diagnostic))
+            Some(Thing::Blade(_) | Thing::Machine(_)) | None => {
+                Err(self.names.not_a("value", name, span, is_let, reports))
             }
         }
     }
+}
+
+/// An expression and all that stand in it, from left to right, each before its parts.
+pub(crate) fn walk(expr: &Spanned<Expr>) -> impl Iterator<Item = &Spanned<Expr>> {
+    // A stack of its own: expressions may be long.
+    let mut open = vec![expr];
+    core::iter::from_fn(move || {
+        let next = open.pop()?;
+        match &next.node {
+            Expr::Number { .. } | Expr::Text(_) | Expr::Name(_) => {}
+            Expr::Call { arguments, .. } => {
+                open.extend(arguments.iter().map(|argument| &argument.value).rev())
+            }
+            Expr::Negate(inner) => open.push(inner),
+            Expr::Binary { left, right, .. } => open.extend([right.as_ref(), left.as_ref()]),
+            Expr::Tuple(values) => open.extend(values.iter().rev()),
+        }
+        Some(next)
+    })
 }
 
 /// A result that is a number and of a size that can mean something.
@@ -316,7 +320,7 @@ fn power(base: Operand<'_>, exponent: Operand<'_>) -> Result<Quantity, Box<Diagn
         .and(exponent.expr.span, "a negative power divides by it");
         return Err(Box::new(diagnostic));
     }
-    let is_whole = libm::trunc(b.value) == b.value;
+    let is_whole = b.value.fract() == 0.0;
     if a.value < 0.0 && !is_whole {
         let diagnostic = Diagnostic::new(
             Code::NotFinite,
@@ -353,7 +357,7 @@ fn power(base: Operand<'_>, exponent: Operand<'_>) -> Result<Quantity, Box<Diagn
 
 /// A whole number small enough for an exponent of a dimension.
 fn whole_exponent(value: f64) -> Option<i8> {
-    let fits = libm::trunc(value) == value && value.abs() <= f64::from(i8::MAX);
+    let fits = value.fract() == 0.0 && value.abs() <= f64::from(i8::MAX);
     #[expect(clippy::cast_possible_truncation, reason = "whole and within the range")]
     fits.then_some(value as i8)
 }

@@ -4,7 +4,7 @@
 //! thousand `let`s is as good as one; a path that comes back to itself is a circle and is reported whole.
 
 use super::dimension::Dimension;
-use super::eval::Scope;
+use super::eval::{Scope, walk};
 use super::names::{Names, Thing};
 use super::quantity::{Quantity, with_unit};
 use super::report::{Checked, Reports};
@@ -95,24 +95,14 @@ fn visit(
 
 /// The `let`s that an expression names, in the order written.
 fn needs_of(expr: &Spanned<Expr>, names: &Names<'_>) -> Vec<(usize, Span)> {
-    let mut needs = Vec::new();
-    let mut open = vec![expr];
-    while let Some(expr) = open.pop() {
-        match &expr.node {
-            Expr::Number { .. } | Expr::Text(_) => {}
-            Expr::Name(name) => match names.get(name).map(|definition| definition.thing) {
-                Some(Thing::Let(index)) => needs.push((index, expr.span)),
-                Some(Thing::Blade(_) | Thing::Machine(_)) | None => {}
-            },
-            Expr::Call { arguments, .. } => {
-                open.extend(arguments.iter().map(|argument| &argument.value).rev())
-            }
-            Expr::Negate(inner) => open.push(inner),
-            Expr::Binary { left, right, .. } => open.extend([right.as_ref(), left.as_ref()]),
-            Expr::Tuple(values) => open.extend(values.iter().rev()),
+    let need = |part: &Spanned<Expr>| {
+        let Expr::Name(name) = &part.node else { return None };
+        match names.get(name)?.thing {
+            Thing::Let(index) => Some((index, part.span)),
+            Thing::Blade(_) | Thing::Machine(_) => None,
         }
-    }
-    needs
+    };
+    walk(expr).filter_map(need).collect()
 }
 
 /// The value of a `let` whose needs are all known.

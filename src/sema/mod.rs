@@ -1,8 +1,8 @@
 //! Meaning: from trees to a checked job.
 //!
-//! Files are loaded ([`files`]), their definitions gathered ([`gather`]), `let`s worked out in whatever order they
-//! need each other ([`lets`]), and then every block is read against the table of its fields. Every check reports what
-//! it finds and hands back a token instead of a value ([`report::Reported`]); whoever needs the value passes the token
+//! Files are loaded (`files`), their definitions gathered (`gather`), `let`s worked out in whatever order they
+//! need each other (`lets`), and then every block is read against the table of its fields. Every check reports what
+//! it finds and hands back a token instead of a value (`report::Reported`); whoever needs the value passes the token
 //! on. So one run shows all faults, and none of their consequences.
 
 mod arguments;
@@ -70,12 +70,27 @@ pub fn check(
     let mut found = session.reports.into_vec();
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
     let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
+    cut_short(&mut found);
     for diagnostic in &mut found {
         overrides.keep_fixes_to_files(diagnostic);
     }
     diagnostics.append(&mut found);
     let tree = files.into_iter().next().map(|file| file.ast);
     Ok((tree, job))
+}
+
+/// Most diagnostics of one run. Nobody reads more, and a file gone wrong may have a million.
+const MOST_SHOWN: usize = 500;
+
+/// Keeps the first diagnostics, and says that there are more.
+fn cut_short(found: &mut Vec<Diagnostic>) {
+    let rest = found.len().saturating_sub(MOST_SHOWN);
+    found.truncate(MOST_SHOWN);
+    if let Some(last) = found.last_mut().filter(|_| rest > 0) {
+        last.notes.push(format!(
+            "there are {rest} more faults like these; mend the first ones, then look again"
+        ));
+    }
 }
 
 /// What the files mean.
@@ -132,9 +147,10 @@ fn understand(
             operation.map(Operation::RoughVcut)
         })
         .collect();
-    let operations = match operations.is_empty() {
-        false => operations.into_iter().collect(),
-        true => Err(missing.operation(session)),
+    let operations: Checked<Vec<Operation>> = if operations.is_empty() {
+        Err(missing.operation(session))
+    } else {
+        operations.into_iter().collect()
     };
     let machine = cell::choose(
         all.cell,

@@ -49,6 +49,9 @@ pub(crate) struct Names<'a> {
     pub(crate) incomplete: Option<Reported>,
 }
 
+/// Most names that an unknown one is compared with.
+const MOST_COMPARED: usize = 20_000;
+
 /// Words with a meaning of their own in values.
 const RESERVED: &[&str] = &["auto", "pi"];
 
@@ -104,13 +107,54 @@ impl<'a> Names<'a> {
         (1..=12).contains(&names.len()).then(|| names.join(", "))
     }
 
-    /// The diagnostic for a name of some kind that is defined nowhere.
-    pub(crate) fn unknown(
+    /// Reports a name that is not one of the kind wanted.
+    pub(crate) fn not_a(
         &self,
         what: &str,
         name: &str,
         span: Span,
         is_wanted: fn(Thing) -> bool,
+        reports: &mut Reports,
+    ) -> Reported {
+        match (self.get(name), self.incomplete) {
+            (Some(definition), _) => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongKind,
+                    format!("`{name}` is {}, not a {what}", definition.thing.words()),
+                    span,
+                    format!("a {what} is wanted here"),
+                );
+                reports.push(diagnostic.and(definition.span, "defined here"))
+            }
+            // Its definition may stand in text that could not be read, unless it looks like a slip of a known name.
+            (None, Some(reported)) if self.near(what, name, is_wanted, reports).is_empty() => reported,
+            (None, Some(_) | None) => {
+                let fault = self.unknown(what, name, span, is_wanted, reports);
+                reports.push(fault)
+            }
+        }
+    }
+
+    /// Names of a kind that are near a wanted one.
+    fn near(&self, what: &str, name: &str, is_wanted: fn(Thing) -> bool, reports: &Reports) -> Vec<&'a str> {
+        // Comparing every name with every other one would take for ever where both are many.
+        if reports.are_many() || self.table.len() > MOST_COMPARED {
+            return Vec::new();
+        }
+        nearest(
+            name,
+            self.of_kind(is_wanted).chain(what.eq("value").then_some("pi")),
+        )
+    }
+
+    /// The diagnostic for a name of some kind that is defined nowhere.
+    fn unknown(
+        &self,
+        what: &str,
+        name: &str,
+        span: Span,
+        is_wanted: fn(Thing) -> bool,
+        reports: &Reports,
     ) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(
             Code::UnknownName,
@@ -118,10 +162,7 @@ impl<'a> Names<'a> {
             span,
             "not defined in this file or in any that it uses",
         );
-        let near = nearest(
-            name,
-            self.of_kind(is_wanted).chain(what.eq("value").then_some("pi")),
-        );
+        let near = self.near(what, name, is_wanted, reports);
         diagnostic = did_you_mean(diagnostic, span, &near);
         if near.is_empty() {
             diagnostic = match self.list(is_wanted) {

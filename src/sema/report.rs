@@ -32,6 +32,11 @@ impl Reports {
         token
     }
 
+    /// Whether there are more than anybody reads in one go, so that it is time to be brief.
+    pub(crate) const fn are_many(&self) -> bool {
+        self.diagnostics.len() > 200
+    }
+
     /// All of them, in the order in which they were found.
     pub(crate) fn into_vec(self) -> Vec<Diagnostic> {
         self.diagnostics

@@ -216,30 +216,12 @@ fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Read
         };
         return Err(reader.reports.push(diagnostic));
     };
-    match names.get(name) {
-        None => Err(match names.incomplete {
-            Some(reported) => reported,
-            None => reader
-                .reports
-                .push(names.unknown("blade", name, expr.span, is_blade)),
-        }),
-        Some(definition) => match definition.thing {
-            Thing::Blade(index) => match blades.get(index) {
-                Some(blade) => blade.clone(),
-                None => Err(reader
-                    .reports
-                    .push(names.unknown("blade", name, expr.span, is_blade))),
-            },
-            thing @ (Thing::Let(_) | Thing::Machine(_)) => {
-                let diagnostic = Diagnostic::new(
-                    Code::WrongKind,
-                    format!("`{name}` is {}, not a blade", thing.words()),
-                    expr.span,
-                    "the name of a blade is wanted here",
-                )
-                .and(definition.span, "defined here");
-                Err(reader.reports.push(diagnostic))
-            }
-        },
+    let blade = match names.get(name).map(|definition| definition.thing) {
+        Some(Thing::Blade(index)) => blades.get(index),
+        Some(Thing::Let(_) | Thing::Machine(_)) | None => None,
+    };
+    match blade {
+        Some(blade) => blade.clone(),
+        None => Err(names.not_a("blade", name, expr.span, is_blade, reader.reports)),
     }
 }

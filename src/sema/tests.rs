@@ -1,7 +1,7 @@
 //! Tests of the checks as a whole: expressions against an independent evaluator, and jobs that try to be a burden.
 
 use super::check;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, fix};
 use crate::job::{Auto, CheckedJob, Operation, Sourced};
 use crate::source::{LoadError, Loader, SourceMap};
 use proptest::prelude::*;
@@ -185,6 +185,34 @@ fn values_know_where_they_stand() {
     assert_eq!(&text[span.start as usize..span.end as usize], "2 * h");
 }
 
+#[test]
+fn a_missing_field_is_added_in_the_manner_of_its_block() {
+    let fixed = |stock: &str| {
+        let text = job("", "4 mm").replace("stock { size = (85 mm, 50 mm, 50 mm) }", stock);
+        let (diagnostics, _) = Files::default().with("job.vcut", text.as_str()).check(&[]);
+        let edits = &diagnostics[0].fixes[0].edits;
+        let fixed = fix::apply(&text, edits[0].span.file, edits).unwrap();
+        let start = fixed.find("stock").unwrap();
+        fixed[start..=start + fixed[start..].find('}').unwrap()].to_owned()
+    };
+    let field = "size = (85 mm, 50 mm, 50 mm)";
+    assert_eq!(fixed("stock { }"), format!("stock {{ {field} }}"));
+    assert_eq!(fixed("stock {}"), format!("stock {{ {field} }}"));
+    assert_eq!(fixed("stock {\n}"), format!("stock {{\n  {field}\n}}"));
+    assert_eq!(
+        fixed("stock {\n  // none\n}"),
+        format!("stock {{\n  // none\n  {field}\n}}")
+    );
+}
+
+#[test]
+fn no_fix_changes_the_command_line() {
+    let files = Files::default().with("job.vcut", job("let h = 5 mm", "h"));
+    let (diagnostics, _) = files.check(&["h=4 mm + 4"]);
+    assert!(diagnostics[0].fixes.is_empty());
+    assert_eq!(diagnostics[0].help, ["write `4 mm`"]);
+}
+
 /// An expression of a test, over lengths (in mm) and pure numbers.
 #[derive(Clone, Debug)]
 enum Tree {
@@ -215,6 +243,10 @@ impl Tree {
     }
 
     /// The value by the rules of the reference manual, written down once more and differently.
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "independent of libm, which is what is tested"
+    )]
     fn oracle(&self) -> Oracle {
         match self {
             Self::Pure(n) => Some((f64::from(*n), 0, 0)),
@@ -265,8 +297,132 @@ fn any_tree() -> impl Strategy<Value = Tree> {
     })
 }
 
+/// Words of which tests make jobs that nobody would write.
+const WORDS: &[&str] = &[
+    "job",
+    "use",
+    "let",
+    "stock",
+    "profile",
+    "blade",
+    "rough",
+    "vcut",
+    "machine",
+    "cell",
+    "\"job.vcut\"",
+    "\"a\"",
+    "a",
+    "b",
+    "pi",
+    "auto",
+    "=",
+    "<=",
+    ">=",
+    "{",
+    "}",
+    "(",
+    ")",
+    ",",
+    "+",
+    "-",
+    "*",
+    "/",
+    "^",
+    "1",
+    "0",
+    "4 mm",
+    "3 deg",
+    "1e300",
+    "50 %",
+    "2 mm/s",
+    "start",
+    "line",
+    "to",
+    "arc",
+    "radius",
+    "center",
+    "through",
+    "bezier",
+    "spline",
+    "polyline",
+    "points",
+    "airfoil",
+    "z(x)",
+    "x",
+    "size",
+    "rake",
+    "limits",
+    "swing",
+    "feed",
+    "cut",
+    "frame",
+    "number",
+    "joints",
+    "robot",
+    "tool",
+    "sin",
+    "sqrt",
+    "min",
+    "atan2",
+    "clamp",
+    "krl",
+    "(0 mm, 5 mm)",
+    "(85 mm, 5 mm)",
+];
+
+/// Heights of a polyline in the order in which it is drawn; x in whole mm from -20 to 120.
+fn any_polyline() -> impl Strategy<Value = Vec<(i32, i32)>> {
+    let inner = prop::collection::btree_map(-19..=119_i32, 0..=50_i32, 1..12);
+    (inner, 0..=50_i32, 0..=50_i32).prop_map(|(inner, first, last)| {
+        let ends = ([(-20, first)], [(120, last)]);
+        ends.0.into_iter().chain(inner).chain(ends.1).collect()
+    })
+}
+
+fn profile_job(points: &[(i32, i32)]) -> String {
+    let mut lines = String::new();
+    for (index, (x, z)) in points.iter().enumerate() {
+        let word = if index == 0 { "start" } else { "line to" };
+        let _ = writeln!(lines, "{word} ({x} mm, {z} mm)");
+    }
+    job("", "4 mm").replace("start (0 mm, 18 mm) line to (85 mm, 14 mm)", &lines)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn a_profile_has_the_heights_of_its_drawing(points in any_polyline(), reversed in any::<bool>(), x in 0.0..85.0_f64) {
+        let mut drawn = points.clone();
+        if reversed {
+            drawn.reverse();
+        }
+        let (diagnostics, job) = Files::default().with("job.vcut", profile_job(&drawn)).check(&[]);
+        prop_assert_eq!(codes(&diagnostics), []);
+        let after = points.iter().position(|&(px, _)| f64::from(px) > x).unwrap();
+        let ((x0, z0), (x1, z1)) = (points[after - 1], points[after]);
+        let [x0, z0, x1, z1] = [x0, z0, x1, z1].map(f64::from);
+        let wanted = z0 + (z1 - z0) * (x - x0) / (x1 - x0);
+        prop_assert!((job.unwrap().profile.height(x) - wanted).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_profile_that_turns_back_within_the_stock_is_refused(points in any_polyline(), at in 1..84_i32, width in 1..20_i32) {
+        // An S about x = at: over to the right, back to the left, and on.
+        let is_left = |point: &&(i32, i32)| point.0 < at - width;
+        let is_right = |point: &&(i32, i32)| point.0 > at + width;
+        let mut drawn: Vec<(i32, i32)> = points.iter().filter(is_left).copied().collect();
+        drawn.extend([(at + width, 10), (at - width, 20)]);
+        drawn.extend(points.iter().filter(is_right));
+        let (diagnostics, _) = Files::default().with("job.vcut", profile_job(&drawn)).check(&[]);
+        prop_assert_eq!(codes(&diagnostics), [Code::NotSingleValued]);
+    }
+
+    #[test]
+    fn no_soup_of_words_is_too_much(words in prop::collection::vec(prop::sample::select(WORDS), 0..60)) {
+        let (diagnostics, job) = Files::default().with("job.vcut", words.join(" ")).check(&["a=3 mm"]);
+        prop_assert!(job.is_some() || !diagnostics.is_empty());
+    }
 
     #[test]
     fn expressions_mean_what_an_independent_evaluator_says(tree in any_tree()) {

@@ -140,14 +140,13 @@ impl Surface {
             .take_while(move |corner| corner.x <= to)
     }
 
-    /// Moves the place of work to x.
+    /// Moves the place of work to x: corner by corner, because it is nearly always a neighbour's.
     fn go_to(&mut self, x: f64) {
-        let keep = self.left.partition_point(|corner| corner.x <= x);
-        if keep < self.left.len() {
-            self.right.extend(self.left.drain(keep..).rev());
-        } else {
-            let keep = self.right.partition_point(|corner| corner.x > x);
-            self.left.extend(self.right.drain(keep..).rev());
+        while let Some(corner) = self.left.pop_if(|corner| corner.x > x) {
+            self.right.push(corner);
+        }
+        while let Some(corner) = self.right.pop_if(|corner| corner.x <= x) {
+            self.left.push(corner);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The pages of the diagnostic codes: what they show as wrong is wrong, what they show as mended compiles.
 //!
-//! Only complete jobs are tried (blocks with a `job` line); pieces of jobs are for reading. Files that a page uses are
+//! Only complete jobs are tried (blocks with a `job` line and a stock); pieces of jobs are for reading. Files that a page uses are
 //! those of `examples`.
 
 use crate::repository::root;
@@ -50,7 +50,11 @@ fn jobs(part: &str) -> impl Iterator<Item = &str> {
     part.split("```vcut\n")
         .skip(1)
         .filter_map(|rest| rest.split("\n```").next())
-        .filter(|block| block.lines().any(|line| line.starts_with("job \"")))
+        .filter(|block| {
+            ["job \"", "stock "]
+                .iter()
+                .all(|word| block.lines().any(|line| line.starts_with(word)))
+        })
 }
 
 #[test]

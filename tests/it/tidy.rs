@@ -189,6 +189,17 @@ fn missing_on_page(number: &str, page: &str) -> Vec<&'static str> {
 }
 
 #[test]
+fn the_index_of_pages_is_complete() {
+    let index = read("docs/diagnostics.md");
+    let breaches: Vec<_> = Code::ALL
+        .iter()
+        .map(|code| format!("- [{0}](diagnostics/{0}.md): {1}", code.number(), code.title()))
+        .filter(|entry| !index.lines().any(|line| line == entry))
+        .collect();
+    assert_none(&breaches);
+}
+
+#[test]
 fn every_page_has_its_code() {
     let breaches: Vec<_> = files("docs/diagnostics", ".md")
         .into_iter()

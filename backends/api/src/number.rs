@@ -32,6 +32,11 @@ const FAST_LIMIT: f64 = 4_294_967_296.0;
 /// Nearer to a tie than this the exact value decides, so it is asked.
 const NEAR_TIE: f64 = 1e-6;
 
+/// Between 2^52 and 2^53 doubles are whole numbers, so adding this rounds (ties to even) and taking it away again leaves
+/// the rounded value. That is `round_ties_even` for everything below 2^51, and [`FAST_LIMIT`] is far below; but where the
+/// processor is not known to have the instruction, `round_ties_even` is a call, ten times as long.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
 impl FixedDecimal {
     /// With so many decimals, at most 6 (a nanometre, where controllers have long stopped reading).
     #[must_use]
@@ -58,7 +63,7 @@ impl FixedDecimal {
             return Err(NotFinite);
         }
         let scaled = value * f64::from(self.scale);
-        let rounded = scaled.round_ties_even();
+        let rounded = (scaled + ROUNDER) - ROUNDER;
         let tie_distance = ((scaled - rounded).abs() - 0.5).abs();
         if scaled.abs() < FAST_LIMIT && tie_distance > NEAR_TIE {
             self.push_scaled(out, rounded);

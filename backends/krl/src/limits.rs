@@ -87,11 +87,18 @@ impl Findings {
         }
     }
 
-    fn range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
-        let &Number { what, value, unit } = number;
-        if (low..=high).contains(&as_printed(value)) {
-            return;
+    /// Inlined, because it is asked for every number of every op and nearly always says yes.
+    #[inline]
+    fn range(&mut self, op: Option<OpId>, number: &Number, limits: (f64, f64)) {
+        let allowed = |value: f64| (limits.0..=limits.1).contains(&value);
+        if !(allowed(number.value) || allowed(as_printed(number.value))) {
+            self.out_of_range(op, number, limits);
         }
+    }
+
+    #[cold]
+    fn out_of_range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
+        let &Number { what, value, unit } = number;
         self.tell(
             what,
             BackendIssue::OutOfRange {

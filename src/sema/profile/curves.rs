@@ -258,7 +258,7 @@ fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnosti
             // Rounded up, so that the number shown works.
             let smallest = libm::ceil(smallest.to_mm() * 1000.0) / 1000.0;
             fault(
-                format!("the radius is too small to reach from one end of the arc to the other"),
+                "the radius is too small to reach from one end of the arc to the other".to_owned(),
                 last,
                 "too small",
             )

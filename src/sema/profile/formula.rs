@@ -4,10 +4,11 @@ use super::{Formula, TOLERANCE, Trace};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::{SampleError, sample};
 use crate::sema::dimension::Dimension;
-use crate::sema::eval::Scope;
+use crate::sema::eval::{Scope, walk};
 use crate::sema::quantity::{Quantity, mm};
 use crate::sema::report::{Checked, Reports};
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
+use std::cell::Cell;
 use vcutc_backend_api::ir::Stock;
 
 /// A profile's formula is called `z`.
@@ -38,11 +39,18 @@ pub(super) fn trace(
         };
         scope.expect(formula.value, Dimension::LENGTH, "`z`", Some("10 mm"), reports)
     };
-    let trial = |x: f64| height(x, &mut Reports::default()).ok();
+    // A rough formula of a thousand operators must not keep the compiler busy for hours.
+    let parts = walk(formula.value).count() as u64;
+    let left = Cell::new(MOST_STEPS / parts.max(1));
+    let trial = |x: f64| {
+        left.set(left.get().checked_sub(1)?);
+        height(x, &mut Reports::default()).ok()
+    };
     let points = sample(&trial, 0.0, stock.node.width.to_mm(), TOLERANCE);
     let points = points.map_err(|error| {
         let span = formula.value.span;
         let diagnostic = match error {
+            SampleError::NoValue { .. } if left.get() == 0 => too_rough(span),
             SampleError::NoValue { x } => {
                 // Once more, to hear why; the reason is the same wherever the formula fails first.
                 let mut why = Reports::default();
@@ -61,13 +69,7 @@ pub(super) fn trace(
                 "a profile has no vertical steps",
             )
             .help("replace the jump by a steep ramp"),
-            SampleError::BadRange | SampleError::TooManyPoints => Diagnostic::new(
-                Code::ImpossibleCurve,
-                "the formula is too rough to follow within 1 um",
-                span,
-                "millions of points are not enough for it",
-            )
-            .help("check its units: an angle in radians instead of degrees turns 57 times as fast"),
+            SampleError::BadRange | SampleError::TooManyPoints => too_rough(span),
         };
         reports.push(diagnostic)
     })?;
@@ -88,4 +90,17 @@ fn no_value(formula: &Formula<'_>, x: f64) -> Diagnostic {
         formula.value.span,
         "no height comes out of this",
     )
+}
+
+/// Most steps of evaluation that a formula is worth.
+const MOST_STEPS: u64 = 200_000_000;
+
+fn too_rough(span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::ImpossibleCurve,
+        "the formula is too rough to follow within 1 um",
+        span,
+        "millions of points are not enough for it",
+    )
+    .help("check its units: an angle in radians instead of degrees turns 57 times as fast")
 }

@@ -14,9 +14,17 @@ pub(crate) fn describe() -> [String; 4] {
     let place = |name| field(name).unwrap_or_else(|| "?".to_owned());
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let kernel = fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default();
-    let rustc = Command::new("rustc").arg("--version").output().map(|output| output.stdout).unwrap_or_default();
+    let rustc = Command::new("rustc")
+        .arg("--version")
+        .output()
+        .map(|output| output.stdout)
+        .unwrap_or_default();
     [
-        format!("processor: {model} (family {}, model {}), {cores} cores, one used", place("cpu family"), place("model\t")),
+        format!(
+            "processor: {model} (family {}, model {}), {cores} cores, one used",
+            place("cpu family"),
+            place("model\t")
+        ),
         format!("memory: {:.0} GiB", memory() / 1024.0 / 1024.0),
         format!("system: Linux {}, load before the run {}", kernel.trim(), load()),
         format!("compiler: {}", String::from_utf8_lossy(&rustc).trim()),

@@ -42,8 +42,15 @@ fn main() {
 fn child(what: &str, cuts: u32) -> Figures {
     eprintln!("measuring {what} at {cuts} cuts ...");
     let program = std::env::current_exe().expect("this program has a path");
-    let output = Command::new(program).args([what, &cuts.to_string()]).output().expect("it can be started");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = Command::new(program)
+        .args([what, &cuts.to_string()])
+        .output()
+        .expect("it can be started");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let text = String::from_utf8_lossy(&output.stdout);
     let figure = |line: &str| {
         let (name, value) = line.rsplit_once(' ')?;
