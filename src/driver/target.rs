@@ -189,7 +189,7 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             place_of(job, program, *op),
             "needed by this operation",
         )
-        .help("choose another target, or change the operation"),
+        .help("choose another target, or leave this to a job of its own"),
         BackendIssue::OutOfRange { op, what, value, allowed } => Diagnostic::new(
             Code::TargetRange,
             format!("target `{target}` does not take {what} {value}"),

@@ -14,12 +14,6 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "the planner keeps every cut out of the part; the proof is there to find its mistakes",
     ),
     (
-        Code::Unsupported,
-        "backends/krl/tests/it/refusals.rs",
-        "a_tool_change",
-        "no program has an op that the target lacks",
-    ),
-    (
         Code::Internal,
         "src/driver/mod.rs",
         "a_program_that_breaks_a_rule_is_the_compilers_fault",

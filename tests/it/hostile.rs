@@ -46,8 +46,10 @@ fn library() -> Files {
 
 /// A small sound job to change in one place.
 fn sound() -> String {
-    read("tests/jobs/two_blades/job.vcut")
-        .replace("use \"blades.vcut\"", &read("tests/jobs/two_blades/blades.vcut"))
+    read("tests/jobs/two_operations/job.vcut").replace(
+        "use \"blades.vcut\"",
+        &read("tests/jobs/two_operations/blades.vcut"),
+    )
 }
 
 /// The examples and the jobs of this folder, without the long ones.

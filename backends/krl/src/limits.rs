@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{
-    Action, Cell, FeedId, Load, MachineKind, OpId, Program, RateId, Ready, Registered,
+    Action, Cell, FeedId, Load, MachineKind, OpId, OperationId, Program, RateId, Ready, Registered,
 };
 use vcutc_backend_api::units::{Angle, Duration};
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -199,9 +199,21 @@ impl Findings {
         }
     }
 
+    /// The tool frame of the machine is that of one blade, and nothing in the program would stop for another.
+    fn blade(&mut self, program: &Program, id: OpId, operation: OperationId) {
+        let blade_of = |place: usize| program.operations.get(place).map(|operation| &operation.blade);
+        if blade_of(usize::from(operation.0)) != blade_of(0) {
+            let what = "a change of the blade within the program";
+            self.tell(what, BackendIssue::Unsupported { op: id, what });
+        }
+    }
+
     fn ops(&mut self, program: &VerifiedProgram) {
         let tables = program.program();
         for (id, op) in program.ops() {
+            if let Some(operation) = op.site.operation() {
+                self.blade(tables, id, operation);
+            }
             match op.action {
                 Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
                 Action::Travel { to, feed, rate, .. } => {

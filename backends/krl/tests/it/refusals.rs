@@ -3,7 +3,7 @@
 use crate::support::issues;
 use vcutc_backend_api::backend::{BackendIssue, OptionValue};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{Action, Load, Op, OpId, Program, RateId, Ready, Registered, Site};
+use vcutc_backend_api::ir::{Action, Load, Op, OpId, OperationId, Program, RateId, Ready, Registered, Site};
 use vcutc_backend_api::testkit::{CellRecipe, Recipe};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 
@@ -66,6 +66,27 @@ fn a_tool_change() {
     });
     let issues = issues(program, &[]);
     let place = OpId(u32::try_from(last).unwrap());
+    assert!(
+        matches!(issues.as_slice(), [BackendIssue::Unsupported { op, .. }] if *op == place),
+        "{issues:?}"
+    );
+}
+
+#[test]
+fn another_blade_for_a_later_operation() {
+    let recipe = Recipe {
+        operations: 3,
+        ..Recipe::default()
+    };
+    assert_eq!(issues(recipe.program(), &[]), []);
+    let mut program = recipe.program();
+    program.operations[1].blade.cutting_length = Length::mm(25.0);
+    let first = program
+        .ops
+        .iter()
+        .position(|op| op.site.operation() == Some(OperationId(1)));
+    let place = OpId(u32::try_from(first.unwrap()).unwrap());
+    let issues = issues(program, &[]);
     assert!(
         matches!(issues.as_slice(), [BackendIssue::Unsupported { op, .. }] if *op == place),
         "{issues:?}"
