@@ -49,10 +49,13 @@ fn programs() -> Vec<(Order, Direction, Edges, PlannedVcut, Program)> {
     programs
 }
 
-/// Where the tip is and how the blade is held before each op and after it.
-fn poses(program: &Program) -> Vec<(Op, Option<(Point3, Orientation)>, Option<(Point3, Orientation)>)> {
+/// Where the tip is and how the blade is held, once that is known.
+type Pose = Option<(Point3, Orientation)>;
+
+/// The ops with the poses before and after each.
+fn poses(program: &Program) -> Vec<(Op, Pose, Pose)> {
     let held = |id: vcutc_backend_api::ir::OrientationId| program.orientations[id.0 as usize];
-    let mut at: Option<(Point3, Orientation)> = None;
+    let mut at: Pose = None;
     let step = |op: &Op| {
         let before = at;
         at = match (op.action, before) {
