@@ -11,7 +11,7 @@ use std::ops::Range;
 pub struct FileId(u32);
 
 /// A stretch of bytes in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
     /// The file.
     pub file: FileId,
@@ -58,8 +58,16 @@ impl Span {
     }
 }
 
+/// `3..9`: trees are full of spans, and on several lines each they would drown what people look for. The file of a tree is
+/// known from where the tree came from.
+impl fmt::Debug for Span {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}..{}", self.start, self.end)
+    }
+}
+
 /// Something together with where it stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Spanned<T> {
     /// The thing.
     pub node: T,
@@ -81,6 +89,14 @@ impl<T> Spanned<T> {
             node: f(self.node),
             span: self.span,
         }
+    }
+}
+
+/// The thing, then ` @3..9`.
+impl<T: fmt::Debug> fmt::Debug for Spanned<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.node.fmt(f)?;
+        write!(f, " @{:?}", self.span)
     }
 }
 

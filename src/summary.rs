@@ -11,11 +11,12 @@ const LISTED_LAYERS: usize = 24;
 /// The lines of the summary.
 #[must_use]
 pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
+    let (cuts, layers) = (report.cuts(), report.layers.len());
     let mut lines = vec![format!(
-        "{}: {} cuts in {} layers",
+        "{}: {cuts} {} in {layers} {}",
         plan.name,
-        report.cuts(),
-        report.layers.len()
+        if cuts == 1 { "cut" } else { "cuts" },
+        if layers == 1 { "layer" } else { "layers" },
     )];
     lines.push(row("per layer", &cuts_per_layer(report)));
     for operation in &plan.operations {
@@ -40,6 +41,18 @@ pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
             time(t.turning),
             time(t.travel),
             time(t.waiting)
+        ),
+    ));
+    let estimate = plan
+        .operations
+        .iter()
+        .map(|PlannedOperation::RoughVcut(vcut)| vcut.estimate)
+        .sum();
+    lines.push(row(
+        "estimate",
+        &format!(
+            "{} by the mean-value model, from the parameters alone",
+            time(estimate)
         ),
     ));
     lines.push(row(

@@ -119,16 +119,21 @@ fn not_freed(
     // Rounded up: 10.003 mm is not 10 mm.
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
     let layer = show(vcut.parameters.layer.to_mm());
-    let (span, label) = match (asked.layer.span, asked.step.span) {
-        (Some(span), _) => (
+    let remedy = remedy(job, vcut, finding.operation);
+    let (span, label) = match (&remedy, asked.step.span, asked.layer.span) {
+        (Some(Remedy::Step(_)), Some(span), _) => (
+            span,
+            format!("with this step, the blade cannot cut layers of {layer} mm free"),
+        ),
+        (_, _, Some(span)) => (
             span,
             format!("layers of {layer} mm are deeper than this blade can cut free"),
         ),
-        (None, Some(span)) => (
+        (_, Some(span), None) => (
             span,
             format!("with this step, layers of {layer} mm are deeper than this blade can cut free"),
         ),
-        (None, None) => (
+        (_, None, None) => (
             asked.head_span,
             format!("with layers of {layer} mm this chip is not cut free"),
         ),
@@ -139,14 +144,26 @@ fn not_freed(
     );
     let mut diagnostic = Diagnostic::new(Code::ChipNotFreed, headline, span, label)
         .and(blade_span(blade), format!("{available} mm of edge"));
-    if count > 1 {
-        diagnostic = diagnostic.note(format!(
-            "{} more cuts need more edge than the blade has",
-            count - 1
-        ));
+    match count {
+        0 | 1 => {}
+        2 => diagnostic = diagnostic.note("one more cut needs more edge than the blade has"),
+        _ => {
+            let others = count - 1;
+            diagnostic = diagnostic.note(format!("{others} more cuts need more edge than the blade has"));
+        }
     }
-    match remedy(job, vcut, finding.operation) {
-        Some(Remedy::Layer(layer)) => {
+    match remedy {
+        Some(Remedy::Step(step)) => {
+            let value = format!("{} mm", show(step.to_mm()));
+            let diagnostic = diagnostic.help(format!(
+                "use a `step` of {value} with these layers, or leave it `auto`"
+            ));
+            match asked.step.span {
+                Some(span) => diagnostic.fix("let the compiler choose the step", span, "auto"),
+                None => diagnostic,
+            }
+        }
+        Some(Remedy::LargestLayer(layer)) => {
             let value = format!("{} mm", show(layer.to_mm()));
             let advice = format!("use a `layer` of at most {value}");
             match asked.layer.span {
@@ -154,11 +171,22 @@ fn not_freed(
                 None => diagnostic.help(advice),
             }
         }
+        Some(Remedy::SmallerLayer(layer)) => {
+            let value = format!("{} mm", show(layer.to_mm()));
+            let diagnostic = diagnostic.help(format!("use a `layer` of {value}"));
+            match asked.layer.span {
+                Some(span) => diagnostic.fix("use a layer that works", span, value),
+                None => diagnostic,
+            }
+        }
         Some(Remedy::ResidualAuto) => {
-            let diagnostic = diagnostic
-                .note("cuts dropped, raised or moved to clear the part left more material than the lattice assumes");
+            let diagnostic = diagnostic.note(
+                "cuts dropped, raised or moved to clear the part left more material than the lattice assumes",
+            );
             match asked.residual.span {
-                Some(span) => diagnostic.fix("let the compiler mend such cuts: `residual = auto`", span, "auto"),
+                Some(span) => {
+                    diagnostic.fix("let the compiler mend such cuts: `residual = auto`", span, "auto")
+                }
                 None => diagnostic.help("add `residual = auto`, which mends such cuts"),
             }
         }
@@ -172,54 +200,98 @@ fn blade_span(blade: &Blade) -> crate::source::Span {
 
 /// A change that mends a job.
 enum Remedy {
-    /// A smaller layer.
-    Layer(Length),
+    /// The step that the compiler would choose for the layer asked for.
+    Step(Length),
+    /// The largest layer.
+    LargestLayer(Length),
+    /// A smaller layer than closed form says: one that has been tried.
+    SmallerLayer(Length),
     /// `residual = auto`.
     ResidualAuto,
 }
 
-/// The first change that makes the job prove: `residual = auto` where the lattice itself fits the blade, else the largest
-/// layer by closed form, else smaller ones.
+/// The first change that makes the job prove: `residual = auto` where the lattice itself fits the blade, else another
+/// step, else the largest layer by closed form, else smaller ones.
 fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Option<Remedy> {
     let asked = &vcut.asked;
-    if asked.residual.value != Residual::Auto && vcut.parameters.lattice_fits(asked.lattice.value) {
-        let works = proves_with(job, operation, |asked| asked.residual.value = Residual::Auto);
-        if works {
-            return Some(Remedy::ResidualAuto);
-        }
+    let works = |change: &dyn Fn(&mut RoughVcut)| proves_with(job, operation, change);
+    if asked.residual.value != Residual::Auto
+        && vcut.parameters.lattice_fits(asked.lattice.value)
+        && works(&|asked| asked.residual.value = Residual::Auto)
+    {
+        return Some(Remedy::ResidualAuto);
     }
     let (flanks, drop) = (&vcut.parameters.flanks, vcut.parameters.drop);
     let largest = match asked.step.value {
         Auto::Auto => parameters::largest_layer(asked, flanks, drop),
-        Auto::Given(step) => parameters::largest_layer_at(asked, step, flanks, drop),
+        Auto::Given(step) => {
+            if works(&|asked| asked.step.value = Auto::Auto) {
+                return Some(Remedy::Step(vcut.parameters.step_for_layer(asked)));
+            }
+            parameters::largest_layer_at(asked, step, flanks, drop).unwrap_or_default()
+        }
     };
     let start = largest.min(vcut.parameters.layer).to_mm();
     let candidates = [1.0, 0.9, 0.75, 0.5].map(|share| grid::down(start * share * 0.1) * 10.0);
-    candidates
+    let layer = candidates
         .into_iter()
         .filter(|&layer| layer > 0.0)
         .map(Length::mm)
-        .find(|&layer| proves_with(job, operation, |asked| asked.layer.value = Auto::Given(layer)))
-        .map(Remedy::Layer)
+        .find(|&layer| works(&|asked| asked.layer.value = Auto::Given(layer)))?;
+    let is_largest = candidates
+        .first()
+        .is_some_and(|&first| layer == Length::mm(first));
+    Some(if is_largest {
+        Remedy::LargestLayer(layer)
+    } else {
+        Remedy::SmallerLayer(layer)
+    })
+}
+
+/// Plans and proves the job with a change of one operation; nothing where the change makes it contradict itself.
+fn attempt(
+    job: &CheckedJob,
+    operation: OperationId,
+    change: impl Fn(&mut RoughVcut),
+) -> Option<(PlannedJob, Proven)> {
+    let mut changed = job.clone();
+    let Operation::RoughVcut(asked) = changed.operations.get_mut(usize::from(operation.0))?;
+    change(asked);
+    let (plan, diagnostics) = plan::choose(&changed);
+    let plan = plan.filter(|_| diagnostics.is_empty())?;
+    let proven = prove(&plan, &SourceMap::default()).ok()?;
+    (proven.findings == Findings::default()).then_some((plan, proven))
 }
 
 /// Whether the job plans and proves with a change of one operation.
 fn proves_with(job: &CheckedJob, operation: OperationId, change: impl Fn(&mut RoughVcut)) -> bool {
-    let mut changed = job.clone();
-    let Some(Operation::RoughVcut(asked)) = changed.operations.get_mut(usize::from(operation.0)) else {
-        return false;
-    };
-    change(asked);
-    let (Some(plan), diagnostics) = plan::choose(&changed) else {
-        return false;
-    };
-    let Ok(proven) = prove(&plan, &SourceMap::default()) else {
-        return false;
-    };
-    diagnostics.is_empty()
-        && proven.findings == Findings::default()
-        && scallop_excess(&plan, &proven.report).is_none()
+    attempt(job, operation, change)
+        .is_some_and(|(plan, proven)| scallop_excess(&plan, &proven.report).is_none())
 }
+
+/// A scallop limit that the job keeps. Layers that follow from the limit grow with it, so the height that stays now need
+/// not be one.
+fn limit_that_is_kept(job: &CheckedJob, operation: OperationId, height: Length) -> Option<Length> {
+    let mut limit = height;
+    for _ in 0..MOST_LIMITS {
+        // To a tenth of a millimetre, upwards.
+        limit = Length::mm((limit.to_mm() * 10.0).ceil() / 10.0);
+        let raise = |asked: &mut RoughVcut| {
+            if let Some(given) = &mut asked.limits.scallop {
+                given.value = limit;
+            }
+        };
+        let (plan, proven) = attempt(job, operation, raise)?;
+        if scallop_excess(&plan, &proven.report).is_none() {
+            return Some(limit);
+        }
+        limit = proven.report.scallop.height.max(limit * 1.1);
+    }
+    None
+}
+
+/// Most limits that are tried before giving up.
+const MOST_LIMITS: usize = 8;
 
 /// The operation with the tightest scallop limit, if the machined contour is above it.
 fn scallop_excess<'p>(plan: &'p PlannedJob, report: &Report) -> Option<(OperationId, &'p RoughVcut, Length)> {
@@ -278,10 +350,20 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
                 Residual::Shift => "shift",
                 Residual::Discard => "discard",
             };
-            diagnostic.help(format!("use `residual = {word}` with a `layer` of {} mm", show(layer)))
+            diagnostic.help(format!(
+                "use `residual = {word}` with a `layer` of {} mm",
+                show(layer)
+            ))
         }
-        None => diagnostic
-            .note("where the part is steeper than the flanks of the V, cuts cannot follow it whatever their size")
-            .help(format!("raise the limit to {} mm, or use a smaller `swing`", show((report.scallop.height.to_mm() * 10.0).ceil() / 10.0))),
+        None => {
+            let smaller = "use a smaller `swing`, whose steeper flanks follow the part farther";
+            let help = match limit_that_is_kept(job, operation, report.scallop.height) {
+                Some(limit) => format!("raise the limit to {} mm, or {smaller}", show(limit.to_mm())),
+                None => smaller.to_owned(),
+            };
+            diagnostic
+                .note("where the part is steeper than the flanks of the V, cuts cannot follow it whatever their size")
+                .help(help)
+        }
     })
 }

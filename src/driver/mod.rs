@@ -181,3 +181,28 @@ pub enum EmitFailure {
     /// The sink failed.
     Sink(String),
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::curve::Point2;
+    use crate::plan::tests::paper_job;
+    use vcutc_backend_api::verify::Rule;
+
+    #[test]
+    fn a_program_that_breaks_a_rule_is_the_compilers_fault() {
+        let job = paper_job(vec![Point2 { x: 0.0, z: 5.0 }, Point2 { x: 85.0, z: 5.0 }]);
+        let fault = |op| Fault {
+            op,
+            rule: Rule::Number,
+        };
+        let faults = [fault(Some(vcutc_backend_api::ir::OpId(7))), fault(None)];
+        let diagnostic = internal(&job, &faults);
+        assert_eq!(diagnostic.code, Code::Internal);
+        assert_eq!(diagnostic.primary.span, job.name_span);
+        assert_eq!(
+            diagnostic.notes,
+            [format!("op 7: {}", Rule::Number), Rule::Number.to_string()]
+        );
+    }
+}

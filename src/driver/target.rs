@@ -2,11 +2,11 @@
 
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
-use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, TargetOptions};
+use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
 use crate::registry;
 use crate::source::Span;
 use vcutc_backend_api::backend::{Backend, BackendIssue, OptionKind, OptionSpec, OptionValue, Options};
-use vcutc_backend_api::ir::{OpId, Program};
+use vcutc_backend_api::ir::{Action, OpId, Program};
 
 /// Blocks in the machine that are meant for a target that does not exist.
 pub(super) fn unknown_targets(job: &CheckedJob) -> Vec<Diagnostic> {
@@ -97,7 +97,41 @@ fn whole(ratio: f64) -> Option<u32> {
 
 fn bad_option(given: &GivenOption, allowed: &str, spec: &OptionSpec) -> Diagnostic {
     let message = format!("option `{}` takes {allowed}", given.key);
-    Diagnostic::new(Code::BadOption, message, given.value_span, "not one of these").note(spec.help)
+    let diagnostic = Diagnostic::new(
+        Code::BadOption,
+        message,
+        given.value_span,
+        "this value does not fit",
+    )
+    .note(spec.help);
+    match nearest_fitting(spec.kind, &given.value) {
+        Some(value) => diagnostic.fix(format!("use `{value}`"), given.value_span, value),
+        None => diagnostic,
+    }
+}
+
+/// The value nearest to the one given that an option takes, as text.
+fn nearest_fitting(kind: OptionKind, given: &GivenValue) -> Option<String> {
+    match (kind, given) {
+        (OptionKind::Integer { min, max, .. }, GivenValue::Ratio(ratio)) if ratio.is_finite() => {
+            let (min, max) = (f64::from(min), f64::from(max));
+            Some(format!("{:.0}", ratio.round().clamp(min, max)))
+        }
+        (OptionKind::Length { min, max, .. }, GivenValue::Length(length)) => {
+            Some(format!("{} mm", length.max(min).min(max).to_mm()))
+        }
+        (OptionKind::Choice { of }, GivenValue::Word(word)) => nearest(word, of.iter().copied())
+            .first()
+            .or_else(|| of.first())
+            .map(|word| (*word).to_owned()),
+        (
+            OptionKind::Integer { .. }
+            | OptionKind::Length { .. }
+            | OptionKind::Choice { .. }
+            | OptionKind::Lines,
+            _,
+        ) => None,
+    }
 }
 
 fn unknown_option(given: &GivenOption, backend: &dyn Backend) -> Diagnostic {
@@ -159,7 +193,10 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
         BackendIssue::OutOfRange { op, what, value, allowed } => Diagnostic::new(
             Code::TargetRange,
             format!("target `{target}` does not take {what} {value}"),
-            op.map_or(machine, |op| place_of(job, program, op)),
+            match op {
+                Some(op) => speed_span(job, program, *op, what).unwrap_or_else(|| place_of(job, program, *op)),
+                None => machine_span(job.machine.as_ref(), what).unwrap_or(machine),
+            },
             format!("{value} comes from here"),
         )
         .note(format!("{what} may be {allowed}"))
@@ -186,11 +223,37 @@ fn option_span(machine: Option<&Machine>, target: &str, key: &str) -> Option<Spa
         .map(|given| given.value_span)
 }
 
+/// Where the machine's value of that kind stands; kinds begin with a word for the field they come from.
+fn machine_span(machine: Option<&Machine>, what: &str) -> Option<Span> {
+    let machine = machine?;
+    match what.split(' ').next()? {
+        "tool" => machine.tool.span,
+        "base" => machine.base.span,
+        "load" => machine.load.and_then(|load| load.span),
+        "home" => machine.home.and_then(|home| home.span),
+        "output" => machine.ultrasonic.and_then(|output| output.span),
+        "input" | "time" => machine.ready.span,
+        _ => None,
+    }
+}
+
+/// Where the speed of an op stands.
+fn speed_span(job: &CheckedJob, program: &Program, op: OpId, what: &str) -> Option<Span> {
+    let op = program.ops.get(op.0 as usize)?;
+    let Operation::RoughVcut(asked) = job.operations.get(usize::from(op.site.operation()?.0))?;
+    match (what, op.action) {
+        ("tip speed", Action::Cut { .. }) => asked.cut_feed.span,
+        ("tip speed", Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. }) => {
+            asked.travel_feed.span
+        }
+        ("reorientation rate", Action::Travel { .. } | Action::Turn { .. }) => asked.reorient_rate.span,
+        _ => None,
+    }
+}
+
 /// Where the job asks for an op: the operation it belongs to, or the job as a whole.
 fn place_of(job: &CheckedJob, program: &Program, op: OpId) -> Span {
     let operation = program.ops.get(op.0 as usize).and_then(|op| op.site.operation());
     let asked = operation.and_then(|id| job.operations.get(usize::from(id.0)));
-    asked.map_or(job.name_span, |crate::job::Operation::RoughVcut(vcut)| {
-        vcut.head_span
-    })
+    asked.map_or(job.name_span, |Operation::RoughVcut(vcut)| vcut.head_span)
 }

@@ -22,9 +22,9 @@ use crate::geom::cone;
 use crate::geom::curve::Point2;
 use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
-use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
+use crate::job::{Auto, CheckedJob, Machine, Operation, RoughVcut};
 use crate::sim::surface::Surface;
-use parameters::VcutParameters;
+use parameters::{VcutParameters, show};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
 
@@ -178,37 +178,71 @@ fn nothing_to_cut(
     )
     .and(
         job.profile_span,
-        format!("the lowest tip that clears the part lies at z {lowest:.3} mm"),
+        format!(
+            "the lowest tip that clears the part lies at z {} mm",
+            show(lowest)
+        ),
     )
     .and(
         job.stock_span,
-        format!("the stock ends at z {:.3} mm", job.stock.height.to_mm()),
+        format!("the stock ends at z {} mm", show(job.stock.height.to_mm())),
     );
     if depth > 0.0 {
         diagnostic
             .note(format!(
-                "the depth of {depth:.3} mm is less than one layer of {:.3} mm, and tips are not raised",
-                parameters.layer.to_mm()
+                "the depth of {} mm is less than one layer of {} mm, and tips are not raised",
+                show(depth),
+                show(parameters.layer.to_mm())
             ))
-            .help("set `residual = lift` or `residual = auto`, or a smaller `layer`")
+            .help(format!(
+                "set `residual = lift`, or use a `layer` of at most {} mm",
+                show(grid::down(depth))
+            ))
     } else {
         diagnostic.help("make the stock higher or the part lower, or reduce `allowance`")
     }
 }
 
 fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, count: usize) -> Diagnostic {
-    let span = asked.layer.span.or(asked.step.span).unwrap_or(asked.head_span);
-    Diagnostic::new(
-        Code::TooManyCuts,
-        format!("this operation would take up to {count} cuts, a program may have {MOST_CUTS}"),
-        span,
-        format!(
-            "layers of {:.3} mm and steps of {:.3} mm over this stock",
-            parameters.layer.to_mm(),
-            parameters.step.to_mm()
-        ),
-    )
-    .help("use a larger `layer` and `step`, or leave both `auto`")
+    let size = |length: Length| match length.to_mm() {
+        mm if mm < 0.01 => format!("{} um", show(mm * 1000.0)),
+        mm => format!("{} mm", show(mm)),
+    };
+    let spans = [
+        (asked.layer.span, format!("layers of {}", size(parameters.layer))),
+        (asked.step.span, format!("steps of {}", size(parameters.step))),
+    ];
+    let mut labels = spans.into_iter().filter_map(|(span, label)| Some((span?, label)));
+    let (span, label) = labels.next().unwrap_or_else(|| {
+        let label = format!(
+            "layers of {} and steps of {} over this stock",
+            size(parameters.layer),
+            size(parameters.step)
+        );
+        (asked.head_span, label)
+    });
+    let message = format!("this operation would take up to {count} cuts, a program may have {MOST_CUTS}");
+    let mut diagnostic = Diagnostic::new(Code::TooManyCuts, message, span, label);
+    for (span, label) in labels {
+        diagnostic = diagnostic.and(span, label);
+    }
+    match (asked.layer.value, asked.step.value, asked.limits.scallop) {
+        (Auto::Auto, _, Some(limit)) => {
+            let least = show((asked.allowance.value + parameters.drop).to_mm());
+            diagnostic
+                .and(
+                    limit.span.unwrap_or(asked.head_span),
+                    "the layer follows from this limit",
+                )
+                .help(format!(
+                    "set the limit well above {least} mm: what is left of it decides the layer"
+                ))
+        }
+        (Auto::Auto, Auto::Auto, None) => diagnostic.help("use a longer blade or a smaller stock"),
+        (Auto::Given(_), _, _) | (Auto::Auto, Auto::Given(_), None) => {
+            diagnostic.help("use a larger `layer` and `step`, or leave both `auto`")
+        }
+    }
 }
 
 /// Smallest gain in depth for which a tip is moved: cuts that take less are not worth their time.

@@ -51,6 +51,12 @@ impl VcutParameters {
         fits(lattice, self.layer, self.step, &self.flanks)
     }
 
+    /// The step that goes with this layer when it is left open.
+    #[must_use]
+    pub fn step_for_layer(&self, asked: &RoughVcut) -> Length {
+        widest_step(asked.lattice.value, self.layer, asked.overlap.value, &self.flanks)
+    }
+
     /// What was left open and how it was decided, in the order of the language reference.
     #[must_use]
     pub fn choices(&self, asked: &RoughVcut) -> Vec<Choice> {
@@ -120,7 +126,7 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
         asked.rake.value,
         swing,
     );
-    let (layer, step) = resolve_layer_and_step(asked, &flanks, drop);
+    let (layer, step) = resolve_layer_and_step(asked, &flanks, drop, diagnostics)?;
     let lean = Lean::new(asked, swing);
     let extension = match asked.extension.value {
         Auto::Auto => {
@@ -203,10 +209,22 @@ fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
             format!("half the blade's apex angle is {} deg", show(half_apex.to_deg())),
         )
         .help(format!(
-            "use a rake well above {} deg, such as 60 deg",
-            show(half_apex.to_deg())
-        )),
+            "use a rake well above {} deg, such as {} deg",
+            show(half_apex.to_deg()),
+            show(usual_rake(half_apex).to_deg())
+        ))
+        .fix(
+            "use a rake that cuts",
+            span,
+            format!("{} deg", show(usual_rake(half_apex).to_deg())),
+        ),
     );
+}
+
+/// The rake of the paper, or for very blunt blades one halfway to upright.
+fn usual_rake(half_apex: Angle) -> Angle {
+    let paper = Angle::deg(60.0);
+    paper.max((half_apex + Angle::deg(90.0)) / 2.0)
 }
 
 fn resolve_swing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Angle {
@@ -265,17 +283,95 @@ fn check_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
 }
 
 /// Layer and step, as far as they are open: the largest layer that blade and scallop limit allow, the widest step.
-fn resolve_layer_and_step(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> (Length, Length) {
+fn resolve_layer_and_step(
+    asked: &RoughVcut,
+    flanks: &Flanks,
+    drop: Length,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<(Length, Length)> {
     let widest = |layer| widest_step(asked.lattice.value, layer, asked.overlap.value, flanks);
     match (asked.layer.value, asked.step.value) {
-        (Auto::Given(layer), Auto::Given(step)) => (layer, step),
-        (Auto::Given(layer), Auto::Auto) => (layer, widest(layer)),
-        (Auto::Auto, Auto::Given(step)) => (largest_layer_at(asked, step, flanks, drop), step),
+        (Auto::Given(layer), Auto::Given(step)) => Some((layer, step)),
+        (Auto::Given(layer), Auto::Auto) => Some((layer, widest(layer))),
+        (Auto::Auto, _) if scallop_room(asked, drop).is_some_and(|room| room <= Length::ZERO) => {
+            diagnostics.extend(no_room_for_scallops(asked, drop));
+            None
+        }
+        (Auto::Auto, Auto::Given(step)) => {
+            let layer = largest_layer_at(asked, step, flanks, drop);
+            if layer.is_none() {
+                diagnostics.push(step_too_wide(asked, step, flanks, drop));
+            }
+            layer.map(|layer| (layer, step))
+        }
         (Auto::Auto, Auto::Auto) => {
             let layer = largest_layer(asked, flanks, drop);
-            (layer, widest(layer))
+            Some((layer, widest(layer)))
         }
     }
+}
+
+/// A scallop limit that allowance and standoff alone exceed: no layer follows from it.
+fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Diagnostic> {
+    let limit = asked.limits.scallop?;
+    let least = show((asked.allowance.value + drop).to_mm());
+    let limit_mm = show(limit.value.to_mm());
+    let span = limit.span.unwrap_or(asked.head_span);
+    let message = format!("at least {least} mm stay on the part below the tips, the limit is {limit_mm} mm");
+    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, message, span, "the limit");
+    let allowance = (asked.allowance.value > Length::ZERO)
+        .then_some(asked.allowance.span)
+        .flatten();
+    let diagnostic = match allowance {
+        Some(span) => diagnostic.and(span, "this stays on the part"),
+        None => diagnostic,
+    };
+    let diagnostic = if drop > Length::ZERO {
+        let drop = show(drop.to_mm());
+        diagnostic.note(format!(
+            "the blade's standoff keeps its tip {drop} mm above the material that stays"
+        ))
+    } else {
+        diagnostic
+    };
+    Some(diagnostic.help(format!(
+        "set the limit well above {least} mm: what is left of it decides the layer"
+    )))
+}
+
+/// A step at which no layer, however thin, is cut free or keeps the scallop limit.
+fn step_too_wide(asked: &RoughVcut, step: Length, flanks: &Flanks, drop: Length) -> Diagnostic {
+    let (lattice, overlap) = (asked.lattice.value, asked.overlap.value);
+    let works = widest_step(lattice, largest_layer(asked, flanks, drop), overlap, flanks);
+    let (step_mm, works) = (show(step.to_mm()), show(works.to_mm()));
+    let span = asked.step.span.unwrap_or(asked.head_span);
+    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach);
+    let diagnostic = match (by_reach, asked.limits.scallop) {
+        (Some(_), Some(limit)) => Diagnostic::new(
+            Code::ScallopOverLimit,
+            format!("with a step of {step_mm} mm no layer is thin enough for the scallop limit"),
+            span,
+            format!("between tips {step_mm} mm apart too much material stays"),
+        )
+        .and(limit.span.unwrap_or(asked.head_span), "the limit"),
+        (Some(_) | None, _) => {
+            let blade = &asked.blade;
+            let length = show(blade.cutting_length.value.to_mm());
+            Diagnostic::new(
+                Code::ChipNotFreed,
+                format!("with a step of {step_mm} mm no layer is thin enough to be cut free"),
+                span,
+                format!("between tips {step_mm} mm apart material stands higher than the blade reaches"),
+            )
+            .and(
+                blade.cutting_length.span.unwrap_or(blade.span),
+                format!("{length} mm of edge"),
+            )
+        }
+    };
+    diagnostic
+        .help(format!("use a `step` of {works} mm, or leave it `auto`"))
+        .fix("let the compiler choose the step", span, "auto")
 }
 
 /// Whether a blade reaches what a lattice needs, wherever rounding puts its tips.
@@ -329,11 +425,8 @@ fn largest_fitting(
 
 /// What of the scallop limit is left for the lattice: allowance and standoff stand on the part anyway.
 fn scallop_room(asked: &RoughVcut, drop: Length) -> Option<Length> {
-    let smallest = Length::mm(grid::SPACING);
-    asked
-        .limits
-        .scallop
-        .map(|limit| (limit.value - asked.allowance.value - drop).max(smallest))
+    let limit = asked.limits.scallop?;
+    Some(limit.value - asked.allowance.value - drop)
 }
 
 /// The largest layer with the step left open, for error messages and for `auto`.
@@ -349,19 +442,18 @@ pub fn largest_layer(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> Length
     })
 }
 
-/// The largest layer at a given step.
+/// The largest layer at a given step, if there is any.
 #[must_use]
-pub fn largest_layer_at(asked: &RoughVcut, step: Length, flanks: &Flanks, drop: Length) -> Length {
+pub fn largest_layer_at(asked: &RoughVcut, step: Length, flanks: &Flanks, drop: Length) -> Option<Length> {
     let lattice = asked.lattice.value;
-    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach);
-    let by_scallop = scallop_room(asked, drop)
-        .map(|room| blade_reach::largest_layer_for_scallop_at_step(lattice, step, flanks.slope, room));
-    let by_reach = by_reach.unwrap_or(Length::ZERO);
-    let closed_form = match by_scallop {
+    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach)?;
+    let closed_form = match scallop_room(asked, drop) {
         None => by_reach,
-        Some(layer) => by_reach.min(layer.unwrap_or(Length::ZERO)),
+        Some(room) => {
+            blade_reach::largest_layer_for_scallop_at_step(lattice, step, flanks.slope, room)?.min(by_reach)
+        }
     };
-    largest_fitting(lattice, closed_form, flanks, |_| step)
+    Some(largest_fitting(lattice, closed_form, flanks, |_| step))
 }
 
 /// Rounded down to the grid, and at least one spacing.

@@ -459,7 +459,7 @@ impl Insertion {
                 after: format!("\n{line}"),
             };
         }
-        let gap = if line.ends_with([' ', '{']) { "" } else { " " };
+        let gap = if line.ends_with([' ', '\t']) { "" } else { " " };
         Self {
             at,
             before: gap,

@@ -1,8 +1,8 @@
 //! Meaning: from trees to a checked job.
 //!
-//! Files are loaded ([`files`]), their definitions gathered ([`gather`]), `let`s worked out in whatever order they
-//! need each other ([`lets`]), and then every block is read against the table of its fields. Every check reports what
-//! it finds and hands back a token instead of a value ([`report::Reported`]); whoever needs the value passes the token
+//! Files are loaded (`files`), their definitions gathered (`gather`), `let`s worked out in whatever order they
+//! need each other (`lets`), and then every block is read against the table of its fields. Every check reports what
+//! it finds and hands back a token instead of a value (`report::Reported`); whoever needs the value passes the token
 //! on. So one run shows all faults, and none of their consequences.
 
 mod arguments;
@@ -147,9 +147,10 @@ fn understand(
             operation.map(Operation::RoughVcut)
         })
         .collect();
-    let operations = match operations.is_empty() {
-        false => operations.into_iter().collect(),
-        true => Err(missing.operation(session)),
+    let operations: Checked<Vec<Operation>> = if operations.is_empty() {
+        Err(missing.operation(session))
+    } else {
+        operations.into_iter().collect()
     };
     let machine = cell::choose(
         all.cell,

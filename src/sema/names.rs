@@ -136,13 +136,7 @@ impl<'a> Names<'a> {
     }
 
     /// Names of a kind that are near a wanted one.
-    fn near(
-        &self,
-        what: &str,
-        name: &str,
-        is_wanted: fn(Thing) -> bool,
-        reports: &Reports,
-    ) -> Vec<&'a str> {
+    fn near(&self, what: &str, name: &str, is_wanted: fn(Thing) -> bool, reports: &Reports) -> Vec<&'a str> {
         // Comparing every name with every other one would take for ever where both are many.
         if reports.are_many() || self.table.len() > MOST_COMPARED {
             return Vec::new();

@@ -1,7 +1,7 @@
 //! Tests of the checks as a whole: expressions against an independent evaluator, and jobs that try to be a burden.
 
 use super::check;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, fix};
 use crate::job::{Auto, CheckedJob, Operation, Sourced};
 use crate::source::{LoadError, Loader, SourceMap};
 use proptest::prelude::*;
@@ -183,6 +183,34 @@ fn values_know_where_they_stand() {
     let (_, job) = Files::default().with("job.vcut", text.as_str()).check(&[]);
     let span = layer_of(&job.unwrap()).span.unwrap();
     assert_eq!(&text[span.start as usize..span.end as usize], "2 * h");
+}
+
+#[test]
+fn a_missing_field_is_added_in_the_manner_of_its_block() {
+    let fixed = |stock: &str| {
+        let text = job("", "4 mm").replace("stock { size = (85 mm, 50 mm, 50 mm) }", stock);
+        let (diagnostics, _) = Files::default().with("job.vcut", text.as_str()).check(&[]);
+        let edits = &diagnostics[0].fixes[0].edits;
+        let fixed = fix::apply(&text, edits[0].span.file, edits).unwrap();
+        let start = fixed.find("stock").unwrap();
+        fixed[start..=start + fixed[start..].find('}').unwrap()].to_owned()
+    };
+    let field = "size = (85 mm, 50 mm, 50 mm)";
+    assert_eq!(fixed("stock { }"), format!("stock {{ {field} }}"));
+    assert_eq!(fixed("stock {}"), format!("stock {{ {field} }}"));
+    assert_eq!(fixed("stock {\n}"), format!("stock {{\n  {field}\n}}"));
+    assert_eq!(
+        fixed("stock {\n  // none\n}"),
+        format!("stock {{\n  // none\n  {field}\n}}")
+    );
+}
+
+#[test]
+fn no_fix_changes_the_command_line() {
+    let files = Files::default().with("job.vcut", job("let h = 5 mm", "h"));
+    let (diagnostics, _) = files.check(&["h=4 mm + 4"]);
+    assert!(diagnostics[0].fixes.is_empty());
+    assert_eq!(diagnostics[0].help, ["write `4 mm`"]);
 }
 
 /// An expression of a test, over lengths (in mm) and pure numbers.

@@ -6,9 +6,10 @@
 //! not freed is taken out all the same after it has been noted, so that each finding stands for itself and not for those
 //! before.
 //!
-//! Beside the surface that the blade's middle plane leaves, a second one is kept for the blade's side towards the part,
-//! which lies a standoff deeper: that one must stay out of the part and its allowance everywhere. It is compared with them
-//! corner by corner at the end; between corners both are straight.
+//! Beside the surface that all cuts leave together, each operation has one of its own: what its cuts alone would leave of
+//! the stock, made by the blade's side towards the part, which lies a standoff deeper than its middle plane. That one must
+//! stay out of the part and the operation's allowance everywhere (a later operation may come closer to the part than an
+//! earlier one). They are compared corner by corner at the end; between corners both are straight.
 
 use super::surface::{Side, Surface, Vee};
 use crate::geom::curve::Point2;
@@ -124,8 +125,8 @@ struct Player<'p> {
     program: &'p Program,
     bounds: &'p [Bound<'p>],
     surface: Surface,
-    /// The surface of the blade's side towards the part, where that differs.
-    guard: Option<Surface>,
+    /// What each operation's cuts alone leave, on the blade's side towards the part; in step with `bounds`.
+    guards: Vec<Surface>,
     tip: Point3,
     held: OrientationId,
     /// Geometry of each orientation with the blade of the operation at hand.
@@ -142,11 +143,10 @@ struct Player<'p> {
 impl<'p> Player<'p> {
     fn new(program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
         let surface = Surface::flat(program.stock.width.to_mm(), program.stock.height.to_mm());
-        let has_thickness = bounds.iter().any(|bound| bound.drop > Length::ZERO);
         Self {
             program,
             bounds,
-            guard: has_thickness.then(|| surface.clone()),
+            guards: vec![surface.clone(); bounds.len()],
             surface,
             tip: Point3::new(0.0, 0.0, 0.0),
             held: OrientationId(0),
@@ -261,14 +261,11 @@ impl<'p> Player<'p> {
             return;
         }
         self.surface.release(vee);
-        if let Some(guard) = &mut self.guard {
-            let drop = self
-                .bounds
-                .get(usize::from(operation.0))
-                .map_or(0.0, |bound| bound.drop.to_mm());
+        let index = usize::from(operation.0);
+        if let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) {
             guard.release(Vee {
                 tip: Point2 {
-                    z: vee.tip.z - drop,
+                    z: vee.tip.z - bound.drop.to_mm(),
                     ..vee.tip
                 },
                 ..vee
@@ -318,35 +315,24 @@ impl<'p> Player<'p> {
         }
     }
 
-    /// The deepest entry into any operation's bound.
+    /// The deepest entry of any operation into its bound.
     fn overcut(&self) -> Option<Finding> {
-        let surface = self.guard.as_ref().unwrap_or(&self.surface);
-        let corners: Vec<Point2> = surface.corners().collect();
-        let deepest = self
-            .bounds
-            .iter()
-            .map(|bound| {
-                deepest_entry(
-                    &corners,
-                    &below_top(bound.part, self.program.stock.height.to_mm()),
-                )
-            })
-            .min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-        let (at, gap) = deepest;
+        let top = self.program.stock.height.to_mm();
+        let guarded = (0..).map(OperationId).zip(self.bounds.iter().zip(&self.guards));
+        let entries = guarded.map(|(operation, (bound, guard))| {
+            let corners: Vec<Point2> = guard.corners().collect();
+            (operation, deepest_entry(&corners, &below_top(bound.part, top)))
+        });
+        let (operation, (at, gap)) = entries.min_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b))?;
         if gap >= -OVERCUT {
             return None;
         }
-        self.cut_through(
-            at,
-            CutFault::Overcut {
-                at,
-                depth: Length::mm(-gap),
-            },
-        )
+        let depth = Length::mm(-gap);
+        self.cut_through(operation, at, CutFault::Overcut { at, depth })
     }
 
-    /// The cut whose V, on the blade's side towards the part, passes lowest through a point's x.
-    fn cut_through(&self, at: Point2, fault: CutFault) -> Option<Finding> {
+    /// The cut of an operation whose V passes lowest through a point's x.
+    fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
         let mut player = Player::new(self.program, self.bounds);
         let mut lowest: Option<(f64, Finding)> = None;
         for op in &self.program.ops {
@@ -354,7 +340,7 @@ impl<'p> Player<'p> {
             let (
                 Action::Cut { .. },
                 Site::Cut {
-                    operation,
+                    operation: of,
                     layer,
                     cut,
                 },
@@ -362,29 +348,27 @@ impl<'p> Player<'p> {
             else {
                 continue;
             };
-            let Some(geometry) = player.flanks.get(player.held.0 as usize) else {
+            let Some(geometry) = player
+                .flanks
+                .get(player.held.0 as usize)
+                .filter(|_| of == operation)
+            else {
                 continue;
             };
-            let drop = self
-                .bounds
-                .get(usize::from(operation.0))
-                .map_or(0.0, |bound| bound.drop.to_mm());
             let tip = Point2 {
                 x: player.tip.x,
                 z: player.tip.z,
             };
-            let height = tip.z - drop + (at.x - tip.x).abs() * geometry.slope;
+            let height = tip.z + (at.x - tip.x).abs() * geometry.slope;
             if lowest.is_none_or(|(known, _)| height < known) {
-                lowest = Some((
-                    height,
-                    Finding {
-                        operation,
-                        layer,
-                        cut,
-                        tip,
-                        fault,
-                    },
-                ));
+                let finding = Finding {
+                    operation,
+                    layer,
+                    cut,
+                    tip,
+                    fault,
+                };
+                lowest = Some((height, finding));
             }
         }
         lowest.map(|(_, finding)| finding)

@@ -1,6 +1,6 @@
 //! Proof, times and figures of small programs against what can be worked out by hand.
 
-use super::prove::{Bound, CutFault, replay};
+use super::prove::{Bound, CutFault, Findings, replay};
 use super::timing::timing;
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
@@ -157,4 +157,33 @@ fn program_time_is_the_papers_time_of_each_cut() {
         (across - (2.0 * depths / 200.0 + (layers - 1.0) * turn)).abs() < 0.2,
         "{across}"
     );
+}
+
+#[test]
+fn a_later_operation_may_come_closer_to_the_part() {
+    let mut job = paper_job(flat(13.1));
+    let first = operation(&mut job);
+    first.allowance.value = Length::mm(12.0);
+    let mut second = first.clone();
+    second.allowance.value = Length::ZERO;
+    job.operations.push(Operation::RoughVcut(second));
+    let plan = choose(&job).0.unwrap();
+    let proven = prove(&plan, &SourceMap::default()).unwrap();
+    assert_eq!(proven.findings, Findings::default());
+    // The earlier one is still held against its own bound.
+    let program = verify(lower(&plan, &SourceMap::default())).unwrap();
+    let [
+        PlannedOperation::RoughVcut(rough),
+        PlannedOperation::RoughVcut(fine),
+    ] = &plan.operations[..]
+    else {
+        panic!("{:?}", plan.operations)
+    };
+    let bound = |part, drop| Bound {
+        part,
+        drop: Length::mm(drop),
+    };
+    let bounds = [bound(&rough.bound, 30.0), bound(&fine.bound, 0.0)];
+    let found = replay(&program, &bounds).findings.overcut.unwrap();
+    assert_eq!(found.operation.0, 0);
 }

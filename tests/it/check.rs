@@ -114,6 +114,32 @@ fn right_jobs_check() {
     });
 }
 
+/// A job that sets every field: what comes out of each is in the snapshot.
+#[test]
+fn every_field_reaches_the_checked_job() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check/ok/everything.vcut");
+    let job = Case::read(&path).check(None).job.unwrap();
+    let told = format!("{:#?}", (job.name, job.stock, job.operations, job.machine));
+    insta::assert_snapshot!(without_places(&told));
+}
+
+/// A debug text without its spans, which say nothing about the meaning and change with every comma.
+fn without_places(debug: &str) -> String {
+    let mut kept = Vec::new();
+    let mut skipping = None;
+    for line in debug.lines() {
+        let indent = line.len() - line.trim_start().len();
+        match skipping {
+            Some(start) if indent > start => {}
+            Some(_) => skipping = None,
+            None if line.contains("span: Some(") => skipping = Some(indent),
+            None if line.contains("span: ") && !line.contains("span: None") => {}
+            None => kept.push(line),
+        }
+    }
+    kept.join("\n")
+}
+
 #[test]
 fn wrong_jobs_are_explained() {
     let mut surprises = Vec::new();

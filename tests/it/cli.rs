@@ -1,5 +1,6 @@
 //! The command line from outside: what it prints where, how it ends, and what it leaves on the disk.
 
+mod gallery;
 mod jobs;
 mod refusals;
 
@@ -11,10 +12,10 @@ use tempfile::TempDir;
 
 /// What a run left behind.
 #[derive(Debug)]
-struct Run {
-    code: Option<i32>,
-    stdout: String,
-    stderr: String,
+pub(crate) struct Run {
+    pub(crate) code: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
 }
 
 /// An empty folder to work in.
@@ -42,7 +43,7 @@ fn run(mut command: Command) -> Run {
 }
 
 /// Runs the compiler in a folder.
-fn vcutc(folder: &Path, args: &[&str]) -> Run {
+pub(crate) fn vcutc(folder: &Path, args: &[&str]) -> Run {
     run(command(folder, args))
 }
 

@@ -10,7 +10,16 @@
 mod check;
 #[cfg(feature = "cli")]
 mod cli;
+mod codes;
+#[cfg(all(feature = "cli", feature = "krl"))]
+mod jobs;
+#[cfg(feature = "krl")]
+mod krl_text;
 mod pages;
+#[cfg(feature = "krl")]
+mod pipeline;
+#[cfg(feature = "krl")]
+mod process_errors;
 mod repository;
 mod schema;
 mod syntax;

@@ -122,19 +122,21 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
     if leftmost <= SAME && rightmost >= width - SAME && !strip.points.is_empty() {
         return None;
     }
-    let runs_right = first.x <= last.x;
-    let piece_of = |is_left: bool| {
-        let end = if is_left == runs_right {
-            0
-        } else {
-            trace.points.len().saturating_sub(1)
-        };
-        trace.piece_at(end).unwrap_or(stock.span)
+    let last_point = trace.points.len().saturating_sub(1);
+    let (left_end, right_end) = if first.x <= last.x {
+        (0, last_point)
+    } else {
+        (last_point, 0)
     };
+    let piece_at = |end: usize| trace.piece_at(end).unwrap_or(stock.span);
     let sides = format!("the stock reaches from x = 0 mm to x = {}", mm(width));
     let (span, label, help) = if leftmost > SAME {
         let help = format!("let the profile begin at x = 0 mm, {} further left", mm(leftmost));
-        (piece_of(true), format!("begins at x = {}", mm(leftmost)), help)
+        (
+            piece_at(left_end),
+            format!("begins at x = {}", mm(leftmost)),
+            help,
+        )
     } else {
         let missing = width - rightmost;
         let help = if rightmost > SAME {
@@ -147,7 +149,7 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
             format!("lead the profile on to x = {}", mm(width))
         };
         (
-            piece_of(false),
+            piece_at(right_end),
             format!("ends at x = {}, {} too early", mm(rightmost), mm(missing)),
             help,
         )

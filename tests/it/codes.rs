@@ -1,0 +1,58 @@
+//! Every code has an example that fails with it.
+
+use crate::repository::{read, root};
+use std::collections::BTreeSet;
+use std::fs;
+use vcutc::diag::Code;
+
+/// Codes that no job can bring about, with the test that does and why there is no job.
+const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
+    (
+        Code::Overcut,
+        "src/sim/tests.rs",
+        "a_cut_into_the_part_is_found_with_its_place_and_depth",
+        "the planner keeps every cut out of the part; the proof is there to find its mistakes",
+    ),
+    (
+        Code::Unsupported,
+        "backends/krl/tests/it/refusals.rs",
+        "a_tool_change",
+        "no program has an op that the target lacks",
+    ),
+    (
+        Code::Internal,
+        "src/driver/mod.rs",
+        "a_program_that_breaks_a_rule_is_the_compilers_fault",
+        "a job that shows a fault of the compiler would be mended",
+    ),
+];
+
+#[test]
+fn every_code_has_a_failing_example() {
+    // By their names: one of them is no text.
+    let folders = ["tests/check/err", "tests/process/err"];
+    let entries = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(root().join(folder)).unwrap());
+    let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let examples: BTreeSet<String> = names
+        .filter(|name| name.ends_with(".vcut"))
+        .filter_map(|name| Some(name.get(..6)?.to_owned()))
+        .collect();
+    let tested: BTreeSet<&str> = WITHOUT_A_JOB.iter().map(|(code, ..)| code.number()).collect();
+    for code in Code::ALL {
+        let has_example = examples.contains(code.number());
+        assert_ne!(has_example, tested.contains(code.number()), "{}", code.number());
+    }
+}
+
+#[test]
+fn codes_without_a_job_are_tested_elsewhere() {
+    for (code, file, test, _) in WITHOUT_A_JOB {
+        assert!(
+            read(file).contains(test),
+            "{}: no {test} in {file}",
+            code.number()
+        );
+    }
+}
