@@ -3,6 +3,7 @@
 //! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
 
 use crate::diag::{Code, Diagnostic};
+use crate::geom::curve::Point2;
 use crate::job::{Auto, Blade, CheckedJob, Operation, Residual, RoughVcut};
 use crate::lower;
 use crate::plan::grid;
@@ -68,21 +69,8 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
             let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(finding.operation.0))?;
             Some(match finding.fault {
                 CutFault::NotFreed { needed, .. } => not_freed(job, vcut, finding, count, needed),
-                CutFault::Blocked { at } => {
-                    let asked = &vcut.asked;
-                    let headline = format!("above {}, uncut material stands in the way of the blade", place(&finding));
-                    let here = format!("the blade meets material at {}", point(at.x, at.z));
-                    Diagnostic::new(Code::BladeBlocked, headline, asked.swing.span.unwrap_or(asked.head_span), here)
-                        .note("an operation before this one left walls steeper than this operation's flanks")
-                        .help("give both operations the same `swing`, or let this one come first")
-                }
-                CutFault::Overcut { at, depth } => Diagnostic::new(
-                    Code::Overcut,
-                    format!("{} enters the part by {} mm", place(&finding), show(depth.to_mm())),
-                    vcut.asked.head_span,
-                    format!("deepest at {}", point(at.x, at.z)),
-                )
-                .note("the planner keeps every cut out of the part, so this is a fault of the compiler: please report it"),
+                CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
+                CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
             })
         })
         .collect();
@@ -90,6 +78,34 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
         diagnostics.extend(scallop_over_limit(job, plan, &proven.report));
     }
     diagnostics
+}
+
+fn blocked(asked: &RoughVcut, finding: Finding, at: Point2) -> Diagnostic {
+    Diagnostic::new(
+        Code::BladeBlocked,
+        format!(
+            "above {}, uncut material stands in the way of the blade",
+            place(&finding)
+        ),
+        asked.swing.span.unwrap_or(asked.head_span),
+        format!("the blade meets material at {}", point(at.x, at.z)),
+    )
+    .note("an operation before this one left walls steeper than this operation's flanks")
+    .help("give both operations the same `swing`, or let this one come first")
+}
+
+fn overcut(asked: &RoughVcut, finding: Finding, at: Point2, depth: Length) -> Diagnostic {
+    Diagnostic::new(
+        Code::Overcut,
+        format!(
+            "{} enters the part by {} mm",
+            place(&finding),
+            show(depth.to_mm())
+        ),
+        asked.head_span,
+        format!("deepest at {}", point(at.x, at.z)),
+    )
+    .note("the planner keeps every cut out of the part, so this is a fault of the compiler: please report it")
 }
 
 /// `layer 7, cut 12 (x 43.2 mm, z 18.6 mm)`.

@@ -1,6 +1,7 @@
 //! The compiler's stages, one function each, in the order of the driver.
 //!
-//! The jobs here are right, so whatever goes wrong is a fault of the compiler or of the benchmark: it ends the run.
+//! The jobs here are right, so whatever goes wrong is a fault of the compiler or of the benchmark: it ends the run. None
+//! of them is inlined, so that profilers show them by their names.
 
 use vcutc::job::CheckedJob;
 use vcutc::plan::{self, PlannedJob, PlannedOperation};
@@ -9,7 +10,7 @@ use vcutc::sim::prove::{self, Bound, Findings, Replay};
 use vcutc::source::{LoadError, Loader, SourceMap};
 use vcutc::syntax::{self, ast::Ast};
 use vcutc::{lower, sim};
-use vcutc_backend_api::backend::{Backend, Emission, Options};
+use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_backend_krl::Krl;
@@ -50,6 +51,7 @@ impl Sink for Discard {
 
 /// Text to tree.
 #[must_use]
+#[inline(never)]
 pub fn parse(text: &str) -> Ast {
     let mut sources = SourceMap::default();
     let file = sources.add(PATH, text);
@@ -61,6 +63,7 @@ pub fn parse(text: &str) -> Ast {
 
 /// Text to meaning; reads the text again, as the driver does.
 #[must_use]
+#[inline(never)]
 pub fn check(text: &str) -> (SourceMap, CheckedJob) {
     let mut sources = SourceMap::default();
     let mut diagnostics = Vec::new();
@@ -72,6 +75,7 @@ pub fn check(text: &str) -> (SourceMap, CheckedJob) {
 
 /// Meaning to plan.
 #[must_use]
+#[inline(never)]
 pub fn plan(job: &CheckedJob) -> PlannedJob {
     let (plan, diagnostics) = plan::choose(job);
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
@@ -89,12 +93,14 @@ pub fn cuts(plan: &PlannedJob) -> usize {
 
 /// Plan to verified program.
 #[must_use]
+#[inline(never)]
 pub fn lower(plan: &PlannedJob, sources: &SourceMap) -> VerifiedProgram {
     verify(lower::lower(plan, sources)).expect("the program keeps the rules")
 }
 
 /// Program to machined contour, with the proof.
 #[must_use]
+#[inline(never)]
 pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
     let bounds: Vec<Bound<'_>> = plan
         .operations
@@ -111,6 +117,7 @@ pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
 
 /// Machined contour to figures; gives the removed area in mm2.
 #[must_use]
+#[inline(never)]
 pub fn report(plan: &PlannedJob, program: &VerifiedProgram, replay: Replay) -> f64 {
     let timing = sim::timing::timing(program);
     sim::report::report(replay, plan.stock, &plan.profile, timing)
@@ -118,10 +125,17 @@ pub fn report(plan: &PlannedJob, program: &VerifiedProgram, replay: Replay) -> f
         .to_mm2()
 }
 
-/// The default options of the KRL backend, which split a long program into parts.
+/// Options of the KRL backend: all in one file, so that what is measured is writing, not how a file system makes and
+/// removes hundreds of small files.
 #[must_use]
 pub fn options() -> Options {
-    Options::defaults(Krl.options())
+    let mut options = Options::defaults(Krl.options());
+    let lines_per_part = Krl.options().iter().find(|option| option.key == "lines_per_part");
+    let never = OptionValue::Integer(0);
+    options
+        .set(lines_per_part.expect("KRL has the option"), never)
+        .expect("0 never splits");
+    options
 }
 
 /// Program to lines, as far as that can go wrong.
@@ -131,6 +145,7 @@ pub fn prepare<'p>(program: &'p VerifiedProgram, options: &'p Options) -> Box<dy
 }
 
 /// Program to text.
+#[inline(never)]
 pub fn emit(program: &VerifiedProgram, options: &Options, sink: &mut dyn Sink) {
     prepare(program, options)
         .write(sink)

@@ -75,52 +75,40 @@ impl FixedDecimal {
 
     /// Appends `rounded / scale`, where `rounded` is a whole number below [`FAST_LIMIT`].
     fn push_scaled(self, out: &mut Vec<u8>, rounded: f64) {
-        // Sign, ten digits, point.
-        let mut buffer = [b'0'; 12];
-        let mut at = buffer.len();
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "whole and below 2^32"
         )]
         let mut rest = rounded.abs() as u64;
-        let mut put = |digit: u8| {
-            at -= 1;
-            if let Some(place) = buffer.get_mut(at) {
-                *place = digit;
-            }
-        };
+        let mut text = FromTheRight::default();
         let mut decimals = self.decimals;
         if decimals & 1 == 1 {
-            put(b'0' + (rest % 10) as u8);
+            text.put(b'0' + (rest % 10) as u8);
             rest /= 10;
             decimals -= 1;
         }
         while decimals > 0 {
-            let pair = 2 * (rest % 100) as usize;
-            put(PAIRS[pair + 1]);
-            put(PAIRS[pair]);
+            text.put_pair(rest % 100);
             rest /= 100;
             decimals -= 2;
         }
         if self.decimals > 0 {
-            put(b'.');
+            text.put(b'.');
         }
         while rest >= 100 {
-            let pair = 2 * (rest % 100) as usize;
-            put(PAIRS[pair + 1]);
-            put(PAIRS[pair]);
+            text.put_pair(rest % 100);
             rest /= 100;
         }
-        let pair = 2 * rest as usize;
-        put(PAIRS[pair + 1]);
         if rest >= 10 {
-            put(PAIRS[pair]);
+            text.put_pair(rest);
+        } else {
+            text.put(b'0' + rest as u8);
         }
         if rounded < 0.0 {
-            put(b'-');
+            text.put(b'-');
         }
-        out.extend_from_slice(buffer.get(at..).unwrap_or_default());
+        text.append_to(out);
     }
 
     /// Appends the value by way of the standard library.
@@ -131,6 +119,36 @@ impl FixedDecimal {
         let digits = text.strip_prefix('-').unwrap_or(&text);
         let is_zero = digits.bytes().all(|byte| matches!(byte, b'0' | b'.'));
         out.extend_from_slice(if is_zero { digits } else { &text }.as_bytes());
+    }
+}
+
+/// A text of at most 16 characters, made from its last to its first. Sign, point and ten digits are 12.
+#[derive(Default)]
+struct FromTheRight {
+    /// The first character in the lowest byte, so that in memory the text begins at the beginning.
+    characters: u128,
+    count: usize,
+}
+
+impl FromTheRight {
+    fn put(&mut self, character: u8) {
+        self.characters = self.characters << 8 | u128::from(character);
+        self.count += 1;
+    }
+
+    /// The two digits of a number below 100.
+    fn put_pair(&mut self, number: u64) {
+        let place = 2 * (number % 100) as usize;
+        let pair = u16::from_le_bytes([PAIRS[place], PAIRS[place + 1]]);
+        self.characters = self.characters << 16 | u128::from(pair);
+        self.count += 2;
+    }
+
+    fn append_to(&self, out: &mut Vec<u8>) {
+        let end = out.len() + self.count;
+        // All 16 at once and the rest off again: copying a number of bytes known beforehand takes no call.
+        out.extend_from_slice(&self.characters.to_le_bytes());
+        out.truncate(end);
     }
 }
 
