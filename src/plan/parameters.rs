@@ -111,14 +111,10 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
     let before = diagnostics.len();
     check_rake(asked, diagnostics);
     let swing = resolve_swing(asked, diagnostics);
-    check_extension(asked, diagnostics);
+    let standoff = resolve_standoff(asked, diagnostics);
     if diagnostics.len() > before {
         return None;
     }
-    let standoff = match asked.standoff.value {
-        Auto::Auto => asked.blade.thickness.value / 2.0,
-        Auto::Given(standoff) => standoff,
-    };
     let drop = standoff / swing.sin();
     let flanks = Flanks::new(
         asked.blade.cutting_length.value,
@@ -128,16 +124,11 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
     );
     let (layer, step) = resolve_layer_and_step(asked, &flanks, drop, diagnostics)?;
     let lean = Lean::new(asked, swing);
-    let extension = match asked.extension.value {
-        Auto::Auto => {
-            // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
-            let teeth = layer + step * (flanks.slope / 2.0);
-            lean.overhang(teeth).max(edge_overhang(asked)) + asked.run_out.value
-        }
-        Auto::Given(extension) => extension,
-    };
-    let extension = Length::mm(grid::up(extension.to_mm()));
-    let clear_height = lean.clear_height(extension);
+    // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
+    let teeth = layer + step * (flanks.slope / 2.0);
+    let extension = resolve_extension(asked, lean.overhang(teeth), diagnostics)?;
+    // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
+    let clear_height = lean.clear_height(extension).max(teeth);
     Some(VcutParameters {
         swing,
         layer,
@@ -252,34 +243,74 @@ fn resolve_swing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Angle 
     }
 }
 
-fn check_extension(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
-    let blade = &asked.blade;
-    let least = Length::mm(grid::up(edge_overhang(asked).to_mm()));
-    let Auto::Given(extension) = asked.extension.value else {
-        return;
-    };
-    if extension >= least {
-        return;
+/// Half the blade's thickness, or what is given: less would let the blade's side enter the part.
+fn resolve_standoff(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Length {
+    let least = asked.blade.thickness.value / 2.0;
+    match asked.standoff.value {
+        Auto::Auto => least,
+        Auto::Given(standoff) => {
+            if standoff < least {
+                diagnostics.push(standoff_too_small(asked, standoff, least));
+            }
+            standoff
+        }
     }
+}
+
+fn standoff_too_small(asked: &RoughVcut, standoff: Length, least: Length) -> Diagnostic {
+    let blade = &asked.blade;
+    let span = asked.standoff.span.unwrap_or(asked.head_span);
+    let (standoff, least) = (show(standoff.to_mm()), show(least.to_mm()));
+    let thickness = show(blade.thickness.value.to_mm());
+    Diagnostic::new(
+        Code::OutOfRange,
+        format!("with a standoff of {standoff} mm the blade's side would enter the part"),
+        span,
+        format!("less than half the blade's thickness, {least} mm"),
+    )
+    .and(
+        blade.thickness.span.unwrap_or(blade.span),
+        format!("{thickness} mm thick"),
+    )
+    .help(format!("use at least {least} mm, or leave it `auto`"))
+    .fix("let the compiler choose: `auto`", span, "auto")
+}
+
+/// The extension on the grid. The blade lies over the work by its edge, and above the edge by its body up to the teeth of
+/// the layer above; given extensions need only clear the edge.
+fn resolve_extension(
+    asked: &RoughVcut,
+    body_overhang: Length,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Length> {
+    let on_grid = |extension: Length| Length::mm(grid::up(extension.to_mm()));
+    let edge = edge_overhang(asked);
+    match asked.extension.value {
+        Auto::Auto => Some(on_grid(body_overhang.max(edge) + asked.run_out.value)),
+        Auto::Given(extension) if on_grid(extension) >= on_grid(edge) => Some(on_grid(extension)),
+        Auto::Given(extension) => {
+            diagnostics.push(extension_too_short(asked, extension, on_grid(edge)));
+            None
+        }
+    }
+}
+
+fn extension_too_short(asked: &RoughVcut, extension: Length, least: Length) -> Diagnostic {
+    let blade = &asked.blade;
     let span = asked.extension.span.unwrap_or(asked.head_span);
-    let least = show(least.to_mm());
-    diagnostics.push(
-        Diagnostic::new(
-            Code::ExtensionTooShort,
-            format!(
-                "with an extension of {} mm the blade would turn within the work",
-                show(extension.to_mm())
-            ),
-            span,
-            format!("the edge lies {least} mm over the work"),
-        )
-        .and(
-            blade.cutting_length.span.unwrap_or(blade.span),
-            format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
-        )
-        .help(format!("use at least {least} mm, or leave it `auto`"))
-        .fix("let the compiler choose", span, "auto"),
-    );
+    let (extension, least) = (show(extension.to_mm()), show(least.to_mm()));
+    Diagnostic::new(
+        Code::ExtensionTooShort,
+        format!("with an extension of {extension} mm the blade would turn within the work"),
+        span,
+        format!("the edge lies {least} mm over the work"),
+    )
+    .and(
+        blade.cutting_length.span.unwrap_or(blade.span),
+        format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
+    )
+    .help(format!("use at least {least} mm, or leave it `auto`"))
+    .fix("let the compiler choose: `auto`", span, "auto")
 }
 
 /// Layer and step, as far as they are open: the largest layer that blade and scallop limit allow, the widest step.
