@@ -102,14 +102,36 @@ fn cuts_per_layer(report: &Report) -> String {
 
 /// `1 h 02 min 03 s`, `2 min 05.4 s`, `5.4 s`.
 fn time(duration: Duration) -> String {
+    // From an hour on, tenths of a second say nothing; rounding before dividing never gives 60 seconds.
+    let whole = duration.to_s().round();
+    if whole >= 3600.0 {
+        let (hours, minutes, seconds) = (
+            (whole / 3600.0).floor(),
+            (whole / 60.0).floor() % 60.0,
+            whole % 60.0,
+        );
+        return format!("{hours} h {minutes:02} min {seconds:02} s");
+    }
     let tenths = (duration.to_s() * 10.0).round();
     let (minutes, seconds) = ((tenths / 600.0).floor(), (tenths % 600.0) / 10.0);
-    let (hours, minutes) = ((minutes / 60.0).floor(), minutes % 60.0);
-    if hours > 0.0 {
-        format!("{hours} h {minutes:02} min {seconds:02.0} s")
-    } else if minutes > 0.0 {
+    if minutes > 0.0 {
         format!("{minutes} min {seconds:04.1} s")
     } else {
         format!("{seconds:.1} s")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_never_show_sixty_seconds() {
+        let shown = |seconds: f64| time(Duration::s(seconds));
+        assert_eq!(shown(5.44), "5.4 s");
+        assert_eq!(shown(59.96), "1 min 00.0 s");
+        assert_eq!(shown(125.4), "2 min 05.4 s");
+        assert_eq!(shown(3599.7), "1 h 00 min 00 s");
+        assert_eq!(shown(3723.2), "1 h 02 min 03 s");
     }
 }

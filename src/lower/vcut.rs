@@ -9,7 +9,7 @@
 use super::builder::Builder;
 use super::posture::{Feed, Holder};
 use crate::job::{Direction, Order};
-use crate::plan::{PlannedCut, PlannedVcut, Way};
+use crate::plan::{PlannedCut, PlannedVcut, Way, grid};
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
@@ -106,7 +106,7 @@ impl<'b> Writer<'b> {
             builder.feed(asked.travel_feed.value),
         );
         let rate = builder.rate(asked.reorient_rate.value);
-        let safe = (stock.height + asked.clearance.value).to_mm();
+        let safe = grid::up((stock.height + asked.clearance.value).to_mm());
         Self {
             builder,
             operation,
@@ -117,7 +117,7 @@ impl<'b> Writer<'b> {
             travel_feed,
             rate,
             front: -extension,
-            back: stock.depth.to_mm() + extension,
+            back: grid::up(stock.depth.to_mm() + extension),
             safe,
             at: Place::Above,
             tip: Point3::new(0.0, -extension, safe),

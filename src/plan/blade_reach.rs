@@ -104,11 +104,13 @@ pub fn largest_layer_at_step(lattice: Lattice, step: Length, slope: f64, reach: 
         Lattice::Free => reach - rise / 2.0,
         Lattice::Orthogonal | Lattice::Interlaced => {
             let tips = OlderTips::of(lattice, rise);
-            // Passing under k tips: h <= u_k (so that tip k is passed above) and (h + u_k) / 2 <= reach.
-            (0..1000_u32)
-                .map(|k| tips.first + f64::from(k) * tips.spacing)
-                .take_while(|&u| u < 2.0 * reach)
+            // Passing under k tips: h <= u_k (so that tip k is passed above) and (h + u_k) / 2 <= reach. The best k has u_k
+            // next to the reach, on one side of it or the other.
+            let below = ((reach - tips.first) / tips.spacing).floor().max(0.0);
+            [below, below + 1.0]
+                .map(|k| tips.first + k * tips.spacing)
                 .map(|u| u.min(2.0 * reach - u))
+                .into_iter()
                 .fold(f64::NEG_INFINITY, f64::max)
         }
     };

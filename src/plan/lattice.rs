@@ -107,7 +107,16 @@ impl<'c> Layout<'c> {
         self.layers
     }
 
-    /// At least as many tips as all layers together have.
+    /// How many corners of the clearance are looked at to lay out one layer.
+    #[must_use]
+    pub fn corners_per_layer(&self, clearance: &Profile) -> usize {
+        match self.rows {
+            Rows::Same(_) | Rows::Alternating { .. } => 0,
+            Rows::Free => clearance.points().len(),
+        }
+    }
+
+    /// As many tips as all layers together have, but for the few more of free layers in several stretches.
     #[must_use]
     pub fn most_tips(&self) -> usize {
         let a_layer = (self.width / self.step).ceil() + 1.0;

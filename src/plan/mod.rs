@@ -103,16 +103,28 @@ pub enum TipOrigin {
 /// Most cuts that a job may have. A cut takes seconds, so a program of this size runs for weeks.
 pub const MOST_CUTS: usize = 4_000_000;
 
+/// Most operations that a job may have.
+pub const MOST_OPERATIONS: usize = 1000;
+
+/// Most older corners that all flanks of an operation together may pass under while they are measured, which bounds the
+/// planner's work: at large overlaps every flank passes many.
+const MOST_PASSED: f64 = 2e8;
+
 /// Makes every choice. Without errors there is a plan.
 #[must_use]
 pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
     let mut surface = Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm());
     let mut operations = Vec::new();
+    let mut cuts_left = MOST_CUTS;
+    if let Some(Operation::RoughVcut(asked)) = job.operations.get(MOST_OPERATIONS) {
+        return (None, vec![too_many_operations(asked, job.operations.len())]);
+    }
     for operation in &job.operations {
         let planned = match operation {
-            Operation::RoughVcut(asked) => plan_vcut(job, asked, &mut surface, &mut diagnostics),
+            Operation::RoughVcut(asked) => plan_vcut(job, asked, cuts_left, &mut surface, &mut diagnostics),
         };
+        cuts_left -= planned.as_ref().map_or(0, |vcut| vcut.cuts.len());
         operations.extend(planned.map(PlannedOperation::RoughVcut));
     }
     let planned = (operations.len() == job.operations.len()).then(|| PlannedJob {
@@ -128,6 +140,7 @@ pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
 fn plan_vcut(
     job: &CheckedJob,
     asked: &RoughVcut,
+    cuts_left: usize,
     surface: &mut Surface,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<PlannedVcut> {
@@ -135,13 +148,17 @@ fn plan_vcut(
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, asked.lattice.value, &parameters, &clearance);
-    if layout.most_tips() > MOST_CUTS {
+    if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters, &clearance) > MOST_PASSED {
         diagnostics.push(too_many_cuts(asked, &parameters, layout.most_tips()));
         return None;
     }
     let mut planner = residual::LayerPlanner::new(&layout, asked, &parameters, &job.profile, surface);
     for layer in 1..=layout.layers() {
         planner.layer(layer);
+        if planner.count() > cuts_left {
+            diagnostics.push(too_many_cuts(asked, &parameters, planner.count()));
+            return None;
+        }
     }
     let cuts = planner.finish();
     if cuts.is_empty() {
@@ -159,6 +176,24 @@ fn plan_vcut(
         estimate,
         cuts,
     })
+}
+
+/// About how many corners the flanks of an operation pass under, and free lattices look at.
+fn passed_corners(layout: &lattice::Layout<'_>, parameters: &VcutParameters, clearance: &Profile) -> f64 {
+    let flanks = &parameters.flanks;
+    let by_flank = 2.0 * flanks.reach.to_mm() / (flanks.slope * parameters.step.to_mm());
+    let per_layer = layout.corners_per_layer(clearance);
+    layout.most_tips() as f64 * (1.0 + by_flank) + f64::from(layout.layers()) * per_layer as f64
+}
+
+fn too_many_operations(asked: &RoughVcut, count: usize) -> Diagnostic {
+    Diagnostic::new(
+        Code::TooManyCuts,
+        format!("this job has {count} operations, a job may have {MOST_OPERATIONS}"),
+        asked.head_span,
+        "the first one too many",
+    )
+    .help("split the job")
 }
 
 fn nothing_to_cut(

@@ -17,6 +17,15 @@ use crate::geom::profile::Profile;
 use crate::job::{Residual, RoughVcut};
 use crate::sim::surface::{Side, Surface, Vee};
 
+/// A tip of the lattice that would cut the part.
+#[derive(Clone, Copy)]
+struct Candidate {
+    column: Column,
+    z: f64,
+    /// Where the tips left and right of it lie, as far as is known.
+    neighbours: [Option<f64>; 2],
+}
+
 /// Decides one layer after the other.
 pub struct LayerPlanner<'p> {
     layout: &'p Layout<'p>,
@@ -88,13 +97,32 @@ impl<'p> LayerPlanner<'p> {
                     let decided = if column.floor <= z {
                         self.reachable(Point2 { x: column.x, z }, TipOrigin::Lattice)
                     } else {
-                        self.false_tip(parity, index, column, z, columns)
+                        // The tip kept last, and the next column, whose own tip may be kept.
+                        let neighbours = [
+                            tips.last().map(|&(tip, _)| tip.x),
+                            columns.get(index + 1).map(|next| next.x),
+                        ];
+                        self.false_tip(
+                            parity,
+                            index,
+                            Candidate {
+                                column,
+                                z,
+                                neighbours,
+                            },
+                        )
                     };
                     tips.extend(decided);
                 }
             }
         }
         self.take(tips);
+    }
+
+    /// How many cuts have been decided so far.
+    #[must_use]
+    pub const fn count(&self) -> usize {
+        self.cuts.len()
     }
 
     /// The cuts decided.
@@ -139,14 +167,13 @@ impl<'p> LayerPlanner<'p> {
         &mut self,
         parity: Parity,
         index: usize,
-        column: Column,
-        z: f64,
-        columns: &[Column],
+        candidate: Candidate,
     ) -> Option<(Point2, TipOrigin)> {
+        let column = candidate.column;
         match self.strategy {
             Residual::Discard => None,
             Residual::Lift => self.lifted(column),
-            Residual::Shift => self.shifted(index, column, z, columns),
+            Residual::Shift => self.shifted(candidate),
             Residual::Auto => {
                 let closed = self.closed[parity as usize].get_mut(index)?;
                 if *closed {
@@ -159,7 +186,7 @@ impl<'p> LayerPlanner<'p> {
                 let lifted = self.lifted(column).filter(|&(tip, _)| self.comes_free(tip));
                 let shifted = |planner: &mut Self| {
                     planner
-                        .shifted(index, column, z, columns)
+                        .shifted(candidate)
                         .filter(|&(tip, _)| planner.comes_free(tip))
                 };
                 lifted.or_else(|| shifted(self)).or_else(|| {
@@ -182,24 +209,22 @@ impl<'p> LayerPlanner<'p> {
     }
 
     /// Moved sideways onto the part, where no other tip of the row is near.
-    fn shifted(
-        &mut self,
-        index: usize,
-        column: Column,
-        z: f64,
-        columns: &[Column],
-    ) -> Option<(Point2, TipOrigin)> {
+    fn shifted(&mut self, candidate: Candidate) -> Option<(Point2, TipOrigin)> {
+        let Candidate {
+            column,
+            z,
+            neighbours: [left, right],
+        } = candidate;
         let step = self.layout.step();
         let x = grid::nearest(self.layout.nearest_clear(column.x, z)?);
         let tip = Point2 {
             x,
             z: z.max(self.layout.floor(x)),
         };
-        let crowded = [index.checked_sub(1), index.checked_add(1)]
-            .into_iter()
-            .flatten()
-            .filter_map(|neighbour| columns.get(neighbour))
-            .any(|other| (other.x - x).abs() < step / 4.0);
+        // Tips nearer than a quarter step cut slivers.
+        let least = step / 4.0;
+        let crowded =
+            left.is_some_and(|left| x < left + least) || right.is_some_and(|right| x > right - least);
         let near = (x - column.x).abs() < step;
         (near && !crowded && self.gains(tip)).then_some((tip, TipOrigin::Shifted))
     }

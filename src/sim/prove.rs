@@ -219,6 +219,16 @@ impl<'p> Player<'p> {
                 );
             }
             self.longest_edge = self.longest_edge.max(needed);
+        } else if let Some(at) = self.surface.obstacle(vee) {
+            let fault = CutFault::Blocked { at };
+            let finding = Finding {
+                operation,
+                layer,
+                cut,
+                tip: vee.tip,
+                fault,
+            };
+            note(&mut self.findings.blocked, finding, |_, _| false);
         }
         self.finish_flank(operation, cut, flank, vee);
     }

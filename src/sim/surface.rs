@@ -108,6 +108,17 @@ impl Surface {
         }
     }
 
+    /// Where material stands above a V whose tip is not covered. Only where steeper flanks have been cut before can there be
+    /// any: the tip then lies in an older, narrower cut, and the V would cut its walls from below.
+    pub fn obstacle(&mut self, vee: Vee) -> Option<Point2> {
+        self.go_to(vee.tip.x);
+        if vee.slope >= self.steepest - 1e-12 {
+            return None;
+        }
+        self.beyond(vee, Side::Left, 0)
+            .or_else(|| self.beyond(vee, Side::Right, 0))
+    }
+
     /// Takes the chip of a V out. A V whose tip is not covered changes nothing.
     pub fn release(&mut self, vee: Vee) {
         if !self.covers(vee.tip) {

@@ -10,7 +10,7 @@ use crate::ir::{
     Action, Edges, FeedId, Flank, IR_VERSION, Op, OpId, Operation, OperationId, OrientationId, Program,
     RateId, Ready, Registered, Site, Switch,
 };
-use crate::units::{Angle, Length};
+use crate::units::{Angle, Duration, Length, Mass};
 use core::fmt;
 
 /// A program that has passed [`verify`].
@@ -275,21 +275,34 @@ impl<'p> Walk<'p> {
         let stock = positive(p.stock.width) && positive(p.stock.depth) && positive(p.stock.height);
         let blades = p.operations.iter().all(|operation| {
             let blade = &operation.blade;
-            positive(blade.cutting_length) && blade.half_apex.is_finite() && blade.thickness.is_finite()
+            let apex = (Angle::ZERO..Angle::deg(90.0)).contains(&blade.half_apex);
+            positive(blade.cutting_length)
+                && apex
+                && blade.thickness.is_finite()
+                && blade.thickness >= Length::ZERO
         });
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
         let cell = p.cell.as_ref().is_none_or(|cell| {
             let frames = [cell.tool, cell.base].into_iter().all(|frame| match frame {
                 Registered::Value(frame) => frame.origin.is_finite(),
-                Registered::Number(_) => true,
+                Registered::Number(number) => number > 0,
             });
             let load = match cell.load {
-                Some(Registered::Value(load)) => load.mass.is_finite() && load.centre.is_finite(),
-                _ => true,
+                Some(Registered::Value(load)) => {
+                    load.mass.is_finite() && load.mass >= Mass::ZERO && load.centre.is_finite()
+                }
+                Some(Registered::Number(number)) => number > 0,
+                None => true,
+            };
+            let ready = match cell.ready {
+                Ready::Input(input) => input > 0,
+                Ready::After(time) => time.is_finite() && time >= Duration::ZERO,
             };
             frames
                 && load
+                && ready
+                && cell.ultrasonic.is_none_or(|output| output > 0)
                 && cell
                     .home
                     .is_none_or(|home| home.iter().all(|angle| angle.is_finite()))
@@ -311,7 +324,7 @@ impl<'p> Walk<'p> {
                 orientation,
                 feed,
                 rate,
-            } => self.travel(to, orientation, feed, rate),
+            } => self.travel(op.site, to, orientation, feed, rate),
             Action::Approach { to, feed } | Action::Retract { to, feed } => self.straight(to, feed),
             Action::Cut { flank, to, feed } => self.cut(op.site, flank, to, feed),
             Action::Turn { to, rate } => self.turn(op.site, to, rate),
@@ -358,7 +371,7 @@ impl<'p> Walk<'p> {
         self.at = Where::Home;
     }
 
-    fn travel(&mut self, to: Point3, orientation: OrientationId, feed: FeedId, rate: RateId) {
+    fn travel(&mut self, site: Site, to: Point3, orientation: OrientationId, feed: FeedId, rate: RateId) {
         self.needs = self.needs.with(Capability::LinearMove);
         self.feed(feed);
         self.rate(rate);
@@ -369,6 +382,10 @@ impl<'p> Walk<'p> {
             Where::Tip(from, held) => {
                 self.rotation(held, orientation);
                 self.air(from, to);
+                if held != orientation {
+                    self.turns_clear(site, from, [held, orientation]);
+                    self.turns_clear(site, to, [held, orientation]);
+                }
             }
             Where::Start => {
                 let needs_home = self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some());
@@ -451,15 +468,20 @@ impl<'p> Walk<'p> {
             return;
         };
         self.rotation(held, to);
+        self.turns_clear(site, tip, [held, to]);
+        self.at = Where::Tip(tip, to);
+    }
+
+    /// The blade is clear of the stock in all of the postures with its tip at that point.
+    fn turns_clear(&mut self, site: Site, tip: Point3, postures: [OrientationId; 2]) {
         let operation = site.operation().and_then(|id| self.operation(id));
-        let clear = [held, to]
+        let clear = postures
             .into_iter()
             .all(|id| match (operation, self.orientation(id)) {
                 (Some(operation), Some(orientation)) => self.is_clear(tip, operation, orientation),
                 _ => true,
             });
         self.require(clear, Rule::TurnInStock);
-        self.at = Where::Tip(tip, to);
     }
 
     fn ultrasonic(&mut self, state: Switch) {
@@ -550,21 +572,28 @@ impl<'p> Walk<'p> {
         straight && low <= SAME && high >= depth - SAME
     }
 
-    /// Whether the blade, its edge lying over the work, is clear of the stock with its tip at `tip` [Cui 5].
+    /// Whether the blade, its edges lying over the work, is clear of the stock with its tip at `tip` [Cui 5].
     fn is_clear(&self, tip: Point3, operation: &Operation, held: Orientation) -> bool {
         let stock = self.program.stock;
-        let towards_y = -held.matrix()[1][2];
-        // Angle between the tool axis and the work's y; the edge lies half the apex angle nearer to it.
-        let rake = libm::acos(towards_y.abs().min(1.0));
-        let overhang = operation.blade.cutting_length.to_mm()
-            * libm::cos((rake - operation.blade.half_apex.to_rad()).max(0.0));
-        let gap = (-tip.y).max(tip.y - stock.depth.to_mm());
-        let over_work = if tip.y < 0.0 {
-            towards_y > 0.0
+        if tip.z >= stock.height.to_mm() - SAME {
+            return true;
+        }
+        // The tool axis makes this angle with +y; both edges lie half the apex angle off it, in the blade's plane.
+        let axis = libm::acos((-held.matrix()[1][2]).clamp(-1.0, 1.0));
+        let (length, half_apex) = (
+            operation.blade.cutting_length.to_mm(),
+            operation.blade.half_apex.to_rad(),
+        );
+        let edges = [axis - half_apex, axis + half_apex].map(|angle| length * libm::cos(angle));
+        let (gap, towards_work) = if tip.y < 0.0 {
+            (-tip.y, 1.0)
         } else {
-            towards_y < 0.0
+            (tip.y - stock.depth.to_mm(), -1.0)
         };
-        tip.z >= stock.height.to_mm() - SAME || gap >= if over_work { overhang - SAME } else { -SAME }
+        gap >= -SAME
+            && edges
+                .into_iter()
+                .all(|along_y| along_y * towards_work <= gap + SAME)
     }
 }
 
