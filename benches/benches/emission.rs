@@ -27,7 +27,7 @@ fn all(criterion: &mut Criterion) {
     let backend = |folder: &mut Folder| stages::emit(&program, &options, folder);
     let formatted = |folder: &mut Folder| lines.write(folder);
     let finished = |folder: &mut Folder| emission::write_finished(&bundle, folder);
-    let ways: [(&str, &dyn Fn(&mut Folder)); 3] = [
+    let ways: [Way<'_>; 3] = [
         ("backend, to files", &backend),
         ("write! through a BufWriter, to files", &formatted),
         ("finished bytes, to files", &finished),
@@ -46,6 +46,9 @@ fn all(criterion: &mut Criterion) {
     group.finish();
     std::fs::remove_dir_all(&path).expect("files can be removed");
 }
+
+/// A way of writing, by name.
+type Way<'a> = (&'a str, &'a dyn Fn(&mut Folder));
 
 criterion_group!(benches, all);
 criterion_main!(benches);

@@ -251,17 +251,24 @@ mod tests {
         vees.iter().map(|vee| vee.height(x)).fold(top, f64::min)
     }
 
-    /// Where a flank comes out, by looking every hundredth of a millimetre.
+    /// Where a flank comes out, by looking every hundredth of a millimetre, and at the older tips, whose Vs may be
+    /// narrower than that where the flank passes just above them.
     fn exit_by_sampling(width: f64, top: f64, vees: &[Vee], vee: Vee, side: Side) -> f64 {
-        let step = match side {
-            Side::Left => -0.01,
-            Side::Right => 0.01,
+        let (sense, room) = match side {
+            Side::Left => (-1.0, vee.tip.x),
+            Side::Right => (1.0, width - vee.tip.x),
         };
-        let mut x = vee.tip.x;
-        while (0.0..=width).contains(&x) && lowest(top, vees, x) > vee.height(x) {
-            x += step;
-        }
-        vee.height(x.clamp(0.0, width)) - vee.tip.z
+        let steps = (0..10_001).map(|step| f64::from(step) * 0.01);
+        let tips = vees.iter().map(|older| (older.tip.x - vee.tip.x) * sense);
+        let mut distances: Vec<f64> = steps
+            .chain(tips)
+            .filter(|far| (0.0..=room).contains(far))
+            .collect();
+        distances.sort_by(f64::total_cmp);
+        let x_at = |far: f64| vee.tip.x + sense * far;
+        let comes_out = |&far: &f64| lowest(top, vees, x_at(far)) <= vee.height(x_at(far));
+        let exit = distances.into_iter().find(comes_out).unwrap_or(room);
+        vee.height(x_at(exit)) - vee.tip.z
     }
 
     fn a_vee() -> impl Strategy<Value = Vee> {
