@@ -39,17 +39,17 @@ pub(super) fn compile(args: &CompileArgs, targets: &Targets, console: &Console) 
     // Without a job clap has printed the help already.
     let job = args.job.as_deref().unwrap_or_default();
     match product(args, targets) {
-        Ok(product) => judge(job, &args.overrides.set, &product, console),
+        Ok(product) => judge(job, &args.overrides.set, targets, &product, console),
         Err(failure) => console.failure(&failure),
     }
 }
 
 /// Checks jobs, each on its own. The worst of them decides how the run ends.
-pub(super) fn check(args: &CheckArgs, console: &Console) -> Exit {
+pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> Exit {
     let product = Product::Verdict { remark: None };
     args.jobs
         .iter()
-        .map(|job| judge(job, &args.overrides.set, &product, console))
+        .map(|job| judge(job, &args.overrides.set, targets, &product, console))
         .max()
         .unwrap_or(Exit::Success)
 }
@@ -87,13 +87,14 @@ fn inner_destination(output: Option<&str>) -> Destination {
 }
 
 /// Takes one job through the pipeline and tells what came of it.
-fn judge(job: &str, overrides: &[String], product: &Product, console: &Console) -> Exit {
+fn judge(job: &str, overrides: &[String], targets: &Targets, product: &Product, console: &Console) -> Exit {
     let disk = Disk::around(job);
     let mut progress = Progress::start(console.shows_progress());
     let request = Request {
         path: disk.job(),
         loader: &disk,
         overrides,
+        targets,
     };
     let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,

@@ -76,7 +76,7 @@ pub fn run(targets: &Targets) -> ExitCode {
     };
     let console = Console::new(&arguments.display);
     let exit = match &arguments.command {
-        Some(Command::Check(check)) => compile::check(check, &console),
+        Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
         Some(Command::Targets) => targets::list(targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),

@@ -27,6 +27,8 @@ pub struct Request<'a> {
     pub loader: &'a dyn Loader,
     /// `name=value` texts that replace `let`s.
     pub overrides: &'a [String],
+    /// Targets whose options the machine may hold.
+    pub targets: &'a [&'static dyn Backend],
 }
 
 /// The stage that is at work.
@@ -88,13 +90,14 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
         path,
         loader,
         overrides,
+        targets,
     } = request;
     let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
     let (ast, job) = sema::check(path, loader, overrides, sources, diagnostics)
         .map_err(|error| RequestError::Unreadable(error.to_string()))?;
     outcome.ast = ast;
     if let Some(job) = &job {
-        outcome.diagnostics.extend(target::unknown_targets(job));
+        outcome.diagnostics.extend(target::unknown_targets(job, targets));
     }
     outcome.job = job;
     if !has_errors(&outcome.diagnostics) {

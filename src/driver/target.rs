@@ -3,14 +3,13 @@
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
-use crate::registry;
 use crate::source::Span;
 use vcutc_backend_api::backend::{Backend, BackendIssue, OptionKind, OptionSpec, OptionValue, Options};
 use vcutc_backend_api::ir::{Action, OpId, Program};
 
 /// Blocks in the machine that are meant for a target that does not exist.
-pub(super) fn unknown_targets(job: &CheckedJob) -> Vec<Diagnostic> {
-    let known: Vec<&str> = registry::backends().iter().map(|backend| backend.id()).collect();
+pub(super) fn unknown_targets(job: &CheckedJob, targets: &[&'static dyn Backend]) -> Vec<Diagnostic> {
+    let known: Vec<&str> = targets.iter().map(|backend| backend.id()).collect();
     let blocks = job.machine.iter().flat_map(|machine| &machine.targets);
     blocks
         .filter(|block| !known.contains(&block.target.as_str()))

@@ -155,3 +155,80 @@ proptest! {
         prop_assert!((whole.to_mm2() - 85.0 * 50.0).abs() < 1e-6);
     }
 }
+
+prop_compose! {
+    /// Jobs with everything given that can be given, sensible or not, on stocks of any size.
+    fn a_stubborn_job()(
+        mut job in a_job(),
+        size in (20.0..300.0_f64, 10.0..80.0_f64),
+        residual in prop::sample::select(vec![Residual::Discard, Residual::Lift, Residual::Shift, Residual::Auto]),
+        layer in prop::option::of(0.7..9.0_f64),
+        step in prop::option::of(0.7..15.0_f64),
+        extension in prop::option::of(0.0..60.0_f64),
+        standoff in prop::option::of(0.0..3.0_f64),
+        run_out in 0.0..10.0_f64,
+    ) -> CheckedJob {
+        let (width, height) = size;
+        let scale = |p: &Point2| Point2 { x: p.x * width / 85.0, z: p.z * height / 50.0 };
+        job.profile = Profile::new(job.profile.points().iter().map(scale).collect()).unwrap();
+        job.stock = Stock { width: Length::mm(job.profile.span().1), height: Length::mm(height), ..job.stock };
+        let auto = |value: Option<f64>| value.map_or(Auto::Auto, |value| Auto::Given(Length::mm(value)));
+        let asked = operation(&mut job);
+        asked.residual.value = residual;
+        asked.layer.value = auto(layer);
+        asked.step.value = auto(step);
+        asked.extension.value = auto(extension);
+        asked.standoff.value = auto(standoff);
+        asked.run_out.value = Length::mm(run_out);
+        job
+    }
+}
+
+/// Distance of a point from a V: to its tip where that is nearest, else to a flank; negative within the V.
+fn distance_from_vee(tip: Point2, slope: f64, point: Point2) -> f64 {
+    let length = (1.0 + slope * slope).sqrt();
+    let (aside, above) = ((point.x - tip.x).abs(), point.z - tip.z);
+    // Along the nearer flank from the tip, and square to it.
+    let (along, beside) = ((aside + slope * above) / length, (slope * aside - above) / length);
+    if along < 0.0 {
+        libm::hypot(aside, above)
+    } else {
+        beside
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn no_strategy_enters_the_part(job in a_stubborn_job()) {
+        let (plan, diagnostics) = super::choose(&job);
+        let Some(plan) = plan else {
+            prop_assert!(!diagnostics.is_empty());
+            return Ok(());
+        };
+        let proven = verdict::prove(&plan, &SourceMap::default());
+        let proven = proven.map_err(|faults| TestCaseError::fail(format!("{faults:?}")))?;
+        prop_assert_eq!(proven.findings.overcut, None);
+        // The same without offsets and envelopes: no point of the part lies nearer to the V of a cut's material side than the
+        // allowance. (The flattened offset may be a micrometre above the true one, never below.)
+        let super::PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
+        let allowance = vcut.asked.allowance.value.to_mm();
+        let standoff = vcut.parameters.standoff.to_mm();
+        let slope = vcut.parameters.flanks.slope;
+        for cut in &vcut.cuts {
+            let side = Point2 { z: cut.tip.z - vcut.parameters.drop.to_mm(), ..cut.tip };
+            for pair in plan.profile.points().windows(2) {
+                for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                    let point = Point2 {
+                        x: pair[0].x + (pair[1].x - pair[0].x) * share,
+                        z: pair[0].z + (pair[1].z - pair[0].z) * share,
+                    };
+                    let distance = distance_from_vee(side, slope, point);
+                    prop_assert!(distance >= allowance - 1e-6, "{cut:?} {point:?} {distance}");
+                }
+            }
+        }
+        prop_assert!(standoff >= vcut.asked.blade.thickness.value.to_mm() / 2.0);
+    }
+}

@@ -50,6 +50,7 @@ pub(crate) fn compile(path: &str, files: &Files) -> Outcome {
         path,
         loader: files,
         overrides: &[],
+        targets: &vcutc::registry::backends(),
     };
     driver::compile(request, &mut |_| {}).unwrap()
 }
