@@ -14,7 +14,7 @@ use crate::source::{Loader, SourceMap};
 use crate::summary::summary;
 use crate::syntax::ast::Ast;
 use crate::verdict;
-use vcutc_backend_api::backend::{Backend, EmitError};
+use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
 
@@ -154,14 +154,17 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
         return Ok(());
     };
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
-    let emission = backend.check(&compiled.program, &options).map_err(|issues| {
-        EmitFailure::Diagnostics(target::diagnose(
-            job,
-            backend,
-            compiled.program.program(),
-            &issues,
-        ))
-    })?;
+    let refused = |issues: &[BackendIssue]| {
+        let program = compiled.program.program();
+        EmitFailure::Diagnostics(target::diagnose(job, backend, program, issues))
+    };
+    let missing = target::missing(backend, &compiled.program);
+    if !missing.is_empty() {
+        return Err(refused(&missing));
+    }
+    let emission = backend
+        .check(&compiled.program, &options)
+        .map_err(|issues| refused(&issues))?;
     emission.write(sink).map_err(|error| match error {
         EmitError::Sink(error) => EmitFailure::Sink(error.0),
         EmitError::Internal(what) => EmitFailure::Diagnostics(vec![

@@ -144,6 +144,17 @@ fn unknown_option(given: &GivenOption, backend: &dyn Backend) -> Diagnostic {
     }
 }
 
+/// What the program needs and the target does not have at all.
+pub(super) fn missing(backend: &dyn Backend, program: &VerifiedProgram) -> Vec<BackendIssue> {
+    let missing = program.needs().missing_from(backend.capabilities());
+    missing
+        .map(|capability| BackendIssue::Unsupported {
+            op: OpId(0),
+            what: capability.words(),
+        })
+        .collect()
+}
+
 /// A target's objections in words.
 pub(super) fn diagnose(
     job: &CheckedJob,

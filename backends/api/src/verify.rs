@@ -85,6 +85,20 @@ impl Capability {
         Self::Dwell,
         Self::ToolChange,
     ];
+
+    /// What it is, for people.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::LinearMove => "straight moves of the tip with a turning blade",
+            Self::JointMove => "moves of all axes to given angles",
+            Self::StillTipTurn => "turns about the still tip",
+            Self::Output => "digital outputs",
+            Self::AwaitInput => "waiting for a digital input",
+            Self::Dwell => "waiting for some time",
+            Self::ToolChange => "changes of the blade",
+        }
+    }
 }
 
 /// A set of [`Capability`].
