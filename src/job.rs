@@ -43,7 +43,7 @@ pub struct CheckedJob {
     pub profile_span: Span,
     /// What to do, in order; at least one.
     pub operations: Vec<Operation>,
-    /// On what; the only one the job defines or uses.
+    /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.
     pub machine: Option<Machine>,
 }
 
@@ -63,7 +63,7 @@ pub struct Blade {
     pub span: Span,
     /// Usable edge length from the tip; positive.
     pub cutting_length: Sourced<Length>,
-    /// Half the apex angle; 0 to 90 degrees, both excluded at 90.
+    /// Half the apex angle; at least 0 and below 90 degrees.
     pub half_apex: Sourced<Angle>,
     /// Thickness; zero or more.
     pub thickness: Sourced<Length>,
@@ -147,7 +147,8 @@ pub enum Residual {
     Lift,
     /// It slides within its layer until it clears the part.
     Shift,
-    /// Whichever of these keeps the residual and the blade's reach within limits with the fewest cuts.
+    /// Dropped where the residual stays within the limit, else raised, else moved if its chip does not come free there.
+    /// Regular tips whose chips do not come free are raised by the least that frees them.
     Auto,
 }
 

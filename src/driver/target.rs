@@ -62,7 +62,8 @@ pub(super) fn options(job: &CheckedJob, backend: &dyn Backend) -> Result<Options
 }
 
 fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(), String> {
-    // What cannot be converted is set to a value of another kind, so that the refusal is worded in one place.
+    // What cannot be converted is set to an empty list of lines, which `Options::set` refuses in the same words as a value
+    // out of range. An option of lines would take it, so its refusal is worded below.
     let none = OptionValue::Lines(Vec::new());
     let value = match (spec.kind, given) {
         (OptionKind::Integer { .. }, GivenValue::Ratio(ratio)) => {

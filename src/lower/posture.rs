@@ -1,9 +1,9 @@
 //! How the blade is held: the postures of V-cutting as rotations of the blade frame T in the workpiece frame W.
 //!
-//! `R(alpha, sigma) = Ry(alpha) Rx(-sigma (90 deg - theta)) R0` with `R0 = [+Y +X -Z]` (process reference, section 1):
-//! swing `alpha` leans the shank towards +x, rake `theta` leans it along the feed, `sigma` is the sense of the feed
-//! along y. A double-edged blade keeps `x_t` towards +y on both ways; a single-edged one is turned half round about its
-//! own axis when it cuts towards -y.
+//! `R(alpha, sigma) = Ry(alpha) Rx(-sigma (90 deg - theta)) R0` with `R0 = [+Y +X -Z]`: swing `alpha` leans the shank
+//! towards +x, rake `theta` leans it along the feed, `sigma` is the sense of the feed along y. A double-edged blade keeps
+//! `x_t` towards +y on both ways; a single-edged one is turned half round about its own axis when it cuts towards -y.
+//! See `docs/process.md`, "Frames and posture".
 
 use glam::{DMat3, DQuat, DVec3};
 use vcutc_backend_api::geometry::Orientation;
@@ -102,7 +102,7 @@ mod tests {
         edges: Edges::Double,
     };
 
-    /// The formula of the process reference, by another crate.
+    /// The formula of `docs/process.md`, "Frames and posture", by another crate.
     fn by_matrices(alpha: f64, theta: f64, sigma: f64) -> Matrix3<f64> {
         let r0 = Matrix3::from_columns(&[Vector3::y(), Vector3::x(), -Vector3::z()]);
         let about_x = Rotation3::from_axis_angle(

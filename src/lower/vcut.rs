@@ -1,4 +1,4 @@
-//! The moves of V-cutting (process reference, section 2).
+//! The moves of V-cutting (`docs/process.md`, "One V-cut").
 //!
 //! Cuts start and end an extension away from the stock, where the blade may turn. In `point` order both flanks of a V are
 //! cut before the next one: there with the shank leaning left, turn about the still tip, back with the shank leaning right,

@@ -21,7 +21,7 @@ pub struct VcutParameters {
     pub swing: Angle,
     /// Layer spacing.
     pub layer: Length,
-    /// Spacing of tips in a layer; orthogonal layouts may use a little less to fit the width.
+    /// Spacing of tips in a layer; free layouts use a little less where that spreads tips evenly over a stretch.
     pub step: Length,
     /// How far cuts run out beyond the stock.
     pub extension: Length,

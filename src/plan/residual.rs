@@ -1,5 +1,5 @@
 //! Which tips are cut: the lattice's own where they clear the part, and what the residual strategy makes of the others
-//! (process reference, section 5).
+//! (`docs/process.md`, "Tips at the part and residual strategies").
 //!
 //! A layer is decided as a whole against the surface that the layers above left, whatever the order in which its cuts
 //! will be made: cutting a neighbour first only lowers the surface, so a flank then comes out no later.

@@ -14,7 +14,7 @@
 //!
 //! A flank rises from the tip with slope `cot(swing)` and comes out at the first point where the surface is not above
 //! it: at a corner it touches, in a segment it crosses, or at the stock's side. The height of that point above the tip is
-//! the vertical reach the blade needs [process reference: chip not freed beyond `d cos(swing)`].
+//! the vertical reach the blade needs: beyond `d cos(swing)` the chip is not freed (`docs/process.md`, "One V-cut").
 
 use crate::geom::curve::Point2;
 
@@ -405,7 +405,7 @@ mod tests {
         (cuts, j, removed, reach / (swing.cos() * lead.sin()))
     }
 
-    /// The polygon simulation quoted in the process reference, section 3.
+    /// The table of `docs/process.md`, "Lattices and reach", which a simulation of polygons confirmed.
     #[test]
     fn agrees_with_the_polygon_simulation() {
         let (cuts, layers, removed, edge) = block(4.40, 5.97, 34.16, 5.97 / 2.0, 0.0);

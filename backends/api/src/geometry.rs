@@ -36,7 +36,10 @@ impl Point3 {
     }
 }
 
-/// A rotation, held as a unit quaternion with `w >= 0` (so equal rotations are equal values).
+/// A rotation, held as a unit quaternion.
+///
+/// Of the two quaternions of a rotation it is the one in which the first of `w, x, y, z` that is not nearly zero (beyond
+/// 1e-12) is positive, so that equal rotations are equal values up to rounding.
 ///
 /// As a matrix `R` its columns are the axes of the inner frame seen from the outer one:
 /// `v_outer = R v_inner`.
@@ -139,8 +142,8 @@ impl Orientation {
         .unwrap_or(Self::IDENTITY)
     }
 
-    /// A, B, C with `-180 < A, C <= 180` and `-90 <= B <= 90` degrees. Where B is +-90 only a sum or difference of
-    /// A and C is defined; C is then 0.
+    /// A, B, C with A and C from -180 to 180 degrees and B from -90 to 90. Half a turn comes out with either sign, by the
+    /// last bits of the quaternion. Where B is +-90 only a sum or difference of A and C is defined; C is then 0.
     #[must_use]
     pub fn to_zyx(self) -> Zyx {
         let m = self.matrix();
@@ -181,7 +184,7 @@ impl Orientation {
         ]
     }
 
-    /// The parts `[w, x, y, z]` of the unit quaternion, `w >= 0`.
+    /// The parts `[w, x, y, z]` of the unit quaternion; the first that is not nearly zero is positive.
     #[must_use]
     pub const fn quaternion(self) -> [f64; 4] {
         [self.w, self.x, self.y, self.z]

@@ -1,6 +1,6 @@
 //! Quantities as types: a length cannot be handed over where an angle is wanted.
 //!
-//! Each type holds one `f64` in the unit of the process reference (mm, rad, s, kg) and is made and read through
+//! Each type holds one `f64` in the unit of `docs/ir.md` (mm, rad, s, kg) and is made and read through
 //! functions that name their unit. Values come from the language's evaluator or from the verifier, which both
 //! refuse what is not finite; arithmetic on such values stays finite because their magnitudes are bounded.
 

@@ -410,9 +410,9 @@ mod tests {
     use crate::verify::verify;
     use proptest::prelude::*;
 
-    /// The matrix of the process reference, worked out for u = -z_t and x_t.
+    /// The matrix of `docs/process.md`, "Frames and posture", worked out for u = -z_t and x_t.
     #[test]
-    fn the_posture_is_that_of_the_process_reference() {
+    fn the_posture_follows_its_formula() {
         let (swing, rake) = (Angle::deg(34.16), Angle::deg(60.0));
         for sense in [1.0, -1.0] {
             let m = posture(swing, rake, sense).matrix();
