@@ -6,6 +6,7 @@ use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, Target
 use crate::source::Span;
 use vcutc_backend_api::backend::{Backend, BackendIssue, OptionKind, OptionSpec, OptionValue, Options};
 use vcutc_backend_api::ir::{Action, OpId, Program};
+use vcutc_backend_api::verify::VerifiedProgram;
 
 /// Blocks in the machine that are meant for a target that does not exist.
 pub(super) fn unknown_targets(job: &CheckedJob, targets: &[&'static dyn Backend]) -> Vec<Diagnostic> {
