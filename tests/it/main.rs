@@ -28,4 +28,5 @@ mod published;
 mod repository;
 mod schema;
 mod syntax;
+mod third_party;
 mod tidy;
