@@ -91,7 +91,8 @@ const LOAD_PARAMETERS: &[Parameter] = &[
     },
 ];
 
-/// Time after which the generator counts as up, when the job does not say.
+/// Time after which the generator counts as up, when the job does not say: a usual value, from no source. The language
+/// reference asks users to measure theirs.
 const SETTLED: Duration = Duration::s(0.5);
 
 /// What the head of a machine's block says.

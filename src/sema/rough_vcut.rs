@@ -77,7 +77,8 @@ const DIRECTIONS: &[(&str, Direction)] = &[
     ("backward", Direction::Backward),
 ];
 
-/// Air between the blade and the stock where it turns, when the job does not say.
+/// Air between the blade and the stock where it turns, when the job does not say: a usual value for the errors of stock and
+/// robot together, from no source.
 const RUN_OUT: Length = Length::mm(2.0);
 
 /// The operation.
