@@ -88,6 +88,8 @@ struct Writer<'b> {
     at: Place,
     tip: Point3,
     held: Option<Orientation>,
+    /// The cut made last.
+    last: Option<Site>,
     running: Switch,
 }
 
@@ -122,6 +124,7 @@ impl<'b> Writer<'b> {
             at: Place::Above,
             tip: Point3::new(0.0, -extension, safe),
             held: None,
+            last: None,
             running: Switch::Off,
         }
     }
@@ -198,22 +201,26 @@ impl<'b> Writer<'b> {
             },
         );
         self.tip = end;
+        self.last = Some(pass.site);
         self.at = Place::Beside(feed.reversed());
     }
 
     /// From above the work to the start of a cut.
     fn descend(&mut self, pass: Pass, feed: Feed) {
-        let layer = match pass.site {
-            Site::Cut { operation, layer, .. } => Site::Layer { operation, layer },
-            Site::Program | Site::Operation(_) | Site::Layer { .. } => pass.site,
+        // The way to another V serves its layer; the way back between the flanks of one V serves that V.
+        let way = match pass.site {
+            Site::Cut { operation, layer, .. } if self.last != Some(pass.site) => {
+                Site::Layer { operation, layer }
+            }
+            Site::Program | Site::Operation(_) | Site::Layer { .. } | Site::Cut { .. } => pass.site,
         };
         let above = Point3::new(pass.x, self.near(feed), self.safe);
-        self.travel(layer, above, self.holder.cutting(pass.flank, feed));
+        self.travel(way, above, self.holder.cutting(pass.flank, feed));
         if self.running == Switch::Off {
             // The generator starts at the safe plane over the first cut and runs until the operation's end: it must be up
             // before the blade enters, and idling between layers costs nothing but waiting for it again would.
-            self.builder.op(layer, Action::Ultrasonic { state: Switch::On });
-            self.builder.op(layer, Action::AwaitReady);
+            self.builder.op(way, Action::Ultrasonic { state: Switch::On });
+            self.builder.op(way, Action::AwaitReady);
             self.running = Switch::On;
         }
         let start = Point3 { z: pass.z, ..above };

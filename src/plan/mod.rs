@@ -22,7 +22,7 @@ use crate::geom::cone;
 use crate::geom::curve::Point2;
 use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
-use crate::job::{Auto, CheckedJob, Machine, Operation, RoughVcut};
+use crate::job::{Auto, CheckedJob, Machine, Operation, Residual, RoughVcut};
 use crate::sim::surface::Surface;
 use parameters::{VcutParameters, show};
 use vcutc_backend_api::ir::Stock;
@@ -152,19 +152,24 @@ fn plan_vcut(
         diagnostics.push(too_many_cuts(asked, &parameters, layout.most_tips()));
         return None;
     }
-    let mut planner = residual::LayerPlanner::new(&layout, asked, &parameters, &job.profile, surface);
-    for layer in 1..=layout.layers() {
-        planner.layer(layer);
-        if planner.count() > cuts_left {
-            diagnostics.push(too_many_cuts(asked, &parameters, planner.count()));
+    let planner = residual::LayerPlanner::new(&layout, asked, &parameters, &job.profile, surface);
+    let mut cuts = plan_layers(planner, &layout, cuts_left);
+    if cuts.as_ref().is_ok_and(Vec::is_empty) && asked.residual.value == Residual::Auto {
+        // Where all there is to cut is less than what may stay, `auto` takes it rather than nothing.
+        let planner = residual::LayerPlanner::new(&layout, asked, &parameters, &job.profile, surface);
+        cuts = plan_layers(planner.thorough(), &layout, cuts_left);
+    }
+    let cuts = match cuts {
+        Ok(cuts) if cuts.is_empty() => {
+            diagnostics.push(nothing_to_cut(job, asked, &parameters, &clearance));
             return None;
         }
-    }
-    let cuts = planner.finish();
-    if cuts.is_empty() {
-        diagnostics.push(nothing_to_cut(job, asked, &parameters, &clearance));
-        return None;
-    }
+        Ok(cuts) => cuts,
+        Err(count) => {
+            diagnostics.push(too_many_cuts(asked, &parameters, count));
+            return None;
+        }
+    };
     let estimate =
         parameters
             .time_model(job, asked)
@@ -176,6 +181,21 @@ fn plan_vcut(
         estimate,
         cuts,
     })
+}
+
+/// The cuts of all layers, or how many there were when there were too many.
+fn plan_layers(
+    mut planner: residual::LayerPlanner<'_>,
+    layout: &lattice::Layout<'_>,
+    cuts_left: usize,
+) -> Result<Vec<PlannedCut>, usize> {
+    for layer in 1..=layout.layers() {
+        planner.layer(layer);
+        if planner.count() > cuts_left {
+            return Err(planner.count());
+        }
+    }
+    Ok(planner.finish())
 }
 
 /// About how many corners the flanks of an operation pass under, and free lattices look at.

@@ -80,6 +80,13 @@ impl<'p> LayerPlanner<'p> {
         }
     }
 
+    /// The same, but `auto` leaves nothing standing that a raised or moved tip could take.
+    #[must_use]
+    pub const fn thorough(mut self) -> Self {
+        self.tolerated = 0.0;
+        self
+    }
+
     /// Decides a layer and takes its chips out.
     pub fn layer(&mut self, layer: u32) {
         let z = self.layout.height(layer);

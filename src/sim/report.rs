@@ -70,24 +70,49 @@ fn area_under(corners: &[Point2]) -> f64 {
     corners.iter().zip(corners.iter().skip(1)).map(strip).sum()
 }
 
-/// The surface's point farthest from the part: over a corner of the surface, or where the surface is flat over a hollow,
-/// over a corner of the part.
+/// Scallops are found to within this, in mm.
+const SCALLOP_TOLERANCE: f64 = 1e-3;
+
+/// The surface's point farthest from the part.
+///
+/// Corners of the surface come first. Between two of them the distance may still be larger, over the middle of a hollow;
+/// but it never changes faster than the place, so on a stretch of length `l` between points `a` and `b` away from the part
+/// it is at most `(a + b + l) / 2`. Stretches where that is no more than what is known are left out, others are halved.
 fn highest(corners: &[Point2], part: &Profile) -> Scallop {
     let mut highest = Scallop {
         height: Length::ZERO,
         peak: Point2 { x: 0.0, z: 0.0 },
     };
-    let mut look = |x: f64, surface: f64, part_height: f64| {
-        // The distance is at most the height above the part, so low points need no search.
-        if surface - part_height > highest.height.to_mm() {
-            let peak = Point2 { x, z: surface };
-            let height = Length::mm(part.nearest_distance(peak));
-            if height > highest.height {
-                highest = Scallop { height, peak };
-            }
+    let distances: Vec<f64> = corners
+        .iter()
+        .map(|&corner| part.nearest_distance(corner))
+        .collect();
+    for (&peak, &distance) in corners.iter().zip(&distances) {
+        if distance > highest.height.to_mm() {
+            highest = Scallop {
+                height: Length::mm(distance),
+                peak,
+            };
         }
-    };
-    merge_heights(corners, part.points(), &mut look);
+    }
+    let ends = || corners.iter().copied().zip(distances.iter().copied());
+    let mut stretches: Vec<_> = ends().zip(ends().skip(1)).collect();
+    while let Some(((a, at_a), (b, at_b))) = stretches.pop() {
+        let most = (at_a + at_b + a.distance(b)) / 2.0;
+        if most <= highest.height.to_mm() + SCALLOP_TOLERANCE {
+            continue;
+        }
+        let middle = a.lerp(b, 0.5);
+        let distance = part.nearest_distance(middle);
+        if distance > highest.height.to_mm() {
+            highest = Scallop {
+                height: Length::mm(distance),
+                peak: middle,
+            };
+        }
+        stretches.push(((a, at_a), (middle, distance)));
+        stretches.push(((middle, distance), (b, at_b)));
+    }
     highest
 }
 
@@ -129,4 +154,47 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
         later_a.max(product(a, b.get(lag..).unwrap_or_default()))
     };
     lags.map(at).fold(0.0, f64::max) / scale
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn polyline(heights: &[f64]) -> Vec<Point2> {
+        (0_u32..)
+            .zip(heights)
+            .map(|(i, &z)| Point2 {
+                x: f64::from(i) * 10.0,
+                z,
+            })
+            .collect()
+    }
+
+    /// Distance of a point from a polyline, from every piece.
+    fn distance(point: Point2, line: &[Point2]) -> f64 {
+        let to_piece = |pair: &[Point2]| {
+            let (a, b) = (pair[0], pair[1]);
+            let (dx, dz) = (b.x - a.x, b.z - a.z);
+            let t = (((point.x - a.x) * dx + (point.z - a.z) * dz) / (dx * dx + dz * dz)).clamp(0.0, 1.0);
+            libm::hypot(point.x - a.x - t * dx, point.z - a.z - t * dz)
+        };
+        line.windows(2).map(to_piece).fold(f64::INFINITY, f64::min)
+    }
+
+    proptest! {
+        #[test]
+        fn the_highest_point_is_found_between_corners_too(
+            part in prop::collection::vec(0.0..40.0_f64, 6),
+            above in prop::collection::vec(0.0..30.0_f64, 6),
+        ) {
+            let surface: Vec<f64> = part.iter().zip(&above).map(|(part, above)| part + above).collect();
+            let (surface, part) = (polyline(&surface), polyline(&part));
+            let found = highest(&surface, &Profile::new(part.clone()).unwrap()).height.to_mm();
+            // Every hundredth of each stretch.
+            let places = surface.windows(2).flat_map(|pair| (0..=100_u32).map(|i| pair[0].lerp(pair[1], f64::from(i) / 100.0)));
+            let sampled = places.map(|place| distance(place, &part)).fold(0.0, f64::max);
+            prop_assert!(found >= sampled - SCALLOP_TOLERANCE && found <= sampled + 0.5, "{found} {sampled}");
+        }
+    }
 }
