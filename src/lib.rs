@@ -8,6 +8,7 @@ pub mod geom;
 pub mod job;
 pub mod lower;
 pub mod plan;
+pub mod posture;
 pub mod registry;
 pub mod sema;
 pub mod sim;

@@ -1,10 +1,9 @@
 //! From the plan to the program: postures, approaches, retracts, turns, switching.
 //!
-//! One file a question: [`posture`] says how the blade is held, `builder` collects ops and their tables, `vcut` writes
+//! One file a question: `builder` collects ops and their tables, `vcut` writes
 //! down the moves of V-cutting. Adding a kind of operation adds a file beside `vcut` and an arm here.
 
 mod builder;
-pub mod posture;
 #[cfg(test)]
 mod tests;
 mod vcut;

@@ -7,19 +7,14 @@
 //! safe plane.
 
 use super::builder::Builder;
-use super::posture::{Feed, Holder};
 use crate::job::{Direction, Order};
 use crate::plan::{PlannedCut, PlannedVcut, Way, grid};
+use crate::posture::{Feed, Holder};
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, Blade, FeedId, Flank, Operation, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
 };
-use vcutc_backend_api::units::Angle;
-
-/// Turns up to this are made at once. Beyond it the two ways round come too near to one another for comfort: the program
-/// would depend on the last digits of the angles.
-const LARGEST_SINGLE_TURN: Angle = Angle::deg(150.0);
 
 /// Appends the ops of one operation.
 pub(super) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut Builder) {
@@ -262,11 +257,8 @@ impl<'b> Writer<'b> {
 
     /// A turn that comes near half a revolution goes by way of the posture in between.
     fn pass_between(&mut self, site: Site, posture: Orientation) {
-        if self
-            .held
-            .is_some_and(|held| held.angle_to(posture) > LARGEST_SINGLE_TURN)
-        {
-            self.turn(site, self.holder.between());
+        if let Some(between) = self.held.and_then(|held| self.holder.by_way_of(held, posture)) {
+            self.turn(site, between);
         }
     }
 

@@ -8,7 +8,8 @@ use super::blade_reach::{self, Flanks};
 use super::grid;
 use super::time_model::TimeModel;
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Auto, CheckedJob, Lattice, RoughVcut};
+use crate::job::{Auto, CheckedJob, Direction, Lattice, RoughVcut};
+use crate::posture::Holder;
 use vcutc_backend_api::units::{Angle, Area, Length};
 
 /// The swing at which a chip of given edge length is largest [Cui 3]; taken when the swing is left open.
@@ -126,7 +127,12 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
     let lean = Lean::new(asked, swing);
     // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
     let teeth = layer + step * (flanks.slope / 2.0);
-    let extension = resolve_extension(asked, lean.overhang(teeth), diagnostics)?;
+    let extension = resolve_extension(
+        asked,
+        edge_overhang(asked, swing),
+        lean.overhang(teeth),
+        diagnostics,
+    )?;
     // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
     let clear_height = lean.clear_height(extension).max(teeth);
     Some(VcutParameters {
@@ -141,9 +147,23 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
     })
 }
 
-/// How far the edge lies over the work by its projection on y [Cui 5]; the whole cutting length, as deep cuts use it.
-fn edge_overhang(asked: &RoughVcut) -> Length {
-    asked.blade.cutting_length.value * (asked.rake.value - asked.blade.half_apex.value).cos()
+/// How far the edge lies over the work while it cuts [Cui 5] and while it turns beside it; the whole cutting length, as deep
+/// cuts use it.
+fn edge_overhang(asked: &RoughVcut, swing: Angle) -> Length {
+    let (length, half_apex) = (asked.blade.cutting_length.value, asked.blade.half_apex.value);
+    let cutting = length * (asked.rake.value - half_apex).cos();
+    match asked.direction.value {
+        Direction::Alternate => {
+            let holder = Holder {
+                swing,
+                rake: asked.rake.value,
+                edges: asked.blade.edges,
+            };
+            cutting.max(holder.turning_overhang(length, half_apex))
+        }
+        // The blade turns above the work only.
+        Direction::Forward | Direction::Backward => cutting,
+    }
 }
 
 /// How the blade leans over the work while its tip is beside it. Above the cutting length it is taken to go on along the tool
@@ -280,11 +300,11 @@ fn standoff_too_small(asked: &RoughVcut, standoff: Length, least: Length) -> Dia
 /// the layer above; given extensions need only clear the edge.
 fn resolve_extension(
     asked: &RoughVcut,
+    edge: Length,
     body_overhang: Length,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Length> {
     let on_grid = |extension: Length| Length::mm(grid::up(extension.to_mm()));
-    let edge = edge_overhang(asked);
     match asked.extension.value {
         Auto::Auto => Some(on_grid(body_overhang.max(edge) + asked.run_out.value)),
         Auto::Given(extension) if on_grid(extension) >= on_grid(edge) => Some(on_grid(extension)),

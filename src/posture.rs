@@ -8,7 +8,15 @@
 use glam::{DMat3, DQuat, DVec3};
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{Edges, Flank};
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::units::{Angle, Length};
+
+/// Turns up to this are made at once. Beyond it the two ways round come too near to one another for comfort: the program
+/// would depend on the last digits of the angles.
+const LARGEST_SINGLE_TURN: Angle = Angle::deg(150.0);
+
+/// Into how many steps a turn is divided to see how far the blade lies over the work on the way. The edge moves by less than
+/// a degree and a half a step, so between two of them it lies at most a ten-thousandth of its length further.
+const TURN_STEPS: u32 = 128;
 
 /// Sense of the feed along y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,17 +75,63 @@ impl Holder {
         orientation(held * about_its_axis)
     }
 
+    /// The posture by way of which a turn is made that would otherwise come near half a revolution.
+    #[must_use]
+    pub fn by_way_of(self, from: Orientation, to: Orientation) -> Option<Orientation> {
+        (from.angle_to(to) > LARGEST_SINGLE_TURN).then(|| self.between())
+    }
+
+    /// How far an edge of that length lies over the work at most, measured along y from the tip, while the blade turns from
+    /// any cut to any cut the other way.
+    #[must_use]
+    pub fn turning_overhang(self, edge: Length, half_apex: Angle) -> Length {
+        let (left, right) = (Flank::Left, Flank::Right);
+        let turns = [(left, left), (left, right), (right, left), (right, right)]
+            .into_iter()
+            .flat_map(|(from, to)| {
+                [Feed::Forward, Feed::Backward]
+                    .map(|feed| (self.cutting(from, feed), self.cutting(to, feed.reversed())))
+            });
+        let most = turns
+            .map(|(from, to)| match self.by_way_of(from, to) {
+                Some(between) => sweep(from, between, half_apex).max(sweep(between, to, half_apex)),
+                None => sweep(from, to, half_apex),
+            })
+            .fold(0.0, f64::max);
+        edge * most
+    }
+
     /// The posture by way of which a turn of nearly half a revolution is made, so that there is only one way round each
     /// half: upright, and for a single edge a quarter turned about the blade's own axis. There and back go the same way, so
     /// that no turn winds up the blade's cable.
-    #[must_use]
-    pub fn between(self) -> Orientation {
+    fn between(self) -> Orientation {
         let quarter = match self.edges {
             Edges::Double => DQuat::IDENTITY,
             Edges::Single => DQuat::from_rotation_z(core::f64::consts::FRAC_PI_2),
         };
         orientation(upright() * quarter)
     }
+}
+
+/// The largest share of its length by which an edge reaches along y during a turn about one axis.
+fn sweep(from: Orientation, to: Orientation, half_apex: Angle) -> f64 {
+    let quaternion = |o: Orientation| {
+        let [w, x, y, z] = o.quaternion();
+        DQuat::from_xyzw(x, y, z, w)
+    };
+    let (from, to) = (quaternion(from), quaternion(to));
+    // From the tip along either edge, in the blade frame.
+    let edges = [-1.0, 1.0].map(|side| DVec3::new(side * half_apex.sin(), 0.0, -half_apex.cos()));
+    let at = |step: u32| {
+        let held = from.slerp(to, f64::from(step) / f64::from(TURN_STEPS));
+        edges
+            .map(|edge| (held * edge).y.abs())
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    let ends = at(0).max(at(TURN_STEPS));
+    let between = (1..TURN_STEPS).map(at).fold(0.0, f64::max);
+    if between > ends { between + 1e-4 } else { ends }
 }
 
 /// `R0`: blade over the work, tip down, leading side towards +y.
@@ -147,6 +201,15 @@ mod tests {
                     prop_assert!(holder.cutting(flank, feed).angle_to(holder.between()).to_deg() < 170.0);
                 }
             }
+        }
+
+        #[test]
+        fn double_edges_lie_farthest_over_the_work_when_they_cut(swing in 1.0..70.0_f64, rake in 30.0..=90.0_f64, half_apex in 1.0..15.0_f64) {
+            let (rake, half_apex) = (Angle::deg(rake), Angle::deg(half_apex));
+            let holder = Holder { swing: Angle::deg(swing), rake, edges: Edges::Double };
+            let overhang = holder.turning_overhang(Length::mm(10.0), half_apex).to_mm();
+            // [Cui 5].
+            prop_assert!((overhang - 10.0 * (rake - half_apex).cos()).abs() < 2e-3);
         }
 
         #[test]
