@@ -51,6 +51,11 @@ const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
           move after it",
 };
 
+const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "ultrasonic",
+    why: "the program switches the generator on before the blade enters; a blade that does not vibrate breaks",
+};
+
 /// The cell of a program, or everything that stands in the way of writing it.
 pub(crate) fn check(program: &VerifiedProgram) -> Result<&Cell, Vec<BackendIssue>> {
     let Some(cell) = &program.program().cell else {
@@ -137,8 +142,9 @@ impl Findings {
             Some(Registered::Number(number)) => self.number("load number", number, TOOLS),
             None => {}
         }
-        if let Some(output) = cell.ultrasonic {
-            self.number("output number", output, SIGNALS);
+        match cell.ultrasonic {
+            Some(output) => self.number("output number", output, SIGNALS),
+            None => self.tell("ultrasonic", GENERATOR_MISSING),
         }
         match cell.ready {
             Ready::Input(input) => self.input(input),

@@ -117,22 +117,6 @@ fn the_generator_runs_before_the_first_cut_and_stops_after_the_last() {
 }
 
 #[test]
-fn without_an_output_nothing_is_switched() {
-    let recipe = Recipe {
-        cell: CellRecipe {
-            ultrasonic: None,
-            ..CellRecipe::default()
-        },
-        ..one_cut()
-    };
-    assert!(
-        !events(&recipe, &[])
-            .iter()
-            .any(|event| matches!(event, Event::Output(..)))
-    );
-}
-
-#[test]
 fn the_longest_name_is_kept_and_a_longer_one_is_cut() {
     for (name, module) in [
         ("rib_of_18_letters_", "rib_of_18_letters"),

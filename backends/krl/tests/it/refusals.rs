@@ -57,6 +57,29 @@ fn a_machine_without_home() {
 }
 
 #[test]
+fn a_machine_without_a_generator() {
+    let program = Recipe {
+        cell: CellRecipe {
+            ultrasonic: None,
+            ..CellRecipe::default()
+        },
+        ..Recipe::default()
+    }
+    .program();
+    let issues = issues(program, &[]);
+    assert!(
+        matches!(
+            issues.as_slice(),
+            [BackendIssue::MissingMachineField {
+                field: "ultrasonic",
+                ..
+            }]
+        ),
+        "{issues:?}"
+    );
+}
+
+#[test]
 fn a_tool_change() {
     let mut program = Recipe::default().program();
     let last = program.ops.len();

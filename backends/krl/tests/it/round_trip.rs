@@ -41,7 +41,7 @@ fn cell() -> impl Strategy<Value = CellRecipe> {
         ],
         proptest::option::of(load()),
         [(); 6].map(|()| -180.0..180.0_f64),
-        proptest::option::of(1..=4096_u32),
+        (1..=4096_u32).prop_map(Some),
         prop_oneof![
             (1..=1024_u32).prop_map(Ready::Input),
             (0.0..100.0_f64).prop_map(|s| Ready::After(Duration::s(s)))
