@@ -99,6 +99,9 @@ impl<'a> Definitions<'a> {
             Item::Let { name, value, .. } => self.add_let(name, value, overrides, reports),
             Item::Job { name, span } => {
                 if is_allowed("job", *span, standing, reports) {
+                    if !name.node.chars().any(char::is_alphanumeric) {
+                        reports.push(nameless(name.span));
+                    }
                     match self.job {
                         None => self.job = Some(name),
                         Some(first) => {
@@ -242,4 +245,15 @@ fn is_allowed(what: &str, span: Span, standing: Standing, reports: &mut Reports)
             .help("move it into the job"),
     );
     false
+}
+
+/// Program files are named after the job, so a name needs something to be read.
+fn nameless(span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::OutOfRange,
+        "a job's name needs a letter or a digit",
+        span,
+        "nothing to name a program after",
+    )
+    .help("give it the name of the part, such as `job \"spoiler_rib_12\"`")
 }
