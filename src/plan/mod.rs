@@ -276,7 +276,13 @@ fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, count: usize) -
         );
         (asked.head_span, label)
     });
-    let message = format!("this operation would take up to {count} cuts, a program may have {MOST_CUTS}");
+    let message = if count > MOST_CUTS {
+        format!("this operation would take up to {count} cuts, a program may have {MOST_CUTS}")
+    } else {
+        format!(
+            "the {count} cuts of this operation are too many beside others, or lie too close together to be planned"
+        )
+    };
     let mut diagnostic = Diagnostic::new(Code::TooManyCuts, message, span, label);
     for (span, label) in labels {
         diagnostic = diagnostic.and(span, label);
