@@ -134,18 +134,26 @@ prop_compose! {
     }
 }
 
+/// The plan of a job and its proof; none when the planner refuses the job, which it then says why.
+fn planned_and_proven(
+    job: &CheckedJob,
+) -> Result<Option<(super::PlannedJob, verdict::Proven)>, TestCaseError> {
+    let (plan, diagnostics) = super::choose(job);
+    let Some(plan) = plan else {
+        prop_assert!(!diagnostics.is_empty());
+        return Ok(None);
+    };
+    let proven = verdict::prove(&plan, &SourceMap::default());
+    let proven = proven.map_err(|faults| TestCaseError::fail(format!("{faults:?}")))?;
+    Ok(Some((plan, proven)))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
     fn what_is_planned_is_proven(job in a_job()) {
-        let (plan, diagnostics) = super::choose(&job);
-        let Some(plan) = plan else {
-            prop_assert!(!diagnostics.is_empty());
-            return Ok(());
-        };
-        let proven = verdict::prove(&plan, &SourceMap::default());
-        let proven = proven.map_err(|faults| TestCaseError::fail(format!("{faults:?}")))?;
+        let Some((plan, proven)) = planned_and_proven(&job)? else { return Ok(()) };
         prop_assert_eq!(&proven.findings, &Findings::default());
         let super::PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
         prop_assert_eq!(proven.report.cuts(), vcut.cuts.len());
@@ -202,13 +210,7 @@ proptest! {
 
     #[test]
     fn no_strategy_enters_the_part(job in a_stubborn_job()) {
-        let (plan, diagnostics) = super::choose(&job);
-        let Some(plan) = plan else {
-            prop_assert!(!diagnostics.is_empty());
-            return Ok(());
-        };
-        let proven = verdict::prove(&plan, &SourceMap::default());
-        let proven = proven.map_err(|faults| TestCaseError::fail(format!("{faults:?}")))?;
+        let Some((plan, proven)) = planned_and_proven(&job)? else { return Ok(()) };
         prop_assert_eq!(proven.findings.overcut, None);
         // The same without offsets and envelopes: no point of the part lies nearer to the V of a cut's material side than the
         // allowance. (The flattened offset may be a micrometre above the true one, never below.)
