@@ -185,7 +185,10 @@ impl Body<'_, '_, '_> {
         match self.state.place {
             Place::Unknown => {}
             Place::Home => self.home()?,
-            Place::Tip(tip, held) => self.straight(tip, held, End::Exact)?,
+            Place::Tip(tip, held) => {
+                self.stay()?;
+                self.straight(tip, held, End::Exact)?;
+            }
         }
         match self.state.generator {
             Generator::Off => Ok(()),
@@ -255,6 +258,14 @@ impl Body<'_, '_, '_> {
         self.text.put(self.source.settings.planner.axes().as_bytes());
         self.text.put(b" ");
         Ok(self.text.line(HOME)?)
+    }
+
+    /// A move of all axes to where they are. A straight move must not be the first motion of a module (K-SI: the controller
+    /// first brings the robot onto the path of the program, which takes a complete point); this one goes nowhere, and is the
+    /// usual way to have one.
+    fn stay(&mut self) -> Written {
+        self.text.put(self.source.settings.planner.axes().as_bytes());
+        Ok(self.text.line(" $AXIS_ACT")?)
     }
 
     /// Without `CONTINUE`: the output waits for the robot to arrive (advance run stop) [K-SI].

@@ -123,6 +123,14 @@ fn a_line_as_first_motion() {
             matches!(word.as_deref(), Some(["PTP" | "SPTP", "XVC_HOME"])),
             "{word:?}"
         );
+        // No module begins with a line, whoever starts it.
+        for (name, code) in &sources {
+            let first = code.iter().find(|line| is_motion(line));
+            assert!(
+                first.is_none_or(|line| !line.contains("LIN ")),
+                "{name}: {first:?}"
+            );
+        }
     }
 }
 

@@ -152,6 +152,10 @@ impl Robot<'_> {
 
     fn instruction(&mut self, data: &Data, code: &str) -> Result<(), String> {
         if let Some(target) = code.strip_prefix("PTP ").or(code.strip_prefix("SPTP ")) {
+            if target == "$AXIS_ACT" {
+                // Where the robot is: no motion.
+                return Ok(());
+            }
             let value = data.get(target).ok_or("an unknown point")?;
             let parts = aggregate(value)?;
             let axes = ["A1", "A2", "A3", "A4", "A5", "A6"];
