@@ -109,10 +109,10 @@ impl<'c> Layout<'c> {
 
     /// How many corners of the clearance are looked at to lay out one layer.
     #[must_use]
-    pub fn corners_per_layer(&self, clearance: &Profile) -> usize {
+    pub fn corners_per_layer(&self) -> usize {
         match self.rows {
             Rows::Same(_) | Rows::Alternating { .. } => 0,
-            Rows::Free => clearance.points().len(),
+            Rows::Free => self.clearance.points().len(),
         }
     }
 

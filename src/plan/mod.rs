@@ -8,6 +8,7 @@
 //! planned and proven.
 
 pub mod blade_reach;
+mod complaints;
 pub mod grid;
 pub mod lattice;
 pub mod parameters;
@@ -17,14 +18,15 @@ pub mod time_model;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::geom::cone;
 use crate::geom::curve::Point2;
 use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
-use crate::job::{Auto, CheckedJob, Machine, Operation, Residual, RoughVcut};
+use crate::job::{CheckedJob, Machine, Operation, Residual, RoughVcut};
 use crate::sim::surface::Surface;
-use parameters::{VcutParameters, show};
+use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
+use parameters::VcutParameters;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
 
@@ -148,7 +150,7 @@ fn plan_vcut(
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, asked.lattice.value, &parameters, &clearance);
-    if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters, &clearance) > MOST_PASSED {
+    if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
         diagnostics.push(too_many_cuts(asked, &parameters, layout.most_tips()));
         return None;
     }
@@ -199,114 +201,15 @@ fn plan_layers(
 }
 
 /// About how many corners the flanks of an operation pass under, and free lattices look at.
-fn passed_corners(layout: &lattice::Layout<'_>, parameters: &VcutParameters, clearance: &Profile) -> f64 {
+fn passed_corners(layout: &lattice::Layout<'_>, parameters: &VcutParameters) -> f64 {
     let flanks = &parameters.flanks;
     let by_flank = 2.0 * flanks.reach.to_mm() / (flanks.slope * parameters.step.to_mm());
-    let per_layer = layout.corners_per_layer(clearance);
+    let per_layer = layout.corners_per_layer();
     layout.most_tips() as f64 * (1.0 + by_flank) + f64::from(layout.layers()) * per_layer as f64
 }
 
-fn too_many_operations(asked: &RoughVcut, count: usize) -> Diagnostic {
-    Diagnostic::new(
-        Code::TooManyCuts,
-        format!("this job has {count} operations, a job may have {MOST_OPERATIONS}"),
-        asked.head_span,
-        "the first one too many",
-    )
-    .help("split the job")
-}
-
-fn nothing_to_cut(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    parameters: &VcutParameters,
-    clearance: &Profile,
-) -> Diagnostic {
-    let lowest = clearance.lowest().z + parameters.drop.to_mm();
-    let depth = job.stock.height.to_mm() - lowest;
-    let message = "this operation leaves nothing to cut";
-    let diagnostic = Diagnostic::new(
-        Code::NothingToCut,
-        message,
-        asked.head_span,
-        "no tip fits between part and stock",
-    )
-    .and(
-        job.profile_span,
-        format!(
-            "the lowest tip that clears the part lies at z {} mm",
-            show(lowest)
-        ),
-    )
-    .and(
-        job.stock_span,
-        format!("the stock ends at z {} mm", show(job.stock.height.to_mm())),
-    );
-    if depth > 0.0 {
-        diagnostic
-            .note(format!(
-                "the depth of {} mm is less than one layer of {} mm, and tips are not raised",
-                show(depth),
-                show(parameters.layer.to_mm())
-            ))
-            .help(format!(
-                "set `residual = lift`, or use a `layer` of at most {} mm",
-                show(grid::down(depth))
-            ))
-    } else {
-        diagnostic.help("make the stock higher or the part lower, or reduce `allowance`")
-    }
-}
-
-fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, count: usize) -> Diagnostic {
-    let size = |length: Length| match length.to_mm() {
-        mm if mm < 0.01 => format!("{} um", show(mm * 1000.0)),
-        mm => format!("{} mm", show(mm)),
-    };
-    let spans = [
-        (asked.layer.span, format!("layers of {}", size(parameters.layer))),
-        (asked.step.span, format!("steps of {}", size(parameters.step))),
-    ];
-    let mut labels = spans.into_iter().filter_map(|(span, label)| Some((span?, label)));
-    let (span, label) = labels.next().unwrap_or_else(|| {
-        let label = format!(
-            "layers of {} and steps of {} over this stock",
-            size(parameters.layer),
-            size(parameters.step)
-        );
-        (asked.head_span, label)
-    });
-    let message = if count > MOST_CUTS {
-        format!("this operation would take up to {count} cuts, a program may have {MOST_CUTS}")
-    } else {
-        format!(
-            "the {count} cuts of this operation are too many beside others, or lie too close together to be planned"
-        )
-    };
-    let mut diagnostic = Diagnostic::new(Code::TooManyCuts, message, span, label);
-    for (span, label) in labels {
-        diagnostic = diagnostic.and(span, label);
-    }
-    match (asked.layer.value, asked.step.value, asked.limits.scallop) {
-        (Auto::Auto, _, Some(limit)) => {
-            let least = show((asked.allowance.value + parameters.drop).to_mm());
-            diagnostic
-                .and(
-                    limit.span.unwrap_or(asked.head_span),
-                    "the layer follows from this limit",
-                )
-                .help(format!(
-                    "set the limit well above {least} mm: what is left of it decides the layer"
-                ))
-        }
-        (Auto::Auto, Auto::Auto, None) => diagnostic.help("use a longer blade or a smaller stock"),
-        (Auto::Given(_), _, _) | (Auto::Auto, Auto::Given(_), None) => {
-            diagnostic.help("use a larger `layer` and `step`, or leave both `auto`")
-        }
-    }
-}
-
-/// Smallest gain in depth for which a tip is moved: cuts that take less are not worth their time.
+/// Smallest gain in depth for which a tip is moved: cuts that take less are not worth their time. A twentieth of a layer is a
+/// judgement, from no source.
 #[must_use]
 pub fn smallest_gain(layer: Length) -> Length {
     layer * 0.05

@@ -228,7 +228,7 @@ impl<'p> LayerPlanner<'p> {
             x,
             z: z.max(self.layout.floor(x)),
         };
-        // Tips nearer than a quarter step cut slivers.
+        // Tips nearer than a quarter step cut slivers; the share is a judgement, from no source.
         let least = step / 4.0;
         let crowded =
             left.is_some_and(|left| x < left + least) || right.is_some_and(|right| x > right - least);

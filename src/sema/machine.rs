@@ -35,22 +35,19 @@ const SPEC: BlockSpec = BlockSpec {
     inner: Inner::TargetOptions,
 };
 
+/// A coordinate of a frame's origin or a load's centre.
+const fn coordinate(name: &'static str) -> Parameter {
+    Parameter {
+        name,
+        range: COORDINATE,
+        typical: "0 mm",
+    }
+}
+
 const FRAME_PARAMETERS: &[Parameter] = &[
-    Parameter {
-        name: "x",
-        range: COORDINATE,
-        typical: "0 mm",
-    },
-    Parameter {
-        name: "y",
-        range: COORDINATE,
-        typical: "0 mm",
-    },
-    Parameter {
-        name: "z",
-        range: COORDINATE,
-        typical: "0 mm",
-    },
+    coordinate("x"),
+    coordinate("y"),
+    coordinate("z"),
     Parameter {
         name: "a",
         range: FRAME_ANGLE,
@@ -74,21 +71,9 @@ const LOAD_PARAMETERS: &[Parameter] = &[
         range: MASS,
         typical: "8 kg",
     },
-    Parameter {
-        name: "x",
-        range: COORDINATE,
-        typical: "0 mm",
-    },
-    Parameter {
-        name: "y",
-        range: COORDINATE,
-        typical: "0 mm",
-    },
-    Parameter {
-        name: "z",
-        range: COORDINATE,
-        typical: "0 mm",
-    },
+    coordinate("x"),
+    coordinate("y"),
+    coordinate("z"),
 ];
 
 /// Time after which the generator counts as up, when the job does not say: a usual value, from no source. The language

@@ -1,6 +1,7 @@
 //! Jobs that mean something, and jobs that do not: each of the latter names the codes it expects in its first line,
 //! and its snapshot shows it together with what people get to see.
 
+use crate::repository::expected_codes;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -62,11 +63,7 @@ impl Case {
     }
 
     fn expected(&self) -> Vec<&str> {
-        let first = self.text.lines().next().unwrap_or_default();
-        let list = first
-            .strip_prefix("// expect: ")
-            .expect("the first line reads `// expect: VCnnnn ...`");
-        list.split_whitespace().collect()
+        expected_codes(&self.text)
     }
 
     fn overrides(&self) -> Vec<String> {

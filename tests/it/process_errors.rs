@@ -5,6 +5,7 @@
 //! Its snapshot shows it together with what people get to see.
 
 use crate::pipeline::{Files, all_diagnostics, compile, fixed, numbers, told};
+use crate::repository::expected_codes;
 use std::fs;
 use std::path::Path;
 use vcutc::diag::Diagnostic;
@@ -27,11 +28,7 @@ impl Case {
     }
 
     fn expected(&self) -> Vec<&str> {
-        let first = self.text.lines().next().unwrap_or_default();
-        let list = first
-            .strip_prefix("// expect: ")
-            .expect("the first line reads `// expect: VCnnnn ...`");
-        list.split_whitespace().collect()
+        expected_codes(&self.text)
     }
 
     /// Replacements that a claim is about.

@@ -77,3 +77,12 @@ fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {
         }
     }
 }
+
+/// The codes that a job's first line says it gives: `// expect: VCnnnn ...`.
+pub(crate) fn expected_codes(job: &str) -> Vec<&str> {
+    let first = job.lines().next().unwrap_or_default();
+    let list = first
+        .strip_prefix("// expect: ")
+        .expect("the first line reads `// expect: VCnnnn ...`");
+    list.split_whitespace().collect()
+}

@@ -47,12 +47,6 @@ impl VerifiedProgram {
     pub fn ops(&self) -> impl Iterator<Item = (OpId, &Op)> {
         (0..).map(OpId).zip(&self.program.ops)
     }
-
-    /// Gives the program back, unverified.
-    #[must_use]
-    pub fn into_program(self) -> Program {
-        self.program
-    }
 }
 
 /// Something a program may need and a dialect may have.

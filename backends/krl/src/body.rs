@@ -255,17 +255,21 @@ impl Body<'_, '_, '_> {
     }
 
     fn home(&mut self) -> Written {
+        self.axes(HOME)
+    }
+
+    /// A move of all axes.
+    fn axes(&mut self, target: &str) -> Written {
         self.text.put(self.source.settings.planner.axes().as_bytes());
         self.text.put(b" ");
-        Ok(self.text.line(HOME)?)
+        Ok(self.text.line(target)?)
     }
 
     /// A move of all axes to where they are. A straight move must not be the first motion of a module (K-SI: the controller
     /// first brings the robot onto the path of the program, which takes a complete point); this one goes nowhere, and is the
     /// usual way to have one.
     fn stay(&mut self) -> Written {
-        self.text.put(self.source.settings.planner.axes().as_bytes());
-        Ok(self.text.line(" $AXIS_ACT")?)
+        self.axes("$AXIS_ACT")
     }
 
     /// Without `CONTINUE`: the output waits for the robot to arrive (advance run stop) [K-SI].
