@@ -74,8 +74,6 @@ pub struct Blade {
 /// V-shaped roughing. Ranges given here are checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoughVcut {
-    /// Where the whole block stands.
-    pub span: Span,
     /// Where its head (`rough vcut`) stands: the place for complaints about the operation as a whole.
     pub head_span: Span,
     /// The blade.
@@ -177,8 +175,6 @@ pub enum Direction {
 pub struct Machine {
     /// Its name.
     pub name: String,
-    /// Where the whole block stands.
-    pub span: Span,
     /// Where its head stands.
     pub head_span: Span,
     /// What it is.

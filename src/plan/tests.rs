@@ -41,7 +41,6 @@ pub(crate) fn paper_job(profile: Vec<Point2>) -> CheckedJob {
         profile: Profile::new(profile).unwrap(),
         profile_span: span,
         operations: vec![Operation::RoughVcut(RoughVcut {
-            span,
             head_span: span,
             blade: Blade {
                 name: "dagger".to_owned(),

@@ -113,7 +113,6 @@ pub(crate) fn check(
     let ready = optional(&fields, "ready", &mut reader, ready);
     Ok(Machine {
         name: head.name.node.to_owned(),
-        span: place.whole,
         head_span: place.head,
         kind: head.kind,
         model: head.model.to_owned(),

@@ -122,7 +122,6 @@ pub(crate) fn check(
     let standoff = reader.auto(&fields, "standoff", DISTANCE);
     let feeds = feeds?;
     Ok(RoughVcut {
-        span: place.whole,
         head_span: place.head,
         blade: blade?,
         lattice: lattice?,
