@@ -3,9 +3,10 @@
 //! Every value that a later stage may have to complain about knows where it was written.
 
 use crate::geom::profile::Profile;
+use crate::machine::Model;
 use crate::source::Span;
-use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{Edges, Load, MachineKind, Ready, Registered, Stock};
+use std::sync::Arc;
+use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 
 /// A value and where it was written; `None` when it is a default.
@@ -177,18 +178,18 @@ pub struct Machine {
     pub name: String,
     /// Where its head stands.
     pub head_span: Span,
-    /// What it is.
-    pub kind: MachineKind,
-    /// Model as written, such as `kuka/kr210_r3100`.
-    pub model: String,
+    /// What it is: its axes and how they move it.
+    pub model: Arc<Model>,
+    /// Where the model's name stands.
+    pub model_span: Span,
     /// Blade frame seen from the flange.
-    pub tool: Sourced<Registered<Frame>>,
-    /// Workpiece frame seen from the world.
-    pub base: Sourced<Registered<Frame>>,
+    pub tool: Sourced<PlacedFrame>,
+    /// Workpiece frame seen from the machine's root.
+    pub base: Sourced<PlacedFrame>,
     /// What the flange carries.
     pub load: Option<Sourced<Registered<Load>>>,
-    /// Axis angles of the home position.
-    pub home: Option<Sourced<[Angle; 6]>>,
+    /// Where the axes are at home.
+    pub home: Option<Sourced<AxisValues>>,
     /// Output that runs the generator.
     pub ultrasonic: Option<Sourced<u32>>,
     /// How readiness is known. Default: 0.5 s after switching on.

@@ -41,6 +41,7 @@ impl Builder {
                 cell.is_some_and(|cell| cell.ultrasonic.is_some())
             }
             Action::Travel { .. }
+            | Action::AxisTravel { .. }
             | Action::Approach { .. }
             | Action::Retract { .. }
             | Action::Cut { .. }

@@ -33,8 +33,10 @@ fn cell(plan: &PlannedJob) -> Option<Cell> {
     let machine = plan.machine.as_ref()?;
     Some(Cell {
         name: machine.name.clone(),
-        kind: machine.kind,
-        model: machine.model.clone(),
+        kind: machine.model.kind(),
+        maker: machine.model.maker,
+        model: machine.model.name.clone(),
+        axes: machine.model.axes.to_vec(),
         tool: machine.tool.value,
         base: machine.base.value,
         load: machine.load.map(|load| load.value),

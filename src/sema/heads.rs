@@ -169,7 +169,10 @@ fn machine<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<
         _ => return Err(incomplete("machine", "what it is", name.span)),
     };
     match behind {
-        [(HeadPart::Text(model), _)] => Ok(Kind::Machine(machine::Head { name, kind, model })),
+        [(HeadPart::Text(model), span)] => {
+            let model = Spanned::new(model.as_str(), *span);
+            Ok(Kind::Machine(machine::Head { name, kind, model }))
+        }
         [(HeadPart::Text(_), _), (_, span), ..] => Err(surplus("machine", *span)),
         _ => Err(incomplete("machine", "its model", name.span)),
     }

@@ -8,11 +8,14 @@ use super::range::{AXIS_ANGLE, COORDINATE, FRAME_ANGLE, MASS, SIGNAL, TABLE_NUMB
 use super::read::{Reader, default, sourced};
 use super::report::Checked;
 use super::session::Session;
+use crate::diag::{Code, Diagnostic};
 use crate::job::{Machine, Sourced};
+use crate::machine::{Model, catalogue};
 use crate::source::Spanned;
 use crate::syntax::ast::{Block, Expr};
+use std::sync::Arc;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
-use vcutc_backend_api::ir::{Load, MachineKind, Ready, Registered};
+use vcutc_backend_api::ir::{AxisValues, Load, MachineKind, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::units::{Angle, Duration, Mass};
 
 const FRAME: &str = "frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)";
@@ -88,7 +91,7 @@ pub(crate) struct Head<'a> {
     /// What it is.
     pub(crate) kind: MachineKind,
     /// Its model.
-    pub(crate) model: &'a str,
+    pub(crate) model: Spanned<&'a str>,
 }
 
 /// The machine.
@@ -105,6 +108,7 @@ pub(crate) fn check(
         scope,
         reports: &mut session.reports,
     };
+    let model = model(head, &mut reader);
     let tool = required_frame(&fields, "tool", &mut reader);
     let base = required_frame(&fields, "base", &mut reader);
     let load = optional(&fields, "load", &mut reader, load);
@@ -114,8 +118,8 @@ pub(crate) fn check(
     Ok(Machine {
         name: head.name.node.to_owned(),
         head_span: place.head,
-        kind: head.kind,
-        model: head.model.to_owned(),
+        model: model?,
+        model_span: head.model.span,
         tool: tool?,
         base: base?,
         load: load?,
@@ -126,11 +130,24 @@ pub(crate) fn check(
     })
 }
 
-fn required_frame(
-    fields: &Fields<'_>,
-    name: &str,
-    reader: &mut Reader<'_>,
-) -> Checked<Sourced<Registered<Frame>>> {
+/// The model that the head names.
+fn model(head: &Head<'_>, reader: &mut Reader<'_>) -> Checked<Arc<Model>> {
+    let name = head.model.node;
+    match catalogue::find(name) {
+        Some(model) if model.kind() == head.kind => Ok(Arc::new(model)),
+        Some(_) | None => {
+            let diagnostic = Diagnostic::new(
+                Code::UnknownName,
+                format!("there is no robot `{name}`"),
+                head.model.span,
+                "not in the catalogue",
+            );
+            Err(reader.reports.push(diagnostic))
+        }
+    }
+}
+
+fn required_frame(fields: &Fields<'_>, name: &str, reader: &mut Reader<'_>) -> Checked<Sourced<PlacedFrame>> {
     let expr = fields.required_value(name, reader.reports)?;
     Ok(sourced(frame(name, expr, reader)?, expr.span))
 }
@@ -153,22 +170,22 @@ fn registered(call: &Arguments<'_>, reader: &mut Reader<'_>) -> Checked<u32> {
     reader.whole(number, TABLE_NUMBER, "a number of the controller's table")
 }
 
-fn frame(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Frame>> {
-    const CALLS: &[(&str, &str)] = &[("frame", FRAME), ("number", "number(3)")];
+fn frame(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<PlacedFrame> {
+    const CALLS: &[(&str, &str)] = &[("frame", FRAME)];
     let call = calls(field, expr, CALLS, reader.reports)?;
-    if call.function == "number" {
-        return registered(&call, reader).map(Registered::Number);
-    }
     let [x, y, z, a, b, c] = call.named(FRAME_PARAMETERS, reader)?;
     let angles = Zyx {
         a: Angle::rad(a),
         b: Angle::rad(b),
         c: Angle::rad(c),
     };
-    Ok(Registered::Value(Frame {
-        origin: Point3::new(x, y, z),
-        orientation: Orientation::from_zyx(angles),
-    }))
+    Ok(PlacedFrame {
+        frame: Frame {
+            origin: Point3::new(x, y, z),
+            orientation: Orientation::from_zyx(angles),
+        },
+        number: None,
+    })
 }
 
 fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Load>> {
@@ -184,10 +201,10 @@ fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<R
     }))
 }
 
-fn home(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<[Angle; 6]> {
+fn home(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<AxisValues> {
     let call = calls(field, expr, &[("joints", JOINTS)], reader.reports)?;
     let angles: [f64; 6] = call.listed(AXIS_ANGLE, "the angle of an axis", reader)?;
-    Ok(angles.map(Angle::rad))
+    Ok(AxisValues(angles))
 }
 
 fn ultrasonic(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {

@@ -162,7 +162,9 @@ impl<'p> Player<'p> {
 
     fn op(&mut self, site: Site, action: Action) {
         match action {
-            Action::Travel { to, orientation, .. } => (self.tip, self.held) = (to, orientation),
+            Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation } => {
+                (self.tip, self.held) = (to, orientation);
+            }
             Action::Approach { to, .. } | Action::Retract { to, .. } => self.tip = to,
             Action::Turn { to, .. } => self.held = to,
             Action::Cut { flank, to, .. } => {

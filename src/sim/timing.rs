@@ -53,6 +53,8 @@ impl Clock<'_> {
     fn op(&mut self, action: Action) {
         match action {
             Action::Home => self.at = None,
+            // How long the axes take is for the machine to say, not for the tip.
+            Action::AxisTravel { to, orientation } => self.at = Some((to, orientation)),
             Action::Travel {
                 to,
                 orientation,

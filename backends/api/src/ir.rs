@@ -9,7 +9,7 @@ use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
 /// Version of the exchange form that this crate reads and writes.
-pub const IR_VERSION: u32 = 1;
+pub const IR_VERSION: u32 = 2;
 
 /// A whole program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,16 +55,20 @@ pub struct Cell {
     pub name: String,
     /// What it is.
     pub kind: MachineKind,
-    /// Model as written in the job, such as `kuka/kr210_r3100`.
+    /// Who made its controller.
+    pub maker: Maker,
+    /// Model as written in the job, such as `kuka/kr210_r3100_ultra`.
     pub model: String,
+    /// Its axes in the controller's order; at most [`MOST_AXES`].
+    pub axes: Vec<Axis>,
     /// Blade frame T seen from the flange.
-    pub tool: Registered<Frame>,
-    /// Workpiece frame W seen from the robot's world.
-    pub base: Registered<Frame>,
+    pub tool: PlacedFrame,
+    /// Workpiece frame W seen from the machine's root.
+    pub base: PlacedFrame,
     /// What the flange carries, when the job states it.
     pub load: Option<Registered<Load>>,
-    /// Axis angles where the program starts and ends, when the job states them.
-    pub home: Option<[Angle; 6]>,
+    /// Where the axes are when the program starts and ends, when the job states it.
+    pub home: Option<AxisValues>,
     /// Digital output that runs the ultrasonic generator.
     pub ultrasonic: Option<u32>,
     /// How the program knows that the blade vibrates.
@@ -78,6 +82,71 @@ pub struct Cell {
 pub enum MachineKind {
     /// An articulated arm with six axes.
     Robot,
+    /// Three linear axes and two or three rotary ones.
+    FiveAxis,
+}
+
+/// Who made a machine's controller, as far as dialects care.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Maker {
+    /// ABB.
+    Abb,
+    /// KUKA.
+    Kuka,
+    /// Anyone else, or not stated.
+    Other,
+}
+
+/// Most axes that a machine has.
+pub const MOST_AXES: usize = 6;
+
+/// Positions of a machine's axes in their order, as its controller counts them: rad for rotary axes, mm for linear ones.
+/// Places beyond the machine's axes hold 0.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct AxisValues(pub [f64; MOST_AXES]);
+
+/// One axis of a machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Axis {
+    /// Its name on the controller, such as `A1` or `X`.
+    pub name: String,
+    /// How it moves, which also tells the unit of the numbers below: rad or mm, and a second.
+    pub kind: AxisKind,
+    /// Smallest position.
+    pub min: f64,
+    /// Largest position.
+    pub max: f64,
+    /// Highest rate, when known.
+    pub rate: Option<f64>,
+    /// Highest acceleration, when known.
+    pub acceleration: Option<f64>,
+}
+
+/// How an axis moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum AxisKind {
+    /// It turns.
+    Rotary,
+    /// It slides.
+    Linear,
+}
+
+/// A calibrated frame: its values, and the number under which the controller keeps it when the program is to take it from
+/// there. The values are always known, for without them nobody could say whether a pose is within reach.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PlacedFrame {
+    /// The values.
+    pub frame: Frame,
+    /// Number in the controller's own table, counted from 1.
+    pub number: Option<u32>,
 }
 
 /// Data given as values, or by the number under which the controller keeps it.
@@ -244,7 +313,7 @@ pub enum Site {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", tag = "do")]
 pub enum Action {
-    /// All axes to the cell's home angles. The only motion whose path is not a line of the tip.
+    /// All axes to the cell's home values, all arriving together.
     Home,
     /// Through the air, tip on a line, orientation turning along.
     Travel {
@@ -256,6 +325,14 @@ pub enum Action {
         feed: FeedId,
         /// Rate at which the orientation turns at most.
         rate: RateId,
+    },
+    /// Through the air above the work, every axis straight to its value at the pose, all arriving together. Which of the
+    /// poses' axis values are meant is said by the [`crate::motion::Motion`] that goes with the program.
+    AxisTravel {
+        /// Where the tip ends.
+        to: Point3,
+        /// How the blade is held there.
+        orientation: OrientationId,
     },
     /// Through the air towards the work, orientation kept; ends in an exact stop.
     Approach {

@@ -26,6 +26,7 @@ pub mod backend;
 pub mod bundle;
 pub mod geometry;
 pub mod ir;
+pub mod motion;
 pub mod namer;
 pub mod number;
 #[cfg(feature = "testkit")]

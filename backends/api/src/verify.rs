@@ -292,9 +292,8 @@ impl<'p> Walk<'p> {
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
         let cell = p.cell.as_ref().is_none_or(|cell| {
-            let frames = [cell.tool, cell.base].into_iter().all(|frame| match frame {
-                Registered::Value(frame) => frame.origin.is_finite(),
-                Registered::Number(number) => number > 0,
+            let frames = [cell.tool, cell.base].into_iter().all(|placed| {
+                placed.frame.origin.is_finite() && placed.number.is_none_or(|number| number > 0)
             });
             let load = match cell.load {
                 Some(Registered::Value(load)) => {
@@ -313,7 +312,7 @@ impl<'p> Walk<'p> {
                 && cell.ultrasonic.is_none_or(|output| output > 0)
                 && cell
                     .home
-                    .is_none_or(|home| home.iter().all(|angle| angle.is_finite()))
+                    .is_none_or(|home| home.0.iter().all(|value| value.is_finite()))
         });
         if !(stock && blades && speeds && cell) {
             broken.push(Rule::Number);
@@ -333,6 +332,7 @@ impl<'p> Walk<'p> {
                 feed,
                 rate,
             } => self.travel(op.site, to, orientation, feed, rate),
+            Action::AxisTravel { to, orientation } => self.axis_travel(to, orientation),
             Action::Approach { to, feed } | Action::Retract { to, feed } => self.straight(to, feed),
             Action::Cut { flank, to, feed } => self.cut(op.site, flank, to, feed),
             Action::Turn { to, rate } => self.turn(op.site, to, rate),
@@ -401,6 +401,22 @@ impl<'p> Walk<'p> {
             }
             Where::Home => {}
         }
+        self.at = Where::Tip(to, orientation);
+    }
+
+    /// The way of the tip is not a line, so both ends must lie above the stock; that the way between them does too is for
+    /// reach to prove, which knows the machine.
+    fn axis_travel(&mut self, to: Point3, orientation: OrientationId) {
+        self.needs = self.needs.with(Capability::JointMove);
+        self.require(to.is_finite(), Rule::Number);
+        self.require(self.orientation(orientation).is_some(), Rule::TableReference);
+        let top = self.program.stock.height.to_mm();
+        let above = |tip: Point3| tip.z >= top - SAME;
+        let from_above = match self.at {
+            Where::Tip(from, _) => above(from),
+            Where::Start | Where::Home => true,
+        };
+        self.require(from_above && above(to), Rule::AirMoveThroughStock);
         self.at = Where::Tip(to, orientation);
     }
 

@@ -205,6 +205,7 @@ impl Body<'_, '_, '_> {
         self.state = before.after(&op.action);
         match op.action {
             Action::Home => self.home(),
+            Action::AxisTravel { .. } => Err(EmitError::Internal("a move of all axes was not refused")),
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } | Action::Cut { .. } => {
                 let end = self.end(before.place, &op.action, next.map(|next| &next.action));
                 self.go(end)

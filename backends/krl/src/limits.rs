@@ -7,11 +7,12 @@
 use crate::text::trimmed_text;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::BackendIssue;
-use vcutc_backend_api::geometry::{Frame, Point3};
+use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, Cell, FeedId, Load, MachineKind, OpId, OperationId, Program, RateId, Ready, Registered,
+    Action, AxisValues, Cell, FeedId, Load, MachineKind, OpId, OperationId, PlacedFrame, Program, RateId,
+    Ready, Registered,
 };
-use vcutc_backend_api::units::{Angle, Duration};
+use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::VerifiedProgram;
 
 /// Largest coordinate, in mm. KRL's `REAL` has seven digits, so beyond this a hundredth of a millimetre is lost; no
@@ -132,7 +133,7 @@ impl Findings {
 
     fn cell(&mut self, cell: &Cell) {
         match cell.kind {
-            MachineKind::Robot => {}
+            MachineKind::Robot | MachineKind::FiveAxis => {}
         }
         self.home(cell.home);
         self.frame(cell.tool, ["tool X", "tool Y", "tool Z"], ("tool number", TOOLS));
@@ -152,15 +153,15 @@ impl Findings {
         }
     }
 
-    fn home(&mut self, home: Option<[Angle; 6]>) {
+    fn home(&mut self, home: Option<AxisValues>) {
         let Some(angles) = home else {
             self.tell("home", HOME_MISSING);
             return;
         };
-        for angle in angles {
+        for angle in angles.0 {
             let number = Number {
                 what: "home angle",
-                value: angle.to_deg(),
+                value: angle.to_degrees(),
                 unit: "deg",
             };
             self.range(None, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
@@ -169,13 +170,13 @@ impl Findings {
 
     fn frame(
         &mut self,
-        frame: Registered<Frame>,
+        placed: PlacedFrame,
         coordinates: [&'static str; 3],
         (what, highest): (&'static str, u32),
     ) {
-        match frame {
-            Registered::Value(frame) => self.point(None, coordinates, frame.origin),
-            Registered::Number(number) => self.number(what, number, highest),
+        match placed.number {
+            None => self.point(None, coordinates, placed.frame.origin),
+            Some(number) => self.number(what, number, highest),
         }
     }
 
@@ -222,6 +223,7 @@ impl Findings {
             }
             match op.action {
                 Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
+                Action::AxisTravel { to, .. } => self.target(id, to),
                 Action::Travel { to, feed, rate, .. } => {
                     self.target(id, to);
                     self.feed(id, tables, feed);

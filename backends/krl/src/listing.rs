@@ -124,6 +124,7 @@ const fn speeds(action: &Action) -> (Option<FeedId>, Option<RateId>) {
         }
         Action::Turn { rate, .. } => (None, Some(rate)),
         Action::Home
+        | Action::AxisTravel { .. }
         | Action::Ultrasonic { .. }
         | Action::AwaitReady
         | Action::Dwell { .. }

@@ -7,8 +7,8 @@ use crate::split::Part;
 use crate::state::Place;
 use crate::text::{Text, Written, push_trimmed};
 use vcutc_backend_api::backend::EmitError;
-use vcutc_backend_api::geometry::{Frame, Point3};
-use vcutc_backend_api::ir::{Action, Load, Op, Registered, Site};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, Load, Op, PlacedFrame, Registered, Site};
 use vcutc_backend_api::number::NotFinite;
 
 /// Writes all modules of a program.
@@ -149,9 +149,10 @@ fn initialise(source: Source<'_>, text: &mut Text<'_>) -> Written {
 }
 
 /// Sets `$TOOL` or `$BASE`.
-fn frame(source: Source<'_>, which: &str, frame: Registered<Frame>, text: &mut Text<'_>) -> Written {
-    match frame {
-        Registered::Value(frame) => {
+fn frame(source: Source<'_>, which: &str, placed: PlacedFrame, text: &mut Text<'_>) -> Written {
+    match placed.number {
+        None => {
+            let frame = placed.frame;
             let mut literal = Vec::new();
             point(&mut literal, source, frame.origin)?;
             crate::attitude::push_angles(&mut literal, frame.orientation, source.settings.angles)?;
@@ -161,7 +162,7 @@ fn frame(source: Source<'_>, which: &str, frame: Registered<Frame>, text: &mut T
             text.put(&literal);
             Ok(text.line("}")?)
         }
-        Registered::Number(number) => Ok(text.line(&format!("BAS (#{which},{number} )"))?),
+        Some(number) => Ok(text.line(&format!("BAS (#{which},{number} )"))?),
     }
 }
 
@@ -226,9 +227,9 @@ fn home_angles(source: Source<'_>, text: &mut Text<'_>) -> Written {
     text.put(b"DECL E6AXIS ");
     text.put(HOME.as_bytes());
     let starts = ["={A1 ", ",A2 ", ",A3 ", ",A4 ", ",A5 ", ",A6 "];
-    for (start, angle) in starts.into_iter().zip(angles) {
+    for (start, angle) in starts.into_iter().zip(angles.0) {
         text.put(start.as_bytes());
-        text.fixed(source.settings.angles, angle.to_deg())?;
+        text.fixed(source.settings.angles, angle.to_degrees())?;
     }
     Ok(text.line("}")?)
 }

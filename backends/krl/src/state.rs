@@ -54,6 +54,7 @@ impl State {
                 Action::AwaitReady => Generator::Running,
                 Action::Home
                 | Action::Travel { .. }
+                | Action::AxisTravel { .. }
                 | Action::Approach { .. }
                 | Action::Retract { .. }
                 | Action::Cut { .. }
@@ -70,7 +71,9 @@ impl Place {
     pub(crate) const fn after(self, action: &Action) -> Self {
         match (*action, self) {
             (Action::Home, _) => Self::Home,
-            (Action::Travel { to, orientation, .. }, _) => Self::Tip(to, orientation),
+            (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
+                Self::Tip(to, orientation)
+            }
             (
                 Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. },
                 Self::Tip(_, held),
@@ -110,6 +113,7 @@ pub(crate) fn may_round(stock: Stock, before: Place, first: &Action, second: Opt
     let corner = match first {
         Action::Travel { to, .. } | Action::Retract { to, .. } => *to,
         Action::Home
+        | Action::AxisTravel { .. }
         | Action::Approach { .. }
         | Action::Cut { .. }
         | Action::Turn { .. }
@@ -122,6 +126,7 @@ pub(crate) fn may_round(stock: Stock, before: Place, first: &Action, second: Opt
         Some(Action::Travel { to, .. } | Action::Approach { to, .. } | Action::Retract { to, .. }) => *to,
         Some(
             Action::Home
+            | Action::AxisTravel { .. }
             | Action::Cut { .. }
             | Action::Turn { .. }
             | Action::Ultrasonic { .. }

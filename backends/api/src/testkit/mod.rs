@@ -10,7 +10,8 @@ mod recipe;
 pub use conformance::conformance;
 pub use recipe::{CellRecipe, Passes, Recipe};
 
-use crate::ir::{Edges, Ready, Registered};
+use crate::geometry::{Frame, Orientation, Point3};
+use crate::ir::{Edges, PlacedFrame, Ready, Registered};
 use crate::units::Duration;
 use crate::verify::{VerifiedProgram, verify};
 
@@ -63,8 +64,8 @@ pub fn samples() -> Result<Vec<(&'static str, VerifiedProgram)>, String> {
             "numbered_cell",
             Recipe {
                 cell: CellRecipe {
-                    tool: Registered::Number(3),
-                    base: Registered::Number(2),
+                    tool: numbered(3),
+                    base: numbered(2),
                     load: Some(Registered::Number(1)),
                     ready: Ready::Input(7),
                     ..CellRecipe::default()
@@ -80,4 +81,15 @@ pub fn samples() -> Result<Vec<(&'static str, VerifiedProgram)>, String> {
             Err(faults) => Err(format!("sample {name}: {faults:?}")),
         })
         .collect()
+}
+
+/// A frame that the controller keeps.
+const fn numbered(number: u32) -> PlacedFrame {
+    PlacedFrame {
+        frame: Frame {
+            origin: Point3::new(0.0, 0.0, 250.0),
+            orientation: Orientation::IDENTITY,
+        },
+        number: Some(number),
+    }
 }

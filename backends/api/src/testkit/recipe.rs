@@ -2,8 +2,9 @@
 
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{
-    Action, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Op, Operation, OperationId,
-    OperationKind, OrientationId, Program, RateId, Ready, Registered, Site, SourceRef, Stock, Switch,
+    Action, AxisValues, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Maker, Op,
+    Operation, OperationId, OperationKind, OrientationId, PlacedFrame, Program, RateId, Ready, Registered,
+    Site, SourceRef, Stock, Switch,
 };
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 use core::num::NonZeroU32;
@@ -60,13 +61,13 @@ pub struct Recipe {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellRecipe {
     /// Blade frame seen from the flange.
-    pub tool: Registered<Frame>,
+    pub tool: PlacedFrame,
     /// Workpiece frame seen from the world.
-    pub base: Registered<Frame>,
+    pub base: PlacedFrame,
     /// What the flange carries.
     pub load: Option<Registered<Load>>,
     /// Home angles.
-    pub home: [Angle; 6],
+    pub home: AxisValues,
     /// Output of the generator.
     pub ultrasonic: Option<u32>,
     /// How its readiness is known.
@@ -84,13 +85,19 @@ impl Default for CellRecipe {
             }),
         };
         Self {
-            tool: Registered::Value(frame(0.0, 0.0, 310.0, 0.0)),
-            base: Registered::Value(frame(1800.0, -25.0, 700.0, 90.0)),
+            tool: PlacedFrame {
+                frame: frame(0.0, 0.0, 310.0, 0.0),
+                number: None,
+            },
+            base: PlacedFrame {
+                frame: frame(1800.0, -25.0, 700.0, 90.0),
+                number: None,
+            },
             load: Some(Registered::Value(Load {
                 mass: Mass::kg(12.5),
                 centre: Point3::new(0.0, 0.0, 140.0),
             })),
-            home: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0].map(Angle::deg),
+            home: AxisValues([0.0, -90.0, 90.0, 0.0, 45.0, 0.0].map(f64::to_radians)),
             ultrasonic: Some(12),
             ready: Ready::After(Duration::s(0.5)),
         }
@@ -175,7 +182,9 @@ impl Recipe {
         Cell {
             name: "cell".to_owned(),
             kind: MachineKind::Robot,
-            model: "kuka/kr210_r3100".to_owned(),
+            maker: Maker::Kuka,
+            model: "kuka/kr210_r3100_ultra".to_owned(),
+            axes: Vec::new(),
             tool,
             base,
             load,

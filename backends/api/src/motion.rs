@@ -1,0 +1,308 @@
+//! How a machine's axes carry out a program: the [`Motion`], and the [`ReachableProgram`] that has one.
+//!
+//! The kinematics of the machine are solved once, before any backend is asked. What a backend needs of the result travels
+//! with the program: for every op where the axes are when it ends, and on which branch of the inverse kinematics the arm is.
+//! A backend that says a pose in a controller's terms (KUKA's status and turn, ABB's configuration) reads both from here and
+//! computes no kinematics itself.
+
+use crate::geometry::{Frame, Point3};
+use crate::ir::{Action, AxisValues, Cell, OpId, OrientationId, Program};
+use crate::verify::VerifiedProgram;
+use core::fmt;
+use serde::{Deserialize, Serialize};
+
+/// Where the axes are when each op ends, and on which branch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Motion {
+    /// For every op, in order, the axes at its end. An op that moves nothing repeats those of the op before it.
+    pub ends: Vec<AxisValues>,
+    /// The branches, in order of the ops; the first begins with the first motion to a pose.
+    pub stretches: Vec<Stretch>,
+}
+
+/// A stretch of ops on one branch. It lasts until the next one begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Stretch {
+    /// The op that ends on this branch first.
+    pub from: OpId,
+    /// The branch.
+    pub branch: Branch,
+}
+
+/// One of the ways in which a machine can stand so that its tool has a given pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Branch {
+    /// Of an arm with a shoulder, an elbow and a spherical wrist.
+    Arm {
+        /// On which side of axis 1 the wrist is.
+        shoulder: Shoulder,
+        /// On which side of the upper arm the wrist is.
+        elbow: Elbow,
+        /// To which side the hand is bent.
+        wrist: Wrist,
+    },
+    /// Of a machine whose branches have no names of their own, in the order in which its kinematics lists them.
+    Numbered(u8),
+}
+
+/// On which side of axis 1 the wrist centre is, seen in the frame that turns with axis 1 (x to the front of the arm).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Shoulder {
+    /// Before it: positive x.
+    Front,
+    /// Behind it or overhead: negative x.
+    Back,
+}
+
+/// On which side of the line from axis 2 to axis 3 the wrist centre is.
+///
+/// With `psi` the angle by which the line from axis 3 to the wrist centre is turned, about the axis of joint 3, against the
+/// prolonged line from axis 2 to axis 3 (0 when the arm is stretched).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Elbow {
+    /// `sin psi > 0`: the forearm is folded forward; with the shoulder in front the elbow is up.
+    Forward,
+    /// `sin psi < 0`.
+    Backward,
+}
+
+/// The sign of axis 5 as the controller counts it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Wrist {
+    /// Zero or more.
+    Positive,
+    /// Less than zero.
+    Negative,
+}
+
+/// A verified program together with the motion of a machine that carries it out.
+///
+/// Only [`ReachableProgram::assemble`] makes one, and it checks the motion against the program again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReachableProgram {
+    verified: VerifiedProgram,
+    motion: Motion,
+}
+
+/// What is wrong with a motion. All of it is the compiler's fault, not the job's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionFault {
+    /// The op, where the fault is about one.
+    pub op: Option<OpId>,
+    /// The broken promise.
+    pub what: MotionRule,
+}
+
+/// What a motion promises.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionRule {
+    /// The program has a machine, and the machine as many axes as it may.
+    Machine,
+    /// Every op has axis values, and they are finite.
+    Complete,
+    /// Axis values lie within the axes' limits.
+    Limits,
+    /// At the axis values the blade is where the op says.
+    Pose,
+    /// Stretches come in order, and a branch is only left by moves of all axes.
+    Stretches,
+    /// An op that moves nothing leaves the axes where they are.
+    Still,
+}
+
+impl fmt::Display for MotionRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Machine => "the program has no machine whose axes could move",
+            Self::Complete => "an op has no axis values",
+            Self::Limits => "an axis value lies outside of its limits",
+            Self::Pose => "the axis values do not give the op's pose",
+            Self::Stretches => "the branch changes without a move of all axes",
+            Self::Still => "the axes move in an op that moves nothing",
+        })
+    }
+}
+
+/// How far the blade may be from where an op says, in mm: a thousandth of what a controller resolves.
+const SAME_PLACE: f64 = 1e-6;
+/// How far it may be turned against it, in rad: below a micrometre over a metre of tool.
+const SAME_ATTITUDE: f64 = 1e-7;
+/// By how much an axis may be beyond its limit, in rad or mm: rounding.
+const AT_LIMIT: f64 = 1e-9;
+
+impl ReachableProgram {
+    /// Joins a program and its motion. `blade_in_work` gives the pose of the blade frame T in the workpiece frame W for axis
+    /// values; it is asked for every op.
+    ///
+    /// # Errors
+    /// All broken promises, in the order of the ops.
+    pub fn assemble(
+        verified: VerifiedProgram,
+        motion: Motion,
+        blade_in_work: &dyn Fn(&AxisValues) -> Frame,
+    ) -> Result<Self, Vec<MotionFault>> {
+        let faults = faults(verified.program(), &motion, blade_in_work);
+        if faults.is_empty() {
+            Ok(Self { verified, motion })
+        } else {
+            Err(faults)
+        }
+    }
+
+    /// The program with its proof of form.
+    #[must_use]
+    pub const fn verified(&self) -> &VerifiedProgram {
+        &self.verified
+    }
+
+    /// The program.
+    #[must_use]
+    pub const fn program(&self) -> &Program {
+        self.verified.program()
+    }
+
+    /// The motion.
+    #[must_use]
+    pub const fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// The axes at the end of an op.
+    #[must_use]
+    pub fn axes_after(&self, op: OpId) -> Option<AxisValues> {
+        self.motion.ends.get(op.0 as usize).copied()
+    }
+
+    /// The branch that an op ends on; none before the first motion to a pose.
+    #[must_use]
+    pub fn branch_after(&self, op: OpId) -> Option<Branch> {
+        let begun = self
+            .motion
+            .stretches
+            .partition_point(|stretch| stretch.from <= op);
+        let stretch = self.motion.stretches.get(begun.checked_sub(1)?)?;
+        Some(stretch.branch)
+    }
+}
+
+fn faults(
+    program: &Program,
+    motion: &Motion,
+    blade_in_work: &dyn Fn(&AxisValues) -> Frame,
+) -> Vec<MotionFault> {
+    let whole = |what| vec![MotionFault { op: None, what }];
+    let Some(cell) = &program.cell else {
+        return whole(MotionRule::Machine);
+    };
+    if motion.ends.len() != program.ops.len() {
+        return whole(MotionRule::Complete);
+    }
+    let mut faults = stretch_faults(program, motion);
+    let mut at: Option<(Point3, OrientationId)> = None;
+    let mut before: Option<AxisValues> = cell.home;
+    for (id, (op, &values)) in (0..).map(OpId).zip(program.ops.iter().zip(&motion.ends)) {
+        let mut fault = |what| faults.push(MotionFault { op: Some(id), what });
+        if !values.0.iter().all(|value| value.is_finite()) {
+            fault(MotionRule::Complete);
+            continue;
+        }
+        if !within_limits(cell, &values) {
+            fault(MotionRule::Limits);
+        }
+        at = after(at, &op.action);
+        let moves = match (op.action, at) {
+            (Action::Home, _) => {
+                if cell.home != Some(values) {
+                    fault(MotionRule::Pose);
+                }
+                true
+            }
+            (
+                Action::Travel { .. }
+                | Action::AxisTravel { .. }
+                | Action::Approach { .. }
+                | Action::Retract { .. }
+                | Action::Cut { .. }
+                | Action::Turn { .. },
+                Some((tip, held)),
+            ) => {
+                let held = program.orientations.get(held.0 as usize).copied();
+                let is = blade_in_work(&values);
+                let same_place = is.origin.distance(tip).to_mm() <= SAME_PLACE;
+                let same_attitude =
+                    held.is_some_and(|held| is.orientation.angle_to(held).to_rad() <= SAME_ATTITUDE);
+                if !(same_place && same_attitude) {
+                    fault(MotionRule::Pose);
+                }
+                true
+            }
+            (_, _) => false,
+        };
+        if !moves && before.is_some_and(|before| before != values) {
+            fault(MotionRule::Still);
+        }
+        before = Some(values);
+    }
+    faults
+}
+
+/// Where the tip is, and how the blade is held, after an action.
+const fn after(at: Option<(Point3, OrientationId)>, action: &Action) -> Option<(Point3, OrientationId)> {
+    match (*action, at) {
+        (Action::Home, _) => None,
+        (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
+            Some((to, orientation))
+        }
+        (
+            Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. },
+            Some((_, held)),
+        ) => Some((to, held)),
+        (Action::Turn { to, .. }, Some((tip, _))) => Some((tip, to)),
+        (
+            Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. }
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. },
+            at,
+        ) => at,
+    }
+}
+
+fn within_limits(cell: &Cell, values: &AxisValues) -> bool {
+    cell.axes
+        .iter()
+        .zip(values.0)
+        .all(|(axis, value)| (axis.min - AT_LIMIT..=axis.max + AT_LIMIT).contains(&value))
+}
+
+fn stretch_faults(program: &Program, motion: &Motion) -> Vec<MotionFault> {
+    let fault = |op| MotionFault {
+        op: Some(op),
+        what: MotionRule::Stretches,
+    };
+    let ordered = motion.stretches.windows(2).filter_map(|pair| match pair {
+        [first, second] if first.from >= second.from => Some(fault(second.from)),
+        _ => None,
+    });
+    // The first stretch may begin with any motion: before it the arm is at home or nowhere in particular.
+    let by_axes = motion.stretches.iter().skip(1).filter_map(|stretch| {
+        let action = program.ops.get(stretch.from.0 as usize).map(|op| op.action);
+        let moves_axes = matches!(action, Some(Action::AxisTravel { .. }));
+        (!moves_axes).then(|| fault(stretch.from))
+    });
+    ordered.chain(by_axes).collect()
+}

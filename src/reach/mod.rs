@@ -1,0 +1,8 @@
+//! Reach: proves that a machine can carry out a program, and how.
+//!
+//! A [`rig::Rig`] is a machine with its tool and base frames; it turns poses of the blade in the workpiece into poses of the
+//! flange in the machine's root. Every motion of a program is a [`path::Course`] of the blade; [`path`] proves that the
+//! axes follow it.
+
+pub mod path;
+pub mod rig;

@@ -1,0 +1,46 @@
+//! A machine set up in its cell: mechanism, axes, and the frames between flange and blade, root and work.
+
+use crate::kinematics::pose::Pose;
+use crate::kinematics::{Joints, Mechanism};
+use crate::machine::Model;
+use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::Axis;
+
+/// A machine set up in its cell.
+#[derive(Clone, Debug)]
+pub struct Rig<'m> {
+    /// How the axes carry the flange.
+    pub mechanism: &'m Mechanism,
+    /// The axes.
+    pub axes: &'m [Axis],
+    /// The flange seen from the blade frame T.
+    pub flange_in_blade: Pose,
+    /// The workpiece frame W seen from the root.
+    pub work_in_root: Pose,
+}
+
+impl<'m> Rig<'m> {
+    /// Sets a machine up. `tool` is T seen from the flange, `base` is W seen from the root.
+    #[must_use]
+    pub fn new(model: &'m Model, tool: Frame, base: Frame) -> Self {
+        Self {
+            mechanism: &model.mechanism,
+            axes: &model.axes,
+            flange_in_blade: Pose::from(tool).inverse(),
+            work_in_root: Pose::from(base),
+        }
+    }
+
+    /// Where the flange is in the root when the blade is there in the work.
+    #[must_use]
+    pub fn flange_in_root(&self, blade_in_work: &Pose) -> Pose {
+        self.work_in_root * *blade_in_work * self.flange_in_blade
+    }
+
+    /// Where the blade is in the work at these axis values.
+    #[must_use]
+    pub fn blade_in_work(&self, joints: &Joints) -> Pose {
+        let flange_in_root = self.mechanism.flange_in_root(joints);
+        self.work_in_root.inverse() * flange_in_root * self.flange_in_blade.inverse()
+    }
+}
