@@ -83,7 +83,7 @@ const COMMON_KEYS: &[&str] = &[
 ];
 
 /// Largest sheet in bytes. Those of the catalogue are below 10 000.
-const LARGEST: usize = 1 << 20;
+const LARGEST: usize = 1 << 18;
 
 /// Most flaws of one sheet that are told.
 const MOST_FLAWS: usize = 20;
@@ -136,25 +136,22 @@ fn unreadable(error: &toml::de::Error, text: &str) -> Flaw {
 }
 
 fn read<'t>(root: &'t DeTable<'t>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
-    // The kind says which keys there are, so it is looked at before the others are.
-    let any_key: Vec<&str> = root.keys().map(|key| key.get_ref().as_ref()).collect();
-    let kind = Table::root(root, &any_key, flaws).word("kind", KINDS, &mut Vec::new());
-    let form = match kind.unwrap_or(MachineKind::Robot) {
+    let root = Table::root(root);
+    let kind = if root.has("kind") {
+        root.word("kind", KINDS, flaws)?
+    } else {
+        MachineKind::Robot
+    };
+    let form = match kind {
         MachineKind::Robot => robot::FORM,
         MachineKind::FiveAxis => {
-            let root = Table::root(root, &any_key, flaws);
-            flaws.push(Flaw::new(
-                root.span_of("kind"),
-                "sheets of five-axis machines cannot be read",
-                "not supported",
-            ));
+            let message = "sheets of five-axis machines cannot be read";
+            flaws.push(Flaw::new(root.span_of("kind"), message, "not supported"));
             return None;
         }
     };
-    let keys: Vec<&str> = [COMMON_KEYS, facts::KEYS, form.keys].concat();
-    let root = Table::root(root, &keys, flaws);
+    root.allow(&[COMMON_KEYS, facts::KEYS, form.keys].concat(), flaws);
     root.require(&[("model", "model = \"KUKA KR 210 R3100 ultra\"")], flaws);
-    root.word("kind", KINDS, flaws);
     root.text("id", flaws);
     let model = root.text("model", flaws);
     let manufacturer = root.text("manufacturer", flaws);

@@ -1,7 +1,6 @@
 //! Reading a TOML table of a sheet, with a flaw for everything that does not fit.
 //!
-//! A [`Table`] is opened with the keys its form has, which reports unknown ones on the spot; after that each value is
-//! asked for by key. What is missing or faulty comes back as `None`, and faults are among the [`Flaw`]s then: a reader
+//! A [`Table`] is told the keys that its form has and reports others; after that each value is asked for by key. What is missing or faulty comes back as `None`, and faults are among the [`Flaw`]s then: a reader
 //! goes on to the end, so that one run shows all of them.
 
 use super::flaw::Flaw;
@@ -52,6 +51,9 @@ impl Measure {
     }
 }
 
+/// Most unknown keys of a table that are told: a file of another kind has nothing else.
+const MOST_UNKNOWN: usize = 10;
+
 /// A table that is being read.
 #[derive(Clone)]
 pub(super) struct Table<'t> {
@@ -63,26 +65,23 @@ pub(super) struct Table<'t> {
 }
 
 impl<'t> Table<'t> {
-    /// The sheet as a whole, which has these keys.
-    pub(super) fn root(entries: &'t DeTable<'t>, known: &[&str], flaws: &mut Vec<Flaw>) -> Self {
-        Self::open(String::new(), 0..0, entries, known, flaws)
+    /// The sheet as a whole, whatever keys it has.
+    pub(super) const fn root(entries: &'t DeTable<'t>) -> Self {
+        Self {
+            title: String::new(),
+            span: 0..0,
+            entries,
+        }
     }
 
-    fn open(
-        title: String,
-        span: Range<usize>,
-        entries: &'t DeTable<'t>,
-        known: &[&str],
-        flaws: &mut Vec<Flaw>,
-    ) -> Self {
-        let table = Self { title, span, entries };
-        for key in entries
+    /// Reports keys other than these.
+    pub(super) fn allow(&self, known: &[&str], flaws: &mut Vec<Flaw>) {
+        let unknown = self
+            .entries
             .keys()
             .filter(|key| !known.contains(&key.get_ref().as_ref()))
-        {
-            flaws.push(table.unknown(key.get_ref(), key.span(), known));
-        }
-        table
+            .take(MOST_UNKNOWN);
+        flaws.extend(unknown.map(|key| self.unknown(key.get_ref(), key.span(), known)));
     }
 
     fn unknown(&self, key: &str, span: Range<usize>, known: &[&str]) -> Flaw {
@@ -158,23 +157,25 @@ impl<'t> Table<'t> {
 
     /// The table under a key, which has these keys.
     pub(super) fn table(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Option<Self> {
+        let table = self.loose_table(key, flaws)?;
+        table.allow(known, flaws);
+        Some(table)
+    }
+
+    /// The table under a key, whatever it holds: sections that only people read.
+    pub(super) fn loose_table(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<Self> {
         let value = self.get(key)?;
         match value.get_ref() {
-            DeValue::Table(entries) => Some(Self::open(self.path(key), value.span(), entries, known, flaws)),
+            DeValue::Table(entries) => Some(Self {
+                title: self.path(key),
+                span: value.span(),
+                entries,
+            }),
             other => {
                 flaws.push(wrong_kind(key, "a table", value.span(), other));
                 None
             }
         }
-    }
-
-    /// The table under a key, whatever it holds: sections that only people read.
-    pub(super) fn loose_table(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<Self> {
-        let known: Vec<&str> = match self.get(key).map(Spanned::get_ref) {
-            Some(DeValue::Table(entries)) => entries.keys().map(|key| key.get_ref().as_ref()).collect(),
-            Some(_) | None => Vec::new(),
-        };
-        self.table(key, &known, flaws)
     }
 
     /// The tables under a key that stands in double brackets; empty when there is none.
@@ -183,8 +184,13 @@ impl<'t> Table<'t> {
         for value in self.elements(key, "tables in double brackets", flaws) {
             match value.get_ref() {
                 DeValue::Table(entries) => {
-                    let title = format!("[{}]", self.path(key));
-                    tables.push(Self::open(title, value.span(), entries, known, flaws));
+                    let table = Self {
+                        title: format!("[{}]", self.path(key)),
+                        span: value.span(),
+                        entries,
+                    };
+                    table.allow(known, flaws);
+                    tables.push(table);
                 }
                 other => flaws.push(wrong_kind(key, "a table", value.span(), other)),
             }

@@ -216,17 +216,17 @@ fn what_is_no_toml_is_told_where() {
 /// Deep trees are dropped by recursion, wide ones take time.
 #[test]
 fn hostile_sheets_end_in_flaws() {
-    let dots = "a.".repeat(200_000);
-    let lists = "[".repeat(500_000);
-    let tables = "{a=".repeat(250_000);
-    let headings: String = (0..100_000).map(|i| format!("[a{i}]\n")).collect();
+    let dots = "a.".repeat(100_000);
+    let lists = "[".repeat(250_000);
+    let tables = "{a=".repeat(80_000);
+    let headings: String = (0..25_000).map(|i| format!("[a{i}]\n")).collect();
     let hostile = [
         format!("{dots}a = 1"),
         format!("[{dots}a]"),
         format!("x = {lists}"),
         format!("x = {tables}"),
         headings,
-        "=\n".repeat(400_000),
+        "=\n".repeat(100_000),
         "x".repeat(LARGEST + 1),
         "\u{feff}\0\u{1f980}".repeat(1000),
     ];
