@@ -75,7 +75,7 @@ pub fn samples() -> Result<Vec<(&'static str, ReachableProgram)>, String> {
             "beyond_half_a_turn",
             Recipe {
                 cell: CellRecipe {
-                    home: AxisValues([0.0, -90.0, 90.0, 340.0, 45.0, -340.0].map(f64::to_radians)),
+                    home: AxisValues([0.0, -90.0, 90.0, -340.0, 45.0, -340.0].map(f64::to_radians)),
                     ..CellRecipe::default()
                 },
                 ..plain.clone()
