@@ -4,7 +4,7 @@
 
 use super::Model;
 use super::sheet::{self, Confidence, Sheet};
-use crate::diag::suggest::nearest;
+use crate::diag::suggest::closest;
 use vcutc_backend_api::ir::MachineKind;
 
 /// Names and sheets, in the order of the names.
@@ -150,7 +150,7 @@ pub fn near(wanted: &str) -> Vec<&'static str> {
     if !model.is_empty() && (1..=MOST_NEAR).contains(&begins.len()) {
         begins
     } else {
-        nearest(&tidy, names())
+        closest(&tidy, names())
     }
 }
 
@@ -251,7 +251,7 @@ mod tests {
         );
         assert_eq!(near("KUKA/KR210 R3100-ultra"), ["kuka/kr210_r3100_ultra"]);
         assert_eq!(near("irb6660_205_190"), ["abb/irb6660_205_190"]);
-        assert_eq!(near("abb/irb6670_205_190").first(), Some(&"abb/irb6660_205_190"));
+        assert_eq!(near("abb/irb6670_205_190"), ["abb/irb6660_205_190"]);
         assert!(near("fanuc/m20").is_empty());
         assert!(near("").is_empty());
     }

@@ -126,7 +126,7 @@ impl<'t> Table<'t> {
             Flaw::new(
                 self.span(),
                 format!("{holder} lacks {keys}"),
-                format!("{keys} missing here"),
+                format!("missing: {keys}"),
             )
             .help(format!("add, with the values of your machine: {lines}")),
         );
@@ -361,7 +361,7 @@ fn number(key: &str, value: &Spanned<DeValue<'_>>, measure: Measure, flaws: &mut
             format!("`{key}` takes a finite number"),
             "not a finite number",
         )
-        .help("leave an optional key out when its value is not known"),
+        .help("write it in digits, such as `120.5`; leave an optional key out when its value is not known"),
     };
     flaws.push(flaw);
     None

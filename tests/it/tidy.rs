@@ -35,7 +35,18 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "diag", "job", "plan", "registry", "sema", "sim", "source", "summary", "syntax", "verdict",
         ],
     ),
-    ("cli", &["diag", "driver", "plan", "registry", "source"]),
+    (
+        "cli",
+        &[
+            "diag",
+            "driver",
+            "kinematics",
+            "machine",
+            "plan",
+            "registry",
+            "source",
+        ],
+    ),
 ];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
