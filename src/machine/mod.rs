@@ -25,6 +25,7 @@ impl Model {
     pub const fn kind(&self) -> MachineKind {
         match self.mechanism {
             Mechanism::OrthoParallel(_) => MachineKind::Robot,
+            Mechanism::FiveAxis(_) => MachineKind::FiveAxis,
         }
     }
 }
