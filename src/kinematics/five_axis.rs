@@ -153,7 +153,7 @@ impl Direction {
 
 impl Rotary {
     /// What it carries, turned by an angle, seen from the same at zero.
-    fn turned(&self, angle: f64) -> Pose {
+    pub(crate) fn turned(&self, angle: f64) -> Pose {
         let rotation = self.about.rotation(angle);
         Pose {
             rotation,
@@ -164,7 +164,7 @@ impl Rotary {
 
 impl SpindleSense {
     /// The turn about the nose's own z by a value of the spindle axis. That z points along `-Z` at zero.
-    pub(crate) const fn about_nose(self, value: f64) -> f64 {
+    const fn about_nose(self, value: f64) -> f64 {
         match self {
             Self::PlusZ => -value,
             Self::MinusZ => value,
@@ -210,16 +210,6 @@ impl FiveAxis {
     #[must_use]
     pub const fn spindle(&self) -> Option<SpindleSense> {
         self.spindle
-    }
-
-    /// Middle of the spindle nose in the machine frame with all axes at zero, in mm.
-    pub(crate) const fn nose(&self) -> DVec3 {
-        self.nose
-    }
-
-    /// Origin of the mount in the machine frame with all axes at zero, in mm.
-    pub(crate) const fn mount(&self) -> DVec3 {
-        self.mount
     }
 
     /// Whether the head reaches all postures of a V-cut without an orientable spindle: its rotary axes compose to
@@ -309,33 +299,60 @@ impl FiveAxis {
         }
     }
 
+    /// What turns the blade, from the frame outwards, each with the place of its value among the [`Joints`].
+    pub(crate) fn head(&self) -> impl DoubleEndedIterator<Item = (Rotary, usize)> {
+        let spindle = self.spindle.map(|sense| {
+            let about = match sense {
+                SpindleSense::PlusZ => Direction::PlusZ,
+                SpindleSense::MinusZ => Direction::MinusZ,
+            };
+            let centre = self.nose;
+            (Rotary { about, centre }, 5)
+        });
+        let head = match self.arrangement {
+            Arrangement::HeadHead([outer, inner]) => [Some((outer, 3)), Some((inner, 4)), spindle],
+            Arrangement::HeadTable { head, .. } => [Some((head, 3)), None, spindle],
+            Arrangement::TableTable(_) => [None, None, spindle],
+        };
+        head.into_iter().flatten()
+    }
+
+    /// What turns the work, from the frame to the work, each with the place of its value among the [`Joints`].
+    pub(crate) fn table(&self) -> impl DoubleEndedIterator<Item = (Rotary, usize)> {
+        let table = match self.arrangement {
+            Arrangement::HeadHead(_) => [None, None],
+            Arrangement::HeadTable { table, .. } => [Some((table, 4)), None],
+            Arrangement::TableTable([outer, inner]) => [Some((outer, 3)), Some((inner, 4))],
+        };
+        table.into_iter().flatten()
+    }
+
+    /// The nose at zero in the machine frame.
+    pub(crate) const fn nose_at_zero(&self) -> Pose {
+        Pose {
+            rotation: NOSE,
+            position: self.nose,
+        }
+    }
+
+    /// The mount at zero in the machine frame.
+    pub(crate) const fn mount_at_zero(&self) -> Pose {
+        Pose {
+            rotation: DMat3::IDENTITY,
+            position: self.mount,
+        }
+    }
+
     /// The nose seen from the carriage of the head, that is from the machine frame with X, Y and Z at zero.
     fn nose_in_carriage(&self, joints: &Joints) -> Pose {
-        let spun = self.spindle.map_or(0.0, |sense| sense.about_nose(joints[5]));
-        let nose = Pose {
-            rotation: NOSE * DMat3::from_rotation_z(spun),
-            position: self.nose,
-        };
-        match self.arrangement {
-            Arrangement::HeadHead([outer, inner]) => outer.turned(joints[3]) * inner.turned(joints[4]) * nose,
-            Arrangement::HeadTable { head, .. } => head.turned(joints[3]) * nose,
-            Arrangement::TableTable(_) => nose,
-        }
+        let turned = self.head().map(|(rotary, place)| rotary.turned(joints[place]));
+        turned.fold(Pose::IDENTITY, |outer, inner| outer * inner) * self.nose_at_zero()
     }
 
     /// The mount seen from the machine frame.
     fn mount_in_frame(&self, joints: &Joints) -> Pose {
-        let mount = Pose {
-            rotation: DMat3::IDENTITY,
-            position: self.mount,
-        };
-        match self.arrangement {
-            Arrangement::HeadHead(_) => mount,
-            Arrangement::HeadTable { table, .. } => table.turned(joints[4]) * mount,
-            Arrangement::TableTable([outer, inner]) => {
-                outer.turned(joints[3]) * inner.turned(joints[4]) * mount
-            }
-        }
+        let turned = self.table().map(|(rotary, place)| rotary.turned(joints[place]));
+        turned.fold(Pose::IDENTITY, |outer, inner| outer * inner) * self.mount_at_zero()
     }
 
     fn tilting(&self) -> Tilting {
