@@ -11,7 +11,7 @@ pub mod pose;
 use five_axis::FiveAxis;
 use opw::Opw;
 use pose::Pose;
-use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_backend_api::ir::{MOST_AXES, MachineKind};
 use vcutc_backend_api::motion::Branch;
 
 /// Positions of the axes in order, as the controller counts them: rad for rotary, mm for linear axes.
@@ -65,6 +65,15 @@ impl Solutions {
 }
 
 impl Mechanism {
+    /// What kind of machine it carries.
+    #[must_use]
+    pub const fn kind(&self) -> MachineKind {
+        match self {
+            Self::OrthoParallel(_) => MachineKind::Robot,
+            Self::FiveAxis(_) => MachineKind::FiveAxis,
+        }
+    }
+
     /// The flange in the root at these axis values.
     #[must_use]
     pub fn flange_in_root(&self, joints: &Joints) -> Pose {
