@@ -370,3 +370,6 @@ impl Part {
         a.max(b) + self.beyond_rates
     }
 }
+
+#[cfg(test)]
+mod tests;
