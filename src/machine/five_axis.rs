@@ -30,6 +30,7 @@ use super::table::{
 };
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense, Unfit};
+use core::ops::Range;
 use glam::DVec3;
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
 
@@ -93,6 +94,19 @@ struct Names<'t> {
     spindle: Option<&'t str>,
 }
 
+impl Names<'_> {
+    /// Where in `[arrangement]` an axis is named; the last place if it has several.
+    fn place(&self, table: &Table<'_>, name: &str) -> Range<usize> {
+        table.span_of(if self.spindle == Some(name) {
+            "spindle"
+        } else if self.table.contains(&name) {
+            "table"
+        } else {
+            "head"
+        })
+    }
+}
+
 fn read(root: &Table<'_>, _: Maker, flaws: &mut Vec<Flaw>) -> Option<Body> {
     root.require(&[("arrangement", "[arrangement]"), ("axis", "[axis.x]")], flaws);
     let mut body = Body::default();
@@ -143,11 +157,23 @@ fn names<'t>(table: &Table<'t>, flaws: &mut Vec<Flaw>) -> Option<Names<'t>> {
         table: table.names("table", flaws),
         spindle: table.text("spindle", flaws),
     };
+    let count = names.head.len() + names.table.len();
+    if flaws.len() == before && count != 2 {
+        flaws.push(
+            Flaw::new(
+                table.span_of("head"),
+                format!("head and table have {count} rotary axes together, a five-axis machine has 2"),
+                format!("with `table`, {count} rotary axes"),
+            )
+            .help("name two in `head` and `table`; one that turns the blade about itself goes to `spindle`"),
+        );
+        return None;
+    }
     let all = || names.head.iter().chain(&names.table).chain(&names.spindle);
     if let Some(name) = all().find(|name| !ROTARY_NAMES.contains(name)) {
         flaws.push(
             Flaw::new(
-                table.span(),
+                names.place(table, name),
                 format!("a rotary axis cannot be called \"{name}\""),
                 "names a rotary axis",
             )
@@ -157,22 +183,11 @@ fn names<'t>(table: &Table<'t>, flaws: &mut Vec<Flaw>) -> Option<Names<'t>> {
     if let Some(name) = all().find(|name| all().filter(|other| other == name).count() > 1) {
         flaws.push(
             Flaw::new(
-                table.span(),
+                names.place(table, name),
                 format!("two rotary axes are called \"{name}\""),
-                "names an axis twice",
+                "names an axis that has that name",
             )
             .help("give each axis its own name; an orientable spindle can be called \"s\""),
-        );
-    }
-    let count = names.head.len() + names.table.len();
-    if flaws.len() == before && count != 2 {
-        flaws.push(
-            Flaw::new(
-                table.span(),
-                format!("head and table have {count} rotary axes together, a five-axis machine has 2"),
-                format!("{count} rotary axes"),
-            )
-            .help("name two in `head` and `table`; one that turns the blade about itself goes to `spindle`"),
         );
     }
     (flaws.len() == before).then_some(names)
@@ -285,16 +300,17 @@ fn cannot_tilt(table: &Table<'_>, names: &Names<'_>, unfit: Unfit) -> Flaw {
         0 => names.table.first(),
         _ => names.head.last(),
     };
-    let name = at_blade.map_or(String::new(), |name| name.to_uppercase());
+    let at_blade = at_blade.copied().unwrap_or_default();
+    let name = at_blade.to_uppercase();
     match unfit {
         Unfit::Parallel => Flaw::new(
-            table.span(),
+            names.place(table, at_blade),
             "the two rotary axes are parallel, so the blade tilts one way only",
             "parallel axes",
         )
         .help("write `about` of one of them along another axis of the machine"),
         Unfit::AlongSpindle => Flaw::new(
-            table.span(),
+            names.place(table, at_blade),
             format!("axis {name} lies along the spindle, so the blade tilts one way only"),
             format!("{name} does not tilt the blade"),
         )
@@ -303,3 +319,6 @@ fn cannot_tilt(table: &Table<'_>, names: &Names<'_>, unfit: Unfit) -> Flaw {
         )),
     }
 }
+
+#[cfg(test)]
+mod tests;
