@@ -1,6 +1,6 @@
 //! The machines that come with the compiler, by name.
 //!
-//! Each is a sheet under `src/machine/robots`, compiled in as it is and read when it is asked for.
+//! Each is a sheet under `src/machine/robots` or `src/machine/generic`, compiled in as it is and read when it is asked for.
 
 use super::Model;
 use super::sheet::{self, Confidence, Sheet};
@@ -56,6 +56,25 @@ const SHEETS: &[(&str, &str)] = &[
     (
         "abb/irb6700_235_265",
         include_str!("robots/abb/irb6700_235_265.toml"),
+    ),
+    ("generic/head_head_ac", include_str!("generic/head_head_ac.toml")),
+    (
+        "generic/head_head_ac_spindle",
+        include_str!("generic/head_head_ac_spindle.toml"),
+    ),
+    ("generic/head_head_ba", include_str!("generic/head_head_ba.toml")),
+    ("generic/head_head_bc", include_str!("generic/head_head_bc.toml")),
+    (
+        "generic/head_table_ab",
+        include_str!("generic/head_table_ab.toml"),
+    ),
+    (
+        "generic/table_table_ab",
+        include_str!("generic/table_table_ab.toml"),
+    ),
+    (
+        "generic/table_table_ac",
+        include_str!("generic/table_table_ac.toml"),
     ),
     ("kuka/kr10_r1100_2", include_str!("robots/kuka/kr10_r1100_2.toml")),
     (
@@ -198,13 +217,21 @@ mod tests {
     fn every_sheet_is_a_machine_with_limits_and_sources() {
         for (name, text) in SHEETS {
             let sheet = sheet::parse(text).unwrap_or_else(|flaws| panic!("{name}: {flaws:#?}"));
-            assert_eq!(sheet.axes.len(), 6, "{name}");
             assert!(sheet.confidence.is_some(), "{name}");
-            assert!(!sheet.facts.sources.is_empty(), "{name}");
-            assert!(sheet.facts.fk_checks.len() >= 3, "{name}");
+            match sheet.kind() {
+                MachineKind::Robot => {
+                    assert_eq!(sheet.axes.len(), 6, "{name}");
+                    assert!(!sheet.facts.sources.is_empty(), "{name}");
+                    assert!(sheet.facts.fk_checks.len() >= 3, "{name}");
+                }
+                MachineKind::FiveAxis => {
+                    assert!((5..=6).contains(&sheet.axes.len()), "{name}");
+                    assert_eq!(sheet.confidence, Some(Confidence::Example), "{name}");
+                }
+            }
             assert_eq!(find(name).map(|model| model.name).as_deref(), Some(*name));
         }
-        assert_eq!(SHEETS.len(), 33);
+        assert_eq!(SHEETS.len(), 33 + 7);
         assert!(names().is_sorted());
     }
 
@@ -261,9 +288,9 @@ mod tests {
         use crate::kinematics::Mechanism;
         use crate::kinematics::opw::Coupling;
         let coupled: Vec<_> = names()
-            .filter(|name| {
-                let Mechanism::OrthoParallel(arm) = sheet(name).unwrap().mechanism;
-                arm.coupling == Coupling::Parallelogram
+            .filter(|name| match sheet(name).unwrap().mechanism {
+                Mechanism::OrthoParallel(arm) => arm.coupling == Coupling::Parallelogram,
+                Mechanism::FiveAxis(_) => false,
             })
             .collect();
         assert_eq!(coupled, ["abb/irb2400_16", "abb/irb6660_205_190"]);

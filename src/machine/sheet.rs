@@ -7,7 +7,7 @@
 use super::facts::{self, Facts, Sources};
 use super::flaw::Flaw;
 use super::table::{MASS, Table};
-use super::{Model, robot};
+use super::{Model, five_axis, robot};
 use crate::kinematics::Mechanism;
 use toml::de::DeTable;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
@@ -144,11 +144,7 @@ fn read<'t>(root: &'t DeTable<'t>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
     };
     let form = match kind {
         MachineKind::Robot => robot::FORM,
-        MachineKind::FiveAxis => {
-            let message = "sheets of five-axis machines cannot be read";
-            flaws.push(Flaw::new(root.span_of("kind"), message, "not supported"));
-            return None;
-        }
+        MachineKind::FiveAxis => five_axis::FORM,
     };
     root.allow(&[COMMON_KEYS, facts::KEYS, form.keys].concat(), flaws);
     root.require(&[("model", "model = \"KUKA KR 210 R3100 ultra\"")], flaws);

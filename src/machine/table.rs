@@ -225,6 +225,18 @@ impl<'t> Table<'t> {
         texts
     }
 
+    /// The names in a list under a key.
+    pub(super) fn names(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<&'t str> {
+        let mut names = Vec::new();
+        for value in self.elements(key, "a list of names", flaws) {
+            match value.get_ref() {
+                DeValue::String(name) => names.push(name.as_ref()),
+                other => flaws.push(wrong_kind(key, "names in quotes", value.span(), other)),
+            }
+        }
+        names
+    }
+
     /// The word under a key, one of a few.
     pub(super) fn word<T: Copy>(&self, key: &str, words: &[(&str, T)], flaws: &mut Vec<Flaw>) -> Option<T> {
         let given = self.text(key, flaws)?;

@@ -53,7 +53,9 @@ fn a_small_sheet_is_a_machine() {
     assert_eq!(sheet.maker(), Maker::Other);
     let model = sheet.machine("arm.toml");
     assert_eq!(model.kind(), MachineKind::Robot);
-    let Mechanism::OrthoParallel(arm) = &model.mechanism;
+    let Mechanism::OrthoParallel(arm) = &model.mechanism else {
+        panic!("an arm is wanted");
+    };
     assert_eq!((arm.a1, arm.c3), (300.0, 1000.0));
     assert_eq!(arm.coupling, Coupling::Serial);
     let third = &model.axes[2];
@@ -75,7 +77,9 @@ fn a_maker_and_rates_and_coupling_are_optional() {
     assert_eq!(sixth.name, "A6");
     assert_eq!(sixth.rate, Some(200_f64.to_radians()));
     assert_eq!(sixth.acceleration, Some(400_f64.to_radians()));
-    let Mechanism::OrthoParallel(arm) = sheet.mechanism;
+    let Mechanism::OrthoParallel(arm) = sheet.mechanism else {
+        panic!("an arm is wanted");
+    };
     assert_eq!(arm.coupling, Coupling::Parallelogram);
 }
 
