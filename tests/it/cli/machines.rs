@@ -37,7 +37,10 @@ fn one_machine_is_shown_with_its_sources() {
 fn programs_read_the_same_as_json() {
     let run = vcutc(folder().path(), &["machines", "--message-format", "json"]);
     let list = json_lines(&run.stdout);
-    assert!(list.iter().all(|line| line["kind"] == "machine" && line["schema"] == 1));
+    assert!(
+        list.iter()
+            .all(|line| line["kind"] == "machine" && line["schema"] == 1)
+    );
     let ultra = list
         .iter()
         .find(|line| line["name"] == "kuka/kr210_r3100_ultra")
@@ -81,10 +84,23 @@ fn a_file_of_ones_own_is_shown_or_refused_with_its_places() {
         axis 3 counts   the angle at the elbow
     ");
 
-    fs::write(folder.path().join("arm.toml"), ARM.replace("[-60, 80]", "[80, -60]")).unwrap();
+    fs::write(
+        folder.path().join("arm.toml"),
+        ARM.replace("[-60, 80]", "[80, -60]"),
+    )
+    .unwrap();
     let run = vcutc(folder.path(), &["machines", "arm.toml"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @r"
+    error[VC0502]: a range of `limits_deg` ends before it begins: 80 deg is not below -60 deg
+        ╭─[ arm.toml:13:28 ]
+        │
+     13 │ limits_deg = [[-180, 180], [80, -60], [-70, 160], [-300, 300], [-120, 120], [-360, 360]]
+        │                            ┬────────
+        │                            ╰────────── the first number is the lower end
+        │
+        = help: write `[-60.0, 80.0]`
+    ");
 }
 
 #[test]
@@ -92,12 +108,16 @@ fn what_is_no_machine_is_refused_with_what_was_meant() {
     let folder = folder();
     let run = vcutc(folder.path(), &["machines", "kuka/kr210_r3100"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @r"
+    error: there is no machine `kuka/kr210_r3100` in the catalogue
+      help: did you mean `kuka/kr210_r3100_2` or `kuka/kr210_r3100_ultra`?
+      help: run `vcutc machines` for the list; names of files end in `.toml` or `.urdf`
+    ");
     let run = vcutc(folder.path(), &["machines", "none.toml"]);
     assert_eq!(run.code, Some(2));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @"error: cannot read `none.toml`: there is no such file");
     fs::write(folder.path().join("bytes.toml"), [0x6d, 0xff]).unwrap();
     let run = vcutc(folder.path(), &["machines", "bytes.toml"]);
     assert_eq!(run.code, Some(2));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @"error: cannot read `bytes.toml`: it is not a text file in UTF-8, byte 2 is not valid");
 }
