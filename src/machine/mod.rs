@@ -2,6 +2,7 @@
 //! by URDF all end as a [`Model`].
 
 pub mod catalogue;
+pub mod flaw;
 
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
