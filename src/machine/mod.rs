@@ -25,7 +25,7 @@ impl Model {
     #[must_use]
     pub const fn kind(&self) -> MachineKind {
         match self.mechanism {
-            Mechanism::OrthoParallel(_) => MachineKind::Robot,
+            Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => MachineKind::Robot,
         }
     }
 }
