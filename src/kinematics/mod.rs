@@ -9,6 +9,7 @@ pub mod mounted;
 pub mod newton;
 pub mod opw;
 pub mod pose;
+pub mod recognise;
 #[cfg(test)]
 pub(crate) mod samples;
 pub mod serial;

@@ -256,7 +256,7 @@ fn same(a: &Joints, b: &Joints) -> bool {
 
 /// Start number `n` in the six-dimensional cube of all angles: the additive recurrence whose steps are powers of the root of
 /// `x^7 = x + 1`, which fills it evenly (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
-fn spread(n: u32) -> Joints {
+pub(super) fn spread(n: u32) -> Joints {
     const ROOT: f64 = 1.112_775_684_278_705_5;
     let mut share = 1.0;
     core::array::from_fn(|_| {

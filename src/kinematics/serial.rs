@@ -54,8 +54,9 @@ impl JointAxis {
         }
     }
 
-    /// The line where a motion of its body brings it.
-    fn moved(&self, motion: &Pose) -> Self {
+    /// The line where a motion of its body brings it; the line in an outer frame, for `inner_in_outer`.
+    #[must_use]
+    pub fn moved(&self, motion: &Pose) -> Self {
         Self {
             point: motion.rotation * self.point + motion.position,
             direction: motion.rotation * self.direction,

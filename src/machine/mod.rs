@@ -3,6 +3,7 @@
 
 pub mod catalogue;
 pub mod flaw;
+pub mod urdf;
 
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
