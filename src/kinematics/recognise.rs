@@ -107,7 +107,8 @@ fn model(arm: &SerialArm) -> Option<Mounted> {
         c2: upper.length(),
         c3: reach.dot(fore),
         c4: outwards.dot(hand.z_axis),
-        offsets: at_zero.map(|angle| -angle),
+        // Not `-angle`, which makes -0 of 0.
+        offsets: at_zero.map(|angle| 0.0 - angle),
         signs: [sign(one.direction.z), s2, s3, s4, s5, s6],
         coupling: Coupling::Serial,
     };
@@ -220,3 +221,6 @@ impl Flat {
 fn sign(number: f64) -> f64 {
     if number < 0.0 { -1.0 } else { 1.0 }
 }
+
+#[cfg(test)]
+mod tests;
