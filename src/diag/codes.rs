@@ -132,6 +132,15 @@ codes! {
     /// Uncut material in the way of the blade's body.
     BladeBlocked = "VC0404", Error, "uncut material in the way of the blade";
 
+    /// A machine that is not in the catalogue.
+    UnknownMachine = "VC0501", Error, "a machine that is not in the catalogue";
+    /// A machine's file that cannot be used.
+    BadMachineFile = "VC0502", Error, "a machine's file that cannot be used";
+    /// A home that the axes cannot reach.
+    HomeOutsideLimits = "VC0503", Error, "a home outside of the axes' limits";
+    /// An orientation that is none.
+    NotARotation = "VC0504", Error, "an orientation that is no rotation";
+
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";
     /// A target that needs more of the machine.
@@ -144,6 +153,8 @@ codes! {
     Unsupported = "VC0605", Error, "something that the target cannot say";
     /// A number that the target does not take.
     TargetRange = "VC0606", Error, "a number that the target does not take";
+    /// A machine that the target does not drive.
+    WrongMachine = "VC0607", Error, "a machine that the target does not drive";
 
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";

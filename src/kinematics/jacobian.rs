@@ -6,7 +6,10 @@
 //! no answer where the columns lose their independence: in singular poses.
 
 use super::Joints;
-use glam::DVec3;
+use super::five_axis::FiveAxis;
+use super::pose::Pose;
+use super::serial::JointAxis;
+use glam::{DMat3, DVec3};
 use nalgebra::{SMatrix, SVD, SVector};
 use vcutc_backend_api::ir::MOST_AXES;
 
@@ -118,8 +121,51 @@ impl Jacobian {
     }
 }
 
+impl FiveAxis {
+    /// What each axis does to the spindle nose and to a point fixed to it, `point_in_nose` in mm, seen from the mount. A
+    /// table moves the work, and so all that is seen from it, the other way.
+    #[must_use]
+    pub fn jacobian(&self, joints: &Joints, point_in_nose: DVec3) -> Jacobian {
+        let mut lines: [Option<JointAxis>; MOST_AXES] = [None; MOST_AXES];
+        let mut here_in_mount = self.mount_at_zero().inverse();
+        for (rotary, place) in self.table().rev() {
+            let line = JointAxis {
+                point: rotary.centre,
+                direction: -rotary.about.vector(),
+            };
+            lines[place] = Some(line.moved(&here_in_mount));
+            here_in_mount = here_in_mount * rotary.turned(joints[place]).inverse();
+        }
+        let frame_in_mount = here_in_mount.rotation;
+        let [x, y, z, ..] = *joints;
+        here_in_mount = here_in_mount
+            * Pose {
+                rotation: DMat3::IDENTITY,
+                position: DVec3::new(x, y, z),
+            };
+        for (rotary, place) in self.head() {
+            let line = JointAxis {
+                point: rotary.centre,
+                direction: rotary.about.vector(),
+            };
+            lines[place] = Some(line.moved(&here_in_mount));
+            here_in_mount = here_in_mount * rotary.turned(joints[place]);
+        }
+        let nose_in_mount = here_in_mount * self.nose_at_zero();
+        let point = nose_in_mount.rotation * point_in_nose + nose_in_mount.position;
+        let mut columns = lines.map(|line| line.map_or(Twist::ZERO, |line| line.twist(point)));
+        for (column, direction) in columns.iter_mut().zip([DVec3::X, DVec3::Y, DVec3::Z]) {
+            column.linear = frame_in_mount * direction;
+        }
+        Jacobian { columns }
+    }
+}
+
 /// The distance of a matrix from the nearest singular one.
 pub(super) fn least_singular_value(square: &Square) -> Option<f64> {
     let svd = square.try_svd(false, false, f64::EPSILON, MOST_SWEEPS)?;
     Some(svd.singular_values.min())
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,6 +4,7 @@
 //! robot the flange in the frame of its foot, for a five-axis machine the spindle nose in the frame in which work is
 //! mounted. Lengths are in mm, angles in rad.
 
+pub mod five_axis;
 pub mod jacobian;
 pub mod mounted;
 pub mod newton;
@@ -14,13 +15,14 @@ pub mod recognise;
 pub(crate) mod samples;
 pub mod serial;
 
+use five_axis::FiveAxis;
 use glam::DVec3;
 use jacobian::{Jacobian, Twist};
 use mounted::Mounted;
 use opw::Opw;
 use pose::Pose;
 use serial::SerialArm;
-use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_backend_api::ir::{MOST_AXES, MachineKind};
 use vcutc_backend_api::motion::Branch;
 
 /// Positions of the axes in order, as the controller counts them: rad for rotary, mm for linear axes.
@@ -35,6 +37,8 @@ pub enum Mechanism {
     Mounted(Mounted),
     /// Any other arm of six revolute joints.
     Serial(SerialArm),
+    /// Three linear axes and two or three rotary ones.
+    FiveAxis(FiveAxis),
 }
 
 /// One way to reach a pose. Angles of rotary axes are within half a turn either way; other turns of the same axis are for
@@ -76,6 +80,15 @@ impl Solutions {
 }
 
 impl Mechanism {
+    /// What kind of machine it carries.
+    #[must_use]
+    pub const fn kind(&self) -> MachineKind {
+        match self {
+            Self::OrthoParallel(_) | Self::Mounted(_) | Self::Serial(_) => MachineKind::Robot,
+            Self::FiveAxis(_) => MachineKind::FiveAxis,
+        }
+    }
+
     /// The flange in the root at these axis values.
     #[must_use]
     pub fn flange_in_root(&self, joints: &Joints) -> Pose {
@@ -83,6 +96,7 @@ impl Mechanism {
             Self::OrthoParallel(arm) => arm.forward(joints),
             Self::Mounted(arm) => arm.forward(joints),
             Self::Serial(arm) => arm.forward(joints),
+            Self::FiveAxis(machine) => machine.forward(joints),
         }
     }
 
@@ -94,6 +108,7 @@ impl Mechanism {
             Self::OrthoParallel(arm) => arm.inverse(flange_in_root),
             Self::Mounted(arm) => arm.inverse(flange_in_root),
             Self::Serial(arm) => newton::search(arm, flange_in_root),
+            Self::FiveAxis(machine) => machine.inverse(flange_in_root),
         }
     }
 
@@ -109,6 +124,7 @@ impl Mechanism {
                 Branch::Numbered(_) => newton::follow(arm, flange_in_root, near),
                 Branch::Arm { .. } => None,
             },
+            Self::FiveAxis(machine) => machine.on_branch(flange_in_root, branch, near),
         }
     }
 
@@ -120,6 +136,7 @@ impl Mechanism {
             Self::OrthoParallel(arm) => SerialArm::from(arm).jacobian(joints, point_in_flange),
             Self::Mounted(arm) => SerialArm::from(arm).jacobian(joints, point_in_flange),
             Self::Serial(arm) => arm.jacobian(joints, point_in_flange),
+            Self::FiveAxis(machine) => machine.jacobian(joints, point_in_flange),
         }
     }
 
@@ -137,7 +154,7 @@ impl Mechanism {
     pub const fn ortho_parallel(&self) -> Option<&Opw> {
         match self {
             Self::OrthoParallel(arm) | Self::Mounted(Mounted { arm, .. }) => Some(arm),
-            Self::Serial(_) => None,
+            Self::Serial(_) | Self::FiveAxis(_) => None,
         }
     }
 }

@@ -63,6 +63,14 @@ impl JointAxis {
         }
     }
 
+    /// What turning about the line at 1 rad/s does to a body and to a point of it.
+    pub(super) fn twist(&self, point: DVec3) -> Twist {
+        Twist {
+            linear: self.direction.cross(point - self.point),
+            angular: self.direction,
+        }
+    }
+
     fn distance(&self, point: DVec3) -> f64 {
         (point - self.point).cross(self.direction).length()
     }
@@ -133,10 +141,7 @@ impl SerialArm {
     pub(super) fn flange_and_jacobian(&self, joints: &Joints, point_in_flange: DVec3) -> (Pose, Jacobian) {
         let Posed { axes, flange_in_root } = self.posed(joints);
         let point = flange_in_root.rotation * point_in_flange + flange_in_root.position;
-        let mut columns = axes.map(|axis| Twist {
-            linear: axis.direction.cross(point - axis.point),
-            angular: axis.direction,
-        });
+        let mut columns = axes.map(|axis| axis.twist(point));
         match self.coupling {
             Coupling::Serial => {}
             Coupling::Parallelogram => {
