@@ -305,7 +305,7 @@ mod tests {
         let coupled: Vec<_> = names()
             .filter(|name| match sheet(name).unwrap().mechanism {
                 Mechanism::OrthoParallel(arm) => arm.coupling == Coupling::Parallelogram,
-                Mechanism::FiveAxis(_) => false,
+                Mechanism::Mounted(_) | Mechanism::Serial(_) | Mechanism::FiveAxis(_) => false,
             })
             .collect();
         assert_eq!(coupled, ["abb/irb2400_16", "abb/irb6660_205_190"]);

@@ -8,6 +8,7 @@ pub mod flaw;
 mod robot;
 pub mod sheet;
 mod table;
+pub mod urdf;
 
 use crate::kinematics::Mechanism;
 use flaw::Flaw;
@@ -71,11 +72,7 @@ impl Origin {
 pub fn read(name: &str, kind: FileKind, text: &str) -> Result<Model, Vec<Flaw>> {
     match kind {
         FileKind::Sheet => sheet::parse(text).map(|sheet| sheet.machine(name)),
-        FileKind::Urdf => Err(vec![Flaw::new(
-            0..0,
-            "robots described by URDF cannot be read",
-            "not supported",
-        )]),
+        FileKind::Urdf => urdf::parse(name, text, urdf::Flange::ByConvention),
     }
 }
 

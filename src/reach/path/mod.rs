@@ -154,7 +154,8 @@ pub fn prove(
                 Ok(arm::posture(arm, branch, &flight.over(span))?.stretch(span))
             })?
         }
-        (Mechanism::OrthoParallel(_), Branch::Numbered(_)) | (Mechanism::FiveAxis(_), _) => {
+        (Mechanism::OrthoParallel(_), Branch::Numbered(_))
+        | (Mechanism::Mounted(_) | Mechanism::Serial(_) | Mechanism::FiveAxis(_), _) => {
             return Err(BEGINNING);
         }
     };
