@@ -1,8 +1,6 @@
 //! The motion of a program, found at its taught poses: the first branch that reaches all of them within the axes' limits.
 
 use crate::job::Machine;
-use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, MOST_BRANCHES};
 use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Action, AxisValues, MOST_AXES, OpId, OrientationId};
@@ -26,8 +24,8 @@ pub(super) fn reachable(machine: &Machine, program: &VerifiedProgram) -> Option<
         });
     };
     let first = blade(program, to, orientation);
-    let solutions = rig.mechanism.all(&rig.flange_in_root(&first));
-    solutions.iter().take(MOST_BRANCHES).find_map(|solution| {
+    let solutions = rig.mechanism.all(&rig.flange_in_root(&first.into()));
+    solutions.iter().find_map(|solution| {
         let branch = solution.branch;
         let ends = ends(&rig, program, branch, home)?;
         let stretches = vec![Stretch { from, branch }];
@@ -35,7 +33,12 @@ pub(super) fn reachable(machine: &Machine, program: &VerifiedProgram) -> Option<
     })
 }
 
-fn ends(rig: &Rig<'_>, program: &VerifiedProgram, branch: Branch, home: Joints) -> Option<Vec<AxisValues>> {
+fn ends(
+    rig: &Rig<'_>,
+    program: &VerifiedProgram,
+    branch: Branch,
+    home: [f64; MOST_AXES],
+) -> Option<Vec<AxisValues>> {
     let mut at: Option<(Point3, OrientationId)> = None;
     let mut joints = home;
     let step = |(_, op): (OpId, &vcutc_backend_api::ir::Op)| {
@@ -55,7 +58,7 @@ fn ends(rig: &Rig<'_>, program: &VerifiedProgram, branch: Branch, home: Joints) 
             (_, at) => at,
         };
         if let (Some((tip, held)), true) = (next, next != at) {
-            let flange_in_root = rig.flange_in_root(&blade(program, tip, held));
+            let flange_in_root = rig.flange_in_root(&blade(program, tip, held).into());
             joints = rig.mechanism.on_branch(&flange_in_root, branch, &joints)?;
         }
         at = next;
@@ -64,7 +67,7 @@ fn ends(rig: &Rig<'_>, program: &VerifiedProgram, branch: Branch, home: Joints) 
     program.ops().map(step).collect()
 }
 
-fn blade(program: &VerifiedProgram, origin: Point3, held: OrientationId) -> Pose {
+fn blade(program: &VerifiedProgram, origin: Point3, held: OrientationId) -> Frame {
     let orientation = program.orientation(held);
-    Pose::from(Frame { origin, orientation })
+    Frame { origin, orientation }
 }

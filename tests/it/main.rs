@@ -27,6 +27,7 @@ mod process_errors;
 mod published;
 mod repository;
 mod schema;
+mod status;
 mod syntax;
 mod third_party;
 mod tidy;

@@ -32,10 +32,22 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
-            "diag", "job", "plan", "registry", "sema", "sim", "source", "summary", "syntax", "verdict",
+            "diag", "job", "machine", "plan", "reach", "registry", "sema", "sim", "source", "summary",
+            "syntax", "verdict",
         ],
     ),
-    ("cli", &["diag", "driver", "plan", "registry", "source"]),
+    (
+        "cli",
+        &[
+            "diag",
+            "driver",
+            "kinematics",
+            "machine",
+            "plan",
+            "registry",
+            "source",
+        ],
+    ),
 ];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.

@@ -8,6 +8,7 @@ mod march;
 #[cfg(test)]
 mod tests;
 
+use super::five_axis_path;
 use super::rig::Rig;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::{Joints, Mechanism};
@@ -117,6 +118,10 @@ pub fn prove(
         at: 0.0,
         what: Violation::OutOfReach,
     };
+    // Its controller interpolates in another way.
+    if let Mechanism::FiveAxis(machine) = rig.mechanism {
+        return five_axis_path::prove(machine, rig, course, branch, start);
+    }
     let flight = Flight::new(rig, course).ok_or(BEGINNING)?;
     if !(course.duration > 0.0 && course.duration.is_finite()) {
         return Err(BEGINNING);
@@ -149,7 +154,10 @@ pub fn prove(
                 Ok(arm::posture(arm, branch, &flight.over(span))?.stretch(span))
             })?
         }
-        (Mechanism::OrthoParallel(_), Branch::Numbered(_)) => return Err(BEGINNING),
+        (Mechanism::OrthoParallel(_), Branch::Numbered(_))
+        | (Mechanism::Mounted(_) | Mechanism::Serial(_) | Mechanism::FiveAxis(_), _) => {
+            return Err(BEGINNING);
+        }
     };
     // The enclosure of the end tells the turns; this is the end to the last digit.
     if let Some(end) = rig
