@@ -14,7 +14,8 @@
 use super::Joints;
 use super::opw::{Coupling, Opw};
 use super::pose::Pose;
-use super::trig::{Turn, WIDEST, nearest, wrapped};
+use super::trig::{Turn, WIDEST, wrapped};
+use core::f64::consts::PI;
 use glam::{DMat3, DVec3};
 
 /// How far the flange may be from where an answer should bring it, in mm and as Frobenius norm.
@@ -101,32 +102,29 @@ pub(super) struct Triangle {
     pub(super) fore: Turn,
 }
 
-/// The hand of the branch with positive model angle of axis 5.
+/// The hand of the branch on which the model angle of axis 5 is positive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hand {
-    /// Model angles of axes 4, 5 and 6.
-    pub(super) angles: [f64; 3],
+    /// Axes 4, 5 and 6.
+    pub(super) turns: [Turn; 3],
     /// Whether axis 4 is free.
     pub(super) is_free: bool,
 }
 
-/// Sines and cosines of model angles, from which forward kinematics is sums and products.
+/// The model angles of the six axes as sines and cosines, that of axis 5 positive.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turns {
-    pub(super) base: Turn,
-    pub(super) upper: Turn,
-    /// Of axes 2 and 3 together.
-    pub(super) fore: Turn,
-    pub(super) hand: [Turn; 3],
+pub(super) struct Aim {
+    pub(super) turns: [Turn; 6],
+    /// Whether the pose leaves axis 1 free.
+    pub(super) is_base_free: bool,
+    /// Whether the pose leaves axis 4 free.
+    pub(super) is_hand_free: bool,
 }
 
-/// One answer of the closed form.
+/// The model angles of axis 1, axis 2, axes 2 and 3 together, and axes 4, 5 and 6: what forward kinematics needs the sines
+/// and cosines of.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Answer {
-    pub(super) joints: Joints,
-    /// Whether the pose leaves axis 1 or axis 4 free.
-    pub(super) is_free: bool,
-}
+pub(super) struct Inclinations(pub(super) [f64; 6]);
 
 impl Arm {
     #[inline(always)]
@@ -158,18 +156,27 @@ impl Arm {
         }
     }
 
-    /// The joints of a branch, within half a turn. They must be checked.
+    /// Where the axes point on a branch.
     #[inline(always)]
-    pub(super) fn solve(&self, flange_in_root: &Pose, sides: Sides, rest: Rest) -> Answer {
+    pub(super) fn aim(&self, flange_in_root: &Pose, sides: Sides, rest: Rest) -> Aim {
         let base = self.base(flange_in_root, sides.shoulder, rest.base);
         let triangle = self.triangle(&base, sides.elbow);
         let hand = hand(&flange_in_root.rotation, base.turn, triangle.fore, rest.hand);
-        let [j1, j2, j3] = self.arm_joints(base.turn, &triangle);
-        let [j4, j5, j6] = self.hand_joints(&hand, sides.wrist);
-        Answer {
-            joints: [j1, j2, j3, j4, j5, j6],
-            is_free: base.is_free || hand.is_free,
+        let [q4, q5, q6] = hand.turns;
+        Aim {
+            turns: [base.turn, triangle.upper, triangle.elbow, q4, q5, q6],
+            is_base_free: base.is_free,
+            is_hand_free: hand.is_free,
         }
+    }
+
+    /// The joints for the model angles of an aim, within half a turn.
+    #[inline(always)]
+    pub(super) fn joints(&self, model: [f64; 6], is_hand_free: bool, side: f64) -> Joints {
+        let [q1, q2, q3, q4, q5, q6] = model;
+        let [j1, j2, j3] = self.arm_joints([q1, q2, q3]);
+        let [j4, j5, j6] = self.hand_joints([q4, q5, q6], is_hand_free, side);
+        [j1, j2, j3, j4, j5, j6]
     }
 
     /// Turns the arm's plane to the wrist centre. In the frame that turns with axis 1 that lies at `(x, b)`.
@@ -222,22 +229,21 @@ impl Arm {
         }
     }
 
-    /// The first three joints, within half a turn.
+    /// The first three joints for their model angles, within half a turn.
     #[inline(always)]
-    pub(super) fn arm_joints(&self, base: Turn, triangle: &Triangle) -> [f64; 3] {
-        let j1 = wrapped(self.joint(0, base.angle()));
-        let j2 = wrapped(self.joint(1, triangle.upper.angle()));
-        let j3 = wrapped(self.joint(2, triangle.elbow.angle()) + self.coupled * j2);
+    pub(super) fn arm_joints(&self, [q1, q2, q3]: [f64; 3]) -> [f64; 3] {
+        let j1 = wrapped(self.joint(0, q1));
+        let j2 = wrapped(self.joint(1, q2));
+        let j3 = wrapped(self.joint(2, q3) + self.coupled * j2);
         [j1, j2, j3]
     }
 
-    /// The last three joints, within half a turn. The other side of the wrist is reached by half a turn of axes 4 and 6;
-    /// where axis 4 is free, both sides are the same.
+    /// The last three joints for their model angles, within half a turn. The other side of the wrist is reached by half a
+    /// turn of axes 4 and 6; where axis 4 is free, both sides are the same.
     #[inline(always)]
-    pub(super) fn hand_joints(&self, hand: &Hand, side: f64) -> [f64; 3] {
-        let is_turned = side * self.signs[4] < 0.0 && !hand.is_free;
-        let half = if is_turned { core::f64::consts::PI } else { 0.0 };
-        let [q4, q5, q6] = hand.angles;
+    pub(super) fn hand_joints(&self, [q4, q5, q6]: [f64; 3], is_free: bool, side: f64) -> [f64; 3] {
+        let is_turned = (side * self.signs[4] < 0.0) & !is_free;
+        let half = if is_turned { PI } else { 0.0 };
         let q5 = if is_turned { -q5 } else { q5 };
         [
             wrapped(self.joint(3, q4 - half.copysign(q4))),
@@ -252,20 +258,19 @@ impl Arm {
         (model + self.offsets[axis]) * self.signs[axis]
     }
 
-    /// The model angles of axis 1, axis 2, axes 2 and 3 together, and axes 4, 5 and 6.
+    /// Model angles for joints.
     #[inline(always)]
-    pub(super) fn model_angles(&self, joints: &Joints) -> Joints {
+    pub(super) fn inclinations(&self, joints: &Joints) -> Inclinations {
         let [j1, j2, j3, j4, j5, j6] = *joints;
         let serial = [j1, j2, j3 - self.coupled * j2, j4, j5, j6];
         let mut q: Joints = core::array::from_fn(|i| self.signs[i] * serial[i] - self.offsets[i]);
         q[2] += q[1];
-        q
+        Inclinations(q)
     }
 
     /// Forward kinematics.
     #[inline(always)]
-    pub(super) fn flange(&self, turns: &Turns) -> Pose {
-        let (base, upper, fore) = (turns.base, turns.upper, turns.fore);
+    pub(super) fn flange(&self, [base, upper, fore, q4, q5, q6]: [Turn; 6]) -> Pose {
         let [x, y, z] = forearm(base, fore);
         let along = self.a1 + self.c2 * upper.sin + self.a2 * fore.cos + self.c3 * fore.sin;
         let up = self.c1 + self.c2 * upper.cos - self.a2 * fore.sin + self.c3 * fore.cos;
@@ -274,7 +279,6 @@ impl Arm {
             base.sin * along + base.cos * self.b,
             up,
         );
-        let [q4, q5, q6] = turns.hand;
         let (outward, sideways) = (x * q4.cos + y * q4.sin, y * q4.cos - x * q4.sin);
         let (down, out) = (outward * q5.cos - z * q5.sin, outward * q5.sin + z * q5.cos);
         Pose {
@@ -290,20 +294,18 @@ impl Arm {
     /// Whether joints bring the flange there.
     #[inline(always)]
     pub(super) fn reaches(&self, joints: &Joints, flange_in_root: &Pose) -> bool {
-        let q = self.model_angles(joints);
-        let turns = Turns {
-            base: Turn::of(q[0]),
-            upper: Turn::of(q[1]),
-            fore: Turn::of(q[2]),
-            hand: [Turn::of(q[3]), Turn::of(q[4]), Turn::of(q[5])],
-        };
-        is_same(&self.flange(&turns), flange_in_root) & q.iter().all(|angle| angle.abs() <= WIDEST)
+        let inclinations = self.inclinations(joints);
+        inclinations.are_exact() & is_same(&self.flange(each(inclinations.0, Turn::of)), flange_in_root)
     }
+}
 
-    /// Each joint within half a turn of another.
+impl Inclinations {
+    /// Whether [`Turn::of`] may be asked for them.
     #[inline(always)]
-    pub(super) fn turned_near(joints: &Joints, near: &Joints) -> Joints {
-        core::array::from_fn(|axis| nearest(joints[axis], near[axis]))
+    pub(super) fn are_exact(&self) -> bool {
+        self.0
+            .iter()
+            .fold(true, |exact, angle| exact & (angle.abs() <= WIDEST))
     }
 }
 
@@ -334,7 +336,7 @@ pub(super) fn hand(rotation: &DMat3, base: Turn, fore: Turn, rest: Turn) -> Hand
         cos: sideways.dot(rotation.y_axis),
     };
     Hand {
-        angles: [q4.angle(), q5.angle(), q6.angle()],
+        turns: [q4, q5, q6],
         is_free,
     }
 }
@@ -357,6 +359,12 @@ pub(super) fn is_same(one: &Pose, other: &Pose) -> bool {
     let turned =
         turned.x_axis.length_squared() + turned.y_axis.length_squared() + turned.z_axis.length_squared();
     (apart <= RESIDUAL.0 * RESIDUAL.0) & (turned <= RESIDUAL.1 * RESIDUAL.1)
+}
+
+/// A function of each axis, written out: loops within the loop over lanes would keep it from becoming vector instructions.
+#[inline(always)]
+pub(super) fn each<T: Copy, U>([a, b, c, d, e, f]: [T; 6], of: impl Fn(T) -> U) -> [U; 6] {
+    [of(a), of(b), of(c), of(d), of(e), of(f)]
 }
 
 /// The square root, or zero of what has none.

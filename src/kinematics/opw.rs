@@ -27,9 +27,10 @@
 //! Near to these poses answers are as precise as elsewhere: axis 6 is found from the axis 4 that was chosen, not from the
 //! pose alone.
 
-use super::closed_form::{Arm, Rest, Sides, Turns};
+use super::closed_form::{Arm, Sides};
+use super::lanes::{AllBranches, Forward, OneBranch};
 use super::pose::Pose;
-use super::{Joints, Solution, Solutions, batch, trig};
+use super::{Joints, Solution, Solutions};
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 
 /// Lengths (mm), zero offsets (rad) and senses of an ortho-parallel arm with a spherical wrist.
@@ -71,23 +72,24 @@ impl Opw {
     /// The flange in the root. Finite joints give a finite pose.
     #[must_use]
     pub fn forward(&self, joints: &Joints) -> Pose {
-        let arm = Arm::new(self);
-        let [base, upper, fore, q4, q5, q6] = arm.model_angles(joints).map(trig::turn_of_any);
-        arm.flange(&Turns {
-            base,
-            upper,
-            fore,
-            hand: [q4, q5, q6],
-        })
+        Forward {
+            arm: &Arm::new(self),
+            joints,
+        }
+        .solve()
     }
 
     /// All ways to bring the flange there, in the order of [`BRANCHES`].
     #[must_use]
     pub fn inverse(&self, flange_in_root: &Pose) -> Solutions {
-        let lanes = batch::all_branches(&Arm::new(self), flange_in_root);
+        let lanes = AllBranches {
+            arm: &Arm::new(self),
+            flange_in_root,
+        }
+        .solve();
         let mut solutions = Solutions::NONE;
         for (lane, branch) in BRANCHES.into_iter().enumerate() {
-            if let Some(joints) = lanes.joints(lane) {
+            if let Some(joints) = lanes.get(lane) {
                 solutions.push(Solution { branch, joints });
             }
         }
@@ -98,19 +100,13 @@ impl Opw {
     /// (J1 with the wrist centre on axis 1, J4 with a stretched hand) stays where `near` has it.
     #[must_use]
     pub fn on_branch(&self, flange_in_root: &Pose, branch: Branch, near: &Joints) -> Option<Joints> {
-        let arm = Arm::new(self);
-        let sides = sides(branch)?;
-        let mut answer = arm.solve(flange_in_root, sides, Rest::ZERO);
-        if answer.is_free {
-            let q = arm.model_angles(near);
-            let rest = Rest {
-                base: trig::turn_of_any(q[0]),
-                hand: trig::turn_of_any(q[3]),
-            };
-            answer = arm.solve(flange_in_root, sides, rest);
+        OneBranch {
+            arm: &Arm::new(self),
+            flange_in_root,
+            sides: sides(branch)?,
+            near,
         }
-        let joints = Arm::turned_near(&answer.joints, near);
-        arm.reaches(&joints, flange_in_root).then_some(joints)
+        .solve()
     }
 }
 
