@@ -174,7 +174,8 @@ impl Arm {
     #[inline(always)]
     pub(super) fn joints(&self, model: [f64; 6], is_hand_free: bool, side: f64) -> Joints {
         let [q1, q2, q3, q4, q5, q6] = model;
-        let [j1, j2, j3] = self.arm_joints([q1, q2, q3]);
+        let j1 = self.base_joint(q1);
+        let [j2, j3] = self.triangle_joints([q2, q3]);
         let [j4, j5, j6] = self.hand_joints([q4, q5, q6], is_hand_free, side);
         [j1, j2, j3, j4, j5, j6]
     }
@@ -229,13 +230,18 @@ impl Arm {
         }
     }
 
-    /// The first three joints for their model angles, within half a turn.
+    /// Joint 1 for its model angle, within half a turn.
     #[inline(always)]
-    pub(super) fn arm_joints(&self, [q1, q2, q3]: [f64; 3]) -> [f64; 3] {
-        let j1 = wrapped(self.joint(0, q1));
+    pub(super) fn base_joint(&self, q1: f64) -> f64 {
+        wrapped(self.joint(0, q1))
+    }
+
+    /// Joints 2 and 3 for their model angles, within half a turn.
+    #[inline(always)]
+    pub(super) fn triangle_joints(&self, [q2, q3]: [f64; 2]) -> [f64; 2] {
         let j2 = wrapped(self.joint(1, q2));
         let j3 = wrapped(self.joint(2, q3) + self.coupled * j2);
-        [j1, j2, j3]
+        [j2, j3]
     }
 
     /// The last three joints for their model angles, within half a turn. The other side of the wrist is reached by half a
@@ -258,14 +264,38 @@ impl Arm {
         (model + self.offsets[axis]) * self.signs[axis]
     }
 
-    /// Model angles for joints.
+    /// The model angle for a joint's angle, coupling apart.
+    #[inline(always)]
+    fn model(&self, axis: usize, joint: f64) -> f64 {
+        self.signs[axis] * joint - self.offsets[axis]
+    }
+
+    /// What forward kinematics needs of joint 1.
+    #[inline(always)]
+    pub(super) fn base_inclination(&self, j1: f64) -> f64 {
+        self.model(0, j1)
+    }
+
+    /// What forward kinematics needs of joints 2 and 3.
+    #[inline(always)]
+    pub(super) fn triangle_inclinations(&self, [j2, j3]: [f64; 2]) -> [f64; 2] {
+        let q2 = self.model(1, j2);
+        [q2, q2 + self.model(2, j3 - self.coupled * j2)]
+    }
+
+    /// What forward kinematics needs of joints 4, 5 and 6.
+    #[inline(always)]
+    pub(super) fn hand_inclinations(&self, [j4, j5, j6]: [f64; 3]) -> [f64; 3] {
+        [self.model(3, j4), self.model(4, j5), self.model(5, j6)]
+    }
+
+    /// What forward kinematics needs of all joints.
     #[inline(always)]
     pub(super) fn inclinations(&self, joints: &Joints) -> Inclinations {
         let [j1, j2, j3, j4, j5, j6] = *joints;
-        let serial = [j1, j2, j3 - self.coupled * j2, j4, j5, j6];
-        let mut q: Joints = core::array::from_fn(|i| self.signs[i] * serial[i] - self.offsets[i]);
-        q[2] += q[1];
-        Inclinations(q)
+        let [upper, fore] = self.triangle_inclinations([j2, j3]);
+        let [q4, q5, q6] = self.hand_inclinations([j4, j5, j6]);
+        Inclinations([self.base_inclination(j1), upper, fore, q4, q5, q6])
     }
 
     /// Forward kinematics.
@@ -303,10 +333,15 @@ impl Inclinations {
     /// Whether [`Turn::of`] may be asked for them.
     #[inline(always)]
     pub(super) fn are_exact(&self) -> bool {
-        self.0
-            .iter()
-            .fold(true, |exact, angle| exact & (angle.abs() <= WIDEST))
+        let [q1, q2, q23, q4, q5, q6] = each(self.0, is_exact);
+        q1 & q2 & q23 & q4 & q5 & q6
     }
+}
+
+/// Whether [`Turn::of`] may be asked for an angle.
+#[inline(always)]
+pub(super) fn is_exact(angle: f64) -> bool {
+    angle.abs() <= WIDEST
 }
 
 /// Turns the hand. In singular poses, and near to them, axes 4 and 6 are ill-defined, but not what they do together: so axis
