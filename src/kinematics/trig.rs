@@ -7,7 +7,7 @@
 //!
 //! The way is that of fdlibm (Sun Microsystems, 1993): reduction by Cody and Waite's split of pi/2, then one polynomial. The
 //! polynomials are minimax in the relative error of the result (Remez, computed with 90 digits): `sin` to 2^-57.9, `cos` to
-//! 2^-63.9, `atan` to 2^-59.4. Against exact values all three stay below 1.5 units in the last place.
+//! 2^-63.9, `atan` to 2^-59.4. Against exact values all three stay below 1.6 units in the last place.
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_4, PI, TAU};
 
@@ -79,7 +79,7 @@ impl Turn {
     /// The angle 0.
     pub const NONE: Self = Self { sin: 0.0, cos: 1.0 };
 
-    /// Sine and cosine of an angle, in rad, up to [`WIDEST`] either way, each to 1.5 units in the last place. The sine of
+    /// Sine and cosine of an angle, in rad, up to [`WIDEST`] either way, each to 1.6 units in the last place. The sine of
     /// -0 is 0. For larger angles the numbers have no meaning; they may be NaN.
     #[inline(always)]
     #[must_use]
@@ -149,7 +149,7 @@ pub fn turn_of_any(angle: f64) -> Turn {
     }
 }
 
-/// The angle, from -pi to pi, of the point `(x, y)` about the origin, to 1.5 units in the last place, for coordinates up to
+/// The angle, from -pi to pi, of the point `(x, y)` about the origin, to 1.6 units in the last place, for coordinates up to
 /// 2^1022. Zeros count with their signs as in C: `atan2(0, 0)` is 0, `atan2(0, -0)` is pi, and a `y` of -0 gives their
 /// negatives. Infinite coordinates may give NaN.
 #[inline(always)]
