@@ -159,3 +159,6 @@ pub(super) const fn sides(branch: Branch) -> Option<Sides> {
         },
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -221,3 +221,132 @@ fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
 fn negated_if(value: f64, bit: u64) -> f64 {
     f64::from_bits(value.to_bits() ^ (bit << 62))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::{FRAC_PI_2, FRAC_PI_3};
+
+    /// SplitMix64 (Steele, Lea, Flood 2014): numbers from -1 to 1.
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    /// By how many units in the last place of the second number the first is off.
+    fn off(is: f64, should: f64) -> f64 {
+        let unit = f64::from_bits(should.abs().to_bits() + 1) - should.abs();
+        ((is - should) / unit).abs()
+    }
+
+    fn assert_turn(angle: f64) {
+        let turn = Turn::of(angle);
+        let (sin, cos) = libm::sincos(angle);
+        assert!(
+            off(turn.sin, sin) <= 2.0,
+            "sin {angle:e}: {:e}, {sin:e}",
+            turn.sin
+        );
+        assert!(
+            off(turn.cos, cos) <= 2.0,
+            "cos {angle:e}: {:e}, {cos:e}",
+            turn.cos
+        );
+    }
+
+    fn assert_angle(y: f64, x: f64) {
+        let (is, should) = (atan2(y, x), libm::atan2(y, x));
+        assert!(off(is, should) <= 2.0, "atan2 {y:e} {x:e}: {is:e}, {should:e}");
+        assert_eq!(is.is_sign_negative(), should.is_sign_negative());
+    }
+
+    #[test]
+    fn sines_and_cosines_are_those_of_libm() {
+        let mut random = Random(1);
+        for _ in 0..500_000 {
+            let number = random.next();
+            assert_turn(7.0 * number);
+            assert_turn(WIDEST * number);
+            assert_turn(number * libm::exp2(-500.0 * (1.0 + random.next())));
+        }
+        for quarters in -640_000..640_000 {
+            // The nearest numbers to multiples of a quarter turn are where reduction loses most.
+            let angle = f64::from(quarters) * FRAC_PI_2;
+            if quarters % 7 == 0 && quarters != 0 && angle.abs() <= WIDEST {
+                assert_turn(angle);
+                assert_turn(f64::from_bits(angle.to_bits() + 1));
+            }
+        }
+        for angle in [1e-300, f64::MIN_POSITIVE, WIDEST, -WIDEST, PI, TAU, FRAC_PI_4] {
+            assert_turn(angle);
+        }
+        assert_eq!(Turn::of(0.0), Turn::NONE);
+        assert_eq!(Turn::of(-0.0), Turn::NONE);
+    }
+
+    #[test]
+    fn arc_tangents_are_those_of_libm() {
+        let mut random = Random(2);
+        for _ in 0..1_000_000 {
+            let (y, x) = (random.next(), random.next());
+            assert_angle(y, x);
+            assert_angle(y * libm::exp2(200.0 * random.next()), x);
+        }
+        let edges = [
+            0.0,
+            5e-324,
+            1e-310,
+            1e-300,
+            1e-20,
+            0.5,
+            TAN_PI_8,
+            1.0,
+            1.0 / TAN_PI_8,
+            1e20,
+            1e300,
+            4e307,
+        ];
+        for y in edges.into_iter().flat_map(|y| [y, -y]) {
+            for x in edges.into_iter().flat_map(|x| [x, -x]) {
+                assert_angle(y, x);
+            }
+        }
+    }
+
+    #[test]
+    fn angles_of_any_size_have_a_sine() {
+        for angle in [1e7, -1e15, 1e300, f64::MAX] {
+            let turn = turn_of_any(angle);
+            assert_eq!((turn.sin, turn.cos), libm::sincos(angle));
+        }
+        assert_eq!(turn_of_any(1.0), Turn::of(1.0));
+    }
+
+    #[test]
+    fn wrapping_leaves_whole_turns_out() {
+        for turns in -5..=5 {
+            for angle in [-3.0, -FRAC_PI_3, 0.0, 1.0, 3.1] {
+                let turned = angle + TAU * f64::from(turns);
+                assert!((wrapped(turned) - angle).abs() < 1e-14);
+                assert!((nearest(angle, turned + 3.0) - turned).abs() < 1e-14);
+                assert!((nearest(angle, turned - 3.0) - turned).abs() < 1e-14);
+            }
+        }
+        assert_eq!((wrapped(PI), wrapped(-PI)), (PI, PI));
+        let beyond = wrapped(f64::from_bits(PI.to_bits() + 1));
+        assert!(-PI < beyond && beyond < -3.14);
+    }
+
+    #[test]
+    fn turns_add_up() {
+        let sum = Turn::of(0.3) + Turn::of(1.1);
+        assert!((sum.angle() - 1.4).abs() < 1e-15);
+        assert!((Turn::of(0.3).back().angle() + 0.3).abs() < 1e-16);
+    }
+}
