@@ -11,9 +11,9 @@ fn inverse_kinematics_agree_with_another_authors() {
     let robots = Robot::all();
     assert_eq!(robots.len(), 33);
     for (seed, robot) in (0..).zip(&robots) {
-        let tally = compare(robot, 400, &mut Random(seed));
+        let tally = compare(robot, 1000, &mut Random(seed));
         let name = robot.name;
-        assert!(tally.answers > 1000, "{name}: {tally:?}");
+        assert!(tally.answers > 4000, "{name}: {tally:?}");
         assert!(tally.apart < 1e-9 && tally.turned < 1e-12, "{name}: {tally:?}");
     }
 }
@@ -31,8 +31,10 @@ fn published_poses_lead_back_to_their_joints() {
                 rotation: DMat3::from_quat(DQuat::from_xyzw(x, y, z, w).normalize()),
                 position: DVec3::from_array(check.xyz_mm),
             };
-            // Poses are printed to so many digits that joints come back to a hundredth of a degree; where the hand is
-            // stretched, axes 4 and 6 come back together.
+            // Poses are printed to so many digits that joints come back to a hundredth of a degree, those from a slightly
+            // different geometry as far as that leads, over half a metre of arm. Where the hand is stretched, axes 4 and 6
+            // come back together.
+            let within = 0.01_f64.to_radians() + check.position_tolerance_mm / 500.0;
             let is_stretched = joints[4].abs() < 1e-3;
             let comes_back = robot.arm.inverse(&published).iter().any(|answer| {
                 let apart = |axis: usize| {
@@ -48,7 +50,7 @@ fn published_poses_lead_back_to_their_joints() {
                 [apart(0), apart(1), apart(2), apart(4)]
                     .into_iter()
                     .chain(hand)
-                    .all(|apart| apart.abs() < 0.01_f64.to_radians())
+                    .all(|apart| apart.abs() < within)
             });
             assert!(comes_back, "{} {:?}", robot.name, check.joints_deg);
         }
