@@ -4,8 +4,11 @@
 //! robot the flange in the frame of its foot, for a five-axis machine the spindle nose in the frame in which work is
 //! mounted. Lengths are in mm, angles in rad.
 
+pub mod batch;
+mod closed_form;
 pub mod five_axis;
 pub mod jacobian;
+mod lanes;
 pub mod mounted;
 pub mod newton;
 pub mod opw;
@@ -14,6 +17,7 @@ pub mod recognise;
 #[cfg(test)]
 pub(crate) mod samples;
 pub mod serial;
+pub mod trig;
 
 use five_axis::FiveAxis;
 use glam::DVec3;
@@ -57,25 +61,31 @@ pub const MOST_BRANCHES: usize = 16;
 /// All ways to reach a pose, in the order of their branches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solutions {
-    found: [Option<Solution>; MOST_BRANCHES],
+    found: [Solution; MOST_BRANCHES],
+    count: usize,
 }
 
 impl Solutions {
     /// No way.
     pub const NONE: Self = Self {
-        found: [None; MOST_BRANCHES],
+        found: [Solution {
+            branch: Branch::Numbered(0),
+            joints: [0.0; MOST_AXES],
+        }; MOST_BRANCHES],
+        count: 0,
     };
 
     /// Adds a way; one beyond the last place is dropped.
     pub fn push(&mut self, solution: Solution) {
-        if let Some(place) = self.found.iter_mut().find(|place| place.is_none()) {
-            *place = Some(solution);
+        if let Some(place) = self.found.get_mut(self.count) {
+            *place = solution;
+            self.count += 1;
         }
     }
 
     /// The ways.
-    pub fn iter(&self) -> impl Iterator<Item = &Solution> {
-        self.found.iter().flatten()
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Solution> {
+        self.found.iter().take(self.count)
     }
 }
 

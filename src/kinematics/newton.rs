@@ -1,6 +1,6 @@
 //! Inverse kinematics by damped Newton-Raphson, for arms without a closed form.
 //!
-//! The equations `f(q, p) = 0` of Ha 2019 (equations 8 to 11) say that the flange is where it should be. They are six: the
+//! The equations `f(q, p) = 0` of [Ha 2019], 8 to 11, say that the flange is where it should be. They are six: the
 //! error is the twist that would carry the flange there in one unit of time, its linear part in units of the arm's
 //! [size](SerialArm::size), its angular part a rotation vector, so that 1 rad counts as much as the arm's size in mm.
 //! A step `d` solves `(J^T J + damping) d = J^T error` (Levenberg 1944, Marquardt 1963). Far away damping keeps steps short;
