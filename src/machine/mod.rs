@@ -75,3 +75,17 @@ pub fn read(name: &str, kind: FileKind, text: &str) -> Result<Model, Vec<Flaw>> 
         FileKind::Urdf => urdf::parse(name, text, urdf::Flange::ByConvention),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_with_the_ending_of_a_description_are_files() {
+        assert_eq!(Origin::of("kuka/kr210_r3100_ultra"), Origin::Catalogue);
+        assert_eq!(Origin::of("irb6700-200/2.60"), Origin::Catalogue);
+        assert_eq!(Origin::of("../shop/arm.v2.toml"), Origin::File(FileKind::Sheet));
+        assert_eq!(Origin::of("arm.urdf"), Origin::File(FileKind::Urdf));
+        assert_eq!(Origin::of(""), Origin::Catalogue);
+    }
+}
