@@ -12,7 +12,7 @@
 //! that all solutions are found. [`search`] finds those that its starts lead to; [`follow`] goes there in small steps, and
 //! where it has no answer the branch may still have one that only a detour would reach.
 
-use super::jacobian::{Column, Square, Twist, least_singular_value};
+use super::jacobian::{Column, Square, Twist, keeps_from_singular};
 use super::pose::Pose;
 use super::serial::SerialArm;
 use super::{Joints, MOST_BRANCHES, Solution, Solutions};
@@ -184,8 +184,7 @@ fn is_safe_stride(arm: &SerialArm, joints: &Joints, next: &Joints) -> bool {
     let scaled = |joints| arm.jacobian(joints, DVec3::ZERO).square(arm.size());
     let before = scaled(joints);
     let changed = (scaled(next) - before).norm();
-    most_turn(next, joints) <= MOST_TURN
-        && least_singular_value(&before).is_some_and(|room| changed <= SAFE_CHANGE * room)
+    most_turn(next, joints) <= MOST_TURN && keeps_from_singular(&before, changed / SAFE_CHANGE)
 }
 
 fn on_the_way(from: &Pose, way: &Twist, part: f64) -> Pose {

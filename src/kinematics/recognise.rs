@@ -33,6 +33,9 @@ const STRAIGHT: f64 = 1e-4;
 /// Lengths up to this are none, in mm.
 const NO_LENGTH: f64 = 1e-3;
 
+/// Angles up to this are none, in rad: rounding of the arithmetic.
+const NO_ANGLE: f64 = 1e-12;
+
 /// A constant pose that differs by less from none at all, in mm and as Frobenius norm, is rounding.
 const NO_CORRECTION: (f64, f64) = (1e-6, 1e-9);
 
@@ -107,8 +110,7 @@ fn model(arm: &SerialArm) -> Option<Mounted> {
         c2: upper.length(),
         c3: reach.dot(fore),
         c4: outwards.dot(hand.z_axis),
-        // Not `-angle`, which makes -0 of 0.
-        offsets: at_zero.map(|angle| 0.0 - angle),
+        offsets: at_zero.map(|angle| if angle.abs() <= NO_ANGLE { 0.0 } else { -angle }),
         signs: [sign(one.direction.z), s2, s3, s4, s5, s6],
         coupling: Coupling::Serial,
     };

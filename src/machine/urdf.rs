@@ -80,9 +80,9 @@ fn axis(joint: &MovingJoint) -> Axis {
     Axis {
         name: joint.name.clone(),
         kind: AxisKind::Rotary,
-        min: joint.range.0,
-        max: joint.range.1,
-        rate: joint.rate,
+        min: joint.limits.range.0,
+        max: joint.limits.range.1,
+        rate: joint.limits.rate,
         acceleration: None,
     }
 }

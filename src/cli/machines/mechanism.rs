@@ -100,8 +100,8 @@ fn serial_text(arm: &SerialArm) -> String {
     for axis in arm.axes() {
         text += &format!(
             "    through {} mm about {}\n",
-            row(&axis.point.to_array()),
-            row(&axis.direction.to_array())
+            row(&rounded(axis.point.to_array())),
+            row(&rounded(axis.direction.to_array()))
         );
     }
     text + &format!("    flange at zero  {}\n", pose_text(arm.flange_at_zero()))
@@ -123,11 +123,14 @@ fn serial_in_json(arm: &SerialArm) -> Value {
 
 fn pose_text(pose: &Pose) -> String {
     let [w, x, y, z] = Frame::from(*pose).orientation.quaternion();
-    format!(
-        "{} mm, quaternion {}",
-        row(&pose.position.to_array()),
-        row(&[w, x, y, z])
-    )
+    let (position, quaternion) = (rounded(pose.position.to_array()), rounded([w, x, y, z]));
+    format!("{} mm, quaternion {}", row(&position), row(&quaternion))
+}
+
+/// To nine decimals, more than descriptions have: what lies beyond is rounding of their right angles.
+fn rounded<const N: usize>(numbers: [f64; N]) -> [f64; N] {
+    // Adding 0 makes a positive zero of a negative one.
+    numbers.map(|number| (number * 1e9).round() / 1e9 + 0.0)
 }
 
 fn pose_in_json(pose: &Pose) -> Value {

@@ -1,6 +1,6 @@
 //! Jacobians against finite differences, and rates against the motion that they give.
 
-use super::Twist;
+use super::{Twist, keeps_from_singular};
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::samples::{irb2400, kr210, mounted, ur10e};
@@ -152,4 +152,17 @@ fn numbers_that_are_not_finite_give_nothing() {
     };
     assert_eq!(jacobian.rates(&along), None);
     assert_eq!(jacobian.conditioning(), 0.0);
+}
+
+#[test]
+fn the_distance_from_singular_is_the_least_singular_value() {
+    for joints in [[0.3, -1.0, 1.2, 0.2, 1.1, 0.4], [2.1, 0.4, -0.9, 1.7, -0.05, 2.9]] {
+        let square = Mechanism::Serial(ur10e())
+            .jacobian(&joints, DVec3::ZERO)
+            .square(1000.0);
+        let least = square.singular_values().min();
+        assert!(keeps_from_singular(&square, 0.999 * least));
+        assert!(!keeps_from_singular(&square, 1.001 * least));
+        assert!(!keeps_from_singular(&square, f64::NAN));
+    }
 }

@@ -120,7 +120,8 @@ fn arms_come_out_as_their_data_sheets_have_them() {
 #[test]
 fn rounded_right_angles_are_right_angles() {
     let arm = SerialArm::from(&kr210());
-    let rounding = 1.5708 - FRAC_PI_2;
+    // A right angle to four decimals.
+    let rounding = (FRAC_PI_2 * 1e4).round() / 1e4 - FRAC_PI_2;
     let mut axes = *arm.axes();
     for axis in &mut axes[1..4] {
         axis.direction = DQuat::from_rotation_x(rounding) * axis.direction;

@@ -71,6 +71,12 @@ pub(super) struct MovingJoint {
     pub(super) name: String,
     /// Its axis in the tree, all joints at zero.
     pub(super) axis: JointAxis,
+    pub(super) limits: Limits,
+}
+
+/// What a joint may do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
     /// Least and largest angle, in rad.
     pub(super) range: (f64, f64),
     /// Highest rate, in rad/s.
@@ -190,7 +196,7 @@ pub(super) fn joints<'t>(document: &'t Document<'t>) -> Result<Vec<Joint<'t>>, V
         let message = format!("the robot has more than {MOST_JOINTS} joints");
         return Err(vec![Flaw::new(tag(&one_more), message, "one too many")]);
     }
-    gathered(children(&robot, "joint").map(|joint| Joint::read(joint)))
+    gathered(children(&robot, "joint").map(Joint::read))
 }
 
 fn robot<'t>(document: &'t Document<'t>) -> Result<Node<'t, 't>, Vec<Flaw>> {
@@ -354,11 +360,10 @@ impl<'t> Joint<'t> {
         let direction = self.direction().map_err(|flaw| flaws.push(flaw));
         let limits = self.limits().map_err(|found| flaws.extend(found));
         match (direction, limits) {
-            (Ok(direction), Ok((range, rate))) if flaws.is_empty() => Ok(MovingJoint {
+            (Ok(direction), Ok(limits)) if flaws.is_empty() => Ok(MovingJoint {
                 name: self.named.name.to_owned(),
                 axis: axis_in_tree(joint_in_tree, direction),
-                range,
-                rate,
+                limits,
             }),
             _ => Err(flaws),
         }
@@ -391,7 +396,7 @@ impl<'t> Joint<'t> {
     }
 
     /// Range and highest rate.
-    fn limits(&self) -> Result<((f64, f64), Option<f64>), Vec<Flaw>> {
+    fn limits(&self) -> Result<Limits, Vec<Flaw>> {
         let limit = child(&self.node, "limit");
         let range = match (&limit, self.kind) {
             (_, Kind::Continuous) => Ok((-TAU, TAU)),
@@ -400,7 +405,7 @@ impl<'t> Joint<'t> {
         };
         let rate = limit.as_ref().map_or(Ok(None), rate);
         match (range, rate) {
-            (Ok(range), Ok(rate)) => Ok((range, rate)),
+            (Ok(range), Ok(rate)) => Ok(Limits { range, rate }),
             (range, rate) => Err(range.err().into_iter().flatten().chain(rate.err()).collect()),
         }
     }
