@@ -59,6 +59,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
         "glam::",
         &["src/kinematics/", "src/machine/", "src/posture.rs", "src/reach/"],
     ),
+    ("pulp::", &["src/kinematics/lanes.rs", "src/kinematics/batch.rs"]),
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),
