@@ -62,6 +62,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ),
     ("nalgebra::", &["src/kinematics/"]),
     ("roxmltree::", &["src/machine/urdf/"]),
+    ("pulp::", &["src/kinematics/lanes.rs", "src/kinematics/batch.rs"]),
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),
