@@ -12,6 +12,8 @@ Examples:
                                           The same job for another stock
   vcutc check *.vcut                      Look for errors, write nothing
   vcutc explain VC0203                    Read what an error means and how to mend it
+  vcutc machines                          See the machines of the catalogue
+  vcutc machines kuka/kr210_r3100_ultra   Read all numbers of one, and where they come from
   vcutc targets                           See what programs can be written, and with which options
 
 Exit status:
@@ -91,6 +93,14 @@ pub(super) enum Command {
     Explain {
         /// The code, such as VC0203 (203 will do); without it, the list of all codes
         code: Option<String>,
+    },
+    /// List the machines of the catalogue, or show one
+    ///
+    /// Shown are lengths, limits and speeds, where the numbers come from, where sources differ, and how far they can be
+    /// trusted.
+    Machines {
+        /// A name of the catalogue, or a file that describes a machine (.toml, .urdf); without it, the list
+        machine: Option<String>,
     },
     /// List the targets and their options
     Targets,

@@ -132,6 +132,15 @@ codes! {
     /// Uncut material in the way of the blade's body.
     BladeBlocked = "VC0404", Error, "uncut material in the way of the blade";
 
+    /// A machine that is not in the catalogue.
+    UnknownMachine = "VC0501", Error, "a machine that is not in the catalogue";
+    /// A machine's file that cannot be used.
+    BadMachineFile = "VC0502", Error, "a machine's file that cannot be used";
+    /// A home that the axes cannot reach.
+    HomeOutsideLimits = "VC0503", Error, "a home outside of the axes' limits";
+    /// An orientation that is none.
+    NotARotation = "VC0504", Error, "an orientation that is no rotation";
+
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";
     /// A target that needs more of the machine.

@@ -182,7 +182,7 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             job.name_span,
             "no `machine` block in this job or the files it uses",
         )
-        .help("add a block such as `machine cell = robot \"kuka/kr210_r3100\" { ... }`, or `use` a file that has one"),
+        .help("add a block such as `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one"),
         BackendIssue::MissingMachineField { field, why } => Diagnostic::new(
             Code::MissingMachineField,
             format!("target `{target}` needs the machine's `{field}`"),

@@ -4,12 +4,14 @@
 //! robot the flange in the frame of its foot, for a five-axis machine the spindle nose in the frame in which work is
 //! mounted. Lengths are in mm, angles in rad.
 
+pub mod five_axis;
 pub mod opw;
 pub mod pose;
 
+use five_axis::FiveAxis;
 use opw::Opw;
 use pose::Pose;
-use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_backend_api::ir::{MOST_AXES, MachineKind};
 use vcutc_backend_api::motion::Branch;
 
 /// Positions of the axes in order, as the controller counts them: rad for rotary, mm for linear axes.
@@ -20,6 +22,8 @@ pub type Joints = [f64; MOST_AXES];
 pub enum Mechanism {
     /// An arm with an ortho-parallel basis and a spherical wrist.
     OrthoParallel(Opw),
+    /// Three linear axes and two or three rotary ones.
+    FiveAxis(FiveAxis),
 }
 
 /// One way to reach a pose. Angles of rotary axes are within half a turn either way; other turns of the same axis are for
@@ -61,11 +65,21 @@ impl Solutions {
 }
 
 impl Mechanism {
+    /// What kind of machine it carries.
+    #[must_use]
+    pub const fn kind(&self) -> MachineKind {
+        match self {
+            Self::OrthoParallel(_) => MachineKind::Robot,
+            Self::FiveAxis(_) => MachineKind::FiveAxis,
+        }
+    }
+
     /// The flange in the root at these axis values.
     #[must_use]
     pub fn flange_in_root(&self, joints: &Joints) -> Pose {
         match self {
             Self::OrthoParallel(arm) => arm.forward(joints),
+            Self::FiveAxis(machine) => machine.forward(joints),
         }
     }
 
@@ -74,6 +88,7 @@ impl Mechanism {
     pub fn all(&self, flange_in_root: &Pose) -> Solutions {
         match self {
             Self::OrthoParallel(arm) => arm.inverse(flange_in_root),
+            Self::FiveAxis(machine) => machine.inverse(flange_in_root),
         }
     }
 
@@ -82,6 +97,7 @@ impl Mechanism {
     pub fn on_branch(&self, flange_in_root: &Pose, branch: Branch, near: &Joints) -> Option<Joints> {
         match self {
             Self::OrthoParallel(arm) => arm.on_branch(flange_in_root, branch, near),
+            Self::FiveAxis(machine) => machine.on_branch(flange_in_root, branch, near),
         }
     }
 }

@@ -4,5 +4,6 @@
 //! flange in the machine's root. Every motion of a program is a [`path::Course`] of the blade; [`path`] proves that the
 //! axes follow it.
 
+pub mod five_axis_path;
 pub mod path;
 pub mod rig;

@@ -16,7 +16,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("posture", &[]),
     ("diag", &["source"]),
     ("kinematics", &[]),
-    ("machine", &["kinematics"]),
+    ("machine", &["diag", "kinematics", "source"]),
     ("reach", &["kinematics", "machine"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),
@@ -35,7 +35,18 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "diag", "job", "plan", "registry", "sema", "sim", "source", "summary", "syntax", "verdict",
         ],
     ),
-    ("cli", &["diag", "driver", "plan", "registry", "source"]),
+    (
+        "cli",
+        &[
+            "diag",
+            "driver",
+            "kinematics",
+            "machine",
+            "plan",
+            "registry",
+            "source",
+        ],
+    ),
 ];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
@@ -52,6 +63,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),
     ("tempfile::", &["src/cli/"]),
+    ("toml::", &["src/machine/"]),
     ("std::fs", &["src/cli/"]),
     ("std::net", &[]),
     ("std::env::", &["src/cli/"]),

@@ -105,6 +105,7 @@ fn point_in_work(rig: &Rig<'_>, joints: [Along; MOST_AXES], in_blade: DVec3) -> 
     let in_flange = blade_in_flange.rotation * in_blade + blade_in_flange.position;
     let in_root = match rig.mechanism {
         Mechanism::OrthoParallel(arm) => arm::point_in_root(arm, joints, in_flange),
+        Mechanism::FiveAxis(_) => in_flange.to_array().map(Along::constant),
     };
     let root_in_work = rig.work_in_root.inverse();
     turned(&root_in_work.rotation, in_root, root_in_work.position)

@@ -14,6 +14,7 @@ mod worst;
 pub use axes::{AxesBreach, AxesViolation, Block, prove_axes};
 pub use worst::worst;
 
+use super::five_axis_path;
 use super::rig::Rig;
 use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
@@ -123,6 +124,10 @@ pub fn prove(
     least: &Clearance,
 ) -> Result<Proof, Breach> {
     let begins_with = |what| Breach { at: 0.0, what };
+    // Its controller interpolates in another way.
+    if let Mechanism::FiveAxis(machine) = rig.mechanism {
+        return five_axis_path::prove(machine, rig, course, branch, start);
+    }
     let way = Way::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
     // Where kinematics finds no axis values, or others than the given ones, there is nothing to continue.
     if !way
@@ -187,7 +192,7 @@ impl<'m> Way<'m> {
                     wrist,
                 },
             ),
-            (Mechanism::OrthoParallel(_), Branch::Numbered(_)) => return None,
+            (Mechanism::OrthoParallel(_), Branch::Numbered(_)) | (Mechanism::FiveAxis(_), _) => return None,
         };
         let flight = Flight::new(rig, course).filter(|_| lasts)?;
         Some(Self {
