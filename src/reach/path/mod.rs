@@ -4,9 +4,11 @@ mod along;
 mod arm;
 mod axes;
 mod bounds;
+mod chain;
 mod course;
 mod interval;
 mod march;
+mod serial;
 #[cfg(test)]
 mod tests;
 mod worst;
@@ -18,7 +20,8 @@ use super::five_axis_path;
 use super::rig::Rig;
 use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, Mechanism};
+use crate::kinematics::serial::SerialArm;
+use crate::kinematics::{Joints, Mechanism, newton};
 use arm::ArmBranch;
 use bounds::{Bounds, Progress, Stretch};
 use course::{Flight, Span};
@@ -158,25 +161,26 @@ pub fn prove(
     Ok(progress.done(end, tries + 2))
 }
 
-/// A machine on a branch that carries the blade along a course: the one place of this module that tells mechanisms apart.
+/// A machine on a branch that carries the blade along a course.
 struct Way<'m> {
-    mechanism: &'m Mechanism,
-    branch: Branch,
     flight: Flight,
-    kind: Kind<'m>,
+    machine: Machine<'m>,
 }
 
-/// How spans are proven.
-enum Kind<'m> {
-    /// By the closed form.
+/// How the axes are found, and how spans are proven.
+enum Machine<'m> {
+    /// By a closed form.
     Arm(&'m Opw, ArmBranch),
+    /// By iteration and the Jacobian.
+    Serial(&'m SerialArm),
 }
 
 impl<'m> Way<'m> {
     /// `None` for a course without a duration, beyond all machines, or a branch that the machine does not have.
     fn new(rig: &Rig<'m>, course: &Course, branch: Branch) -> Option<Self> {
         let lasts = course.duration > 0.0 && course.duration.is_finite();
-        let kind = match (rig.mechanism, branch) {
+        let mut rig = rig.clone();
+        let machine = match (rig.mechanism, branch) {
             (
                 Mechanism::OrthoParallel(arm),
                 Branch::Arm {
@@ -184,7 +188,7 @@ impl<'m> Way<'m> {
                     elbow,
                     wrist,
                 },
-            ) => Kind::Arm(
+            ) => Machine::Arm(
                 arm,
                 ArmBranch {
                     shoulder,
@@ -192,27 +196,51 @@ impl<'m> Way<'m> {
                     wrist,
                 },
             ),
-            (Mechanism::OrthoParallel(_), Branch::Numbered(_)) | (Mechanism::FiveAxis(_), _) => return None,
+            (
+                Mechanism::Mounted(mounted),
+                Branch::Arm {
+                    shoulder,
+                    elbow,
+                    wrist,
+                },
+            ) => {
+                // Seen from the arm's own foot and for its own flange it is any other arm.
+                rig.work_in_root = mounted.foot_in_root.inverse() * rig.work_in_root;
+                rig.flange_in_blade = rig.flange_in_blade * mounted.flange_in_hand.inverse();
+                Machine::Arm(
+                    &mounted.arm,
+                    ArmBranch {
+                        shoulder,
+                        elbow,
+                        wrist,
+                    },
+                )
+            }
+            (Mechanism::Serial(arm), Branch::Numbered(_)) => Machine::Serial(arm),
+            (Mechanism::OrthoParallel(_) | Mechanism::Mounted(_), Branch::Numbered(_))
+            | (Mechanism::Serial(_), Branch::Arm { .. })
+            | (Mechanism::FiveAxis(_), _) => return None,
         };
-        let flight = Flight::new(rig, course).filter(|_| lasts)?;
-        Some(Self {
-            mechanism: rig.mechanism,
-            branch,
-            flight,
-            kind,
-        })
+        let flight = Flight::new(&rig, course).filter(|_| lasts)?;
+        Some(Self { flight, machine })
     }
 
     /// The axes at a place of the course.
     fn joints_at(&self, place: f64, near: &Joints) -> Option<Joints> {
-        self.mechanism
-            .on_branch(&self.flight.flange_at(place), self.branch, near)
+        let flange = self.flight.flange_at(place);
+        match self.machine {
+            Machine::Arm(arm, branch) => arm.on_branch(&flange, branch.into(), near),
+            Machine::Serial(arm) => newton::follow(arm, &flange, near),
+        }
     }
 
-    /// What the axes do on a span, proven.
-    fn stretch(&self, span: Span, _begin: &Joints) -> Result<Stretch, Violation> {
-        match self.kind {
-            Kind::Arm(arm, branch) => Ok(arm::posture(arm, branch, &self.flight.over(span))?.stretch(span)),
+    /// What the axes do on a span that they enter at `begin`, proven.
+    fn stretch(&self, span: Span, begin: &Joints) -> Result<Stretch, Violation> {
+        match self.machine {
+            Machine::Arm(arm, branch) => {
+                Ok(arm::posture(arm, branch, &self.flight.over(span))?.stretch(span))
+            }
+            Machine::Serial(arm) => serial::stretch(arm, &self.flight, span, begin),
         }
     }
 }
