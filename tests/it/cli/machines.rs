@@ -37,7 +37,10 @@ fn one_machine_is_shown_with_its_sources() {
 fn programs_read_the_same_as_json() {
     let run = vcutc(folder().path(), &["machines", "--message-format", "json"]);
     let list = json_lines(&run.stdout);
-    assert!(list.iter().all(|line| line["kind"] == "machine" && line["schema"] == 1));
+    assert!(
+        list.iter()
+            .all(|line| line["kind"] == "machine" && line["schema"] == 1)
+    );
     let ultra = list
         .iter()
         .find(|line| line["name"] == "kuka/kr210_r3100_ultra")
@@ -81,7 +84,11 @@ fn a_file_of_ones_own_is_shown_or_refused_with_its_places() {
         axis 3 counts   the angle at the elbow
     ");
 
-    fs::write(folder.path().join("arm.toml"), ARM.replace("[-60, 80]", "[80, -60]")).unwrap();
+    fs::write(
+        folder.path().join("arm.toml"),
+        ARM.replace("[-60, 80]", "[80, -60]"),
+    )
+    .unwrap();
     let run = vcutc(folder.path(), &["machines", "arm.toml"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
     assert_snapshot!(run.stderr, @"");
