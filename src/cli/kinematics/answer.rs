@@ -36,8 +36,9 @@ impl Reached<'_> {
     pub(super) fn text(&self) -> String {
         let mut text = format!("{}: {}\n{}", self.model.name, self.pose_of, pose_text(&self.pose));
         if let Some(branch) = self.branch {
-            let lines = stance_lines(self.model, branch, &self.joints);
-            text.extend(lines.iter().map(|line| format!("  {line}\n")));
+            let lines = stance(self.model, branch, &self.joints);
+            let turns = turns(self.model, branch, &self.joints);
+            text.extend(lines.into_iter().chain(turns).map(|line| format!("  {line}\n")));
         }
         for beyond in beyond_limits(self.model, &self.joints) {
             text += &format!("  outside of its limits: {beyond}\n");
@@ -76,12 +77,16 @@ impl Found<'_> {
         if !self.solutions.is_empty() {
             text += &heading(&self.model.axes);
         }
+        let mut before = None;
         for (branch, joints) in &self.solutions {
-            text += &row(&self.model.axes, joints);
-            for line in stance_lines(self.model, *branch, joints) {
-                text += &format!("    {line}\n");
+            if before != Some(*branch) {
+                text += &format!("  {}\n", stance(self.model, *branch, joints).join("; "));
+                before = Some(*branch);
             }
-            text += &format!("    {}\n", limits_text(self.model, joints));
+            text += &row(&self.model.axes, joints);
+            let turns =
+                turns(self.model, *branch, joints).map_or_else(String::new, |turns| format!("{turns}; "));
+            text += &format!("   {turns}{}\n", limits_text(self.model, joints));
         }
         text
     }
@@ -93,7 +98,7 @@ impl Found<'_> {
         format!(
             "\nout of reach: the rotary axes point the blade there, but leave its plane turned by {} deg about it;\n\
              an orientable spindle would turn it (docs/machines_five_axis.md)\n",
-            fixed(turned.to_degrees(), 4)
+            fixed(turned.abs().to_degrees(), 4)
         )
     }
 
@@ -127,11 +132,9 @@ fn pose_text(pose: &Frame) -> String {
 
 fn pose_in_json(pose: &Frame) -> Value {
     let angles = pose.orientation.to_zyx();
-    json!({
-        "xyz_mm": [pose.origin.x, pose.origin.y, pose.origin.z],
-        "abc_deg": [angles.a.to_deg(), angles.b.to_deg(), angles.c.to_deg()],
-        "quat_wxyz": pose.orientation.quaternion(),
-    })
+    let place = [pose.origin.x, pose.origin.y, pose.origin.z].map(rounded);
+    let angles = [angles.a, angles.b, angles.c].map(|angle| rounded(angle.to_deg()));
+    json!({ "xyz_mm": place, "abc_deg": angles, "quat_wxyz": pose.orientation.quaternion() })
 }
 
 /// The names of the axes over their columns.
@@ -146,29 +149,37 @@ fn row(axes: &[Axis], joints: &Joints) -> String {
         .zip(joints)
         .map(|(axis, value)| format!("{:>11}", fixed(axis_unit(axis).of(*value), 4)))
         .collect();
-    format!("{values}\n")
+    values
 }
 
-/// How the machine stands: in words, and in the terms of its controller.
-fn stance_lines(model: &Model, branch: Branch, joints: &Joints) -> Vec<String> {
-    let arm = match &model.mechanism {
-        Mechanism::OrthoParallel(arm) => arm,
-        Mechanism::FiveAxis(_) => return vec![branch_words(branch)],
+/// How the machine stands: in words, and in the terms of its controller as far as turns do not matter.
+fn stance(model: &Model, branch: Branch, joints: &Joints) -> Vec<String> {
+    let mut words = vec![branch_words(branch)];
+    if let Mechanism::OrthoParallel(arm) = &model.mechanism {
+        let status = match model.maker {
+            Maker::Kuka => kuka_status(branch),
+            Maker::Abb | Maker::Other => None,
+        };
+        words.extend(status.map(|status| format!("S {status} ('B{status:03b}')")));
+        words.extend(borders(arm, joints).map(|border| format!("on a boundary: {}", border_words(border))));
+    }
+    words
+}
+
+/// What tells the turns of a way to stand apart, in the terms of the controller.
+fn turns(model: &Model, branch: Branch, joints: &Joints) -> Option<String> {
+    let Mechanism::OrthoParallel(arm) = &model.mechanism else {
+        return None;
     };
-    let in_controller = match model.maker {
-        Maker::Kuka => kuka_status(branch).map(|status| {
+    match model.maker {
+        Maker::Kuka => {
             let turn = kuka_turn(joints);
-            format!("S {status} ('B{status:03b}'), T {turn} ('B{turn:06b}')")
-        }),
+            Some(format!("T {turn} ('B{turn:06b}')"))
+        }
         Maker::Abb => abb_confdata(joints, branch, arm.coupling)
             .map(|[cf1, cf4, cf6, cfx]| format!("confdata [{cf1},{cf4},{cf6},{cfx}]")),
         Maker::Other => None,
-    };
-    let border = borders(arm, joints).map(|border| format!("on a boundary: {}", border_words(border)));
-    core::iter::once(branch_words(branch))
-        .chain(in_controller)
-        .chain(border)
-        .collect()
+    }
 }
 
 fn branch_words(branch: Branch) -> String {
@@ -200,7 +211,7 @@ const fn border_words(border: Border) -> &'static str {
     match border {
         Border::Shoulder => "the wrist is over axis 1",
         Border::Elbow => "the arm is stretched or folded",
-        Border::Wrist => "axis 5 is at 0, axes 4 and 6 are in line",
+        Border::Wrist => "axis 5 is at 0, so that of axes 4 and 6 only the sum counts",
     }
 }
 
@@ -275,6 +286,12 @@ fn with_unit(axis: &Axis, value: f64) -> String {
         AxisKind::Linear => "mm",
     };
     format!("{} {unit}", fixed(axis_unit(axis).of(value), 4))
+}
+
+/// A number free of what computing has left in its last digits. What rounds to zero has no sign.
+fn rounded(value: f64) -> f64 {
+    const STEPS: f64 = 1e9;
+    (value * STEPS).round() / STEPS + 0.0
 }
 
 /// A number with up to so many decimals. What rounds to zero has no sign.
