@@ -42,7 +42,7 @@ fn arm_text(arm: &Opw) -> String {
     } = arm;
     let third = match coupling {
         Coupling::Serial => "the angle at the elbow",
-        Coupling::Parallelogram => "the inclination of the upper arm; the angle at the elbow is J3 - J2",
+        Coupling::Parallelogram => "the inclination of the forearm; the angle at the elbow is J3 - J2",
     };
     format!(
         "  ortho-parallel arm with spherical wrist (Brandstötter, Angerer, Hofbaur 2014)\n    \

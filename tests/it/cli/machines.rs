@@ -91,7 +91,16 @@ fn a_file_of_ones_own_is_shown_or_refused_with_its_places() {
     .unwrap();
     let run = vcutc(folder.path(), &["machines", "arm.toml"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @r"
+    error[VC0502]: a range of `limits_deg` ends before it begins: 80 deg is not below -60 deg
+        ╭─[ arm.toml:13:28 ]
+        │
+     13 │ limits_deg = [[-180, 180], [80, -60], [-70, 160], [-300, 300], [-120, 120], [-360, 360]]
+        │                            ┬────────
+        │                            ╰────────── the first number is the lower end
+        │
+        = help: write `[-60.0, 80.0]`
+    ");
 }
 
 #[test]
@@ -99,12 +108,16 @@ fn what_is_no_machine_is_refused_with_what_was_meant() {
     let folder = folder();
     let run = vcutc(folder.path(), &["machines", "kuka/kr210_r3100"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @r"
+    error: there is no machine `kuka/kr210_r3100` in the catalogue
+      help: did you mean `kuka/kr210_r3100_2` or `kuka/kr210_r3100_ultra`?
+      help: run `vcutc machines` for the list; names of files end in `.toml` or `.urdf`
+    ");
     let run = vcutc(folder.path(), &["machines", "none.toml"]);
     assert_eq!(run.code, Some(2));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @"error: cannot read `none.toml`: there is no such file");
     fs::write(folder.path().join("bytes.toml"), [0x6d, 0xff]).unwrap();
     let run = vcutc(folder.path(), &["machines", "bytes.toml"]);
     assert_eq!(run.code, Some(2));
-    assert_snapshot!(run.stderr, @"");
+    assert_snapshot!(run.stderr, @"error: cannot read `bytes.toml`: it is not a text file in UTF-8, byte 2 is not valid");
 }
