@@ -1,12 +1,11 @@
 //! `vcutc machines`: the machines of the catalogue, and what is known about one of them or about one of a user's file.
 
+mod mechanism;
 mod text;
 
 use super::Exit;
 use super::console::{Console, Failure};
 use super::files::Disk;
-use crate::kinematics::Mechanism;
-use crate::kinematics::opw::Coupling;
 use crate::machine::facts::{Dynamics, Facts, FkCheck};
 use crate::machine::flaw::Flaw;
 use crate::machine::sheet::{self, Sheet};
@@ -15,8 +14,8 @@ use crate::source::{Loader, SourceMap, text_from_bytes};
 use serde_json::{Value, json};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, Maker};
 
-/// Version of the JSON objects this module writes.
-const SCHEMA: u32 = 1;
+/// Version of the JSON objects that describe machines and their poses.
+pub(super) const SCHEMA: u32 = 1;
 
 /// Prints the list, or one machine.
 pub(super) fn machines(name: Option<&str>, console: &Console) -> Exit {
@@ -153,7 +152,7 @@ fn in_json(description: &Description) -> Value {
         "is": kind_word(model.kind()),
         "maker": maker_word(model.maker),
         "axes": model.axes.iter().map(axis_in_json).collect::<Vec<_>>(),
-        "mechanism": mechanism_in_json(&model.mechanism),
+        "mechanism": mechanism::in_json(&model.mechanism),
     });
     if let (Some(sheet), Some(object)) = (sheet, value.as_object_mut()) {
         let more = [
@@ -181,56 +180,34 @@ fn axis_in_json(axis: &Axis) -> Value {
 }
 
 /// The unit in which people read an axis.
-struct Unit {
-    name: &'static str,
-    size: f64,
+pub(super) struct Unit {
+    pub(super) name: &'static str,
+    pub(super) size: f64,
 }
 
 impl Unit {
     /// A value in this unit, free of what the conversion has added in the last digits.
-    fn of(&self, value: f64) -> f64 {
+    pub(super) fn of(&self, value: f64) -> f64 {
         const STEPS: f64 = 1e9;
         (value / self.size * STEPS).round() / STEPS
     }
 }
 
-const fn axis_unit(axis: &Axis) -> Unit {
+const DEGREES: Unit = Unit {
+    name: "deg",
+    size: core::f64::consts::PI / 180.0,
+};
+
+const MILLIMETRES: Unit = Unit {
+    name: "mm",
+    size: 1.0,
+};
+
+pub(super) const fn axis_unit(axis: &Axis) -> Unit {
     match axis.kind {
-        AxisKind::Rotary => Unit {
-            name: "deg",
-            size: core::f64::consts::PI / 180.0,
-        },
-        AxisKind::Linear => Unit {
-            name: "mm",
-            size: 1.0,
-        },
+        AxisKind::Rotary => DEGREES,
+        AxisKind::Linear => MILLIMETRES,
     }
-}
-
-fn mechanism_in_json(mechanism: &Mechanism) -> Value {
-    match mechanism {
-        Mechanism::OrthoParallel(arm) => json!({
-            "form": "ortho_parallel",
-            "a1_mm": arm.a1,
-            "a2_mm": arm.a2,
-            "b_mm": arm.b,
-            "c1_mm": arm.c1,
-            "c2_mm": arm.c2,
-            "c3_mm": arm.c3,
-            "c4_mm": arm.c4,
-            "joint_offsets_deg": degrees(&arm.offsets),
-            "joint_signs": arm.signs,
-            "j2_j3_parallelogram": arm.coupling == Coupling::Parallelogram,
-        }),
-    }
-}
-
-fn degrees(angles: &[f64; 6]) -> [f64; 6] {
-    let unit = Unit {
-        name: "deg",
-        size: core::f64::consts::PI / 180.0,
-    };
-    angles.map(|angle| unit.of(angle))
 }
 
 fn facts_in_json(facts: &Facts) -> Value {

@@ -4,6 +4,7 @@
 //! robot the flange in the frame of its foot, for a five-axis machine the spindle nose in the frame in which work is
 //! mounted. Lengths are in mm, angles in rad.
 
+pub mod configuration;
 pub mod five_axis;
 pub mod jacobian;
 pub mod mounted;

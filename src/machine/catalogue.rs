@@ -210,8 +210,6 @@ pub fn summaries() -> Vec<Summary> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::pose::Pose;
-    use glam::{DMat3, DQuat, DVec3};
 
     #[test]
     fn every_sheet_is_a_machine_with_limits_and_sources() {
@@ -235,6 +233,35 @@ mod tests {
         assert!(names().is_sorted());
     }
 
+    #[test]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "what lies in the folders is the question"
+    )]
+    fn the_folders_and_the_table_agree() {
+        let mut found = Vec::new();
+        let here = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/machine");
+        for (folder, prefix) in [
+            ("robots/abb", "abb"),
+            ("robots/kuka", "kuka"),
+            ("generic", "generic"),
+        ] {
+            for entry in std::fs::read_dir(here.join(folder)).unwrap() {
+                let file = entry.unwrap().file_name().into_string().unwrap();
+                let name = format!("{prefix}/{}", file.strip_suffix(".toml").unwrap());
+                let path = here.join(folder).join(&file);
+                assert_eq!(
+                    std::fs::read_to_string(path).unwrap(),
+                    text(&name).unwrap(),
+                    "{name}"
+                );
+                found.push(name);
+            }
+        }
+        found.sort();
+        assert_eq!(found, names().collect::<Vec<_>>());
+    }
+
     /// The conventions: zero positions, senses, order of the wrist, coupling, the flange's axes.
     #[test]
     fn published_poses_are_met() {
@@ -242,24 +269,12 @@ mod tests {
         for name in names() {
             let sheet = sheet(name).unwrap();
             for check in &sheet.facts.fk_checks {
-                let flange = sheet
-                    .mechanism
-                    .flange_in_root(&check.joints_deg.map(f64::to_radians));
-                let published = Pose {
-                    rotation: check.quaternion.map_or(flange.rotation, |[w, x, y, z]| {
-                        DMat3::from_quat(DQuat::from_xyzw(x, y, z, w).normalize())
-                    }),
-                    position: DVec3::from_array(check.xyz_mm),
-                };
-                let (apart, norm) = flange.apart(&published);
-                // The Frobenius norm of a difference of rotations by an angle is sqrt(8) sin(angle / 2).
-                let turned = 2.0 * libm::asin((norm / libm::sqrt(8.0)).min(1.0));
+                let (apart, turned) = check.apart(&sheet.mechanism, &sheet.axes);
                 let joints = check.joints_deg;
                 assert!(
                     apart <= check.position_tolerance_mm,
                     "{name} {joints:?}: {apart} mm"
                 );
-                let turned = turned.to_degrees();
                 assert!(
                     turned <= check.rotation_tolerance_deg,
                     "{name} {joints:?}: {turned} deg"

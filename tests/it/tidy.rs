@@ -32,7 +32,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
-            "diag", "job", "plan", "registry", "sema", "sim", "source", "summary", "syntax", "verdict",
+            "diag", "job", "machine", "plan", "reach", "registry", "sema", "sim", "source", "summary",
+            "syntax", "verdict",
         ],
     ),
     (

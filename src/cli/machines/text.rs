@@ -1,8 +1,6 @@
 //! Machines as people read them: columns, and wrapped lists.
 
-use super::{Description, axis_unit, degrees, kind_word, maker_word};
-use crate::kinematics::Mechanism;
-use crate::kinematics::opw::{Coupling, Opw};
+use super::{Description, axis_unit, kind_word, maker_word, mechanism};
 use crate::machine::catalogue::Summary;
 use crate::machine::facts::{Dynamics, Facts, FkCheck};
 use crate::machine::sheet::{Confidence, Sheet};
@@ -55,7 +53,7 @@ pub(super) fn machine(description: &Description) -> String {
     text.push('\n');
     text.push_str(&axes(&model.axes));
     text.push('\n');
-    text.push_str(&mechanism(&model.mechanism));
+    text.push_str(&mechanism::text(&model.mechanism));
     if let Some(sheet) = sheet {
         text.push_str(&facts(&sheet.facts));
     }
@@ -105,40 +103,6 @@ fn axes(axes: &[Axis]) -> String {
         ]
     });
     columns(core::iter::once(head).chain(rows).collect(), "  ")
-}
-
-fn mechanism(mechanism: &Mechanism) -> String {
-    match mechanism {
-        Mechanism::OrthoParallel(arm) => ortho_parallel(arm),
-    }
-}
-
-fn ortho_parallel(arm: &Opw) -> String {
-    let Opw {
-        a1,
-        a2,
-        b,
-        c1,
-        c2,
-        c3,
-        c4,
-        offsets,
-        signs,
-        coupling,
-    } = arm;
-    let third = match coupling {
-        Coupling::Serial => "the angle at the elbow",
-        Coupling::Parallelogram => "the inclination of the upper arm; the angle at the elbow is J3 - J2",
-    };
-    format!(
-        "  ortho-parallel arm with spherical wrist (Brandstötter, Angerer, Hofbaur 2014)\n    \
-         lengths in mm   a1 {a1}  a2 {a2}  b {b}  c1 {c1}  c2 {c2}  c3 {c3}  c4 {c4}\n    \
-         zero offsets    {} deg\n    \
-         senses          {}\n    \
-         axis 3 counts   {third}\n",
-        row(&degrees(offsets)),
-        row(signs)
-    )
 }
 
 fn facts(facts: &Facts) -> String {
@@ -212,7 +176,8 @@ fn wrapped(item: &str) -> String {
     text
 }
 
-fn row(numbers: &[f64]) -> String {
+/// Numbers in a row.
+pub(super) fn row(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
     numbers.join(" ")
 }

@@ -178,6 +178,23 @@ fn unknown_keys_are_told_with_what_was_meant() {
 }
 
 #[test]
+fn a_known_pose_that_is_missed_is_told_with_the_distance() {
+    let check =
+        "[[fk_check]]\njoints_deg = [0, 0, 0, 0, 0, 0]\nquat_wxyz = [0.70710678, 0.0, 0.70710678, 0.0]\n";
+    let right = format!("{SMALL}{check}xyz_mm = [1450.0, 0.0, 1700.0]\n");
+    assert!(parse(&right).is_ok(), "{:?}", parse(&right));
+    let wrong = format!("{SMALL}{check}xyz_mm = [1450.0, 3.0, 1700.0]\n");
+    let found = parse(&wrong).unwrap_err();
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert!(found[0].message.contains("3.000 mm and 0.000 deg"), "{found:#?}");
+    let turned = right
+        .replace("= [1, 1, 1, 1, 1, 1]", "= [1, 1, 1, 1, 1, -1]")
+        .replace("[0, 0, 0, 0, 0, 0]", "[0, 0, 0, 0, 0, 15]");
+    let found = parse(&turned).unwrap_err();
+    assert!(found[0].message.contains("0.000 mm and 15.000 deg"), "{found:#?}");
+}
+
+#[test]
 fn words_are_known_words() {
     let (place, message) = flaw("model", "confidence = \"hihg\"\nmodel");
     assert_eq!(
