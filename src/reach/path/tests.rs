@@ -122,6 +122,14 @@ fn made_up(arm: Opw, limits: [(f64, f64); 6]) -> Model {
     }
 }
 
+/// A model whose axes have no end and no highest rate.
+fn unbound(mut model: Model) -> Model {
+    for axis in &mut model.axes {
+        (axis.min, axis.max, axis.rate) = (-100.0, 100.0, None);
+    }
+    model
+}
+
 fn arm_of(model: &Model) -> Opw {
     *model.mechanism.ortho_parallel().expect("a closed-form arm")
 }
@@ -180,7 +188,7 @@ fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
     let nearest = solutions
         .iter()
         .min_by(|a, b| apart(&a.joints).total_cmp(&apart(&b.joints)));
-    nearest.unwrap().branch
+    nearest.map_or(Branch::Numbered(0), |solution| solution.branch)
 }
 
 /// The interpolation by another formula than the proof's.
