@@ -53,10 +53,6 @@ fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64)
             }
         }
     }
-    println!(
-        "{}: {proven} proven with at most {solves} solves, {refused} refused",
-        model.name
-    );
     assert!(
         proven > moves / 10 && refused > moves / 10,
         "{proven} and {refused}: the moves are one-sided"

@@ -21,8 +21,8 @@ fn both_methods_prove_the_same() {
             shoulder: 100.0,
         };
         let (mut both, mut closed_only) = (0, 0);
-        for _ in 0..80 {
-            let (course, branch, start) = random_move(&mut dice, &closed_rig, &model.axes, 200.0, 0.4);
+        for _ in 0..30 {
+            let (course, branch, start) = random_move(&mut dice, &closed_rig, &model.axes, 100.0, 0.3);
             let closed = prove(&closed_rig, &course, branch, &start, &least);
             let general = prove(&general_rig, &course, ONLY, &start, &least);
             match (closed, general) {
@@ -40,7 +40,7 @@ fn both_methods_prove_the_same() {
                 }
             }
         }
-        assert!(both > 15 && closed_only == 0, "{both} and {closed_only}");
+        assert!(both > 5 && closed_only == 0, "{both} and {closed_only}");
     }
 }
 
@@ -107,8 +107,11 @@ fn agree(closed: &Proof, general: &Proof) {
             (closed.high[i] - general.high[i]).abs() < 0.01,
             "{closed:?} {general:?}"
         );
-        let rate = (closed.rate[i] - general.rate[i]).abs();
-        assert!(rate < 0.05 + 0.02 * closed.rate[i], "{closed:?} {general:?}");
+        let more = general.rate[i] - closed.rate[i];
+        assert!(
+            -0.05 < more && more < 0.05 + 0.02 * closed.rate[i],
+            "{closed:?} {general:?}"
+        );
     }
 }
 
