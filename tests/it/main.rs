@@ -17,8 +17,10 @@ mod examples;
 mod hostile;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;
+mod kinematics;
 #[cfg(feature = "krl")]
 mod krl_text;
+mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]
 mod pipeline;

@@ -60,6 +60,8 @@ const ONLY_IN: &[(&str, &[&str])] = &[
         "glam::",
         &["src/kinematics/", "src/machine/", "src/posture.rs", "src/reach/"],
     ),
+    ("nalgebra::", &["src/kinematics/"]),
+    ("roxmltree::", &["src/machine/urdf/"]),
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),

@@ -76,39 +76,6 @@ fn by_isometries(machine: &FiveAxis, joints: &Joints) -> Isometry3<f64> {
     (table * Isometry3::from(Translation3::from(vector(machine.mount)))).inverse() * (head * nose)
 }
 
-#[test]
-fn columns_are_central_differences() {
-    const STEP: f64 = 1e-5;
-    let point = DVec3::new(12.0, -7.0, 80.0);
-    let joints = [120.0, -80.0, 45.0, 0.4, -0.7, 0.9];
-    for (arrangement, spindle) in (0..7).flat_map(|a| (0..3).map(move |s| (a, s))) {
-        let machine = machine(arrangement, spindle);
-        let jacobian = machine.jacobian(&joints, point);
-        let nose = machine.forward(&joints);
-        for (axis, column) in jacobian.columns.iter().enumerate() {
-            let beside = |by: f64| {
-                let mut joints = joints;
-                joints[axis] += by;
-                machine.forward(&joints)
-            };
-            let (before, after) = (beside(-STEP), beside(STEP));
-            let at = |pose: &Pose| pose.rotation * point + pose.position;
-            let linear = (at(&after) - at(&before)) / (2.0 * STEP);
-            // R' R^T is the cross product with the angular velocity.
-            let spin = (after.rotation - before.rotation) * nose.rotation.transpose() * (0.5 / STEP);
-            let angular = DVec3::new(spin.y_axis.z, spin.z_axis.x, spin.x_axis.y);
-            assert!(
-                linear.distance(column.linear) < 1e-5,
-                "{arrangement} {spindle} {axis}"
-            );
-            assert!(
-                angular.distance(column.angular) < 1e-8,
-                "{arrangement} {spindle} {axis}"
-            );
-        }
-    }
-}
-
 fn apart(pose: &Pose, other: &Isometry3<f64>) -> f64 {
     let matrix = other.rotation.to_rotation_matrix();
     let columns = [pose.rotation.x_axis, pose.rotation.y_axis, pose.rotation.z_axis];

@@ -27,7 +27,6 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Joints, newton};
 use glam::DVec3;
-use nalgebra::SMatrix;
 use vcutc_backend_api::ir::MOST_AXES;
 
 /// How far found axis values may be from the true ones, in rad.
@@ -38,7 +37,7 @@ const LARGEST_DEFECT: f64 = 0.6;
 type Box6 = [Interval; MOST_AXES];
 type Vector = [Interval; 3];
 type Matrix = [Vector; 3];
-type Square = SMatrix<f64, MOST_AXES, MOST_AXES>;
+type Square = [[f64; MOST_AXES]; MOST_AXES];
 
 /// What the axes do on a span that they enter at `begin`, proven.
 pub(super) fn stretch(
@@ -152,9 +151,7 @@ impl Contraction<'_> {
             return None;
         }
         let straight: Box6 = core::array::from_fn(|i| {
-            (0..MOST_AXES).fold(Interval::ZERO, |sum, k| {
-                sum + wanted[k] * self.near_inverse[(i, k)]
-            })
+            (0..MOST_AXES).fold(Interval::ZERO, |sum, k| sum + wanted[k] * self.near_inverse[i][k])
         });
         let most = straight
             .iter()
@@ -189,7 +186,7 @@ impl Contraction<'_> {
         core::array::from_fn(|i| {
             core::array::from_fn(|j| {
                 let one = Interval::exactly(f64::from(u8::from(i == j)));
-                (0..MOST_AXES).fold(one, |sum, k| sum - jacobian[k][j] * self.near_inverse[(i, k)])
+                (0..MOST_AXES).fold(one, |sum, k| sum - jacobian[k][j] * self.near_inverse[i][k])
             })
         })
     }
@@ -198,7 +195,7 @@ impl Contraction<'_> {
     fn sensitivity(&self) -> (f64, f64) {
         let most = |columns: [usize; 3]| {
             (0..MOST_AXES)
-                .map(|i| columns.iter().map(|k| self.near_inverse[(i, *k)].abs()).sum())
+                .map(|i| columns.iter().map(|k| self.near_inverse[i][*k].abs()).sum())
                 .fold(0.0, f64::max)
         };
         (most([0, 1, 2]), most([3, 4, 5]))
@@ -287,21 +284,13 @@ impl Lines {
 
 /// The inverse of the Jacobian at axis values, as far as floating point gives it.
 fn inverse_at(arm: &SerialArm, joints: &Joints, tip_in_flange: DVec3) -> Option<Square> {
-    let columns = arm.jacobian(joints, tip_in_flange).columns;
-    let matrix = Square::from_fn(|row, j| {
-        let column = &columns[j];
-        if row < 3 {
-            column.linear[row]
-        } else {
-            column.angular[row - 3]
-        }
-    });
-    let inverse = matrix.try_inverse()?;
-    inverse.iter().all(|entry| entry.abs() < 1e9).then_some(inverse)
+    let inverse = arm.jacobian(joints, tip_in_flange).inverse()?;
+    let is_moderate = inverse.iter().flatten().all(|entry| entry.abs() < 1e9);
+    is_moderate.then_some(inverse)
 }
 
 fn times(matrix: &Square, vector: &Joints) -> Joints {
-    core::array::from_fn(|i| (0..MOST_AXES).map(|k| matrix[(i, k)] * vector[k]).sum())
+    core::array::from_fn(|i| (0..MOST_AXES).map(|k| matrix[i][k] * vector[k]).sum())
 }
 
 fn row_sum(matrix: &[Box6; MOST_AXES]) -> f64 {

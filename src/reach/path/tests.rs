@@ -228,10 +228,10 @@ fn sample(rig: &Rig<'_>, arm: &Opw, course: &Course, branch: Branch, start: &Joi
         let joints = rig
             .mechanism
             .on_branch(&rig.flange_in_root(&blade), branch, &found.end)?;
-        for i in 0..6 {
-            found.low[i] = found.low[i].min(joints[i]);
-            found.high[i] = found.high[i].max(joints[i]);
-            let rate = (joints[i] - found.end[i]).abs() * steps / course.duration;
+        for (i, joint) in joints.into_iter().enumerate() {
+            found.low[i] = found.low[i].min(joint);
+            found.high[i] = found.high[i].max(joint);
+            let rate = (joint - found.end[i]).abs() * steps / course.duration;
             found.rate[i] = found.rate[i].max(rate);
         }
         found.clearance = found.clearance.least(&clearance_at(arm, &joints));
