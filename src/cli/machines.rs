@@ -14,8 +14,8 @@ use crate::source::{Loader, SourceMap, text_from_bytes};
 use serde_json::{Value, json};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, Maker};
 
-/// Version of the JSON objects this module writes.
-const SCHEMA: u32 = 1;
+/// Version of the JSON objects that describe machines and their poses.
+pub(super) const SCHEMA: u32 = 1;
 
 /// Prints the list, or one machine.
 pub(super) fn machines(name: Option<&str>, console: &Console) -> Exit {
@@ -180,14 +180,14 @@ fn axis_in_json(axis: &Axis) -> Value {
 }
 
 /// The unit in which people read an axis.
-struct Unit {
-    name: &'static str,
-    size: f64,
+pub(super) struct Unit {
+    pub(super) name: &'static str,
+    pub(super) size: f64,
 }
 
 impl Unit {
     /// A value in this unit, free of what the conversion has added in the last digits.
-    fn of(&self, value: f64) -> f64 {
+    pub(super) fn of(&self, value: f64) -> f64 {
         const STEPS: f64 = 1e9;
         (value / self.size * STEPS).round() / STEPS
     }
@@ -203,7 +203,7 @@ const MILLIMETRES: Unit = Unit {
     size: 1.0,
 };
 
-const fn axis_unit(axis: &Axis) -> Unit {
+pub(super) const fn axis_unit(axis: &Axis) -> Unit {
     match axis.kind {
         AxisKind::Rotary => DEGREES,
         AxisKind::Linear => MILLIMETRES,

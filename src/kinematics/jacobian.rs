@@ -106,6 +106,17 @@ impl Jacobian {
         given.then(|| rates.into())
     }
 
+    /// The inverse of the matrix: for each axis by how much it moves for a mm a second of the point along x, y and z, and for
+    /// a rad a second about x, y and z.
+    ///
+    /// None where rounding leaves no inverse, as for machines with fewer than six axes.
+    #[must_use]
+    pub fn inverse(&self) -> Option<[[f64; MOST_AXES]; MOST_AXES]> {
+        let inverse = self.square(1.0).try_inverse()?;
+        let finite = inverse.iter().all(|entry| entry.is_finite());
+        finite.then(|| core::array::from_fn(|i| core::array::from_fn(|k| inverse[(i, k)])))
+    }
+
     /// How far from singular the pose is: the smallest singular value over the largest, of the axes that exist, with lengths
     /// in metres. 0 in a singular pose, at most 1; 0 as well for a Jacobian with numbers that are not finite.
     #[must_use]

@@ -6,6 +6,7 @@
 
 pub mod batch;
 mod closed_form;
+pub mod configuration;
 pub mod five_axis;
 pub mod jacobian;
 mod lanes;

@@ -170,10 +170,19 @@ impl SerialArm {
 
     /// By how much each joint turns.
     fn turns(&self, joints: &Joints) -> Joints {
-        let [j1, j2, j3, j4, j5, j6] = *joints;
+        self.turns_of(*joints, |third, second| third - second)
+    }
+
+    /// By how much each joint turns, for any kind of number.
+    pub(crate) fn turns_of<N: Copy>(
+        &self,
+        joints: [N; MOST_AXES],
+        difference: impl Fn(N, N) -> N,
+    ) -> [N; MOST_AXES] {
+        let [j1, j2, j3, j4, j5, j6] = joints;
         match self.coupling {
-            Coupling::Serial => *joints,
-            Coupling::Parallelogram => [j1, j2, j3 - j2, j4, j5, j6],
+            Coupling::Serial => joints,
+            Coupling::Parallelogram => [j1, j2, difference(j3, j2), j4, j5, j6],
         }
     }
 }
