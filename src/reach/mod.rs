@@ -4,5 +4,14 @@
 //! flange in the machine's root. Every motion of a program is a [`path::Course`] of the blade; [`path`] proves that the
 //! axes follow it.
 
+pub mod demand;
+pub mod ladder;
+pub mod legs;
 pub mod path;
 pub mod rig;
+mod runs;
+pub mod solve;
+mod survey;
+pub mod trouble;
+pub mod way;
+mod ways;
