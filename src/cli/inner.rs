@@ -1,6 +1,6 @@
 //! `--emit`: the forms a job has between its text and the program.
 //!
-//! Only the intermediate program is an exchange format with a version. The tree is for people who work on the compiler;
+//! Only the intermediate program, with its motion, is an exchange format with a version. The tree is for people who work on the compiler;
 //! the plan is a table for people who want to look at the cuts, in a spreadsheet or a plot.
 
 use super::args::InnerForm;
@@ -8,6 +8,7 @@ use crate::driver::Outcome;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
+use vcutc_backend_api::exchange::Exchange;
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
 ///
@@ -29,7 +30,11 @@ pub(super) fn write(
             None => Ok(Progressed::NotSoFar),
         },
         InnerForm::Ir => match &outcome.compiled {
-            Some(compiled) => file(sink, &name, |out| write_json(compiled.program.program(), out)),
+            Some(compiled) => {
+                let motion = compiled.reach.as_ref().map(|reached| reached.program.motion());
+                let form = Exchange::of(compiled.program.program(), motion);
+                file(sink, &name, |out| write_json(&form, out))
+            }
             None => Ok(Progressed::NotSoFar),
         },
     }

@@ -132,6 +132,14 @@ codes! {
     /// Uncut material in the way of the blade's body.
     BladeBlocked = "VC0404", Error, "uncut material in the way of the blade";
 
+    /// A machine that is not in the catalogue.
+    UnknownMachine = "VC0501", Error, "a machine that is not in the catalogue";
+    /// A machine's file that cannot be used.
+    BadMachineFile = "VC0502", Error, "a machine's file that cannot be used";
+    /// A home that the axes cannot reach.
+    HomeOutsideLimits = "VC0503", Error, "a home outside of the axes' limits";
+    /// An orientation that is none.
+    NotARotation = "VC0504", Error, "an orientation that is no rotation";
     /// A motion that the machine does not reach.
     OutOfReach = "VC0510", Error, "a motion out of the machine's reach";
     /// A motion that takes an axis beyond its limit.
@@ -157,6 +165,8 @@ codes! {
     Unsupported = "VC0605", Error, "something that the target cannot say";
     /// A number that the target does not take.
     TargetRange = "VC0606", Error, "a number that the target does not take";
+    /// A machine that the target does not drive.
+    WrongMachine = "VC0607", Error, "a machine that the target does not drive";
 
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";

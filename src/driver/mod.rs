@@ -190,12 +190,17 @@ fn motions_broken(faults: &[MotionFault]) -> Vec<(Option<OpId>, String)> {
 /// Writes the program of an outcome with a backend. An outcome without a program writes nothing.
 ///
 /// # Errors
-/// Diagnostics when the target cannot say the program, or the sink's own words.
+/// Diagnostics when the job has no machine, or the target cannot say the program, or the sink's own words.
 pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Result<(), EmitFailure> {
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
         return Ok(());
     };
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
+    let Some(reached) = &compiled.reach else {
+        return Err(EmitFailure::Diagnostics(vec![target::without_machine(
+            job, backend,
+        )]));
+    };
     let refused = |issues: &[BackendIssue]| {
         let program = compiled.program.program();
         EmitFailure::Diagnostics(target::diagnose(job, backend, program, issues))
@@ -205,7 +210,7 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
         return Err(refused(&missing));
     }
     let emission = backend
-        .check(&compiled.program, &options)
+        .check(&reached.program, &options)
         .map_err(|issues| refused(&issues))?;
     emission.write(sink).map_err(|error| match error {
         EmitError::Sink(error) => EmitFailure::Sink(error.0),
