@@ -176,7 +176,7 @@ pub(super) struct DisplayArgs {
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub(super) quiet: bool,
 
-    /// Print how long each stage took, too
+    /// Print what is asked of every axis of the machine and how long each stage took, too
     #[arg(short, long, global = true)]
     pub(super) verbose: bool,
 }

@@ -138,6 +138,10 @@ fn tell(
             .compiled
             .as_ref()
             .map_or(&[], |compiled| &compiled.summary),
+        reach: outcome
+            .compiled
+            .as_ref()
+            .and_then(|compiled| compiled.figures.as_ref()),
         files: &made.files,
         remark: remark(product, exit),
         timings,

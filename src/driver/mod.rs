@@ -9,6 +9,7 @@ use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::plan::{self, PlannedJob};
 use crate::reach::solve::{LEAST_CLEARANCE, Reached, Unreached, solve};
+use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
 use crate::sema;
 use crate::sim::report::Report;
@@ -74,6 +75,8 @@ pub struct Compiled {
     pub program: VerifiedProgram,
     /// How the machine carries it out, when the job has one.
     pub reach: Option<Reached>,
+    /// What it asks of the machine.
+    pub figures: Option<ReachFigures>,
     /// Its figures.
     pub report: Report,
     /// The figures for people, a line each.
@@ -127,10 +130,12 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
             if !has_errors(&outcome.diagnostics) {
                 match reach(job, proven.program, progress) {
                     Ok((program, reach)) => {
-                        let summary = summary(&plan, &proven.report, reach.as_ref());
+                        let figures = reach.as_ref().map(reach_summary::figures);
+                        let summary = summary(&plan, &proven.report, figures.as_ref());
                         outcome.compiled = Some(Compiled {
                             program,
                             reach,
+                            figures,
                             report: proven.report,
                             summary,
                         });
