@@ -210,4 +210,6 @@ pub(super) enum InnerForm {
     Plan,
     /// The verified intermediate program, as JSON
     Ir,
+    /// The machine's axes all along the program, as CSV with a row at least every 5 mm or 2 degrees
+    Joints,
 }

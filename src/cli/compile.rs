@@ -191,6 +191,11 @@ fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) 
     match inner::write(form, outcome, job, &mut output) {
         Ok(Progressed::Written) => published(output),
         Ok(Progressed::NotSoFar) => Ok(Made::default()),
+        Ok(Progressed::WithoutMachine) => {
+            Err(Failure::new("the job has no machine, so there are no axes to show").help(
+                "add a block such as `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
+            ))
+        }
         Err(error) => Err(Failure::new(error.to_string())),
     }
 }

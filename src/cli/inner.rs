@@ -4,6 +4,7 @@
 //! the plan is a table for people who want to look at the cuts, in a spreadsheet or a plot.
 
 use super::args::InnerForm;
+use super::joints;
 use crate::driver::Outcome;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
 use std::io::{self, BufWriter, Write};
@@ -37,6 +38,13 @@ pub(super) fn write(
             }
             None => Ok(Progressed::NotSoFar),
         },
+        InnerForm::Joints => match (&outcome.job, &outcome.compiled) {
+            (Some(job), Some(compiled)) => match &compiled.reach {
+                Some(reached) => file(sink, &name, |out| joints::write(job, reached, out)),
+                None => Ok(Progressed::WithoutMachine),
+            },
+            (Some(_) | None, _) => Ok(Progressed::NotSoFar),
+        },
     }
 }
 
@@ -47,6 +55,8 @@ pub(super) enum Progressed {
     Written,
     /// Errors kept the job from getting there.
     NotSoFar,
+    /// The job has no machine, and the form is about one.
+    WithoutMachine,
 }
 
 /// `jobs/rib.vcut` as a tree is `rib.ast.txt`.
@@ -58,6 +68,7 @@ fn file_name(form: InnerForm, job: &str) -> String {
         InnerForm::Ast => "ast.txt",
         InnerForm::Plan => "plan.csv",
         InnerForm::Ir => "ir.json",
+        InnerForm::Joints => "joints.csv",
     };
     format!("{stem}.{ending}")
 }

@@ -153,6 +153,18 @@ pub fn prove(
     Ok(progress.done(end, tries + 2))
 }
 
+/// The axes on a branch at a place of a course, from 0 to 1, within half a turn of `near`.
+#[must_use]
+pub fn joints_on(
+    rig: &Rig<'_>,
+    course: &Course,
+    branch: Branch,
+    place: f64,
+    near: &Joints,
+) -> Option<Joints> {
+    Way::new(rig, course, branch)?.joints_at(place, near)
+}
+
 /// A machine on a branch that carries the blade along a course: the one place of this module that tells mechanisms apart.
 struct Way<'m> {
     mechanism: &'m Mechanism,
