@@ -1,6 +1,7 @@
 //! Configurations of poses worked out by hand.
 
 use super::*;
+use crate::kinematics::Mechanism;
 use crate::machine::catalogue;
 
 fn arm(name: &str) -> Opw {
