@@ -55,7 +55,7 @@ fn remedies(job: &CheckedJob, unreachable: &Unreachable) -> Vec<String> {
             }
         },
         Trouble::NoCommonBranch { .. } => {
-            "shift or turn the work with `base`, so that one way to stand carries all of these motions"
+            "let the blade come up between cuts with `direction = forward`, so that the arm can change there, or shift or turn the work with `base`"
         }
         Trouble::Way { .. } => "choose a `home` from which the blade comes to the work from above",
         Trouble::Nowhere => return Vec::new(),

@@ -24,7 +24,9 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
-    ("summary", &["plan", "sim"]),
+    ("summary", &["plan", "reach_summary", "sim"]),
+    ("reach_summary", &["plan", "reach"]),
+    ("reach_verdict", &["diag", "job", "plan", "reach", "source"]),
     (
         "verdict",
         &["diag", "geom", "job", "lower", "plan", "sim", "source"],
@@ -32,8 +34,19 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
-            "diag", "job", "machine", "plan", "reach", "registry", "sema", "sim", "source", "summary",
-            "syntax", "verdict",
+            "diag",
+            "job",
+            "plan",
+            "reach",
+            "reach_summary",
+            "reach_verdict",
+            "registry",
+            "sema",
+            "sim",
+            "source",
+            "summary",
+            "syntax",
+            "verdict",
         ],
     ),
     (
@@ -41,9 +54,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &[
             "diag",
             "driver",
+            "job",
             "kinematics",
             "machine",
             "plan",
+            "reach",
+            "reach_summary",
             "registry",
             "source",
         ],
@@ -55,6 +71,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diag/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
+    ("rayon::", &["src/reach/"]),
     ("strsim::", &["src/diag/suggest.rs"]),
     (
         "glam::",
