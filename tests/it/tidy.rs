@@ -36,6 +36,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &[
             "diag",
             "job",
+            "machine",
             "plan",
             "reach",
             "reach_summary",
