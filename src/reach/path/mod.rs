@@ -223,6 +223,21 @@ pub fn prove(
     Ok(progress.done(end, tries + 2))
 }
 
+/// The axes on a branch at a place of a course, from 0 to 1, within half a turn of `near`.
+#[must_use]
+pub fn joints_on(
+    rig: &Rig<'_>,
+    course: &Course,
+    branch: Branch,
+    place: f64,
+    near: &Joints,
+) -> Option<Joints> {
+    if let Mechanism::FiveAxis(machine) = rig.mechanism {
+        return five_axis_path::joints_on(machine, rig, course, branch, place, near);
+    }
+    Way::new(rig, course, branch)?.joints_at(place, near)
+}
+
 /// A machine on a branch that carries the blade along a course.
 struct Way<'m> {
     flight: Flight,
