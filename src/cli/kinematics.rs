@@ -74,7 +74,7 @@ pub(super) fn inverse(cell: &CellArgs, pose: &str, quaternion: Option<&str>, con
     };
     let frame = match quaternion {
         Some(quaternion) => numbers::frame_with("--pose", pose, quaternion),
-        None => numbers::frame("--pose", pose),
+        None => numbers::frame("--pose", pose, "1500,0,1200,0,90,0"),
     };
     let frame = match frame {
         Ok(frame) => frame,
@@ -106,11 +106,13 @@ pub(super) fn inverse(cell: &CellArgs, pose: &str, quaternion: Option<&str>, con
 impl Cell {
     fn new(arguments: &CellArgs, console: &Console) -> Result<Self, Exit> {
         let model = machines::load(&arguments.machine, console)?;
-        let frame = |option: &str, text: &Option<String>| match text {
-            Some(text) => numbers::frame(option, text).map(Pose::from),
+        let frame = |option: &str, text: &Option<String>, example: &str| match text {
+            Some(text) => numbers::frame(option, text, example).map(Pose::from),
             None => Ok(Pose::IDENTITY),
         };
         let told = |failure: Failure| console.failure(&failure);
+        let blade_in_flange = frame("--tool", &arguments.tool, "0,0,310,0,0,0").map_err(told)?;
+        let work_in_root = frame("--base", &arguments.base, "1800,0,700,0,0,0").map_err(told)?;
         let what = match (&arguments.tool, &model.mechanism) {
             (Some(_), _) => "blade",
             (None, Mechanism::OrthoParallel(_)) => "flange",
@@ -123,8 +125,8 @@ impl Cell {
         };
         Ok(Self {
             pose_of: format!("{what} in the {seen_from}"),
-            blade_in_flange: frame("--tool", &arguments.tool).map_err(told)?,
-            work_in_root: frame("--base", &arguments.base).map_err(told)?,
+            blade_in_flange,
+            work_in_root,
             model,
         })
     }
