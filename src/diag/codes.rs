@@ -140,6 +140,8 @@ codes! {
     HomeOutsideLimits = "VC0503", Error, "a home outside of the axes' limits";
     /// An orientation that is none.
     NotARotation = "VC0504", Error, "an orientation that is no rotation";
+    /// A posture for which the machine lacks an axis.
+    PostureNeedsAxis = "VC0516", Error, "a posture for which the machine lacks an axis";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";
