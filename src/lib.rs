@@ -12,6 +12,8 @@ pub mod machine;
 pub mod plan;
 pub mod posture;
 pub mod reach;
+pub mod reach_summary;
+pub mod reach_verdict;
 pub mod registry;
 pub mod sema;
 pub mod sim;

@@ -4,12 +4,12 @@
 //! the plan is a table for people who want to look at the cuts, in a spreadsheet or a plot.
 
 use super::args::InnerForm;
+use super::joints;
 use crate::driver::Outcome;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
-use vcutc_backend_api::motion::ReachableProgram;
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
 ///
@@ -32,11 +32,18 @@ pub(super) fn write(
         },
         InnerForm::Ir => match &outcome.compiled {
             Some(compiled) => {
-                let motion = compiled.reach.as_ref().map(ReachableProgram::motion);
+                let motion = compiled.reach.as_ref().map(|reached| reached.program.motion());
                 let form = Exchange::of(compiled.program.program(), motion);
                 file(sink, &name, |out| write_json(&form, out))
             }
             None => Ok(Progressed::NotSoFar),
+        },
+        InnerForm::Joints => match (&outcome.job, &outcome.compiled) {
+            (Some(job), Some(compiled)) => match &compiled.reach {
+                Some(reached) => file(sink, &name, |out| joints::write(job, reached, out)),
+                None => Ok(Progressed::WithoutMachine),
+            },
+            (Some(_) | None, _) => Ok(Progressed::NotSoFar),
         },
     }
 }
@@ -48,6 +55,8 @@ pub(super) enum Progressed {
     Written,
     /// Errors kept the job from getting there.
     NotSoFar,
+    /// The job has no machine, and the form is about one.
+    WithoutMachine,
 }
 
 /// `jobs/rib.vcut` as a tree is `rib.ast.txt`.
@@ -59,6 +68,7 @@ fn file_name(form: InnerForm, job: &str) -> String {
         InnerForm::Ast => "ast.txt",
         InnerForm::Plan => "plan.csv",
         InnerForm::Ir => "ir.json",
+        InnerForm::Joints => "joints.csv",
     };
     format!("{stem}.{ending}")
 }

@@ -15,7 +15,7 @@ use crate::machine::Model;
 use answer::{Found, Reached};
 use core::f64::consts::TAU;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{Axis, AxisKind};
+use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
 use vcutc_backend_api::motion::Branch;
 
 /// By how much an axis may be beyond its limit, in rad or mm: rounding.
@@ -48,10 +48,8 @@ pub(super) fn forward(cell: &CellArgs, joints: &str, console: &Console) -> Exit 
     }
     let flange_in_root = cell.model.mechanism.flange_in_root(&joints);
     let blade_in_work = cell.work_in_root.inverse() * flange_in_root * cell.blade_in_flange;
-    let branch = match &cell.model.mechanism {
-        Mechanism::OrthoParallel(arm) => Some(branch_of(arm, &joints)),
-        Mechanism::FiveAxis(_) => None,
-    };
+    let arm = cell.model.mechanism.ortho_parallel();
+    let branch = arm.map(|arm| branch_of(arm, &joints));
     let reached = Reached {
         model: &cell.model,
         pose_of: &cell.pose_of,
@@ -93,7 +91,7 @@ pub(super) fn inverse(cell: &CellArgs, pose: &str, quaternion: Option<&str>, con
         solutions,
         blade_turned: match &cell.model.mechanism {
             Mechanism::FiveAxis(machine) => machine.blade_turned(&flange_in_root),
-            Mechanism::OrthoParallel(_) => None,
+            Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => None,
         },
     };
     if console.speaks_json() {
@@ -113,15 +111,15 @@ impl Cell {
         let told = |failure: Failure| console.failure(&failure);
         let blade_in_flange = frame("--tool", &arguments.tool, "0,0,310,0,0,0").map_err(told)?;
         let work_in_root = frame("--base", &arguments.base, "1800,0,700,0,0,0").map_err(told)?;
-        let what = match (&arguments.tool, &model.mechanism) {
+        let what = match (&arguments.tool, model.kind()) {
             (Some(_), _) => "blade",
-            (None, Mechanism::OrthoParallel(_)) => "flange",
-            (None, Mechanism::FiveAxis(_)) => "spindle nose",
+            (None, MachineKind::Robot) => "flange",
+            (None, MachineKind::FiveAxis) => "spindle nose",
         };
-        let seen_from = match (&arguments.base, &model.mechanism) {
+        let seen_from = match (&arguments.base, model.kind()) {
             (Some(_), _) => "work",
-            (None, Mechanism::OrthoParallel(_)) => "root",
-            (None, Mechanism::FiveAxis(_)) => "mount",
+            (None, MachineKind::Robot) => "root",
+            (None, MachineKind::FiveAxis) => "mount",
         };
         Ok(Self {
             pose_of: format!("{what} in the {seen_from}"),

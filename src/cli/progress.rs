@@ -119,6 +119,7 @@ const fn name(stage: Stage) -> &'static str {
         Stage::Reading => "reading",
         Stage::Planning => "planning",
         Stage::Proving => "proving",
+        Stage::Reaching => "reaching",
         Stage::Emitting => "emitting",
     }
 }
@@ -128,6 +129,7 @@ const fn words(stage: Stage) -> &'static str {
         Stage::Reading => "reading the job",
         Stage::Planning => "choosing the cuts",
         Stage::Proving => "proving that every chip comes free and no cut enters the part",
+        Stage::Reaching => "proving that the machine reaches every pose at speed",
         Stage::Emitting => "writing the program",
     }
 }

@@ -4,6 +4,17 @@
 //! flange in the machine's root. Every motion of a program is a [`path::Course`] of the blade; [`path`] proves that the
 //! axes follow it.
 
+pub mod demand;
+pub mod describe;
 pub mod five_axis_path;
+pub mod ladder;
+pub mod legs;
 pub mod path;
 pub mod rig;
+mod runs;
+pub mod solve;
+mod survey;
+pub mod trajectory;
+pub mod trouble;
+pub mod way;
+mod ways;

@@ -17,7 +17,6 @@ use vcutc::job::{Auto, Operation};
 use vcutc::plan::{PlannedOperation, TipOrigin, Way};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::exchange::Exchange;
-use vcutc_backend_api::motion::ReachableProgram;
 
 /// The file that a folder is about.
 const JOB: &str = "job.vcut";
@@ -175,7 +174,7 @@ fn intermediate_programs_come_back_from_json() {
         let form: Exchange<'_> = serde_json::from_str(&text).unwrap();
         let compiled = compiled(&folder).compiled.unwrap();
         assert_eq!(&*form.program, compiled.program.program(), "{}", folder.display());
-        let motion = compiled.reach.as_ref().map(ReachableProgram::motion);
+        let motion = compiled.reach.as_ref().map(|reached| reached.program.motion());
         assert_eq!(form.motion.as_deref(), motion, "{}", folder.display());
     }
 }

@@ -5,12 +5,15 @@ use super::text::row;
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
 use crate::kinematics::opw::{Coupling, Opw};
+use crate::kinematics::serial::SerialArm;
 use serde_json::{Value, json};
 
 /// A few indented lines.
 pub(super) fn text(mechanism: &Mechanism) -> String {
     match mechanism {
         Mechanism::OrthoParallel(arm) => arm_text(arm),
+        Mechanism::Mounted(mounted) => arm_text(&mounted.arm),
+        Mechanism::Serial(arm) => serial_text(arm),
         Mechanism::FiveAxis(machine) => five_axis_text(machine),
     }
 }
@@ -19,6 +22,8 @@ pub(super) fn text(mechanism: &Mechanism) -> String {
 pub(super) fn in_json(mechanism: &Mechanism) -> Value {
     match mechanism {
         Mechanism::OrthoParallel(arm) => arm_in_json(arm),
+        Mechanism::Mounted(mounted) => arm_in_json(&mounted.arm),
+        Mechanism::Serial(arm) => serial_in_json(arm),
         Mechanism::FiveAxis(machine) => five_axis_in_json(machine),
     }
 }
@@ -69,6 +74,29 @@ fn arm_in_json(arm: &Opw) -> Value {
         "joint_signs": arm.signs,
         "j2_j3_parallelogram": arm.coupling == Coupling::Parallelogram,
     })
+}
+
+fn serial_text(arm: &SerialArm) -> String {
+    let mut text =
+        "  serial arm; each axis with all others at zero, as a point (mm) and a direction\n".to_owned();
+    for axis in arm.axes() {
+        text += &format!(
+            "    {}   {}\n",
+            row(&axis.point.to_array()),
+            row(&axis.direction.to_array())
+        );
+    }
+    text
+}
+
+fn serial_in_json(arm: &SerialArm) -> Value {
+    let axes = arm.axes().map(|axis| {
+        json!({
+            "point_mm": axis.point.to_array(),
+            "direction": axis.direction.to_array(),
+        })
+    });
+    json!({ "form": "serial", "axes": axes })
 }
 
 /// The rotary axes in the order of the machine's axes, each with what it turns.

@@ -5,10 +5,8 @@ use crate::kinematics::Mechanism;
 use crate::machine::catalogue;
 
 fn arm(name: &str) -> Opw {
-    match catalogue::find(name).unwrap().mechanism {
-        Mechanism::OrthoParallel(arm) => arm,
-        Mechanism::FiveAxis(_) => panic!("{name} is no arm"),
-    }
+    let mechanism = catalogue::find(name).unwrap().mechanism;
+    *mechanism.ortho_parallel().expect("an arm")
 }
 
 fn kuka(joints_deg: [f64; 6]) -> (u8, u8) {

@@ -11,7 +11,9 @@ use vcutc_backend_api::ir::AxisKind;
 fn machine(name: &str) -> FiveAxis {
     match catalogue::find(name).unwrap().mechanism {
         Mechanism::FiveAxis(machine) => machine,
-        Mechanism::OrthoParallel(_) => panic!("{name} is an arm"),
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => {
+            panic!("{name} is an arm")
+        }
     }
 }
 

@@ -5,13 +5,13 @@
 //! branch.
 
 use super::along::Along;
+use super::bounds::Stretch;
 use super::course::{Flange, Span};
-use super::march::Stretch;
 use super::{Clearance, Singularity, Violation};
 use crate::kinematics::opw::{Coupling, Opw};
 use core::f64::consts::PI;
 use glam::DVec3;
-use vcutc_backend_api::motion::{Elbow, Shoulder, Wrist};
+use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 
 /// The branch of an arm.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,21 @@ pub(super) struct ArmBranch {
     pub(super) shoulder: Shoulder,
     pub(super) elbow: Elbow,
     pub(super) wrist: Wrist,
+}
+
+impl From<ArmBranch> for Branch {
+    fn from(branch: ArmBranch) -> Self {
+        let ArmBranch {
+            shoulder,
+            elbow,
+            wrist,
+        } = branch;
+        Self::Arm {
+            shoulder,
+            elbow,
+            wrist,
+        }
+    }
 }
 
 /// An arm along a span.

@@ -2,19 +2,31 @@
 
 mod along;
 mod arm;
+mod axes;
+mod bounds;
+mod chain;
 mod course;
 mod interval;
 mod march;
+mod serial;
 #[cfg(test)]
 mod tests;
+mod worst;
+
+pub use axes::{AxesBreach, AxesViolation, Block, prove_axes};
+pub use worst::worst;
 
 use super::five_axis_path;
 use super::rig::Rig;
+use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, Mechanism};
+use crate::kinematics::serial::SerialArm;
+use crate::kinematics::{Joints, Mechanism, newton};
 use arm::ArmBranch;
-use course::Flight;
-use march::{Bounds, march};
+use bounds::{Bounds, Progress, Stretch};
+use course::{Flight, Span};
+use interval::Interval;
+use march::march;
 use vcutc_backend_api::motion::Branch;
 
 /// A motion as controllers interpolate it: the tip on a straight line, the orientation on one rotation axis (of a robot) or
@@ -106,7 +118,7 @@ pub enum Singularity {
 /// within the limits and rates of the rig's axes and no nearer to singular poses than `least`.
 ///
 /// # Errors
-/// The first place where they do not, or where that cannot be told apart from rounding.
+/// The first place where they do not. An axis is there just beyond its bound; [`worst`] tells how far it would go.
 pub fn prove(
     rig: &Rig<'_>,
     course: &Course,
@@ -114,59 +126,138 @@ pub fn prove(
     start: &Joints,
     least: &Clearance,
 ) -> Result<Proof, Breach> {
-    const BEGINNING: Breach = Breach {
-        at: 0.0,
-        what: Violation::OutOfReach,
-    };
+    let begins_with = |what| Breach { at: 0.0, what };
     // Its controller interpolates in another way.
     if let Mechanism::FiveAxis(machine) = rig.mechanism {
         return five_axis_path::prove(machine, rig, course, branch, start);
     }
-    let flight = Flight::new(rig, course).ok_or(BEGINNING)?;
-    if !(course.duration > 0.0 && course.duration.is_finite()) {
-        return Err(BEGINNING);
-    }
-    // Where the closed form finds no way, or another than the given one, there is nothing to continue.
-    let begun = rig.mechanism.on_branch(&flight.flange_at(0.0), branch, start);
-    if !begun.is_some_and(|begun| is_same(&begun, start)) {
-        return Err(BEGINNING);
+    let way = Way::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
+    // Where kinematics finds no axis values, or others than the given ones, there is nothing to continue.
+    if !way
+        .joints_at(0.0, start)
+        .is_some_and(|begun| is_same(&begun, start))
+    {
+        return Err(begins_with(Violation::OutOfReach));
     }
     let bounds = Bounds {
         axes: rig.axes,
         least: *least,
         duration: course.duration,
     };
-    let mut proof = match (rig.mechanism, branch) {
-        (
-            Mechanism::OrthoParallel(arm),
-            Branch::Arm {
-                shoulder,
-                elbow,
-                wrist,
-            },
-        ) => {
-            let branch = ArmBranch {
-                shoulder,
-                elbow,
-                wrist,
-            };
-            march(&bounds, start, |span, _| {
-                Ok(arm::posture(arm, branch, &flight.over(span))?.stretch(span))
-            })?
-        }
-        (Mechanism::OrthoParallel(_), Branch::Numbered(_)) | (Mechanism::FiveAxis(_), _) => {
-            return Err(BEGINNING);
-        }
-    };
+    bounds
+        .hold_values(&start.map(Interval::exactly))
+        .map_err(begins_with)?;
+    let mut progress = Progress::new(bounds, start);
+    let tries = march(|span, effort| {
+        let found = way.stretch(span, &progress.end());
+        progress.add(found, effort)
+    })
+    .map_err(|(at, why)| Breach {
+        at,
+        what: why.finite(),
+    })?;
     // The enclosure of the end tells the turns; this is the end to the last digit.
-    if let Some(end) = rig
-        .mechanism
-        .on_branch(&flight.flange_at(1.0), branch, &proof.end)
-    {
-        proof.end = end;
+    let end = way.joints_at(1.0, &progress.end()).unwrap_or(progress.end());
+    Ok(progress.done(end, tries + 2))
+}
+
+/// The axes on a branch at a place of a course, from 0 to 1, within half a turn of `near`.
+#[must_use]
+pub fn joints_on(
+    rig: &Rig<'_>,
+    course: &Course,
+    branch: Branch,
+    place: f64,
+    near: &Joints,
+) -> Option<Joints> {
+    if let Mechanism::FiveAxis(machine) = rig.mechanism {
+        return five_axis_path::joints_on(machine, rig, course, branch, place, near);
     }
-    proof.solves += 2;
-    Ok(proof)
+    Way::new(rig, course, branch)?.joints_at(place, near)
+}
+
+/// A machine on a branch that carries the blade along a course.
+struct Way<'m> {
+    flight: Flight,
+    machine: Machine<'m>,
+}
+
+/// How the axes are found, and how spans are proven.
+enum Machine<'m> {
+    /// By a closed form.
+    Arm(&'m Opw, ArmBranch),
+    /// By iteration and the Jacobian.
+    Serial(&'m SerialArm),
+}
+
+impl<'m> Way<'m> {
+    /// `None` for a course without a duration, beyond all machines, or a branch that the machine does not have.
+    fn new(rig: &Rig<'m>, course: &Course, branch: Branch) -> Option<Self> {
+        let lasts = course.duration > 0.0 && course.duration.is_finite();
+        let mut rig = rig.clone();
+        let machine = match (rig.mechanism, branch) {
+            (
+                Mechanism::OrthoParallel(arm),
+                Branch::Arm {
+                    shoulder,
+                    elbow,
+                    wrist,
+                },
+            ) => Machine::Arm(
+                arm,
+                ArmBranch {
+                    shoulder,
+                    elbow,
+                    wrist,
+                },
+            ),
+            (
+                Mechanism::Mounted(mounted),
+                Branch::Arm {
+                    shoulder,
+                    elbow,
+                    wrist,
+                },
+            ) => {
+                // Seen from the arm's own foot and for its own flange it is any other arm.
+                rig.work_in_root = mounted.foot_in_root.inverse() * rig.work_in_root;
+                rig.flange_in_blade = rig.flange_in_blade * mounted.flange_in_hand.inverse();
+                Machine::Arm(
+                    &mounted.arm,
+                    ArmBranch {
+                        shoulder,
+                        elbow,
+                        wrist,
+                    },
+                )
+            }
+            (Mechanism::Serial(arm), Branch::Numbered(_)) => Machine::Serial(arm),
+            (Mechanism::OrthoParallel(_) | Mechanism::Mounted(_), Branch::Numbered(_))
+            | (Mechanism::Serial(_), Branch::Arm { .. })
+            | (Mechanism::FiveAxis(_), _) => return None,
+        };
+        let flight = Flight::new(&rig, course).filter(|_| lasts)?;
+        Some(Self { flight, machine })
+    }
+
+    /// The axes at a place of the course.
+    fn joints_at(&self, place: f64, near: &Joints) -> Option<Joints> {
+        let flange = self.flight.flange_at(place);
+        match self.machine {
+            Machine::Arm(arm, branch) => arm.on_branch(&flange, branch.into(), near),
+            Machine::Serial(arm) => newton::follow(arm, &flange, near),
+        }
+    }
+
+    /// What the axes do on a span that they enter at `begin`, proven.
+    fn stretch(&self, span: Span, begin: &Joints) -> Result<Stretch, Violation> {
+        match self.machine {
+            Machine::Arm(arm, branch) => {
+                Ok(arm::posture(arm, branch, &self.flight.over(span))?.stretch(span))
+            }
+            Machine::Serial(arm) => serial::stretch(arm, &self.flight, span, begin),
+        }
+    }
 }
 
 /// How far apart given and computed axis values at the start may be, in rad or mm.
