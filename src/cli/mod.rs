@@ -81,12 +81,12 @@ pub fn run(targets: &Targets) -> ExitCode {
     let exit = match &arguments.command {
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
-        Some(Command::Fk { cell, joints }) => kinematics::forward(&cell, &joints, &console),
+        Some(Command::Fk { cell, joints }) => kinematics::forward(cell, joints, &console),
         Some(Command::Ik {
             cell,
             pose,
             quaternion,
-        }) => kinematics::inverse(&cell, &pose, quaternion.as_deref(), &console),
+        }) => kinematics::inverse(cell, pose, quaternion.as_deref(), &console),
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
         Some(Command::Targets) => targets::list(targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),

@@ -14,6 +14,7 @@ mod codes;
 #[cfg(feature = "krl")]
 mod examples;
 #[cfg(feature = "krl")]
+mod five_axis;
 mod hostile;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;
