@@ -15,8 +15,6 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 /// Below this, a divisor or a radicand counts as zero: in mm^2 or without unit.
 const NEXT_TO_NOTHING: f64 = 1e-12;
-/// `t^2 / 2`.
-const HALF_SQUARE: Interval = Interval { low: 0.0, high: 0.5 };
 
 /// A quantity on a span; derivatives are by the span's parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,12 +70,12 @@ impl Along {
 
     /// At the beginning of the span.
     pub(super) fn begin(self) -> Interval {
-        (self.here - self.slope + self.bend * HALF_SQUARE.high).and(self.value)
+        (self.here - self.slope + self.bend * 0.5).and(self.value)
     }
 
     /// At the end of the span.
     pub(super) fn end(self) -> Interval {
-        (self.here + self.slope + self.bend * HALF_SQUARE.high).and(self.value)
+        (self.here + self.slope + self.bend * 0.5).and(self.value)
     }
 
     pub(super) fn squared(self) -> Self {
@@ -155,7 +153,7 @@ impl Along {
         Self {
             here,
             slope,
-            value: here + rate * Interval::UNIT,
+            value: here + rate.either_way(),
             rate,
             bend,
         }
@@ -174,9 +172,9 @@ impl Along {
     }
 
     fn narrowed(self) -> Self {
-        let rate = self.rate.and(self.slope + self.bend * Interval::UNIT);
-        let by_rate = self.here + rate * Interval::UNIT;
-        let by_bend = self.here + self.slope * Interval::UNIT + self.bend * HALF_SQUARE;
+        let rate = self.rate.and(self.slope + self.bend.either_way());
+        let by_rate = self.here + rate.either_way();
+        let by_bend = self.here + self.slope.either_way() + self.bend.up_to_half();
         Self {
             rate,
             value: self.value.and(by_rate).and(by_bend),

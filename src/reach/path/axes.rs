@@ -80,7 +80,7 @@ pub fn prove_axes(
         });
         let is_outside = Sides::of(points, stock).any();
         if is_outside {
-            Tried::Proven
+            Tried::Proven(f64::INFINITY)
         } else {
             Tried::Refused(())
         }

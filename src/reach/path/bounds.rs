@@ -11,10 +11,15 @@ use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
 const SLACK: f64 = 1e-9;
 /// By what part an axis may be too fast: rounding.
 const RATE_SLACK: f64 = 1e-9;
-/// By how much ranges may be too wide, in rad or mm.
+/// By how much ranges may be too wide, in rad or mm, where an axis is at its limit.
 const TIGHT: (f64, f64) = (0.1 * PI / 180.0, 0.1);
-/// By how much rates may be too wide, in parts of the axis' highest.
+/// By how much rates may be too wide, in parts of the axis' highest, where an axis is as fast as it can be.
 const TIGHT_RATE: f64 = 0.01;
+/// By what part of the room to its limit or to a singular pose, or of the rate that is left to it, a bound may be worse than the true one.
+const ROOM: (f64, f64) = (0.02, 0.1);
+
+/// Bounds that are off by no more than this, in rad or mm (a second), are as good as they can be.
+const NO_EXCESS: f64 = 1e-12;
 
 /// What the axes do on a span, proven.
 #[derive(Clone, Copy, Debug)]
@@ -101,17 +106,26 @@ impl Bounds<'_> {
         Err(Violation::Singular(broken))
     }
 
-    fn are_tight(&self, found: &Stretch) -> bool {
-        self.axes.iter().enumerate().take(MOST_AXES).all(|(i, axis)| {
-            let excess = match axis.kind {
+    /// How many times better the bounds are than they have to be, for the axis for which they are worst. Far from limits they
+    /// may be worse: what is asked for is a margin, and that it is proven, not its last digit.
+    fn quality(&self, found: &Stretch) -> f64 {
+        let to_singular = found.clearance.wrist.min(found.clearance.elbow);
+        let qualities = self.axes.iter().enumerate().take(MOST_AXES).map(|(i, axis)| {
+            let value = found.value[i];
+            let tight = match axis.kind {
                 AxisKind::Rotary => TIGHT.0,
                 AxisKind::Linear => TIGHT.1,
             };
-            let in_rate = axis
-                .rate
-                .is_none_or(|most| found.rate_excess[i] / self.duration <= TIGHT_RATE * most);
-            found.excess[i] <= excess && in_rate
-        })
+            let room = (value.low - axis.min).min(axis.max - value.high).min(to_singular);
+            let of_range = tight.max(room * ROOM.0) / found.excess[i].max(NO_EXCESS);
+            let of_rate = axis.rate.map_or(f64::INFINITY, |most| {
+                let left = most - found.rate[i].magnitude() / self.duration;
+                let excess = found.rate_excess[i] / self.duration;
+                (TIGHT_RATE * most).max(left * ROOM.1) / excess.max(NO_EXCESS)
+            });
+            of_range.min(of_rate)
+        });
+        qualities.fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -174,10 +188,13 @@ impl<'a> Progress<'a> {
         let found = found.and_then(|found| found.continued(&self.end, self.bounds.axes));
         match found.and_then(|found| self.bounds.hold(&found).map(|()| found)) {
             Err(why) => Tried::Refused(why),
-            Ok(found) if effort == Effort::Tight && !self.bounds.are_tight(&found) => Tried::Loose,
             Ok(found) => {
+                let quality = self.bounds.quality(&found);
+                if effort == Effort::Tight && quality < 1.0 {
+                    return Tried::Loose(quality);
+                }
                 self.extend(&found);
-                Tried::Proven
+                Tried::Proven(quality)
             }
         }
     }

@@ -48,23 +48,40 @@ impl Interval {
     }
 
     /// The largest absolute value.
-    pub(super) fn magnitude(self) -> f64 {
-        self.low.abs().max(self.high.abs())
+    pub(super) const fn magnitude(self) -> f64 {
+        greater(self.low.abs(), self.high.abs())
+    }
+
+    /// Its product with the interval from -1 to 1, exactly.
+    pub(super) const fn either_way(self) -> Self {
+        let magnitude = self.magnitude();
+        Self {
+            low: -magnitude,
+            high: magnitude,
+        }
+    }
+
+    /// Its product with the interval from 0 to 1/2, exactly.
+    pub(super) const fn up_to_half(self) -> Self {
+        Self {
+            low: lesser(0.5 * self.low, 0.0),
+            high: greater(0.5 * self.high, 0.0),
+        }
     }
 
     /// What lies in both. Two enclosures of one number always have that number in common.
     pub(super) const fn and(self, other: Self) -> Self {
         Self {
-            low: self.low.max(other.low),
-            high: self.high.min(other.high),
+            low: greater(self.low, other.low),
+            high: lesser(self.high, other.high),
         }
     }
 
     /// The least interval around both.
     pub(super) const fn hull(self, other: Self) -> Self {
         Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
+            low: lesser(self.low, other.low),
+            high: greater(self.high, other.high),
         }
     }
 
@@ -120,6 +137,16 @@ impl Interval {
     }
 }
 
+/// The lesser of two numbers. One instruction, where `f64::min` takes several to treat a NaN that cannot be.
+const fn lesser(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// The greater of two numbers.
+const fn greater(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
 fn outward(low: f64, high: f64) -> Interval {
     Interval {
         low: low - (low.abs() * f64::EPSILON + f64::MIN_POSITIVE),
@@ -156,7 +183,10 @@ impl Mul for Interval {
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self.low * other.low, self.low * other.high);
         let (c, d) = (self.high * other.low, self.high * other.high);
-        outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        outward(
+            lesser(lesser(a, b), lesser(c, d)),
+            greater(greater(a, b), greater(c, d)),
+        )
     }
 }
 
@@ -164,7 +194,7 @@ impl Mul<f64> for Interval {
     type Output = Self;
     fn mul(self, factor: f64) -> Self {
         let (a, b) = (self.low * factor, self.high * factor);
-        outward(a.min(b), a.max(b))
+        outward(lesser(a, b), greater(a, b))
     }
 }
 

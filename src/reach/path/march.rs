@@ -12,10 +12,11 @@ const MOST_TRIES: u32 = 4096;
 /// What became of a span.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Tried<V> {
-    /// It is proven.
-    Proven,
-    /// It could be proven with tighter bounds if it were shorter.
-    Loose,
+    /// It is proven, with bounds this many times better than they have to be.
+    Proven(f64),
+    /// It could be proven with better bounds if it were shorter; these are this many times as good as they have to be,
+    /// which is less than once.
+    Loose(f64),
     /// It is not proven, for this reason.
     Refused(V),
 }
@@ -23,7 +24,8 @@ pub(super) enum Tried<V> {
 /// Proves a course from its beginning to its end; returns how many spans were tried.
 ///
 /// `attempt` tries a span that begins where the last proven one ended; the flag tells that loose bounds will do. A span
-/// that is refused is halved, so that all before the one that can be made no shorter is proven.
+/// that is refused is halved, so that all before the one that can be made no shorter is proven. How good the bounds of a
+/// span were tells how long the next is to be: they are off by a term of the second order in its length.
 ///
 /// # Errors
 /// Where that one begins, and why it was refused.
@@ -40,21 +42,35 @@ pub(super) fn march<V>(mut attempt: impl FnMut(Span, Effort) -> Tried<V>) -> Res
             Effort::Tight
         };
         match attempt(span(at, length), effort) {
-            Tried::Proven => {
+            Tried::Proven(quality) => {
                 at += length;
-                length = if grows { length * 2 } else { length };
+                length = if grows { scaled(length, quality) } else { length };
                 grows = true;
             }
             Tried::Refused(why) if length == 1 || tries >= MOST_TRIES => {
                 return Err((f64::from(at) / f64::from(TICKS), why));
             }
-            Tried::Loose | Tried::Refused(_) => {
+            Tried::Loose(quality) => length = scaled(length, quality).min(length - 1),
+            Tried::Refused(_) => {
                 length = (length / 2).max(1);
                 grows = false;
             }
         }
     }
     Ok(tries)
+}
+
+/// The length of a span whose bounds are as good as they have to be, with something in hand.
+fn scaled(length: u32, quality: f64) -> u32 {
+    const IN_HAND: f64 = 0.9;
+    let times = (IN_HAND * quality.sqrt()).clamp(0.25, 4.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "lengths are below 2^25, and the factor is between a quarter and four"
+    )]
+    let scaled = (f64::from(length) * times) as u32;
+    scaled.max(1)
 }
 
 /// How good bounds have to be.

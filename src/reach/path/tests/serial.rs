@@ -92,6 +92,9 @@ fn an_arm_without_a_spherical_wrist_agrees_with_sampling() {
     assert!(proven >= 20, "{proven}");
 }
 
+/// Far from limits, proofs may be this much too wide, in rad.
+const NEAR: f64 = 0.05;
+
 /// Both proofs are of the same motion, so that their ranges overlap and the wider is not much wider.
 fn agree(closed: &Proof, general: &Proof) {
     for i in 0..6 {
@@ -100,18 +103,15 @@ fn agree(closed: &Proof, general: &Proof) {
             "{closed:?} {general:?}"
         );
         assert!(
-            (closed.low[i] - general.low[i]).abs() < 0.01,
+            (closed.low[i] - general.low[i]).abs() < NEAR,
             "{closed:?} {general:?}"
         );
         assert!(
-            (closed.high[i] - general.high[i]).abs() < 0.01,
+            (closed.high[i] - general.high[i]).abs() < NEAR,
             "{closed:?} {general:?}"
         );
         let more = general.rate[i] - closed.rate[i];
-        assert!(
-            -0.05 < more && more < 0.05 + 0.02 * closed.rate[i],
-            "{closed:?} {general:?}"
-        );
+        assert!(more.abs() < 0.05 + 0.1 * closed.rate[i], "{closed:?} {general:?}");
     }
 }
 
