@@ -9,6 +9,7 @@ pub mod job;
 pub mod kinematics;
 pub mod lower;
 pub mod machine;
+pub mod picture;
 pub mod plan;
 pub mod posture;
 pub mod reach;

@@ -4,5 +4,7 @@
 //! flange in the machine's root. Every motion of a program is a [`path::Course`] of the blade; [`path`] proves that the
 //! axes follow it.
 
+pub mod margin;
 pub mod path;
+pub mod place;
 pub mod rig;

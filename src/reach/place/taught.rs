@@ -1,0 +1,140 @@
+//! The poses that a program teaches, and the few of them that tell whether the machine reaches them all.
+
+use crate::kinematics::pose::Pose;
+use glam::DVec3;
+use std::collections::BTreeMap;
+use vcutc_backend_api::geometry::{Frame, Point3};
+use vcutc_backend_api::ir::{Action, OrientationId};
+use vcutc_backend_api::verify::VerifiedProgram;
+
+/// The tips of a program by how the blade is held there, each list in the order of the program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Taught {
+    groups: Vec<Group>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Group {
+    held: Pose,
+    tips: Vec<DVec3>,
+}
+
+impl Taught {
+    /// The poses at the ends of a program's moves. A pose that comes again and again is kept once in a row.
+    #[must_use]
+    pub fn of(program: &VerifiedProgram) -> Self {
+        let mut groups: BTreeMap<OrientationId, Group> = BTreeMap::new();
+        let mut at: Option<(Point3, OrientationId)> = None;
+        for (_, op) in program.ops() {
+            at = after(at, &op.action);
+            let Some((tip, held)) = at else { continue };
+            let group = groups.entry(held).or_insert_with(|| Group {
+                held: Pose::from(Frame {
+                    origin: Point3::new(0.0, 0.0, 0.0),
+                    orientation: program.orientation(held),
+                }),
+                tips: Vec::new(),
+            });
+            let tip = DVec3::new(tip.x, tip.y, tip.z);
+            if group.tips.last() != Some(&tip) {
+                group.tips.push(tip);
+            }
+        }
+        Self {
+            groups: groups.into_values().collect(),
+        }
+    }
+
+    /// All poses of the blade in the work.
+    pub fn all(&self) -> impl Iterator<Item = Pose> {
+        self.groups
+            .iter()
+            .flat_map(|group| group.tips.iter().map(|&tip| group.pose(tip)))
+    }
+
+    /// The poses that tell most: for every orientation the tips farthest out in 26 directions (to the corners, edges and
+    /// faces of their box), and `spread` others evenly through the program; at most [`MOST_TELLING`] together.
+    #[must_use]
+    pub fn telling(&self, spread: usize) -> Vec<Pose> {
+        let poses: Vec<Pose> = self
+            .groups
+            .iter()
+            .flat_map(|group| group.telling(spread).into_iter().map(|tip| group.pose(tip)))
+            .collect();
+        let step = poses.len().div_ceil(MOST_TELLING).max(1);
+        poses.into_iter().step_by(step).collect()
+    }
+}
+
+/// Most poses that a base is judged by in a search.
+pub const MOST_TELLING: usize = 400;
+
+impl Group {
+    fn pose(&self, tip: DVec3) -> Pose {
+        Pose {
+            rotation: self.held.rotation,
+            position: tip,
+        }
+    }
+
+    fn telling(&self, spread: usize) -> Vec<DVec3> {
+        let step = (self.tips.len() / (spread + 1)).max(1);
+        let spread = (step..self.tips.len()).step_by(step).take(spread);
+        let mut chosen: Vec<usize> = directions()
+            .filter_map(|direction| self.farthest(direction))
+            .chain(spread)
+            .collect();
+        chosen.sort_unstable();
+        chosen.dedup();
+        let mut tips: Vec<DVec3> = Vec::with_capacity(chosen.len());
+        for tip in chosen.into_iter().filter_map(|index| self.tips.get(index)) {
+            if !tips.contains(tip) {
+                tips.push(*tip);
+            }
+        }
+        tips
+    }
+
+    /// The first of the tips farthest out in a direction.
+    fn farthest(&self, direction: DVec3) -> Option<usize> {
+        let out = |index: usize| self.tips.get(index).map_or(f64::MIN, |tip| tip.dot(direction));
+        (0..self.tips.len()).max_by(|&a, &b| out(a).total_cmp(&out(b)).then(b.cmp(&a)))
+    }
+}
+
+/// To the faces, edges and corners of a cube.
+fn directions() -> impl Iterator<Item = DVec3> {
+    const SIGNS: [f64; 3] = [-1.0, 0.0, 1.0];
+    SIGNS.into_iter().flat_map(|x| {
+        SIGNS
+            .into_iter()
+            .flat_map(move |y| SIGNS.into_iter().map(move |z| DVec3::new(x, y, z)))
+            .filter(|direction| *direction != DVec3::ZERO)
+    })
+}
+
+/// Where the tip is, and how the blade is held, after an action; unknown at home.
+const fn after(at: Option<(Point3, OrientationId)>, action: &Action) -> Option<(Point3, OrientationId)> {
+    match (*action, at) {
+        (Action::Home, _) => None,
+        (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
+            Some((to, orientation))
+        }
+        (
+            Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. },
+            Some((_, held)),
+        ) => Some((to, held)),
+        (Action::Turn { to, .. }, Some((tip, _))) => Some((tip, to)),
+        (
+            Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. }
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. },
+            at,
+        ) => at,
+    }
+}
