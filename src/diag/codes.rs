@@ -144,6 +144,8 @@ codes! {
     Unsupported = "VC0605", Error, "something that the target cannot say";
     /// A number that the target does not take.
     TargetRange = "VC0606", Error, "a number that the target does not take";
+    /// A machine that the target does not drive.
+    WrongMachine = "VC0607", Error, "a machine that the target does not drive";
 
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";

@@ -3,6 +3,7 @@
 //! Pure: what it needs it asks of the [`Loader`], what it finds out it returns, and what a backend writes goes into the
 //! caller's [`Sink`].
 
+mod reachable;
 mod target;
 
 use crate::diag::{Code, Diagnostic, has_errors};
@@ -16,6 +17,7 @@ use crate::syntax::ast::Ast;
 use crate::verdict;
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError};
 use vcutc_backend_api::bundle::Sink;
+use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
 
 /// What to compile.
@@ -66,6 +68,8 @@ pub struct Outcome {
 pub struct Compiled {
     /// The program.
     pub program: VerifiedProgram,
+    /// The program with the motion of the job's machine.
+    pub reach: Option<ReachableProgram>,
     /// Its figures.
     pub report: Report,
     /// The figures for people, a line each.
@@ -118,7 +122,10 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
             outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
             if !has_errors(&outcome.diagnostics) {
                 let summary = summary(&plan, &proven.report);
+                let machine = job.machine.as_ref();
+                let reach = machine.and_then(|machine| reachable::reachable(machine, &proven.program));
                 outcome.compiled = Some(Compiled {
+                    reach,
                     program: proven.program,
                     report: proven.report,
                     summary,
@@ -148,12 +155,17 @@ fn internal(job: &CheckedJob, faults: &[Fault]) -> Diagnostic {
 /// Writes the program of an outcome with a backend. An outcome without a program writes nothing.
 ///
 /// # Errors
-/// Diagnostics when the target cannot say the program, or the sink's own words.
+/// Diagnostics when the job has no machine, or the target cannot say the program, or the sink's own words.
 pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Result<(), EmitFailure> {
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
         return Ok(());
     };
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
+    let Some(reachable) = &compiled.reach else {
+        return Err(EmitFailure::Diagnostics(vec![target::without_machine(
+            job, backend,
+        )]));
+    };
     let refused = |issues: &[BackendIssue]| {
         let program = compiled.program.program();
         EmitFailure::Diagnostics(target::diagnose(job, backend, program, issues))
@@ -163,7 +175,7 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
         return Err(refused(&missing));
     }
     let emission = backend
-        .check(&compiled.program, &options)
+        .check(reachable, &options)
         .map_err(|issues| refused(&issues))?;
     emission.write(sink).map_err(|error| match error {
         EmitError::Sink(error) => EmitFailure::Sink(error.0),

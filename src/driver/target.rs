@@ -3,9 +3,12 @@
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
+use crate::machine::Model;
 use crate::source::Span;
-use vcutc_backend_api::backend::{Backend, BackendIssue, OptionKind, OptionSpec, OptionValue, Options};
-use vcutc_backend_api::ir::{Action, OpId, Program};
+use vcutc_backend_api::backend::{
+    Backend, BackendIssue, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
+};
+use vcutc_backend_api::ir::{Action, MachineKind, Maker, OpId, Program};
 use vcutc_backend_api::verify::VerifiedProgram;
 
 /// Blocks in the machine that are meant for a target that does not exist.
@@ -176,13 +179,7 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
         .as_ref()
         .map_or(job.name_span, |machine| machine.head_span);
     match issue {
-        BackendIssue::MissingMachine => Diagnostic::new(
-            Code::MissingMachine,
-            format!("target `{target}` needs a machine, this job has none"),
-            job.name_span,
-            "no `machine` block in this job or the files it uses",
-        )
-        .help("add a block such as `machine cell = robot \"kuka/kr210_r3100\" { ... }`, or `use` a file that has one"),
+        BackendIssue::WrongMachine { mismatch, drives } => wrong_machine(job, target, *mismatch, drives),
         BackendIssue::MissingMachineField { field, why } => Diagnostic::new(
             Code::MissingMachineField,
             format!("target `{target}` needs the machine's `{field}`"),
@@ -193,7 +190,12 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
         .help(format!("add `{}` to this block", example(field))),
         BackendIssue::OptionConflict { key, why } => {
             let span = option_span(job.machine.as_ref(), target, key).unwrap_or(machine);
-            Diagnostic::new(Code::BadOption, format!("option `{key}` does not fit: {why}"), span, "this option")
+            Diagnostic::new(
+                Code::BadOption,
+                format!("option `{key}` does not fit: {why}"),
+                span,
+                "this option",
+            )
         }
         BackendIssue::Unsupported { op, what } => Diagnostic::new(
             Code::Unsupported,
@@ -202,17 +204,74 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             "needed by this operation",
         )
         .help("choose another target, or leave this to a job of its own"),
-        BackendIssue::OutOfRange { op, what, value, allowed } => Diagnostic::new(
+        BackendIssue::OutOfRange {
+            op,
+            what,
+            value,
+            allowed,
+        } => Diagnostic::new(
             Code::TargetRange,
             format!("target `{target}` does not take {what} {value}"),
             match op {
-                Some(op) => speed_span(job, program, *op, what).unwrap_or_else(|| place_of(job, program, *op)),
+                Some(op) => {
+                    speed_span(job, program, *op, what).unwrap_or_else(|| place_of(job, program, *op))
+                }
                 None => machine_span(job.machine.as_ref(), what).unwrap_or(machine),
             },
             format!("{value} comes from here"),
         )
         .note(format!("{what} may be {allowed}"))
         .help(format!("change the job so that {what} is {allowed}")),
+    }
+}
+
+/// A program that no machine is to carry out.
+pub(super) fn without_machine(job: &CheckedJob, backend: &dyn Backend) -> Diagnostic {
+    Diagnostic::new(
+        Code::MissingMachine,
+        format!("target `{}` needs a machine, this job has none", backend.id()),
+        job.name_span,
+        "no `machine` block in this job or the files it uses",
+    )
+    .help(
+        "add a block such as `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
+    )
+}
+
+/// A machine that the target does not drive.
+fn wrong_machine(job: &CheckedJob, target: &str, mismatch: MachineMismatch, drives: &str) -> Diagnostic {
+    let machine = job.machine.as_ref();
+    let span = machine.map_or(job.name_span, |machine| machine.model_span);
+    let model = machine.map(|machine| machine.model.as_ref());
+    let name = model.map_or("this machine", |model| &model.name);
+    let kind = match model.map(Model::kind) {
+        Some(MachineKind::FiveAxis) => "a machine with linear and rotary axes",
+        Some(MachineKind::Robot) | None => "a robot",
+    };
+    let (is, label) = match (mismatch, model.map(|model| model.maker)) {
+        (MachineMismatch::Kind, _) => (kind.to_owned(), "a machine of this kind"),
+        (MachineMismatch::Maker, Some(Maker::Abb)) => (format!("{kind} by ABB"), "its controller is by ABB"),
+        (MachineMismatch::Maker, Some(Maker::Kuka)) => {
+            (format!("{kind} by KUKA"), "its controller is by KUKA")
+        }
+        (MachineMismatch::Maker, Some(Maker::Other) | None) => (
+            format!("{kind} whose maker is not stated"),
+            "nothing says that its controller takes such programs",
+        ),
+        (MachineMismatch::Arm, _) => (
+            format!("{kind} with other axes, or another wrist"),
+            "its postures have no name in this target's programs",
+        ),
+    };
+    let message = format!("target `{target}` does not drive `{name}`, {is}");
+    let diagnostic =
+        Diagnostic::new(Code::WrongMachine, message, span, label).note(format!("`{target}` drives {drives}"));
+    match (mismatch, model.map(|model| model.maker)) {
+        (MachineMismatch::Maker, Some(Maker::Other)) => diagnostic
+            .help("if it is a KUKA robot, state `manufacturer = \"KUKA\"` in the file that describes it"),
+        (_, _) => {
+            diagnostic.help("choose a target that drives it (`vcutc targets` lists them), or another machine")
+        }
     }
 }
 

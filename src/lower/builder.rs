@@ -32,6 +32,25 @@ impl Builder {
         self.program.stock
     }
 
+    /// Whether the tip is at a point of W, and not at home or wherever the machine was left.
+    pub(super) fn knows_tip(&self) -> bool {
+        match self.program.ops.last().map(|op| op.action) {
+            None | Some(Action::Home) => false,
+            Some(
+                Action::Travel { .. }
+                | Action::AxisTravel { .. }
+                | Action::Approach { .. }
+                | Action::Retract { .. }
+                | Action::Cut { .. }
+                | Action::Turn { .. }
+                | Action::Ultrasonic { .. }
+                | Action::AwaitReady
+                | Action::Dwell { .. }
+                | Action::ToolChange { .. },
+            ) => true,
+        }
+    }
+
     /// Appends an op; leaves out what the cell does not have (home angles, a generator).
     pub(super) fn op(&mut self, site: Site, action: Action) {
         let cell = self.program.cell.as_ref();

@@ -59,7 +59,9 @@ fn poses(program: &Program) -> Vec<(Op, Pose, Pose)> {
     let step = |op: &Op| {
         let before = at;
         at = match (op.action, before) {
-            (Action::Travel { to, orientation, .. }, _) => Some((to, held(orientation))),
+            (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
+                Some((to, held(orientation)))
+            }
             (
                 Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. },
                 Some((_, held)),

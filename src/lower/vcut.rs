@@ -5,6 +5,9 @@
 //! and over to the next V while turning back [Cui 2020]. In `layer` order all left flanks of a layer come first, to and fro,
 //! then all right flanks on the way back [Yu 2019]. With one feed direction only, every cut is followed by a way back over the
 //! safe plane.
+//!
+//! From home the blade comes by a move of all axes, which alone can say how the arm is to stand there; everything after it
+//! moves on straight lines.
 
 use super::builder::Builder;
 use crate::job::{Direction, Order};
@@ -244,11 +247,15 @@ impl<'b> Writer<'b> {
     fn travel(&mut self, site: Site, to: Point3, posture: Orientation) {
         self.pass_between(site, posture);
         let orientation = self.builder.orientation(posture);
-        let action = Action::Travel {
-            to,
-            orientation,
-            feed: self.travel_feed,
-            rate: self.rate,
+        let action = if self.builder.knows_tip() {
+            Action::Travel {
+                to,
+                orientation,
+                feed: self.travel_feed,
+                rate: self.rate,
+            }
+        } else {
+            Action::AxisTravel { to, orientation }
         };
         self.builder.op(site, action);
         self.tip = to;

@@ -7,7 +7,8 @@ use vcutc_backend_api::backend::{
     Backend, BackendIssue, Emission, EmitError, OptionKind, OptionSpec, Options,
 };
 use vcutc_backend_api::bundle::{Bundle, Sink};
-use vcutc_backend_api::verify::{Capabilities, Capability, VerifiedProgram};
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Writes how many ops a program has, if it can say what the program needs.
 struct Counter(Capabilities);
@@ -46,7 +47,7 @@ impl Backend for Counter {
     }
     fn check<'p>(
         &self,
-        program: &'p VerifiedProgram,
+        program: &'p ReachableProgram,
         _options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         Ok(Box::new(Count(program.program().ops.len())))

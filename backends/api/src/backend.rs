@@ -7,9 +7,10 @@
 
 use crate::bundle::{Sink, SinkError};
 use crate::ir::OpId;
+use crate::motion::ReachableProgram;
 use crate::number::NotFinite;
 use crate::units::Length;
-use crate::verify::{Capabilities, VerifiedProgram};
+use crate::verify::Capabilities;
 use std::collections::BTreeMap;
 
 /// One output dialect.
@@ -32,7 +33,7 @@ pub trait Backend: Sync {
     /// Everything that stands in the way, not only the first thing.
     fn check<'p>(
         &self,
-        program: &'p VerifiedProgram,
+        program: &'p ReachableProgram,
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>>;
 }
@@ -70,8 +71,13 @@ impl From<NotFinite> for EmitError {
 /// Why a dialect cannot say a program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BackendIssue {
-    /// The job has no machine block.
-    MissingMachine,
+    /// The dialect does not drive such a machine.
+    WrongMachine {
+        /// What of it is not as it should be.
+        mismatch: MachineMismatch,
+        /// What the dialect drives, such as `KUKA robots with six axes`.
+        drives: &'static str,
+    },
     /// The machine block lacks something the dialect needs.
     MissingMachineField {
         /// The field's name in the language.
@@ -104,6 +110,17 @@ pub enum BackendIssue {
         /// What is allowed, as text.
         allowed: String,
     },
+}
+
+/// What sets a machine apart from those that a dialect drives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MachineMismatch {
+    /// Its kind.
+    Kind,
+    /// The maker of its controller.
+    Maker,
+    /// Its arm: the number or kind of its axes, or branches that the dialect cannot name.
+    Arm,
 }
 
 /// One option of a backend.

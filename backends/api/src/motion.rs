@@ -5,6 +5,9 @@
 //! A backend that says a pose in a controller's terms (KUKA's status and turn, ABB's configuration) reads both from here and
 //! computes no kinematics itself.
 
+#[cfg(all(test, feature = "testkit"))]
+mod tests;
+
 use crate::geometry::{Frame, Point3};
 use crate::ir::{Action, AxisValues, Cell, OpId, OrientationId, Program};
 use crate::verify::VerifiedProgram;
@@ -106,15 +109,15 @@ pub struct MotionFault {
 /// What a motion promises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionRule {
-    /// The program has a machine, and the machine as many axes as it may.
+    /// The program has a machine.
     Machine,
-    /// Every op has axis values, and they are finite.
+    /// Every op has axis values; they are finite, and 0 in the places beyond the machine's axes.
     Complete,
     /// Axis values lie within the axes' limits.
     Limits,
     /// At the axis values the blade is where the op says.
     Pose,
-    /// Stretches come in order, and a branch is only left by moves of all axes.
+    /// The first stretch begins with the first motion to a pose; the others come in order and begin with moves of all axes.
     Stretches,
     /// An op that moves nothing leaves the axes where they are.
     Still,
@@ -124,10 +127,10 @@ impl fmt::Display for MotionRule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Machine => "the program has no machine whose axes could move",
-            Self::Complete => "an op has no axis values",
+            Self::Complete => "an op has no axis values, or some that its machine cannot have",
             Self::Limits => "an axis value lies outside of its limits",
             Self::Pose => "the axis values do not give the op's pose",
-            Self::Stretches => "the branch changes without a move of all axes",
+            Self::Stretches => "the branch is not known, or changes without a move of all axes",
             Self::Still => "the axes move in an op that moves nothing",
         })
     }
@@ -212,14 +215,15 @@ fn faults(
     let mut before: Option<AxisValues> = cell.home;
     for (id, (op, &values)) in (0..).map(OpId).zip(program.ops.iter().zip(&motion.ends)) {
         let mut fault = |what| faults.push(MotionFault { op: Some(id), what });
-        if !values.0.iter().all(|value| value.is_finite()) {
+        let beyond = values.0.iter().skip(cell.axes.len());
+        if !(values.0.iter().all(|value| value.is_finite()) && beyond.copied().all(|value| value == 0.0)) {
             fault(MotionRule::Complete);
             continue;
         }
         if !within_limits(cell, &values) {
             fault(MotionRule::Limits);
         }
-        at = after(at, &op.action);
+        at = pose_after(at, &op.action);
         let moves = match (op.action, at) {
             (Action::Home, _) => {
                 if cell.home != Some(values) {
@@ -257,7 +261,10 @@ fn faults(
 }
 
 /// Where the tip is, and how the blade is held, after an action.
-const fn after(at: Option<(Point3, OrientationId)>, action: &Action) -> Option<(Point3, OrientationId)> {
+pub(crate) const fn pose_after(
+    at: Option<(Point3, OrientationId)>,
+    action: &Action,
+) -> Option<(Point3, OrientationId)> {
     match (*action, at) {
         (Action::Home, _) => None,
         (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
@@ -294,15 +301,25 @@ fn stretch_faults(program: &Program, motion: &Motion) -> Vec<MotionFault> {
         op: Some(op),
         what: MotionRule::Stretches,
     };
-    let ordered = motion.stretches.windows(2).filter_map(|pair| match pair {
-        [first, second] if first.from >= second.from => Some(fault(second.from)),
-        _ => None,
+    let first = (0..).map(OpId).zip(&program.ops).find_map(|(id, op)| {
+        let is_at_pose = pose_after(None, &op.action).is_some();
+        is_at_pose.then_some(id)
     });
-    // The first stretch may begin with any motion: before it the arm is at home or nowhere in particular.
-    let by_axes = motion.stretches.iter().skip(1).filter_map(|stretch| {
-        let action = program.ops.get(stretch.from.0 as usize).map(|op| op.action);
-        let moves_axes = matches!(action, Some(Action::AxisTravel { .. }));
-        (!moves_axes).then(|| fault(stretch.from))
-    });
-    ordered.chain(by_axes).collect()
+    let begun = motion.stretches.first().map(|stretch| stretch.from);
+    let first = (begun != first).then(|| fault(begun.or(first).unwrap_or(OpId(0))));
+    let later = motion
+        .stretches
+        .windows(2)
+        .filter_map(|pair| match pair {
+            [before, stretch] => Some((before.from, stretch.from)),
+            _ => None,
+        })
+        .filter(|&(before, from)| {
+            let action = program.ops.get(from.0 as usize).map(|op| op.action);
+            before >= from || !matches!(action, Some(Action::AxisTravel { .. }))
+        });
+    first
+        .into_iter()
+        .chain(later.map(|(_, from)| fault(from)))
+        .collect()
 }

@@ -2,13 +2,20 @@
 //!
 //! It walks the ops once, carrying what the machine would be doing (where the tip is, how the blade is held, whether
 //! it vibrates), and checks each op against that. What it promises to backends: every table reference is valid, every
-//! number finite, every speed positive, every motion starts from a known pose, the first motion is `Home` where there
-//! is a cell, no rotation is ambiguous, the blade only meets the stock in cuts, and cuts come in pairs.
+//! number finite, every speed positive, every straight motion starts from a known pose, the first motion is `Home` where
+//! there is a home and the next one a move of all axes, no rotation is ambiguous, the blade only meets the stock in cuts,
+//! and cuts come in pairs.
+
+mod capability;
+#[cfg(all(test, feature = "testkit"))]
+mod tests;
+
+pub use capability::{Capabilities, Capability};
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Edges, FeedId, Flank, IR_VERSION, Op, OpId, Operation, OperationId, OrientationId, Program,
-    RateId, Ready, Registered, Site, Switch,
+    Action, Axis, Cell, Edges, FeedId, Flank, IR_VERSION, MOST_AXES, Op, OpId, Operation, OperationId,
+    OrientationId, Program, RateId, Ready, Registered, Site, Switch,
 };
 use crate::units::{Angle, Duration, Length, Mass};
 use core::fmt;
@@ -49,80 +56,6 @@ impl VerifiedProgram {
     }
 }
 
-/// Something a program may need and a dialect may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Capability {
-    /// Straight moves with a turning blade.
-    LinearMove,
-    /// A move of all axes to given angles.
-    JointMove,
-    /// Turning about a still tip.
-    StillTipTurn,
-    /// A digital output.
-    Output,
-    /// Waiting for a digital input.
-    AwaitInput,
-    /// Waiting for some time.
-    Dwell,
-    /// Changing the blade.
-    ToolChange,
-}
-
-impl Capability {
-    /// All of them.
-    pub const ALL: [Self; 7] = [
-        Self::LinearMove,
-        Self::JointMove,
-        Self::StillTipTurn,
-        Self::Output,
-        Self::AwaitInput,
-        Self::Dwell,
-        Self::ToolChange,
-    ];
-
-    /// What it is, for people.
-    #[must_use]
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::LinearMove => "straight moves of the tip with a turning blade",
-            Self::JointMove => "moves of all axes to given angles",
-            Self::StillTipTurn => "turns about the still tip",
-            Self::Output => "digital outputs",
-            Self::AwaitInput => "waiting for a digital input",
-            Self::Dwell => "waiting for some time",
-            Self::ToolChange => "changes of the blade",
-        }
-    }
-}
-
-/// A set of [`Capability`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Capabilities(u32);
-
-impl Capabilities {
-    /// The set without members.
-    pub const NONE: Self = Self(0);
-
-    /// This set and one more.
-    #[must_use]
-    pub const fn with(self, capability: Capability) -> Self {
-        Self(self.0 | (1 << capability as u32))
-    }
-
-    /// Whether it is in the set.
-    #[must_use]
-    pub const fn has(self, capability: Capability) -> bool {
-        self.0 & (1 << capability as u32) != 0
-    }
-
-    /// Members of this set that `other` lacks.
-    pub fn missing_from(self, other: Self) -> impl Iterator<Item = Capability> {
-        Capability::ALL
-            .into_iter()
-            .filter(move |&c| self.has(c) && !other.has(c))
-    }
-}
-
 /// A broken rule. All faults of a program made by this compiler are faults of the compiler.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
@@ -141,7 +74,10 @@ pub enum Rule {
     TableReference,
     /// Every number is finite, every length, speed and time that must be positive is.
     Number,
-    /// The first motion is `Home` where there is a cell with a home, else a `Travel`; after `Home` comes a `Travel`.
+    /// The machine has at least one axis and at most [`MOST_AXES`], each with a range, and rates that are positive.
+    Axes,
+    /// The first motion is `Home` where there is a cell with a home, and the first to a pose is an `AxisTravel`: the way of
+    /// a straight move from axis values would depend on the arm.
     KnownStart,
     /// `Home` needs a cell with home angles.
     HomeAngles,
@@ -173,6 +109,7 @@ impl fmt::Display for Rule {
             Self::Version => "the program is of another version",
             Self::TableReference => "an id refers to nothing",
             Self::Number => "a number is not finite or not positive",
+            Self::Axes => "the machine has no axes, too many, or one without a range",
             Self::KnownStart => "a motion starts from an unknown pose",
             Self::HomeAngles => "the machine has no home angles",
             Self::AmbiguousTurn => "a rotation of nearly half a turn has two ways round",
@@ -291,31 +228,12 @@ impl<'p> Walk<'p> {
         });
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
-        let cell = p.cell.as_ref().is_none_or(|cell| {
-            let frames = [cell.tool, cell.base].into_iter().all(|placed| {
-                placed.frame.origin.is_finite() && placed.number.is_none_or(|number| number > 0)
-            });
-            let load = match cell.load {
-                Some(Registered::Value(load)) => {
-                    load.mass.is_finite() && load.mass >= Mass::ZERO && load.centre.is_finite()
-                }
-                Some(Registered::Number(number)) => number > 0,
-                None => true,
-            };
-            let ready = match cell.ready {
-                Ready::Input(input) => input > 0,
-                Ready::After(time) => time.is_finite() && time >= Duration::ZERO,
-            };
-            frames
-                && load
-                && ready
-                && cell.ultrasonic.is_none_or(|output| output > 0)
-                && cell
-                    .home
-                    .is_none_or(|home| home.0.iter().all(|value| value.is_finite()))
-        });
-        if !(stock && blades && speeds && cell) {
+        let cell = p.cell.as_ref();
+        if !(stock && blades && speeds && cell.is_none_or(has_sound_numbers)) {
             broken.push(Rule::Number);
+        }
+        if !cell.is_none_or(|cell| has_sound_axes(&cell.axes)) {
+            broken.push(Rule::Axes);
         }
         self.faults
             .extend(broken.into_iter().map(|rule| Fault { op: None, rule }));
@@ -369,8 +287,7 @@ impl<'p> Walk<'p> {
 
     fn home(&mut self) {
         self.needs = self.needs.with(Capability::JointMove);
-        let has_home = self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some());
-        self.require(has_home, Rule::HomeAngles);
+        self.require(self.has_home(), Rule::HomeAngles);
         let retracted = match self.at {
             Where::Tip(tip, _) => self.is_outside(tip),
             Where::Start | Where::Home => true,
@@ -395,11 +312,7 @@ impl<'p> Walk<'p> {
                     self.turns_clear(site, to, [held, orientation]);
                 }
             }
-            Where::Start => {
-                let needs_home = self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some());
-                self.require(!needs_home, Rule::KnownStart);
-            }
-            Where::Home => {}
+            Where::Start | Where::Home => self.fault(Rule::KnownStart),
         }
         self.at = Where::Tip(to, orientation);
     }
@@ -414,7 +327,11 @@ impl<'p> Walk<'p> {
         let above = |tip: Point3| tip.z >= top - SAME;
         let from_above = match self.at {
             Where::Tip(from, _) => above(from),
-            Where::Start | Where::Home => true,
+            Where::Home => true,
+            Where::Start => {
+                self.require(!self.has_home(), Rule::KnownStart);
+                true
+            }
         };
         self.require(from_above && above(to), Rule::AirMoveThroughStock);
         self.at = Where::Tip(to, orientation);
@@ -534,13 +451,16 @@ impl<'p> Walk<'p> {
 
     fn ending(&mut self) {
         self.finish_layer();
-        let has_home = self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some());
         let rests = match self.at {
             Where::Start => true,
-            Where::Home => has_home,
-            Where::Tip(tip, _) => !has_home && self.is_outside(tip),
+            Where::Home => self.has_home(),
+            Where::Tip(tip, _) => !self.has_home() && self.is_outside(tip),
         };
         self.require(rests && self.generator == Generator::Off, Rule::Ending);
+    }
+
+    fn has_home(&self) -> bool {
+        self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some())
     }
 
     fn feed(&mut self, id: FeedId) {
@@ -619,6 +539,40 @@ impl<'p> Walk<'p> {
                 .into_iter()
                 .all(|along_y| along_y * towards_work <= gap + SAME)
     }
+}
+
+/// Whether all numbers of a machine but those of its axes are ones that it can have.
+fn has_sound_numbers(cell: &Cell) -> bool {
+    let frames = [cell.tool, cell.base]
+        .into_iter()
+        .all(|placed| placed.frame.origin.is_finite() && placed.number.is_none_or(|number| number > 0));
+    let load = match cell.load {
+        Some(Registered::Value(load)) => {
+            load.mass.is_finite() && load.mass >= Mass::ZERO && load.centre.is_finite()
+        }
+        Some(Registered::Number(number)) => number > 0,
+        None => true,
+    };
+    let ready = match cell.ready {
+        Ready::Input(input) => input > 0,
+        Ready::After(time) => time.is_finite() && time >= Duration::ZERO,
+    };
+    let home = cell
+        .home
+        .is_none_or(|home| home.0.iter().all(|value| value.is_finite()));
+    frames && load && ready && home && cell.ultrasonic.is_none_or(|output| output > 0)
+}
+
+fn has_sound_axes(axes: &[Axis]) -> bool {
+    let positive = |value: Option<f64>| value.is_none_or(|value| value.is_finite() && value > 0.0);
+    (1..=MOST_AXES).contains(&axes.len())
+        && axes.iter().all(|axis| {
+            axis.min.is_finite()
+                && axis.max.is_finite()
+                && axis.min <= axis.max
+                && positive(axis.rate)
+                && positive(axis.acceleration)
+        })
 }
 
 /// Whether a cut along `dy` holds the blade as its flank wants, with an edge in front.

@@ -1,6 +1,7 @@
 //! The ops of a part as lines of KRL.
 
 use crate::attitude::Attitudes;
+use crate::configuration::Configuration;
 use crate::keywords::HOME;
 use crate::listing::{Layer, Lead, Modal};
 use crate::options::Settings;
@@ -11,8 +12,9 @@ use core::num::NonZeroU32;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, Cell, FeedId, Op, OperationId, OperationKind, OrientationId, Program, RateId, Ready, Switch,
+    Action, Cell, FeedId, Op, OpId, OperationId, OperationKind, OrientationId, Program, RateId, Ready, Switch,
 };
+use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::units::Duration;
 
 /// How a move ends.
@@ -29,6 +31,8 @@ enum End {
 pub(crate) struct Source<'a> {
     /// The program.
     pub(crate) program: &'a Program,
+    /// The program with its motion.
+    pub(crate) reachable: &'a ReachableProgram,
     /// Its machine.
     pub(crate) cell: &'a Cell,
     /// The options.
@@ -46,18 +50,15 @@ pub(crate) fn write(source: Source<'_>, part: &Part, text: &mut Text<'_>) -> Wri
         modal: Modal::default(),
         state: part.start,
     };
+    body.first_speeds(ops)?;
+    body.restate(part.ops.start)?;
     let mut rest = ops;
-    if let [first, after @ ..] = rest {
-        body.lead(first)?;
-        body.first_speeds(ops)?;
-        body.restate()?;
-        body.op(first, after.first())?;
-        rest = after;
-    }
+    let mut place = part.ops.start;
     while let [op, after @ ..] = rest {
         body.lead(op)?;
-        body.op(op, after.first())?;
+        body.op(place, op, after.first())?;
         rest = after;
+        place += 1;
     }
     body.finish()
 }
@@ -164,11 +165,9 @@ impl Body<'_, '_, '_> {
         Ok(self.text.end_line()?)
     }
 
-    /// The speeds of the move that repeats the pose in which the part begins.
+    /// The speeds that the straight moves of the part run at first. Both stand at its head, because the first move may set
+    /// only one of them, and what `BAS (#INITMOV,0 )` leaves in the other is the fastest there is.
     fn first_speeds(&mut self, ops: &[Op]) -> Written {
-        if self.state.place.tip().is_none() {
-            return Ok(());
-        }
         let (feed, rate) = self.modal.first_speeds(ops);
         if let Some(feed) = feed {
             self.feed(feed)?;
@@ -179,16 +178,14 @@ impl Body<'_, '_, '_> {
         Ok(())
     }
 
-    /// Repeats the state in which the part begins. Called from the main program this changes nothing; a part started
-    /// alone is brought to the pose, and with the blade vibrating, that its first move was checked from.
-    fn restate(&mut self) -> Written {
-        match self.state.place {
-            Place::Unknown => {}
-            Place::Home => self.home()?,
-            Place::Tip(tip, held) => {
-                self.stay()?;
-                self.straight(tip, held, End::Exact)?;
-            }
+    /// Repeats the state in which the part begins, with this op. Called from the main program this changes nothing; a part
+    /// started alone is brought to the pose, on the branch and with the blade vibrating, that its first move was checked
+    /// from.
+    fn restate(&mut self, first: usize) -> Written {
+        match (self.state.place, first.checked_sub(1)) {
+            (Place::Tip(tip, held), Some(before)) => self.axis_travel(before, tip, held)?,
+            (Place::Home, _) => self.home()?,
+            (Place::Unknown | Place::Tip(..), _) => {}
         }
         match self.state.generator {
             Generator::Off => Ok(()),
@@ -200,12 +197,12 @@ impl Body<'_, '_, '_> {
         }
     }
 
-    fn op(&mut self, op: &Op, next: Option<&Op>) -> Written {
+    fn op(&mut self, place: usize, op: &Op, next: Option<&Op>) -> Written {
         let before = self.state;
         self.state = before.after(&op.action);
         match op.action {
             Action::Home => self.home(),
-            Action::AxisTravel { .. } => Err(EmitError::Internal("a move of all axes was not refused")),
+            Action::AxisTravel { to, orientation } => self.axis_travel(place, to, orientation),
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } | Action::Cut { .. } => {
                 let end = self.end(before.place, &op.action, next.map(|next| &next.action));
                 self.go(end)
@@ -236,41 +233,51 @@ impl Body<'_, '_, '_> {
     }
 
     fn straight(&mut self, to: Point3, held: OrientationId, end: End) -> Written {
+        let planner = self.source.settings.planner;
+        self.text.put(planner.straight());
+        self.pose(to, held)?;
+        self.text.put(b"}");
+        match end {
+            End::Exact => {}
+            End::Rounded => self.text.put(planner.approximate()),
+        }
+        Ok(self.text.end_line()?)
+    }
+
+    /// A target from the value of X on, without its closing bracket.
+    #[inline]
+    fn pose(&mut self, tip: Point3, held: OrientationId) -> Written {
         let Source {
             settings, attitudes, ..
         } = self.source;
         let text = &mut *self.text;
-        text.put(settings.planner.straight());
-        text.fixed(settings.lengths, to.x)?;
+        text.fixed(settings.lengths, tip.x)?;
         text.put(b",Y ");
-        text.fixed(settings.lengths, to.y)?;
+        text.fixed(settings.lengths, tip.y)?;
         text.put(b",Z ");
-        text.fixed(settings.lengths, to.z)?;
+        text.fixed(settings.lengths, tip.z)?;
         text.put(attitudes.text(held)?);
-        text.put(b"}");
-        match end {
-            End::Exact => {}
-            End::Rounded => text.put(settings.planner.approximate()),
-        }
-        Ok(text.end_line()?)
+        Ok(())
     }
 
     fn home(&mut self) -> Written {
-        self.axes(HOME)
-    }
-
-    /// A move of all axes.
-    fn axes(&mut self, target: &str) -> Written {
-        self.text.put(self.source.settings.planner.axes().as_bytes());
+        self.text.put(self.source.settings.planner.axes());
         self.text.put(b" ");
-        Ok(self.text.line(target)?)
+        Ok(self.text.line(HOME)?)
     }
 
-    /// A move of all axes to where they are. A straight move must not be the first motion of a module (K-SI: the controller
-    /// first brings the robot onto the path of the program, which takes a complete point); this one goes nowhere, and is the
-    /// usual way to have one.
-    fn stay(&mut self) -> Written {
-        self.axes("$AXIS_ACT")
+    /// A move of all axes to the pose in which the op at `place` ends, with the status and turn that it has there.
+    fn axis_travel(&mut self, place: usize, to: Point3, held: OrientationId) -> Written {
+        let Configuration { status, turn } =
+            configuration(self.source.reachable, place).ok_or(EmitError::Internal("a pose has no status"))?;
+        self.text.put(self.source.settings.planner.axes());
+        self.text.put(b" {X ");
+        self.pose(to, held)?;
+        self.text.put(b",S ");
+        self.text.whole(status);
+        self.text.put(b",T ");
+        self.text.whole(turn);
+        Ok(self.text.line("}")?)
     }
 
     /// Without `CONTINUE`: the output waits for the robot to arrive (advance run stop) [K-SI].
@@ -309,4 +316,10 @@ impl Body<'_, '_, '_> {
             None => Ok(()),
         }
     }
+}
+
+/// Status and turn at the end of an op.
+fn configuration(reachable: &ReachableProgram, place: usize) -> Option<Configuration> {
+    let op = OpId(u32::try_from(place).ok()?);
+    Configuration::of(reachable.branch_after(op)?, reachable.axes_after(op)?)
 }

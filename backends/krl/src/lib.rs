@@ -7,9 +7,9 @@
 //! controller share one name space; names have at most 24 characters and do not mind case.
 //!
 //! `BAS (#INITMOV,0 )` resets everything motions depend on; tool, base, load, interpolation mode and speeds are set
-//! behind it. The first motion is `PTP` to axis values: it alone says which of the robot's postures is meant (KUKA's
-//! status and turn), and all `LIN` behind it stay on that branch. `LIN` moves the tip on a straight line while A, B and
-//! C change along; with the same X, Y, Z it turns the blade about its still tip, timed by `$VEL.ORI1` and `.ORI2`
+//! behind it. The first motion is `PTP` to the axis values of home. Every other `PTP` goes to a pose and says by status and
+//! turn (the module `configuration`) which of the ways to hold it is meant; all `LIN` behind it keep the status of where
+//! they start. `LIN` moves the tip on a straight line while A, B and C change along; with the same X, Y, Z it turns the blade about its still tip, timed by `$VEL.ORI1` and `.ORI2`
 //! instead of `$VEL.CP`. What an aggregate leaves out stays as programmed before, so every target here names all six.
 //!
 //! A move ends at a standstill unless a word such as `C_DIS` follows it. That word appears only in the air, only when
@@ -21,6 +21,7 @@
 //! | op | KRL |
 //! |---|---|
 //! | `Home` | `PTP XVC_HOME`, the angles being in the `.dat` |
+//! | `AxisTravel` | `PTP {X ..,Y ..,Z ..,A ..,B ..,C ..,S n,T n}` |
 //! | `Travel`, `Approach`, `Retract`, `Cut` | `LIN {X ..,Y ..,Z ..,A ..,B ..,C ..}` |
 //! | `Turn` | the same with the X, Y, Z of the move before |
 //! | `Ultrasonic` | `$OUT[n]=TRUE`, `$OUT[n]=FALSE` |
@@ -35,7 +36,14 @@
 //!
 //! The pendant's editor becomes unusable with some thousands of lines, so a long program is a main module that calls
 //! parts `NAME_p001( )`, `NAME_p002( )`, ... one after the other (the module `split` has the rule). Each part sets everything up
-//! again, and repeats the pose and the state of the generator that the part before it ended with.
+//! again, and repeats the pose and the state of the generator that the part before it ended with. The pose is repeated by
+//! `PTP` with status and turn: called from the main module it leads nowhere, and a part that is started alone gets there
+//! on the branch that its straight moves are proven on, which a `LIN` from wherever the arm stands would not.
+//! It is a pose and not axis values, so that with frames that the controller keeps it is the pose of the part before it.
+//!
+//! # Machines
+//!
+//! KUKA robots with six rotary axes and a spherical wrist: S and T are defined for those.
 //!
 //! # Sources
 //!
@@ -48,6 +56,7 @@
 
 mod attitude;
 mod body;
+mod configuration;
 mod keywords;
 mod limits;
 mod listing;
@@ -65,8 +74,9 @@ use crate::split::Part;
 use crate::text::Text;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::ir::{Cell, Program};
-use vcutc_backend_api::verify::{Capabilities, Capability, VerifiedProgram};
+use vcutc_backend_api::ir::Cell;
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// The KRL backend.
 #[derive(Clone, Copy, Debug, Default)]
@@ -97,18 +107,17 @@ impl Backend for Krl {
 
     fn check<'p>(
         &self,
-        program: &'p VerifiedProgram,
+        program: &'p ReachableProgram,
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         let settings = Settings::read(options);
         let cell = limits::check(program)?;
-        let program = program.program();
-        let parts = split::split(&program.ops, settings.lines_per_part);
+        let parts = split::split(&program.program().ops, settings.lines_per_part);
         if parts.len() > MOST_PARTS {
             return Err(vec![too_many_parts(parts.len())]);
         }
         Ok(Box::new(KrlEmission {
-            program,
+            reachable: program,
             cell,
             settings,
             parts,
@@ -125,7 +134,7 @@ fn too_many_parts(count: usize) -> BackendIssue {
 
 /// A program that KRL can say, and how.
 struct KrlEmission<'p> {
-    program: &'p Program,
+    reachable: &'p ReachableProgram,
     cell: &'p Cell,
     settings: Settings<'p>,
     parts: Vec<Part>,
@@ -133,14 +142,16 @@ struct KrlEmission<'p> {
 
 impl Emission for KrlEmission<'_> {
     fn write(&self, sink: &mut dyn Sink) -> Result<(), EmitError> {
-        let attitudes = Attitudes::new(&self.program.orientations, self.settings.angles)?;
+        let program = self.reachable.program();
+        let attitudes = Attitudes::new(&program.orientations, self.settings.angles)?;
         let source = Source {
-            program: self.program,
+            program,
+            reachable: self.reachable,
             cell: self.cell,
             settings: &self.settings,
             attitudes: &attitudes,
         };
-        let name = main_name(&self.program.name);
+        let name = main_name(&program.name);
         module::write(source, &name, &self.parts, &mut Text::new(sink))
     }
 }

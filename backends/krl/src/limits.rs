@@ -4,22 +4,23 @@
 //! Variables for KSS 8.1 to 8.4. Of each kind of problem the first is told, with its op: a stock placed too far away
 //! would otherwise be told a million times.
 
+use crate::configuration::status;
 use crate::text::trimmed_text;
 use std::collections::BTreeSet;
-use vcutc_backend_api::backend::BackendIssue;
+use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, AxisValues, Cell, FeedId, Load, MachineKind, OpId, OperationId, PlacedFrame, Program, RateId,
-    Ready, Registered,
+    Action, AxisKind, AxisValues, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, OperationId,
+    PlacedFrame, Program, RateId, Ready, Registered,
 };
+use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::units::Duration;
-use vcutc_backend_api::verify::VerifiedProgram;
 
 /// Largest coordinate, in mm. KRL's `REAL` has seven digits, so beyond this a hundredth of a millimetre is lost; no
 /// robot reaches a tenth of it.
 const FARTHEST_MM: f64 = 99_999.0;
 
-/// Largest axis angle, in degrees. Arms with six axes end at 350 or before.
+/// Largest axis angle, in degrees: beyond it T does not tell which turn is meant. Arms with six axes end at 350 or before.
 const LARGEST_AXIS_DEG: f64 = 360.0;
 
 /// Tip speed `$VEL.CP` in m/s: zero is refused, and `$VEL_MA.CP` is 3 as delivered [K-SYS].
@@ -57,11 +58,22 @@ const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
     why: "the program switches the generator on before the blade enters; a blade that does not vibrate breaks",
 };
 
+/// What a program needs to run on.
+const DRIVES: &str = "KUKA robots with six rotary axes and a spherical wrist";
+
 /// The cell of a program, or everything that stands in the way of writing it.
-pub(crate) fn check(program: &VerifiedProgram) -> Result<&Cell, Vec<BackendIssue>> {
-    let Some(cell) = &program.program().cell else {
-        return Err(vec![BackendIssue::MissingMachine]);
+pub(crate) fn check(program: &ReachableProgram) -> Result<&Cell, Vec<BackendIssue>> {
+    let wrong = |mismatch| {
+        let drives = DRIVES;
+        vec![BackendIssue::WrongMachine { mismatch, drives }]
     };
+    // No program is assembled without a machine; if one were, it would have no arm to drive.
+    let Some(cell) = &program.program().cell else {
+        return Err(wrong(MachineMismatch::Arm));
+    };
+    if let Some(mismatch) = mismatch(cell, program) {
+        return Err(wrong(mismatch));
+    }
     let mut findings = Findings::default();
     findings.cell(cell);
     findings.ops(program);
@@ -70,6 +82,26 @@ pub(crate) fn check(program: &VerifiedProgram) -> Result<&Cell, Vec<BackendIssue
     } else {
         Err(findings.issues)
     }
+}
+
+/// What sets a machine apart from those that KRL programs are for.
+fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> {
+    match cell.kind {
+        MachineKind::FiveAxis => return Some(MachineMismatch::Kind),
+        MachineKind::Robot => {}
+    }
+    match cell.maker {
+        Maker::Abb | Maker::Other => return Some(MachineMismatch::Maker),
+        Maker::Kuka => {}
+    }
+    let turns = |kind| match kind {
+        AxisKind::Rotary => true,
+        AxisKind::Linear => false,
+    };
+    let is_arm = cell.axes.len() == MOST_AXES && cell.axes.iter().all(|axis| turns(axis.kind));
+    let mut branches = program.motion().stretches.iter().map(|stretch| stretch.branch);
+    let has_status = branches.all(|branch| status(branch).is_some());
+    (!(is_arm && has_status)).then_some(MachineMismatch::Arm)
 }
 
 #[derive(Default)]
@@ -132,9 +164,6 @@ impl Findings {
     }
 
     fn cell(&mut self, cell: &Cell) {
-        match cell.kind {
-            MachineKind::Robot | MachineKind::FiveAxis => {}
-        }
         self.home(cell.home);
         self.frame(cell.tool, ["tool X", "tool Y", "tool Z"], ("tool number", TOOLS));
         self.frame(cell.base, ["base X", "base Y", "base Z"], ("base number", BASES));
@@ -158,13 +187,17 @@ impl Findings {
             self.tell("home", HOME_MISSING);
             return;
         };
-        for angle in angles.0 {
+        self.axes(None, "home angle", angles);
+    }
+
+    fn axes(&mut self, op: Option<OpId>, what: &'static str, axes: AxisValues) {
+        for angle in axes.0 {
             let number = Number {
-                what: "home angle",
+                what,
                 value: angle.to_degrees(),
                 unit: "deg",
             };
-            self.range(None, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
+            self.range(op, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
         }
     }
 
@@ -215,15 +248,21 @@ impl Findings {
         }
     }
 
-    fn ops(&mut self, program: &VerifiedProgram) {
+    fn ops(&mut self, program: &ReachableProgram) {
         let tables = program.program();
-        for (id, op) in program.ops() {
+        for (id, op) in program.verified().ops() {
             if let Some(operation) = op.site.operation() {
                 self.blade(tables, id, operation);
             }
             match op.action {
                 Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
-                Action::AxisTravel { to, .. } => self.target(id, to),
+                Action::AxisTravel { to, .. } => {
+                    self.target(id, to);
+                    // T tells only two turns of an axis apart.
+                    if let Some(axes) = program.axes_after(id) {
+                        self.axes(Some(id), "axis angle", axes);
+                    }
+                }
                 Action::Travel { to, feed, rate, .. } => {
                     self.target(id, to);
                     self.feed(id, tables, feed);

@@ -64,8 +64,7 @@ impl Modal {
         lead
     }
 
-    /// The speeds that these ops run at first, as far as they have not been said; then they are said. A part repeats the pose
-    /// it begins from, and that move needs both, also where the first op sets only one of them.
+    /// The speeds that these ops run at first, as far as they have not been said; then they are said.
     pub(crate) fn first_speeds(&mut self, ops: &[Op]) -> (Option<FeedId>, Option<RateId>) {
         let feed = ops.iter().find_map(|op| speeds(&op.action).0);
         let rate = ops.iter().find_map(|op| speeds(&op.action).1);

@@ -74,7 +74,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 100,
             default: 10,
         },
-        help: "Axis speed of the moves to home, in percent of the greatest.",
+        help: "Axis speed of the moves of all axes, to home and from there, in percent of the greatest.",
     },
 ];
 
@@ -89,11 +89,11 @@ pub(crate) enum Planner {
 }
 
 impl Planner {
-    /// The word of a move by axis values.
-    pub(crate) const fn axes(self) -> &'static str {
+    /// The word of a move of all axes.
+    pub(crate) const fn axes(self) -> &'static [u8] {
         match self {
-            Self::Classic => "PTP",
-            Self::Spline => "SPTP",
+            Self::Classic => b"PTP",
+            Self::Spline => b"SPTP",
         }
     }
 
@@ -140,7 +140,7 @@ pub(crate) struct Settings<'p> {
     pub(crate) planner: Planner,
     /// How parts are made known.
     pub(crate) part_names: PartNames,
-    /// Axis speed of home moves, in percent.
+    /// Speed of the moves of all axes, in percent.
     pub(crate) home_speed: u32,
 }
 

@@ -1,7 +1,7 @@
 //! Where a long program is split into parts.
 //!
-//! The rule: a part begins only before a `Travel`, or a `Turn` on the way to one, that leads to another cut or layer than
-//! the op before it. There the blade is in the air, and the two flanks of a V stay together when they are cut one after
+//! The rule: a part begins only before a `Travel` or `AxisTravel`, or a `Turn` on the way to one, that leads to another cut
+//! or layer than the op before it. There the blade is in the air, and the two flanks of a V stay together when they are cut one after
 //! the other. A part takes as many of these stretches as fit into the limit; a stretch longer than the limit is a part of
 //! its own.
 
@@ -53,7 +53,10 @@ fn may_begin(ops: &[Op], at: usize) -> bool {
     match (before, ops.get(at)) {
         (Some(before), Some(op)) => {
             // A blade that is turned half round begins its way to the next cut with a turn.
-            let leaves = matches!(op.action, Action::Travel { .. } | Action::Turn { .. });
+            let leaves = matches!(
+                op.action,
+                Action::Travel { .. } | Action::AxisTravel { .. } | Action::Turn { .. }
+            );
             leaves && before.site != op.site
         }
         _ => false,

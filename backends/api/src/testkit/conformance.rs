@@ -1,16 +1,16 @@
 //! What every backend promises.
 
-use super::samples;
+use super::{reachable, samples};
 use crate::backend::{Backend, BackendIssue, EmitError, OptionKind, OptionSpec, Options};
 use crate::bundle::{Bundle, Sink, SinkError};
 use crate::ir::{Action, Op, Site};
-use crate::verify::{Capability, VerifiedProgram, verify};
+use crate::motion::ReachableProgram;
+use crate::verify::{Capability, verify};
 use std::collections::BTreeSet;
 
 /// Checks the promises of the trait on the sample programs:
 ///
 /// * options have unique keys and sound defaults;
-/// * a program without a machine is refused as [`BackendIssue::MissingMachine`];
 /// * an op that needs a capability the backend lacks is refused, not written;
 /// * the same program gives the same files, in plain ASCII, under plain names that differ in more than case;
 /// * a sink that fails is reported.
@@ -51,19 +51,18 @@ fn options(specs: &'static [OptionSpec]) -> Result<(), String> {
     Ok(())
 }
 
-fn sample(backend: &dyn Backend, program: &VerifiedProgram) -> Result<(), String> {
+fn sample(backend: &dyn Backend, program: &ReachableProgram) -> Result<(), String> {
     let options = Options::defaults(backend.options());
     let bundle = emitted(backend, program, &options)?;
     files(&bundle)?;
     if emitted(backend, program, &options)? != bundle {
         return Err("two runs gave different bytes".to_owned());
     }
-    without_machine(backend, program, &options)?;
     beyond_capabilities(backend, program, &options)?;
     full_disk(backend, program, &options)
 }
 
-fn emitted(backend: &dyn Backend, program: &VerifiedProgram, options: &Options) -> Result<Bundle, String> {
+fn emitted(backend: &dyn Backend, program: &ReachableProgram, options: &Options) -> Result<Bundle, String> {
     let mut bundle = Bundle::default();
     backend
         .check(program, options)
@@ -95,26 +94,10 @@ fn files(bundle: &Bundle) -> Result<(), String> {
     Ok(())
 }
 
-fn without_machine(
-    backend: &dyn Backend,
-    program: &VerifiedProgram,
-    options: &Options,
-) -> Result<(), String> {
-    let mut plain = program.program().clone();
-    plain.cell = None;
-    plain.ops.clear();
-    let plain = verify(plain).map_err(|faults| format!("{faults:?}"))?;
-    match backend.check(&plain, options) {
-        Err(issues) if issues.contains(&BackendIssue::MissingMachine) => Ok(()),
-        Err(issues) => Err(format!("no machine, but {issues:?}")),
-        Ok(_) => Err("a program without a machine was accepted".to_owned()),
-    }
-}
-
 /// A tool change behind the last op: no program of the compiler has one, so a backend that lacks it must say so.
 fn beyond_capabilities(
     backend: &dyn Backend,
-    program: &VerifiedProgram,
+    program: &ReachableProgram,
     options: &Options,
 ) -> Result<(), String> {
     if backend.capabilities().has(Capability::ToolChange) {
@@ -126,6 +109,7 @@ fn beyond_capabilities(
         action: Action::ToolChange { tool: 2 },
     });
     let changed = verify(changed).map_err(|faults| format!("{faults:?}"))?;
+    let changed = reachable(changed).map_err(|faults| format!("{faults:?}"))?;
     match backend.check(&changed, options) {
         Err(issues)
             if issues
@@ -152,7 +136,7 @@ impl Sink for FullDisk {
     }
 }
 
-fn full_disk(backend: &dyn Backend, program: &VerifiedProgram, options: &Options) -> Result<(), String> {
+fn full_disk(backend: &dyn Backend, program: &ReachableProgram, options: &Options) -> Result<(), String> {
     let emission = backend
         .check(program, options)
         .map_err(|issues| format!("refused: {issues:?}"))?;

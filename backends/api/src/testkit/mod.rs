@@ -1,25 +1,28 @@
 //! Programs to test backends with, and the check that every backend must pass (feature `testkit`).
 //!
 //! [`Recipe`] describes a program by a few numbers, all of which give a program that [`verify`] accepts, so that a
-//! property test can draw recipes at random. [`samples`] is a fixed set with the corner cases. [`conformance`] is what
-//! the trait [`Backend`](crate::backend::Backend) promises, checked against those samples.
+//! property test can draw recipes at random. [`reachable`] gives a program the motion of a pretend machine. [`samples`] is a
+//! fixed set with the corner cases. [`conformance`] is what the trait [`Backend`](crate::backend::Backend) promises, checked against those samples.
 
 mod conformance;
+mod pretend;
 mod recipe;
 
 pub use conformance::conformance;
-pub use recipe::{CellRecipe, Passes, Recipe};
+pub use pretend::{blade_in_work, reachable};
+pub use recipe::{CellRecipe, Crossing, Passes, Recipe};
 
 use crate::geometry::{Frame, Orientation, Point3};
-use crate::ir::{Edges, PlacedFrame, Ready, Registered};
+use crate::ir::{AxisValues, Edges, PlacedFrame, Ready, Registered};
+use crate::motion::ReachableProgram;
 use crate::units::Duration;
-use crate::verify::{VerifiedProgram, verify};
+use crate::verify::verify;
 
 /// Sample programs with a name each: from an empty one to one with several operations.
 ///
 /// # Errors
 /// The name of a recipe that gave a program with faults (a fault of this module).
-pub fn samples() -> Result<Vec<(&'static str, VerifiedProgram)>, String> {
+pub fn samples() -> Result<Vec<(&'static str, ReachableProgram)>, String> {
     let plain = Recipe::default();
     let recipes = [
         (
@@ -61,6 +64,24 @@ pub fn samples() -> Result<Vec<(&'static str, VerifiedProgram)>, String> {
             },
         ),
         (
+            "branch_changes",
+            Recipe {
+                operations: 3,
+                crossing: Crossing::ByAxes,
+                ..plain.clone()
+            },
+        ),
+        (
+            "beyond_half_a_turn",
+            Recipe {
+                cell: CellRecipe {
+                    home: AxisValues([0.0, -90.0, 90.0, 340.0, 45.0, -340.0].map(f64::to_radians)),
+                    ..CellRecipe::default()
+                },
+                ..plain.clone()
+            },
+        ),
+        (
             "numbered_cell",
             Recipe {
                 cell: CellRecipe {
@@ -76,9 +97,10 @@ pub fn samples() -> Result<Vec<(&'static str, VerifiedProgram)>, String> {
     ];
     recipes
         .into_iter()
-        .map(|(name, recipe)| match verify(recipe.program()) {
-            Ok(program) => Ok((name, program)),
-            Err(faults) => Err(format!("sample {name}: {faults:?}")),
+        .map(|(name, recipe)| {
+            let program = verify(recipe.program()).map_err(|faults| format!("sample {name}: {faults:?}"))?;
+            let program = reachable(program).map_err(|faults| format!("sample {name}: {faults:?}"))?;
+            Ok((name, program))
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! Programs made from a few numbers.
 
+use super::pretend;
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{
     Action, AxisValues, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Maker, Op,
@@ -16,6 +17,15 @@ pub enum Passes {
     Point,
     /// All left flanks of a layer, then all right ones.
     Layer,
+}
+
+/// How the blade gets from one operation to the next, above the stock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// On a straight line.
+    Straight,
+    /// By a move of all axes, which may change the branch.
+    ByAxes,
 }
 
 /// A program in a few numbers. All positive values up to the named limits give a program without faults.
@@ -51,6 +61,8 @@ pub struct Recipe {
     pub travel_feed: Speed,
     /// Rate of reorientation.
     pub rate: AngularSpeed,
+    /// The way from one operation to the next.
+    pub crossing: Crossing,
     /// A wait before each operation.
     pub dwell: Option<Duration>,
     /// The machine.
@@ -126,6 +138,7 @@ impl Default for Recipe {
             cut_feed: Speed::mm_per_s(200.0),
             travel_feed: Speed::mm_per_s(500.0),
             rate: AngularSpeed::deg_per_s(90.0),
+            crossing: Crossing::Straight,
             dwell: None,
             cell: CellRecipe::default(),
         }
@@ -183,8 +196,8 @@ impl Recipe {
             name: "cell".to_owned(),
             kind: MachineKind::Robot,
             maker: Maker::Kuka,
-            model: "kuka/kr210_r3100_ultra".to_owned(),
-            axes: Vec::new(),
+            model: "pretend".to_owned(),
+            axes: pretend::axes(),
             tool,
             base,
             load,
@@ -267,12 +280,27 @@ impl Writer<'_> {
         if let Some(time) = self.recipe.dwell {
             self.push(site, Action::Dwell { time });
         }
-        self.travel(site, 0.0, self.recipe.front(), LEFT_FORWARD);
+        self.arrive(site, operation);
         self.generator(site, Switch::On);
         for layer in (1..=self.recipe.layers).filter_map(NonZeroU32::new) {
             self.layer(operation, layer);
         }
         self.generator(site, Switch::Off);
+    }
+
+    /// From home, or from where the operation before this one ended.
+    fn arrive(&mut self, site: Site, operation: OperationId) {
+        let front = self.recipe.front();
+        match (operation, self.recipe.crossing) {
+            (OperationId(0), _) | (_, Crossing::ByAxes) => self.push(
+                site,
+                Action::AxisTravel {
+                    to: Point3::new(0.0, front, self.recipe.safe_height()),
+                    orientation: LEFT_FORWARD,
+                },
+            ),
+            (_, Crossing::Straight) => self.travel(site, 0.0, front, LEFT_FORWARD),
+        }
     }
 
     fn generator(&mut self, site: Site, state: Switch) {

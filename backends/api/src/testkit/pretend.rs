@@ -1,0 +1,141 @@
+//! A pretend machine that carries out any program.
+//!
+//! A backend gets programs with the motion of a machine, and its tests need such programs without computing the kinematics
+//! of a robot. The pretend machine is easy to compute: its first three axes turn pinions whose racks carry the blade along
+//! x, y and z of the workpiece, [`RACK`] mm each radian, and its other three are the angles A, B and C of the blade
+//! ([`Zyx`]). Axis 5 is set off so that its sign is that of its wrist: [`Wrist::Positive`] for one of its turns,
+//! [`Wrist::Negative`] for the turn below. Shoulder and elbow are always in front and forward.
+
+use crate::geometry::{Frame, Orientation, Point3, Zyx};
+use crate::ir::{Action, Axis, AxisKind, AxisValues, OpId, Program};
+use crate::motion::{
+    Branch, Elbow, Motion, MotionFault, ReachableProgram, Shoulder, Stretch, Wrist, pose_after,
+};
+use crate::units::Angle;
+use crate::verify::VerifiedProgram;
+use core::f64::consts::TAU;
+
+/// How far a rack moves, in mm each radian: far enough that a turn of its axis crosses any workshop.
+const RACK: f64 = 1e6;
+
+/// Axis 5 is so much more than the angle B, which lies within 90 deg either way.
+const OFFSET: Angle = Angle::deg(100.0);
+
+/// Axes 4 and 6 stay within this, either way.
+const FARTHEST_TURN: Angle = Angle::deg(350.0);
+
+/// Limits of all axes: wider than any dialect says.
+const LIMIT: Angle = Angle::deg(720.0);
+
+/// The axes of the machine, called A1 to A6.
+#[must_use]
+pub(super) fn axes() -> Vec<Axis> {
+    (1..=6)
+        .map(|number| Axis {
+            name: format!("A{number}"),
+            kind: AxisKind::Rotary,
+            min: -LIMIT.to_rad(),
+            max: LIMIT.to_rad(),
+            rate: Some(2.0),
+            acceleration: None,
+        })
+        .collect()
+}
+
+/// The program with the motion of the pretend machine, whose axes its cell must have. Every move of all axes but the first
+/// changes the wrist.
+///
+/// # Errors
+/// When the cell of the program is that of another machine, or there is none.
+pub fn reachable(program: VerifiedProgram) -> Result<ReachableProgram, Vec<MotionFault>> {
+    let motion = motion(program.program());
+    ReachableProgram::assemble(program, motion, &blade_in_work)
+}
+
+fn motion(program: &Program) -> Motion {
+    let home = program.cell.as_ref().and_then(|cell| cell.home);
+    let mut motion = Motion {
+        ends: Vec::with_capacity(program.ops.len()),
+        stretches: Vec::new(),
+    };
+    let mut at = None;
+    let mut axes = home.unwrap_or(AxisValues([0.0; 6]));
+    let mut wrist = Wrist::Negative;
+    for (from, op) in (0..).map(OpId).zip(&program.ops) {
+        let before = at;
+        at = pose_after(at, &op.action);
+        if matches!(op.action, Action::AxisTravel { .. }) {
+            wrist = other(wrist);
+            let branch = Branch::Arm {
+                shoulder: Shoulder::Front,
+                elbow: Elbow::Forward,
+                wrist,
+            };
+            motion.stretches.push(Stretch { from, branch });
+        }
+        axes = match (op.action, at) {
+            (Action::Home, _) => home.unwrap_or(axes),
+            (Action::AxisTravel { .. }, Some((tip, held))) => {
+                axes_at(tip, orientation(program, held), wrist, axes)
+            }
+            (_, Some((tip, held))) if at != before => axes_at(tip, orientation(program, held), wrist, axes),
+            (_, _) => axes,
+        };
+        motion.ends.push(axes);
+    }
+    motion
+}
+
+const fn other(wrist: Wrist) -> Wrist {
+    match wrist {
+        Wrist::Positive => Wrist::Negative,
+        Wrist::Negative => Wrist::Positive,
+    }
+}
+
+fn orientation(program: &Program, id: crate::ir::OrientationId) -> Orientation {
+    let known = program.orientations.get(id.0 as usize).copied();
+    known.unwrap_or(Orientation::IDENTITY)
+}
+
+/// The axes that hold the blade there, those of A and C as near as may be to where they were.
+fn axes_at(tip: Point3, held: Orientation, wrist: Wrist, before: AxisValues) -> AxisValues {
+    let Zyx { a, b, c } = held.to_zyx();
+    let turn = match wrist {
+        Wrist::Positive => 0.0,
+        Wrist::Negative => -TAU,
+    };
+    AxisValues([
+        tip.x / RACK,
+        tip.y / RACK,
+        tip.z / RACK,
+        nearest_turn(a, before.0[3]),
+        (b + OFFSET).to_rad() + turn,
+        nearest_turn(c, before.0[5]),
+    ])
+}
+
+/// Of the turns of an angle that an axis can take, the one nearest to where it is.
+fn nearest_turn(angle: Angle, before: f64) -> f64 {
+    let turns = [-TAU, 0.0, TAU].map(|turn| angle.to_rad() + turn);
+    let far = |value: f64| (value - before).abs();
+    turns
+        .into_iter()
+        .filter(|value| value.abs() <= FARTHEST_TURN.to_rad())
+        .min_by(|&a, &b| far(a).total_cmp(&far(b)))
+        .unwrap_or(angle.to_rad())
+}
+
+/// Where axis values of the pretend machine hold the blade: frame T in the workpiece frame W.
+#[must_use]
+pub fn blade_in_work(axes: &AxisValues) -> Frame {
+    let [x, y, z, a, b, c] = axes.0;
+    Frame {
+        origin: Point3::new(x * RACK, y * RACK, z * RACK),
+        orientation: Orientation::from_zyx(Zyx {
+            a: Angle::rad(a),
+            b: Angle::rad(b) - OFFSET,
+            c: Angle::rad(c),
+        }),
+    }
+}

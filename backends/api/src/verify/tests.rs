@@ -1,0 +1,165 @@
+//! Each rule about axes and moves of all axes broken once, in a program that is right otherwise.
+
+use super::{Fault, Rule, verify};
+use crate::ir::{Action, AxisValues, FeedId, OpId, OrientationId, Program, RateId};
+use crate::testkit::{Crossing, Recipe};
+
+/// Two operations with a move of all axes between them.
+fn program() -> Program {
+    Recipe {
+        operations: 2,
+        crossing: Crossing::ByAxes,
+        ..Recipe::default()
+    }
+    .program()
+}
+
+fn faults(program: Program) -> Vec<Fault> {
+    verify(program).err().unwrap_or_default()
+}
+
+fn rules(program: Program) -> Vec<Rule> {
+    faults(program).into_iter().map(|fault| fault.rule).collect()
+}
+
+/// Places of the moves of all axes.
+fn axis_travels(program: &Program) -> Vec<usize> {
+    let ops = program.ops.iter().enumerate();
+    ops.filter(|(_, op)| matches!(op.action, Action::AxisTravel { .. }))
+        .map(|(place, _)| place)
+        .collect()
+}
+
+fn straight(action: Action) -> Action {
+    let Action::AxisTravel { to, orientation } = action else {
+        panic!("{action:?}")
+    };
+    Action::Travel {
+        to,
+        orientation,
+        feed: FeedId(0),
+        rate: RateId(0),
+    }
+}
+
+#[test]
+fn the_program_is_right() {
+    let program = program();
+    assert_eq!(axis_travels(&program)[0], 1);
+    assert_eq!(axis_travels(&program).len(), 2);
+    assert_eq!(faults(program), []);
+}
+
+#[test]
+fn a_straight_move_from_home_or_from_nowhere() {
+    let mut from_home = program();
+    from_home.ops[1].action = straight(from_home.ops[1].action);
+    let fault = Fault {
+        op: Some(OpId(1)),
+        rule: Rule::KnownStart,
+    };
+    assert_eq!(faults(from_home.clone()), [fault]);
+    // A machine without a home, and none at all.
+    from_home.ops.retain(|op| op.action != Action::Home);
+    from_home.cell.as_mut().unwrap().home = None;
+    assert_eq!(rules(from_home.clone()), [Rule::KnownStart]);
+    from_home.cell = None;
+    from_home
+        .ops
+        .retain(|op| !matches!(op.action, Action::Ultrasonic { .. } | Action::AwaitReady));
+    assert_eq!(rules(from_home), [Rule::KnownStart]);
+}
+
+#[test]
+fn a_move_of_all_axes_that_does_not_begin_at_home() {
+    let mut program = program();
+    program.ops.remove(0);
+    assert_eq!(rules(program.clone()), [Rule::KnownStart]);
+    program.cell.as_mut().unwrap().home = None;
+    program.ops.pop();
+    assert_eq!(faults(program), []);
+}
+
+#[test]
+fn a_move_of_all_axes_from_or_to_beside_the_stock() {
+    let mut program = program();
+    let top = program.stock.height.to_mm();
+    for place in axis_travels(&program) {
+        let kept = program.ops[place].action;
+        let Action::AxisTravel { mut to, orientation } = kept else {
+            panic!("{kept:?}")
+        };
+        for (z, expected) in [(top, vec![]), (top - 0.01, vec![Rule::AirMoveThroughStock])] {
+            to.z = z;
+            program.ops[place].action = Action::AxisTravel { to, orientation };
+            assert_eq!(rules(program.clone()), expected, "op {place} to {z}");
+        }
+        program.ops[place].action = kept;
+    }
+    // Without the retract before the second one.
+    let second = axis_travels(&program)[1];
+    let retract = program.ops[..second]
+        .iter()
+        .rposition(|op| matches!(op.action, Action::Retract { .. }));
+    program.ops.remove(retract.unwrap());
+    assert_eq!(rules(program), [Rule::AirMoveThroughStock]);
+}
+
+#[test]
+fn a_move_of_all_axes_to_nowhere() {
+    let mut program = program();
+    let Action::AxisTravel { mut to, .. } = program.ops[1].action else {
+        panic!("no move of all axes");
+    };
+    let orientation = OrientationId(99);
+    program.ops[1].action = Action::AxisTravel { to, orientation };
+    assert!(rules(program.clone()).contains(&Rule::TableReference));
+    to.x = f64::NAN;
+    program.ops[1].action = Action::AxisTravel { to, orientation };
+    assert!(rules(program).contains(&Rule::Number));
+}
+
+#[test]
+fn axes_that_no_machine_has() {
+    type Change = fn(&mut Program);
+    let changes: [Change; 10] = [
+        |program| program.cell.as_mut().unwrap().axes.clear(),
+        |program| {
+            let axes = &mut program.cell.as_mut().unwrap().axes;
+            axes.push(axes[0].clone());
+        },
+        |program| axis(program).min = f64::NAN,
+        |program| axis(program).max = f64::INFINITY,
+        |program| axis(program).min = axis(program).max + 1e-9,
+        |program| axis(program).rate = Some(0.0),
+        |program| axis(program).rate = Some(f64::INFINITY),
+        |program| axis(program).rate = Some(-1.0),
+        |program| axis(program).acceleration = Some(0.0),
+        |program| axis(program).acceleration = Some(f64::NAN),
+    ];
+    for (case, change) in changes.into_iter().enumerate() {
+        let mut program = program();
+        change(&mut program);
+        assert_eq!(rules(program), [Rule::Axes], "case {case}");
+    }
+}
+
+#[test]
+fn axes_that_a_machine_may_have() {
+    let mut program = program();
+    axis(&mut program).min = axis(&mut program).max;
+    axis(&mut program).rate = None;
+    program.cell.as_mut().unwrap().axes.truncate(1);
+    assert_eq!(faults(program), []);
+}
+
+#[test]
+fn a_home_that_is_no_number() {
+    let mut program = program();
+    program.cell.as_mut().unwrap().home = Some(AxisValues([f64::NAN; 6]));
+    assert_eq!(rules(program), [Rule::Number]);
+}
+
+fn axis(program: &mut Program) -> &mut crate::ir::Axis {
+    &mut program.cell.as_mut().unwrap().axes[0]
+}
