@@ -9,7 +9,7 @@ pub mod pose;
 
 use opw::Opw;
 use pose::Pose;
-use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_backend_api::ir::{MOST_AXES, MachineKind};
 use vcutc_backend_api::motion::Branch;
 
 /// Positions of the axes in order, as the controller counts them: rad for rotary, mm for linear axes.
@@ -61,6 +61,14 @@ impl Solutions {
 }
 
 impl Mechanism {
+    /// What kind of machine it carries.
+    #[must_use]
+    pub const fn kind(&self) -> MachineKind {
+        match self {
+            Self::OrthoParallel(_) => MachineKind::Robot,
+        }
+    }
+
     /// The flange in the root at these axis values.
     #[must_use]
     pub fn flange_in_root(&self, joints: &Joints) -> Pose {

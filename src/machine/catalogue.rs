@@ -1,53 +1,271 @@
 //! The machines that come with the compiler, by name.
+//!
+//! Each is a sheet under `src/machine/robots`, compiled in as it is and read when it is asked for.
 
 use super::Model;
-use crate::kinematics::opw::{Coupling, Opw};
-use crate::kinematics::{Joints, Mechanism};
-use core::f64::consts::FRAC_PI_2;
-use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
+use super::sheet::{self, Confidence, Sheet};
+use crate::diag::suggest::nearest;
+use vcutc_backend_api::ir::MachineKind;
+
+/// Names and sheets, in the order of the names.
+const SHEETS: &[(&str, &str)] = &[
+    ("abb/irb120_3_058", include_str!("robots/abb/irb120_3_058.toml")),
+    ("abb/irb1600_x_120", include_str!("robots/abb/irb1600_x_120.toml")),
+    ("abb/irb1600_x_145", include_str!("robots/abb/irb1600_x_145.toml")),
+    ("abb/irb2400_16", include_str!("robots/abb/irb2400_16.toml")),
+    (
+        "abb/irb4600_20_250",
+        include_str!("robots/abb/irb4600_20_250.toml"),
+    ),
+    (
+        "abb/irb4600_40_255",
+        include_str!("robots/abb/irb4600_40_255.toml"),
+    ),
+    (
+        "abb/irb4600_60_205",
+        include_str!("robots/abb/irb4600_60_205.toml"),
+    ),
+    (
+        "abb/irb6640_185_280",
+        include_str!("robots/abb/irb6640_185_280.toml"),
+    ),
+    (
+        "abb/irb6640_235_255",
+        include_str!("robots/abb/irb6640_235_255.toml"),
+    ),
+    (
+        "abb/irb6650s_125_350",
+        include_str!("robots/abb/irb6650s_125_350.toml"),
+    ),
+    (
+        "abb/irb6650s_90_390",
+        include_str!("robots/abb/irb6650s_90_390.toml"),
+    ),
+    (
+        "abb/irb6660_205_190",
+        include_str!("robots/abb/irb6660_205_190.toml"),
+    ),
+    (
+        "abb/irb6700_155_285",
+        include_str!("robots/abb/irb6700_155_285.toml"),
+    ),
+    (
+        "abb/irb6700_200_260",
+        include_str!("robots/abb/irb6700_200_260.toml"),
+    ),
+    (
+        "abb/irb6700_235_265",
+        include_str!("robots/abb/irb6700_235_265.toml"),
+    ),
+    ("kuka/kr10_r1100_2", include_str!("robots/kuka/kr10_r1100_2.toml")),
+    (
+        "kuka/kr10_r1100_sixx",
+        include_str!("robots/kuka/kr10_r1100_sixx.toml"),
+    ),
+    (
+        "kuka/kr120_r2500_pro",
+        include_str!("robots/kuka/kr120_r2500_pro.toml"),
+    ),
+    ("kuka/kr16_2", include_str!("robots/kuka/kr16_2.toml")),
+    ("kuka/kr16_r1610_2", include_str!("robots/kuka/kr16_r1610_2.toml")),
+    ("kuka/kr16_r2010_2", include_str!("robots/kuka/kr16_r2010_2.toml")),
+    ("kuka/kr210_l150_2", include_str!("robots/kuka/kr210_l150_2.toml")),
+    (
+        "kuka/kr210_r2700_2",
+        include_str!("robots/kuka/kr210_r2700_2.toml"),
+    ),
+    (
+        "kuka/kr210_r2700_extra",
+        include_str!("robots/kuka/kr210_r2700_extra.toml"),
+    ),
+    (
+        "kuka/kr210_r2700_prime",
+        include_str!("robots/kuka/kr210_r2700_prime.toml"),
+    ),
+    (
+        "kuka/kr210_r3100_2",
+        include_str!("robots/kuka/kr210_r3100_2.toml"),
+    ),
+    (
+        "kuka/kr210_r3100_ultra",
+        include_str!("robots/kuka/kr210_r3100_ultra.toml"),
+    ),
+    (
+        "kuka/kr240_r2900_2",
+        include_str!("robots/kuka/kr240_r2900_2.toml"),
+    ),
+    (
+        "kuka/kr240_r2900_ultra",
+        include_str!("robots/kuka/kr240_r2900_ultra.toml"),
+    ),
+    ("kuka/kr240_r3330", include_str!("robots/kuka/kr240_r3330.toml")),
+    (
+        "kuka/kr6_r700_sixx",
+        include_str!("robots/kuka/kr6_r700_sixx.toml"),
+    ),
+    ("kuka/kr6_r900_2", include_str!("robots/kuka/kr6_r900_2.toml")),
+    (
+        "kuka/kr6_r900_sixx",
+        include_str!("robots/kuka/kr6_r900_sixx.toml"),
+    ),
+];
+
+/// The names of all machines, sorted.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    SHEETS.iter().map(|(name, _)| *name)
+}
+
+/// The text of the sheet of that name.
+#[must_use]
+pub fn text(name: &str) -> Option<&'static str> {
+    let found = SHEETS.iter().find(|(known, _)| *known == name);
+    found.map(|(_, text)| *text)
+}
+
+/// The sheet of that name. That every sheet of the catalogue can be read is tested.
+#[must_use]
+pub fn sheet(name: &str) -> Option<Sheet> {
+    sheet::parse(text(name)?).ok()
+}
 
 /// The machine of that name.
 #[must_use]
 pub fn find(name: &str) -> Option<Model> {
-    (name == "kuka/kr210_r3100_ultra").then(|| Model {
-        name: name.to_owned(),
-        maker: Maker::Kuka,
-        axes: axes(
-            [
-                (-185.0, 185.0),
-                (-140.0, -5.0),
-                (-120.0, 155.0),
-                (-350.0, 350.0),
-                (-122.5, 122.5),
-                (-350.0, 350.0),
-            ],
-            [105.0, 101.0, 107.0, 136.0, 129.0, 206.0],
-        ),
-        mechanism: Mechanism::OrthoParallel(Opw {
-            a1: 350.0,
-            a2: 41.0,
-            b: 0.0,
-            c1: 675.0,
-            c2: 1350.0,
-            c3: 1400.0,
-            c4: 240.0,
-            offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
-            signs: [-1.0, 1.0, 1.0, -1.0, 1.0, -1.0],
-            coupling: Coupling::Serial,
-        }),
-    })
+    sheet(name).map(|sheet| sheet.machine(name))
 }
 
-fn axes(limits: [(f64, f64); 6], rates: Joints) -> Vec<Axis> {
-    (1..)
-        .zip(limits.into_iter().zip(rates))
-        .map(|(number, ((min, max), rate))| Axis {
-            name: format!("A{number}"),
-            kind: AxisKind::Rotary,
-            min: f64::to_radians(min),
-            max: f64::to_radians(max),
-            rate: Some(rate.to_radians()),
-            acceleration: None,
+/// Most names that [`near`] offers.
+const MOST_NEAR: usize = 6;
+
+/// Names that somebody may have meant: those that go on where `wanted` ends (`kuka/kr210_r3100` is near `_2` and
+/// `_ultra`), those that say the same without the maker, else those spelt alike.
+#[must_use]
+pub fn near(wanted: &str) -> Vec<&'static str> {
+    let tidy = wanted.trim().to_lowercase().replace([' ', '-', '\\'], "_");
+    let model = tidy.rsplit('/').next().unwrap_or_default();
+    let without_maker = |name: &'static str| name.split_once('/').map_or(name, |(_, model)| model);
+    let begins: Vec<_> = names()
+        .filter(|name| name.starts_with(&tidy) || without_maker(name).starts_with(model))
+        .collect();
+    if !model.is_empty() && (1..=MOST_NEAR).contains(&begins.len()) {
+        begins
+    } else {
+        nearest(&tidy, names())
+    }
+}
+
+/// A line of the list of machines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Its name in jobs.
+    pub name: &'static str,
+    /// What it is.
+    pub kind: MachineKind,
+    /// Its model as its maker writes it.
+    pub model: String,
+    /// Rated payload in kg, when known.
+    pub payload: Option<f64>,
+    /// How far the wrist centre gets from axis 1, in mm, when known.
+    pub reach: Option<f64>,
+    /// How far the numbers are backed.
+    pub confidence: Option<Confidence>,
+}
+
+/// All machines in the order of their names.
+#[must_use]
+pub fn summaries() -> Vec<Summary> {
+    let summary = |name| {
+        let sheet = sheet(name)?;
+        Some(Summary {
+            name,
+            kind: sheet.kind(),
+            model: sheet.model,
+            payload: sheet.payload,
+            reach: sheet.facts.wrist_reach,
+            confidence: sheet.confidence,
         })
-        .collect()
+    };
+    names().filter_map(summary).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::pose::Pose;
+    use glam::{DMat3, DQuat, DVec3};
+
+    #[test]
+    fn every_sheet_is_a_machine_with_limits_and_sources() {
+        for (name, text) in SHEETS {
+            let sheet = sheet::parse(text).unwrap_or_else(|flaws| panic!("{name}: {flaws:#?}"));
+            assert_eq!(sheet.axes.len(), 6, "{name}");
+            assert!(sheet.confidence.is_some(), "{name}");
+            assert!(!sheet.facts.sources.is_empty(), "{name}");
+            assert!(sheet.facts.fk_checks.len() >= 3, "{name}");
+            assert_eq!(find(name).map(|model| model.name).as_deref(), Some(*name));
+        }
+        assert_eq!(SHEETS.len(), 33);
+        assert!(names().is_sorted());
+    }
+
+    /// The conventions: zero positions, senses, order of the wrist, coupling, the flange's axes.
+    #[test]
+    fn published_poses_are_met() {
+        let mut checks = 0;
+        for name in names() {
+            let sheet = sheet(name).unwrap();
+            for check in &sheet.facts.fk_checks {
+                let flange = sheet
+                    .mechanism
+                    .flange_in_root(&check.joints_deg.map(f64::to_radians));
+                let published = Pose {
+                    rotation: check.quaternion.map_or(flange.rotation, |[w, x, y, z]| {
+                        DMat3::from_quat(DQuat::from_xyzw(x, y, z, w).normalize())
+                    }),
+                    position: DVec3::from_array(check.xyz_mm),
+                };
+                let (apart, norm) = flange.apart(&published);
+                // The Frobenius norm of a difference of rotations by an angle is sqrt(8) sin(angle / 2).
+                let turned = 2.0 * libm::asin((norm / libm::sqrt(8.0)).min(1.0));
+                let joints = check.joints_deg;
+                assert!(
+                    apart <= check.position_tolerance_mm,
+                    "{name} {joints:?}: {apart} mm"
+                );
+                let turned = turned.to_degrees();
+                assert!(
+                    turned <= check.rotation_tolerance_deg,
+                    "{name} {joints:?}: {turned} deg"
+                );
+                checks += 1;
+            }
+        }
+        assert!(checks >= 99, "{checks}");
+    }
+
+    #[test]
+    fn near_names_are_those_that_go_on_or_are_spelt_alike() {
+        assert_eq!(
+            near("kuka/kr210_r3100"),
+            ["kuka/kr210_r3100_2", "kuka/kr210_r3100_ultra"]
+        );
+        assert_eq!(near("KUKA/KR210 R3100-ultra"), ["kuka/kr210_r3100_ultra"]);
+        assert_eq!(near("irb6660_205_190"), ["abb/irb6660_205_190"]);
+        assert_eq!(near("abb/irb6670_205_190").first(), Some(&"abb/irb6660_205_190"));
+        assert!(near("fanuc/m20").is_empty());
+        assert!(near("").is_empty());
+    }
+
+    #[test]
+    fn parallelograms_are_those_with_rods() {
+        use crate::kinematics::Mechanism;
+        use crate::kinematics::opw::Coupling;
+        let coupled: Vec<_> = names()
+            .filter(|name| {
+                let Mechanism::OrthoParallel(arm) = sheet(name).unwrap().mechanism;
+                arm.coupling == Coupling::Parallelogram
+            })
+            .collect();
+        assert_eq!(coupled, ["abb/irb2400_16", "abb/irb6660_205_190"]);
+    }
 }

@@ -2,8 +2,14 @@
 //! by URDF all end as a [`Model`].
 
 pub mod catalogue;
+pub mod facts;
+pub mod flaw;
+mod robot;
+pub mod sheet;
+mod table;
 
 use crate::kinematics::Mechanism;
+use flaw::Flaw;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 
 /// A machine as the compiler needs it, wherever its description came from.
@@ -23,8 +29,51 @@ impl Model {
     /// What it is.
     #[must_use]
     pub const fn kind(&self) -> MachineKind {
-        match self.mechanism {
-            Mechanism::OrthoParallel(_) => MachineKind::Robot,
+        self.mechanism.kind()
+    }
+}
+
+/// Where a machine that a job names is described.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// In the catalogue.
+    Catalogue,
+    /// In a file.
+    File(FileKind),
+}
+
+/// Kinds of files that describe machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// A sheet in TOML, ending in `.toml`.
+    Sheet,
+    /// A robot in URDF, ending in `.urdf`.
+    Urdf,
+}
+
+impl Origin {
+    /// Where the machine of that name is described.
+    #[must_use]
+    pub fn of(name: &str) -> Self {
+        match name.rsplit_once('.') {
+            Some((_, "toml")) => Self::File(FileKind::Sheet),
+            Some((_, "urdf")) => Self::File(FileKind::Urdf),
+            Some(_) | None => Self::Catalogue,
         }
+    }
+}
+
+/// Reads the machine that a file describes. `name` is what the job calls it.
+///
+/// # Errors
+/// What is wrong with the description, in the order of the text.
+pub fn read(name: &str, kind: FileKind, text: &str) -> Result<Model, Vec<Flaw>> {
+    match kind {
+        FileKind::Sheet => sheet::parse(text).map(|sheet| sheet.machine(name)),
+        FileKind::Urdf => Err(vec![Flaw::new(
+            0..0,
+            "robots described by URDF cannot be read",
+            "not supported",
+        )]),
     }
 }

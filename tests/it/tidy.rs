@@ -16,7 +16,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("posture", &[]),
     ("diag", &["source"]),
     ("kinematics", &[]),
-    ("machine", &["kinematics"]),
+    ("machine", &["diag", "kinematics"]),
     ("reach", &["kinematics", "machine"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),

@@ -1,0 +1,209 @@
+//! What people want to know of a machine besides what is computed with: sources, disagreements, published poses, masses.
+
+use super::flaw::Flaw;
+use super::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Table};
+
+/// For people.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Where numbers come from.
+    pub sources: Vec<Sources>,
+    /// What else there is to know of a group of numbers.
+    pub remarks: Vec<String>,
+    /// How far the wrist centre gets from axis 1, in mm.
+    pub wrist_reach: Option<f64>,
+    /// The reach that the model's name promises, in mm.
+    pub designated_reach: Option<f64>,
+    /// Where sources differ, and what was adopted.
+    pub disagreements: Vec<String>,
+    /// Poses that others publish or compute.
+    pub fk_checks: Vec<FkCheck>,
+    /// Masses.
+    pub dynamics: Option<Dynamics>,
+}
+
+/// Where the numbers of a group come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sources {
+    /// The group, such as `lengths`.
+    pub of: &'static str,
+    /// A repository with a path, or a document, each.
+    pub list: Vec<String>,
+}
+
+/// A pose of the flange that others publish or compute, with which the model of a sheet is tested.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FkCheck {
+    /// Axis values as the controller counts them, in deg.
+    pub joints_deg: [f64; 6],
+    /// The flange in the root, in mm.
+    pub xyz_mm: [f64; 3],
+    /// Its orientation, `[w, x, y, z]`, when published.
+    pub quaternion: Option<[f64; 4]>,
+    /// How far the model may be off, in mm.
+    pub position_tolerance_mm: f64,
+    /// How far the model may be turned, in deg.
+    pub rotation_tolerance_deg: f64,
+    /// Where it comes from.
+    pub source: Option<String>,
+    /// In what way that source is independent of the model.
+    pub independence: Option<String>,
+    /// What else there is to know.
+    pub note: Option<String>,
+}
+
+/// Masses of the links.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dynamics {
+    /// How far they can be used.
+    pub note: Option<String>,
+    /// Where they come from.
+    pub sources: Vec<String>,
+    /// All links together, in kg, when stated.
+    pub total_mass: Option<f64>,
+    /// Links from the base on.
+    pub links: Vec<Link>,
+}
+
+/// A link with its mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// Its mass in kg.
+    pub mass: f64,
+    /// Its centre of mass in the root with all axes at 0, in mm.
+    pub centre_mm: [f64; 3],
+}
+
+/// Keys of a sheet that hold facts.
+pub(super) const KEYS: &[&str] = &[
+    "standard_dh_equivalent",
+    "reach_check",
+    "reference_pose",
+    "verification",
+    "notes",
+    "paper_variant",
+    "dynamics",
+    "fk_check",
+];
+
+/// Sections that are kept for people who read the sheet itself.
+const LOOSE: &[&str] = &["standard_dh_equivalent", "reference_pose", "verification"];
+
+const FK_CHECK_KEYS: &[&str] = &[
+    "joints_deg",
+    "xyz_mm",
+    "quat_wxyz",
+    "abc_deg",
+    "source",
+    "independence",
+    "position_tolerance_mm",
+    "rotation_tolerance_deg",
+    "residual_mm",
+    "residual_deg",
+    "note",
+];
+
+const TOLERANCE: Measure = Measure {
+    unit: "",
+    min: 0.0,
+    max: 1000.0,
+};
+
+/// Tolerance of a check that states none, in mm and in deg.
+const USUAL_TOLERANCE: f64 = 0.01;
+
+/// Reads the facts of a sheet.
+pub(super) fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Facts {
+    for key in LOOSE {
+        root.loose_table(key, flaws);
+    }
+    let mut facts = Facts {
+        fk_checks: fk_checks(root, flaws),
+        dynamics: dynamics(root, flaws),
+        ..Facts::default()
+    };
+    let reach_keys = &[
+        "wrist_reach_mm",
+        "formula",
+        "designation_reach_mm",
+        "difference_mm",
+    ];
+    if let Some(reach) = root.table("reach_check", reach_keys, flaws) {
+        facts.wrist_reach = reach.number("wrist_reach_mm", LENGTH, flaws);
+        facts.designated_reach = reach.number("designation_reach_mm", LENGTH, flaws);
+    }
+    if let Some(notes) = root.table("notes", &["disagreements"], flaws) {
+        facts.disagreements = notes.texts("disagreements", flaws);
+    }
+    if let Some(variant) = root.loose_table("paper_variant", flaws) {
+        let assessment = variant.text("assessment", flaws);
+        facts
+            .remarks
+            .extend(assessment.map(|text| format!("values of a research paper: {text}")));
+    }
+    facts
+}
+
+fn fk_checks(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Vec<FkCheck> {
+    let tables = root.tables("fk_check", FK_CHECK_KEYS, flaws);
+    tables.iter().filter_map(|check| fk_check(check, flaws)).collect()
+}
+
+fn fk_check(check: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<FkCheck> {
+    check.require(
+        &[
+            ("joints_deg", "joints_deg = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0]"),
+            ("xyz_mm", "xyz_mm = [1990.0, 0.0, 1984.0]"),
+        ],
+        flaws,
+    );
+    let joints = check.numbers("joints_deg", ANGLE, flaws);
+    let xyz = check.numbers("xyz_mm", LENGTH, flaws);
+    let quaternion = check.numbers("quat_wxyz", SHARE, flaws);
+    let mut text = |key| check.text(key, flaws).map(str::to_owned);
+    let (source, independence, note) = (text("source"), text("independence"), text("note"));
+    let mut tolerance = |key| check.number(key, TOLERANCE, flaws).unwrap_or(USUAL_TOLERANCE);
+    Some(FkCheck {
+        joints_deg: joints?,
+        xyz_mm: xyz?,
+        quaternion,
+        position_tolerance_mm: tolerance("position_tolerance_mm"),
+        rotation_tolerance_deg: tolerance("rotation_tolerance_deg"),
+        source,
+        independence,
+        note,
+    })
+}
+
+fn dynamics(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Dynamics> {
+    let keys = &["kind", "source", "note", "frame", "total_mass_kg", "link"];
+    let table = root.table("dynamics", keys, flaws)?;
+    let links = table.tables("link", &["name", "mass_kg", "com_mm", "inertia_kg_m2"], flaws);
+    Some(Dynamics {
+        note: table.text("note", flaws).map(str::to_owned),
+        sources: table.texts("source", flaws),
+        total_mass: table.number("total_mass_kg", MASS, flaws),
+        links: links.iter().filter_map(|link| read_link(link, flaws)).collect(),
+    })
+}
+
+fn read_link(link: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Link> {
+    link.require(
+        &[
+            ("name", "name = \"link_1\""),
+            ("mass_kg", "mass_kg = 395.7"),
+            ("com_mm", "com_mm = [76.2, 10.2, 127.5]"),
+        ],
+        flaws,
+    );
+    let name = link.text("name", flaws).map(str::to_owned);
+    let mass = link.number("mass_kg", MASS, flaws);
+    let centre = link.numbers("com_mm", LENGTH, flaws);
+    Some(Link {
+        name: name?,
+        mass: mass?,
+        centre_mm: centre?,
+    })
+}

@@ -1,0 +1,232 @@
+//! Sheets: descriptions of machines as TOML, of the catalogue and of users alike.
+//!
+//! What a sheet needs is its `model`, the geometry, and the limits of the axes; all the rest tells people where the
+//! numbers come from and how far to trust them ([`Facts`]). `docs/machines.md` has the form. One form is read for robots
+//! and one for five-axis machines; the key `kind` says which.
+
+use super::facts::{self, Facts, Sources};
+use super::flaw::Flaw;
+use super::table::{MASS, Table};
+use super::{Model, robot};
+use crate::kinematics::Mechanism;
+use toml::de::DeTable;
+use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
+
+/// A machine with what is known about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// Its model as its maker writes it, such as `KUKA KR 210 R3100 ultra`.
+    pub model: String,
+    /// Its manufacturer, when stated.
+    pub manufacturer: Option<String>,
+    /// Rated payload in kg, when stated.
+    pub payload: Option<f64>,
+    /// How far the numbers are backed, when stated.
+    pub confidence: Option<Confidence>,
+    /// Its axes, in the controller's order and sense.
+    pub axes: Vec<Axis>,
+    /// How the axes move the flange or the spindle nose.
+    pub mechanism: Mechanism,
+    /// For people.
+    pub facts: Facts,
+}
+
+/// How far the numbers of a sheet are backed. No level means "measured on a controller".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Confidence {
+    /// Two or more sources agree on all lengths.
+    High,
+    /// They agree except for one length (by half a millimetre at most) or one range, or no document of the maker backs
+    /// them.
+    MediumHigh,
+    /// One source, or incomplete limits or speeds.
+    Medium,
+    /// Made up to show an arrangement; the sizes are those of no real machine.
+    Example,
+}
+
+const CONFIDENCES: &[(&str, Confidence)] = &[
+    ("high", Confidence::High),
+    ("medium-high", Confidence::MediumHigh),
+    ("medium", Confidence::Medium),
+    ("example", Confidence::Example),
+];
+
+impl Confidence {
+    /// As sheets write it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::High => "high",
+            Self::MediumHigh => "medium-high",
+            Self::Medium => "medium",
+            Self::Example => "example",
+        }
+    }
+}
+
+/// Kinds of machine, as sheets write them; the first when a sheet does not say.
+const KINDS: &[(&str, MachineKind)] = &[
+    ("robot", MachineKind::Robot),
+    ("five_axis", MachineKind::FiveAxis),
+];
+
+/// Keys of every sheet.
+const COMMON_KEYS: &[&str] = &[
+    "id",
+    "kind",
+    "manufacturer",
+    "model",
+    "rated_payload_kg",
+    "payload_source",
+    "confidence",
+];
+
+/// Largest sheet in bytes. Those of the catalogue are below 10 000.
+const LARGEST: usize = 1 << 18;
+
+/// Most flaws of one sheet that are told.
+const MOST_FLAWS: usize = 20;
+
+/// Reads a sheet.
+///
+/// # Errors
+/// What is wrong with it, in the order of the text; the first [`MOST_FLAWS`] of it.
+pub fn parse(text: &str) -> Result<Sheet, Vec<Flaw>> {
+    if text.len() > LARGEST {
+        return Err(vec![too_large(text.len())]);
+    }
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let mut flaws: Vec<Flaw> = errors.iter().map(|error| unreadable(error, text)).collect();
+    // What could be read of a broken file would only add complaints about what seems to be missing.
+    let sheet = if flaws.is_empty() {
+        read(root.get_ref(), &mut flaws)
+    } else {
+        None
+    };
+    match sheet {
+        Some(sheet) if flaws.is_empty() => Ok(sheet),
+        Some(_) | None => {
+            flaws.sort_by_key(|flaw| (flaw.span.start, flaw.span.end));
+            flaws.truncate(MOST_FLAWS);
+            Err(flaws)
+        }
+    }
+}
+
+fn too_large(size: usize) -> Flaw {
+    let (size, most) = (size / 1000, LARGEST / 1000);
+    Flaw::new(
+        0..0,
+        format!("the sheet has {size} kB, at most {most} kB are read"),
+        "too large",
+    )
+}
+
+fn unreadable(error: &toml::de::Error, text: &str) -> Flaw {
+    let span = error.span().unwrap_or(0..0);
+    let end = span.end.min(text.len());
+    let reason = error.message().lines().next().unwrap_or_default();
+    Flaw::new(
+        span.start.min(end)..end,
+        format!("the sheet is not TOML: {reason}"),
+        "cannot be read",
+    )
+    .help("a sheet has lines such as `c2_mm = 1350.0` below headings such as `[opw]`")
+}
+
+fn read<'t>(root: &'t DeTable<'t>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
+    let root = Table::root(root);
+    let kind = if root.has("kind") {
+        root.word("kind", KINDS, flaws)?
+    } else {
+        MachineKind::Robot
+    };
+    let form = match kind {
+        MachineKind::Robot => robot::FORM,
+        MachineKind::FiveAxis => {
+            let message = "sheets of five-axis machines cannot be read";
+            flaws.push(Flaw::new(root.span_of("kind"), message, "not supported"));
+            return None;
+        }
+    };
+    root.allow(&[COMMON_KEYS, facts::KEYS, form.keys].concat(), flaws);
+    root.require(&[("model", "model = \"KUKA KR 210 R3100 ultra\"")], flaws);
+    root.text("id", flaws);
+    let model = root.text("model", flaws);
+    let manufacturer = root.text("manufacturer", flaws);
+    let payload = root.number("rated_payload_kg", MASS, flaws);
+    let confidence = root.word("confidence", CONFIDENCES, flaws);
+    let mut facts = facts::read(&root, flaws);
+    let body = (form.read)(&root, maker(manufacturer), flaws)?;
+    facts.sources.extend(body.sources);
+    facts.remarks.extend(body.remarks);
+    Some(Sheet {
+        model: model?.to_owned(),
+        manufacturer: manufacturer.map(str::to_owned),
+        payload,
+        confidence,
+        axes: body.axes,
+        mechanism: body.mechanism?,
+        facts,
+    })
+}
+
+/// How sheets of one kind of machine are read.
+#[derive(Clone, Copy)]
+pub(super) struct Form {
+    /// Keys of the sheet as a whole, besides those that all sheets have.
+    pub(super) keys: &'static [&'static str],
+    /// Reads what is particular to the kind.
+    pub(super) read: fn(&Table<'_>, Maker, &mut Vec<Flaw>) -> Option<Body>,
+}
+
+/// What is particular to one kind of machine.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Body {
+    /// Its axes.
+    pub(super) axes: Vec<Axis>,
+    /// How they move the flange; none when a flaw has been found in it.
+    pub(super) mechanism: Option<Mechanism>,
+    /// Where the numbers come from.
+    pub(super) sources: Vec<Sources>,
+    /// For [`Facts::remarks`].
+    pub(super) remarks: Vec<String>,
+}
+
+/// Who makes the controller of a manufacturer's machines.
+fn maker(manufacturer: Option<&str>) -> Maker {
+    match manufacturer.map(str::to_lowercase).as_deref() {
+        Some("kuka") => Maker::Kuka,
+        Some("abb") => Maker::Abb,
+        Some(_) | None => Maker::Other,
+    }
+}
+
+impl Sheet {
+    /// Who made its controller.
+    #[must_use]
+    pub fn maker(&self) -> Maker {
+        maker(self.manufacturer.as_deref())
+    }
+
+    /// What it is.
+    #[must_use]
+    pub const fn kind(&self) -> MachineKind {
+        self.mechanism.kind()
+    }
+
+    /// The machine under a name.
+    #[must_use]
+    pub fn machine(&self, name: impl Into<String>) -> Model {
+        Model {
+            name: name.into(),
+            maker: self.maker(),
+            axes: self.axes.clone(),
+            mechanism: self.mechanism.clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

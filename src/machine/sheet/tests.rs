@@ -1,0 +1,264 @@
+//! Sheets with one fault each, small sheets of users, and sheets meant to do harm.
+
+use super::*;
+use crate::kinematics::opw::Coupling;
+use proptest::prelude::*;
+use vcutc_backend_api::ir::AxisKind;
+
+/// The least a user writes.
+const SMALL: &str = r#"
+model = "Shop arm"
+[opw]
+a1_mm = 300
+a2_mm = -100.0
+b_mm = 0.0
+c1_mm = 700.0
+c2_mm = 900.0
+c3_mm = 1_000.0
+c4_mm = 150.0
+joint_offsets_deg = [0.0, 0.0, -90.0, 0.0, 0.0, 0.0]
+joint_signs = [1, 1, 1, 1, 1, 1]
+[limits]
+limits_deg = [[-180.0, 180.0], [-60.0, 80.0], [-70.0, 160.0], [-300.0, 300.0], [-120.0, 120.0], [-360.0, 360.0]]
+"#;
+
+/// The flaws of the small sheet after a change, each with the text it points at.
+fn flaws(from: &str, to: &str) -> Vec<(String, String)> {
+    assert!(SMALL.contains(from), "{from}");
+    let text = SMALL.replacen(from, to, 1);
+    let flaws = parse(&text).expect_err(to);
+    flaws
+        .into_iter()
+        .map(|flaw| {
+            let place = text.get(flaw.span).expect("a place in the text");
+            (place.to_owned(), flaw.message)
+        })
+        .collect()
+}
+
+/// The only flaw after a change.
+fn flaw(from: &str, to: &str) -> (String, String) {
+    let mut found = flaws(from, to);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    found.remove(0)
+}
+
+fn assert_flaw(from: &str, to: &str, place: &str, message: &str) {
+    assert_eq!(flaw(from, to), (place.to_owned(), message.to_owned()));
+}
+
+#[test]
+fn a_small_sheet_is_a_machine() {
+    let sheet = parse(SMALL).unwrap();
+    assert_eq!(sheet.maker(), Maker::Other);
+    let model = sheet.machine("arm.toml");
+    assert_eq!(model.kind(), MachineKind::Robot);
+    let Mechanism::OrthoParallel(arm) = &model.mechanism;
+    assert_eq!((arm.a1, arm.c3), (300.0, 1000.0));
+    assert_eq!(arm.coupling, Coupling::Serial);
+    let third = &model.axes[2];
+    assert_eq!((third.name.as_str(), third.kind), ("J3", AxisKind::Rotary));
+    assert_eq!(
+        (third.min, third.max),
+        ((-70_f64).to_radians(), 160_f64.to_radians())
+    );
+    assert_eq!((third.rate, third.acceleration), (None, None));
+}
+
+#[test]
+fn a_maker_and_rates_and_coupling_are_optional() {
+    let text = SMALL.replace("model =", "manufacturer = \"Kuka\"\nmodel =")
+        + "speeds_deg_s = [100, 100, 100, 150, 150, 200]\naccelerations_deg_s2 = [200, 200, 200, 300, 300, 400]\n[coupling]\nj2_j3_parallelogram = true\n";
+    let sheet = parse(&text).unwrap();
+    assert_eq!(sheet.maker(), Maker::Kuka);
+    let sixth = sheet.axes[5].clone();
+    assert_eq!(sixth.name, "A6");
+    assert_eq!(sixth.rate, Some(200_f64.to_radians()));
+    assert_eq!(sixth.acceleration, Some(400_f64.to_radians()));
+    let Mechanism::OrthoParallel(arm) = sheet.mechanism;
+    assert_eq!(arm.coupling, Coupling::Parallelogram);
+}
+
+#[test]
+fn what_is_missing_is_listed() {
+    let (place, message) = flaw("c2_mm = 900.0\nc3_mm = 1_000.0\n", "");
+    assert!(place.starts_with("[opw]"), "{place}");
+    assert_eq!(message, "`[opw]` lacks `c2_mm`, `c3_mm`");
+    assert_eq!(flaw("model = \"Shop arm\"", "").1, "the sheet lacks `model`");
+    let limits = &SMALL[SMALL.find("[limits]").unwrap()..];
+    assert_eq!(flaw(limits, "").1, "the sheet lacks `limits`");
+    assert_eq!(flaw(limits, "[limits]").1, "`[limits]` lacks `limits_deg`");
+}
+
+#[test]
+fn numbers_are_finite_numbers_in_range() {
+    assert_flaw("300", "nan", "nan", "`a1_mm` takes a finite number");
+    assert_flaw("300", "-inf", "-inf", "`a1_mm` takes a finite number");
+    assert_flaw("300", "1e999", "1e999", "`a1_mm` takes a finite number");
+    assert_flaw("300", "\"300\"", "\"300\"", "`a1_mm` takes a number, not a text");
+    assert_flaw(
+        "300",
+        "1e6",
+        "1e6",
+        "`a1_mm` is from -100000 to 100000 mm, not 1000000 mm",
+    );
+    assert_flaw("900.0", "0.0", "0.0", "`c2_mm` is from 1 to 100000 mm, not 0 mm");
+    assert_flaw(
+        "1_000.0",
+        "-5.0",
+        "-5.0",
+        "`c3_mm` is from 1 to 100000 mm, not -5 mm",
+    );
+    assert_flaw(
+        "[0.0, 0.0, -90.0, 0.0, 0.0, 0.0]",
+        "[0.0, 0.0, -90.0]",
+        "[0.0, 0.0, -90.0]",
+        "`joint_offsets_deg` takes 6 entries, not 3",
+    );
+}
+
+#[test]
+fn senses_are_plus_or_minus_one() {
+    let (place, message) = flaw("[1, 1, 1, 1, 1, 1]", "[1, 1, 0, 1, 1, 1]");
+    assert_eq!(place, "[1, 1, 0, 1, 1, 1]");
+    assert_eq!(message, "a sense of rotation is 1 or -1, not 0");
+}
+
+#[test]
+fn limits_are_ranges() {
+    assert_flaw(
+        "[-60.0, 80.0]",
+        "[80.0, -60.0]",
+        "[80.0, -60.0]",
+        "a range of `limits_deg` ends before it begins: 80 deg is not below -60 deg",
+    );
+    assert_flaw(
+        "[-360.0, 360.0]",
+        "[-600.0, 600.0]",
+        "[-600.0, 600.0]",
+        "a range of `limits_deg` is 1200 deg wide, at most 1080 deg can be handled",
+    );
+    assert_flaw(
+        "[-60.0, 80.0]",
+        "-60.0",
+        "-60.0",
+        "`limits_deg` takes a list of 2 numbers, not a number",
+    );
+    let (place, message) = flaw(", [-360.0, 360.0]]", "]");
+    assert!(place.starts_with("[[-180"), "{place}");
+    assert_eq!(message, "`limits_deg` takes 6 entries, not 5");
+}
+
+#[test]
+fn rates_are_above_nothing() {
+    for bad in ["0", "-10"] {
+        let line = format!("[limits]\nspeeds_deg_s = [100, {bad}, 100, 150, 150, 200]\n");
+        let (place, message) = flaw("[limits]\n", &line);
+        assert_eq!(place, bad);
+        assert_eq!(
+            message,
+            format!("`speeds_deg_s` is from 0.001 to 100000 deg/s, not {bad} deg/s")
+        );
+    }
+}
+
+#[test]
+fn unknown_keys_are_told_with_what_was_meant() {
+    let text = SMALL.replace("c4_mm", "c4");
+    let found = parse(&text).unwrap_err();
+    let messages: Vec<_> = found.iter().map(|flaw| flaw.message.as_str()).collect();
+    assert_eq!(messages, ["`[opw]` lacks `c4_mm`", "`[opw]` has no `c4`"]);
+    let found = parse(&SMALL.replace("[limits]", "[limit]")).unwrap_err();
+    let helps: Vec<_> = found.iter().filter_map(|flaw| flaw.help.as_deref()).collect();
+    assert!(helps.contains(&"did you mean `limits`?"), "{helps:?}");
+}
+
+#[test]
+fn words_are_known_words() {
+    let (place, message) = flaw("model", "confidence = \"hihg\"\nmodel");
+    assert_eq!(
+        (place.as_str(), message.as_str()),
+        ("\"hihg\"", "`confidence` cannot be \"hihg\"")
+    );
+    let (place, _) = flaw("model", "kind = \"robt\"\nmodel");
+    assert_eq!(place, "\"robt\"");
+}
+
+#[test]
+fn limits_that_nobody_checks_are_refused() {
+    let (place, message) = flaw("[limits]\n", "[limits]\nelbow_angle_limit_deg = [-70.0, 70.0]\n");
+    assert_eq!(place, "[-70.0, 70.0]");
+    assert!(message.contains("axis by axis"), "{message}");
+    let coupled = "[coupling]\nwrist_4_5_6_coupling_in_joint_space = true\n[limits]";
+    assert_eq!(flaw("[limits]", coupled).0, "true");
+}
+
+#[test]
+fn several_faults_are_told_at_once_in_the_order_of_the_text() {
+    let text = SMALL
+        .replace("a1_mm = 300", "a1_mm = nan")
+        .replace("[1, 1, 1, 1, 1, 1]", "[2, 1, 1, 1, 1, 1]")
+        .replace("[-60.0, 80.0]", "[80.0, -60.0]");
+    let found = parse(&text).unwrap_err();
+    assert_eq!(found.len(), 3, "{found:#?}");
+    assert!(found.is_sorted_by_key(|flaw| flaw.span.start));
+}
+
+#[test]
+fn what_is_no_toml_is_told_where() {
+    let (place, message) = flaws("a2_mm = -100.0", "a2_mm = = 3").remove(0);
+    assert!(message.starts_with("the sheet is not TOML: "), "{message}");
+    assert!(place.len() < 10, "{place}");
+    let (_, twice) = flaws("b_mm = 0.0", "b_mm = 0.0\nb_mm = 1.0").remove(0);
+    assert!(twice.contains("duplicate"), "{twice}");
+}
+
+/// Deep trees are dropped by recursion, wide ones take time.
+#[test]
+fn hostile_sheets_end_in_flaws() {
+    let dots = "a.".repeat(100_000);
+    let lists = "[".repeat(250_000);
+    let tables = "{a=".repeat(80_000);
+    let headings: String = (0..25_000).map(|i| format!("[a{i}]\n")).collect();
+    let hostile = [
+        format!("{dots}a = 1"),
+        format!("[{dots}a]"),
+        format!("x = {lists}"),
+        format!("x = {tables}"),
+        headings,
+        "=\n".repeat(100_000),
+        "x".repeat(LARGEST + 1),
+        "\u{feff}\0\u{1f980}".repeat(1000),
+    ];
+    for text in hostile {
+        let found = parse(&text).unwrap_err();
+        assert!((1..=MOST_FLAWS).contains(&found.len()));
+        for flaw in found {
+            assert!(text.get(flaw.span.clone()).is_some(), "{flaw:?}");
+        }
+    }
+}
+
+proptest! {
+    /// Whatever one byte of a sheet becomes: a machine of finite numbers, or flaws with a place in the text.
+    #[test]
+    fn no_change_of_a_sheet_makes_nonsense(at in 0..SMALL.len(), letter in "[ -~\\n]") {
+        let mut text = SMALL.to_owned();
+        text.replace_range(at..=at, &letter);
+        match parse(&text) {
+            Ok(sheet) => {
+                for axis in &sheet.axes {
+                    prop_assert!(axis.min < axis.max && (axis.max - axis.min).is_finite());
+                }
+                let pose = sheet.mechanism.flange_in_root(&[0.1; 6]);
+                prop_assert!(pose.position.is_finite() && pose.rotation.is_finite());
+            }
+            Err(flaws) => {
+                prop_assert!(!flaws.is_empty());
+                for flaw in flaws {
+                    prop_assert!(text.get(flaw.span.clone()).is_some(), "{:?}", flaw);
+                }
+            }
+        }
+    }
+}
