@@ -18,7 +18,8 @@ pub fn of_axis(axis: &Axis, low: f64, high: f64) -> f64 {
 pub fn of_clearance(clearance: &Clearance) -> f64 {
     (clearance.wrist / FRAC_PI_2)
         .min(clearance.elbow / FRAC_PI_2)
-        .min(clearance.shoulder / 500.0)
+        .min(clearance.shoulder / 1000.0)
+        .min(1.0)
 }
 
 /// How far an arm is from its singular poses.
