@@ -35,6 +35,7 @@ mod explain;
 mod files;
 mod inner;
 mod output;
+mod place;
 mod progress;
 mod targets;
 
@@ -78,6 +79,7 @@ pub fn run(targets: &Targets) -> ExitCode {
     let exit = match &arguments.command {
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
+        Some(Command::Place(place)) => place::place(place, targets, &console),
         Some(Command::Targets) => targets::list(targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),
     };

@@ -1,6 +1,6 @@
 //! `vcutc place JOB`: the base frame that leaves the machine the most room.
 
-use super::args::{Arguments, MessageFormat, PlaceArgs};
+use super::args::PlaceArgs;
 use super::console::{Console, Failure};
 use super::files::Disk;
 use super::output::{Destination, Output};
@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::driver::Request;
 use crate::placement::{self, Asked, Placement, Refusal, report};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use vcutc_backend_api::bundle::Sink;
 
 /// Places one job.
@@ -41,4 +41,37 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
             Exit::JobHasErrors
         }
     }
+}
+
+fn tell(placement: &Placement, map: Option<&str>, console: &Console) -> Exit {
+    let written = match map.map(|path| write_map(placement, Path::new(path))).transpose() {
+        Ok(files) => files.unwrap_or_default(),
+        Err(reason) => return console.failure(&Failure::new(reason)),
+    };
+    let mut text = report::text(placement);
+    for file in &written {
+        text += &format!("\nwrote {file}\n");
+    }
+    match console.answer("placement", &text, report::body(placement)) {
+        Exit::Success if placement.best.is_none() && placement.now.room.is_err() => Exit::JobHasErrors,
+        exit => exit,
+    }
+}
+
+/// Writes the map whole or not at all.
+fn write_map(placement: &Placement, path: &Path) -> Result<Vec<String>, String> {
+    let name = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent.to_owned(),
+        Some(_) | None => PathBuf::from("."),
+    };
+    let mut output = Output::to(&Destination::Folder(folder));
+    output.file(name).map_err(|error| error.to_string())?;
+    output
+        .write(placement.svg().as_bytes())
+        .map_err(|error| error.to_string())?;
+    output.publish()
 }

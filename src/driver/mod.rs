@@ -42,6 +42,8 @@ pub enum Stage {
     Planning,
     /// Proving that every chip comes free and no cut enters the part.
     Proving,
+    /// Searching for the best place of the work.
+    Placing,
     /// Writing the program.
     Emitting,
 }
@@ -138,7 +140,7 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
 }
 
 /// A program that breaks a rule of its own form is the compiler's fault, whatever the job says.
-fn internal(job: &CheckedJob, faults: &[Fault]) -> Diagnostic {
+pub(crate) fn internal(job: &CheckedJob, faults: &[Fault]) -> Diagnostic {
     let mut diagnostic = Diagnostic::new(
         Code::Internal,
         "the program made from this job breaks a rule, which is a fault of the compiler",

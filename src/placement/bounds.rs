@@ -67,8 +67,18 @@ impl Asked<'_> {
         let z = read("--z", self.z, Kind::Length)?.unwrap_or(around(now.z, dz));
         let yaw = read("--yaw", self.yaw, Kind::Angle)?.unwrap_or(around(0, TURN_AROUND * 10));
         Ok(Bounds {
-            least: Spot { x: x.0, y: y.0, z: z.0, yaw: yaw.0 },
-            most: Spot { x: x.1, y: y.1, z: z.1, yaw: yaw.1 },
+            least: Spot {
+                x: x.0,
+                y: y.0,
+                z: z.0,
+                yaw: yaw.0,
+            },
+            most: Spot {
+                x: x.1,
+                y: y.1,
+                z: z.1,
+                yaw: yaw.1,
+            },
         })
     }
 }
@@ -161,7 +171,9 @@ mod tests {
 
     #[test]
     fn what_is_no_range_is_refused_with_one_that_is() {
-        for text in ["", "..", "a..b", "1..2..3", "1..2 deg", "2..1", "0.2..0.8", "0..1e9", "0..200 m", "NaN..1"] {
+        for text in [
+            "", "..", "a..b", "1..2..3", "1..2 deg", "2..1", "0.2..0.8", "0..1e9", "0..200 m", "NaN..1",
+        ] {
             assert!(range(text, Kind::Length).is_err(), "{text}");
         }
         assert!(range("0..10 mm", Kind::Angle).is_err());
@@ -179,7 +191,23 @@ mod tests {
             ..Asked::default()
         };
         let bounds = asked.bounds(&base).unwrap();
-        assert_eq!(bounds.least, Spot { x: 1200, y: -1100, z: 600, yaw: -900 });
-        assert_eq!(bounds.most, Spot { x: 2200, y: -100, z: 700, yaw: 900 });
+        assert_eq!(
+            bounds.least,
+            Spot {
+                x: 1200,
+                y: -1100,
+                z: 600,
+                yaw: -900
+            }
+        );
+        assert_eq!(
+            bounds.most,
+            Spot {
+                x: 2200,
+                y: -100,
+                z: 700,
+                yaw: 900
+            }
+        );
     }
 }

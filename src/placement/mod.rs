@@ -16,16 +16,15 @@ use crate::driver::{Request, Stage};
 use crate::job::{CheckedJob, Machine};
 use crate::plan::{self, PlannedJob};
 use crate::reach::place::Spot;
-use crate::reach::place::score::{Judge, Score};
+use crate::reach::place::score::Judge;
 use crate::reach::place::search::{Bounds, Placed, search};
-use crate::reach::place::taught::Poses;
+use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::remedy::trial::{self, Room};
 use crate::remedy::wording;
 use crate::sema;
 use crate::source::SourceMap;
 use crate::verdict;
-use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::PlacedFrame;
 
 /// Where the work stands best.
@@ -47,6 +46,16 @@ pub struct Placement {
     pub refused: Vec<String>,
     /// Margins over x and y.
     pub map: Map,
+}
+
+impl Placement {
+    /// The map as SVG.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let title = format!("{}: places for the base of {}", self.job, self.machine);
+        let best = self.best.as_ref().map(|best| best.spot);
+        self.map.svg(&title, &self.now.base.frame, best)
+    }
 }
 
 /// A base and what the machine makes of it.
@@ -154,7 +163,12 @@ fn prepare(
             if has_errors(&diagnostics) {
                 return Err(Failed::Diagnostics(diagnostics));
             }
-            Ok(Ready { job, machine, plan, proven })
+            Ok(Ready {
+                job,
+                machine,
+                plan,
+                proven,
+            })
         }
         Err(faults) => Err(Failed::Diagnostics(vec![crate::driver::internal(&job, &faults)])),
     }
@@ -167,13 +181,20 @@ fn without_machine(job: &CheckedJob) -> Diagnostic {
         job.name_span,
         "this job",
     )
-    .help("add a block `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one")
+    .help(
+        "add a block `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
+    )
 }
 
 fn placed(ready: &Ready, bounds: Bounds) -> Placement {
-    let Ready { job, machine, plan, proven } = ready;
+    let Ready {
+        job,
+        machine,
+        plan,
+        proven,
+    } = ready;
     let base = machine.base.value;
-    let poses = Poses::of(&proven.program);
+    let poses = TaughtPoses::of(&proven.program);
     let rig = Rig::new(&machine.model, machine.tool.value.frame, base.frame);
     let judge = |spread| {
         Judge::new(
@@ -186,14 +207,14 @@ fn placed(ready: &Ready, bounds: Bounds) -> Placement {
     let (rough, fine) = (judge(SPREAD.0), judge(SPREAD.1));
     let now = Standing {
         base,
-        room: trial::with_base(plan, base).map_err(|reason| reason.to_string()),
+        room: tried(plan, machine, base),
     };
     let mut refused = Vec::new();
     let best = search(&rough, &fine, &base.frame, &bounds)
         .into_iter()
         .filter(|place| place.score.reached().is_some())
         .take(MOST_PROOFS)
-        .find_map(|place| prove(plan, base, place, &mut refused));
+        .find_map(|place| prove(plan, machine, place, &mut refused));
     let shown = best.as_ref().map_or(Spot::near(&base.frame), |best| best.spot);
     Placement {
         job: job.name.clone(),
@@ -208,12 +229,13 @@ fn placed(ready: &Ready, bounds: Bounds) -> Placement {
 }
 
 /// Puts a place to the whole proof.
-fn prove(plan: &PlannedJob, now: PlacedFrame, place: Placed, refused: &mut Vec<String>) -> Option<Best> {
+fn prove(plan: &PlannedJob, machine: &Machine, place: Placed, refused: &mut Vec<String>) -> Option<Best> {
+    let now = machine.base.value;
     let base = PlacedFrame {
         frame: wording::rounded(&place.spot.frame(&now.frame)),
         ..now
     };
-    match trial::with_base(plan, base) {
+    match tried(plan, machine, base) {
         Ok(room) => Some(Best {
             spot: place.spot,
             base,
@@ -223,5 +245,14 @@ fn prove(plan: &PlannedJob, now: PlacedFrame, place: Placed, refused: &mut Vec<S
             refused.push(format!("{}: {reason}", report::spot(place.spot)));
             None
         }
+    }
+}
+
+/// What room the whole program leaves with the base there; in words, why it is not carried out.
+fn tried(plan: &PlannedJob, machine: &Machine, base: PlacedFrame) -> Result<Room, String> {
+    match trial::with_base(plan, base) {
+        Some(Ok(reached)) => Ok(trial::room(&reached, &machine.model)),
+        Some(Err(unreached)) => Err(trial::words(&unreached, &machine.model)),
+        None => Err("the job has no machine".to_owned()),
     }
 }

@@ -16,7 +16,16 @@ const MOST_REFUSED: usize = 3;
 /// A few lines, ending in the frame to paste.
 #[must_use]
 pub fn text(placement: &Placement) -> String {
-    let Placement { job, machine, model, bounds, now, best, refused, .. } = placement;
+    let Placement {
+        job,
+        machine,
+        model,
+        bounds,
+        now,
+        best,
+        refused,
+        ..
+    } = placement;
     let mut text = format!("{job}: the base of {machine} ({model})\n");
     let mut row = |name: &str, words: &str| {
         // Writing to a string cannot fail.
@@ -26,7 +35,10 @@ pub fn text(placement: &Placement) -> String {
     row("now", &standing(now));
     match best {
         Some(best) if !is_better(best, now) => {
-            row("best", "where it is now: no place within these bounds leaves more room");
+            row(
+                "best",
+                "where it is now: no place within these bounds leaves more room",
+            );
         }
         Some(best) => {
             row("best", &room(&best.room));
@@ -52,7 +64,9 @@ fn none_found(now: &Standing) -> &'static str {
 
 /// Whether a place leaves more room than there is now.
 fn is_better(best: &Best, now: &Standing) -> bool {
-    now.room.as_ref().map_or(true, |room| best.room.margin > room.margin)
+    now.room
+        .as_ref()
+        .map_or(true, |room| best.room.margin > room.margin)
 }
 
 fn standing(now: &Standing) -> String {
@@ -63,7 +77,11 @@ fn standing(now: &Standing) -> String {
 }
 
 fn room(room: &Room) -> String {
-    format!("margin {} %, least {}", show((room.margin * 1000.0).floor() / 10.0), room.least)
+    format!(
+        "margin {} %, least {}",
+        show((room.margin * 1000.0).floor() / 10.0),
+        room.least
+    )
 }
 
 /// `x 1820 mm, y -40 mm, z 700 mm, turned by 12.5 deg`.
@@ -152,7 +170,11 @@ pub fn body(placement: &Placement) -> PlacementBody<'_> {
         job: &placement.job,
         machine: &placement.machine,
         model: &placement.model,
-        now: base_body(&placement.now.base, 0.0, placement.now.room.as_ref().map_err(String::as_str)),
+        now: base_body(
+            &placement.now.base,
+            0.0,
+            placement.now.room.as_ref().map_err(String::as_str),
+        ),
         best: placement
             .best
             .as_ref()

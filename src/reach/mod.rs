@@ -4,7 +4,15 @@
 //! flange in the machine's root. Every motion of a program is a [`path::Course`] of the blade; [`path`] proves that the
 //! axes follow it.
 
-pub mod margin;
+pub mod demand;
+pub mod ladder;
+pub mod legs;
 pub mod path;
 pub mod place;
 pub mod rig;
+mod runs;
+pub mod solve;
+mod survey;
+pub mod trouble;
+pub mod way;
+mod ways;

@@ -71,7 +71,10 @@ mod tests {
                 c: Angle::deg(180.0),
             }),
         });
-        let placed = PlacedFrame { frame, number: Some(3) };
+        let placed = PlacedFrame {
+            frame,
+            number: Some(3),
+        };
         assert_eq!(
             frame_text(&placed),
             "number(3, frame(x = 1700 mm, y = 0 mm, z = 650.5 mm, a = 12.346 deg, b = -20 deg, c = 180 deg))"

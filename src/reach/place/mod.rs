@@ -7,6 +7,7 @@
 //! climbs from its best places. What it finds is a promising place and nothing more: whoever offers it to people has the
 //! whole program proven there first.
 
+mod clearance;
 pub mod score;
 pub mod search;
 pub mod taught;

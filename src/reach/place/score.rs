@@ -5,9 +5,11 @@
 //! limits and to singular poses; the base's margin is that of its best branch. Where no branch reaches all poses, the
 //! branch that misses fewest stands for the base, so that a search can tell better from worse out there too.
 
+use super::clearance::clearance;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::{Joints, MOST_BRANCHES, Mechanism};
-use crate::reach::margin;
+use crate::reach::demand::{FULL, axis_margin};
+use crate::reach::path::Clearance;
 use core::cmp::Ordering;
 use core::f64::consts::TAU;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
@@ -84,7 +86,7 @@ impl<'m> Judge<'m> {
                     .iter_mut()
                     .find(|tally| tally.is_none_or(|tally| tally.branch == solution.branch));
                 if let Some(place) = place {
-                    let singular = margin::of_clearance(&margin::clearance(self.mechanism, &solution.joints));
+                    let singular = singular_share(&clearance(self.mechanism, &solution.joints));
                     match place {
                         Some(tally) => tally.add(self.axes, &solution.joints, singular),
                         None => *place = Some(Tally::new(solution.branch, &solution.joints, singular)),
@@ -159,10 +161,18 @@ fn best_turn(axis: &Axis, low: f64, high: f64) -> f64 {
         }
         AxisKind::Linear => 0.0,
     };
-    margin::of_axis(axis, low + turn, high + turn)
+    axis_margin(axis, low + turn, high + turn)
 }
 
 /// The angle within half a turn of another.
 fn near(angle: f64, other: f64) -> f64 {
     angle + TAU * ((other - angle) / TAU).round()
+}
+
+/// The smallest distance from a singular pose, as a share of [`FULL`].
+pub(super) fn singular_share(clearance: &Clearance) -> f64 {
+    (clearance.wrist / FULL.wrist)
+        .min(clearance.elbow / FULL.elbow)
+        .min(clearance.shoulder / FULL.shoulder)
+        .min(1.0)
 }

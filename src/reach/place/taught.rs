@@ -1,15 +1,16 @@
 //! The poses that a program teaches, and the few of them that tell whether the machine reaches them all.
 
 use crate::kinematics::pose::Pose;
+use crate::reach::legs::{Leg, Taught, legs};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Frame, Point3};
-use vcutc_backend_api::ir::{Action, OrientationId};
+use vcutc_backend_api::ir::OrientationId;
 use vcutc_backend_api::verify::VerifiedProgram;
 
 /// The tips of a program by how the blade is held there, each list in the order of the program.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Taught {
+pub struct TaughtPoses {
     groups: Vec<Group>,
 }
 
@@ -19,15 +20,17 @@ struct Group {
     tips: Vec<DVec3>,
 }
 
-impl Taught {
+impl TaughtPoses {
     /// The poses at the ends of a program's moves. A pose that comes again and again is kept once in a row.
     #[must_use]
     pub fn of(program: &VerifiedProgram) -> Self {
         let mut groups: BTreeMap<OrientationId, Group> = BTreeMap::new();
-        let mut at: Option<(Point3, OrientationId)> = None;
-        for (_, op) in program.ops() {
-            at = after(at, &op.action);
-            let Some((tip, held)) = at else { continue };
+        let taught = legs(program.program()).into_iter().filter_map(|leg| match leg {
+            Leg::ByAxes(taught) => Some(taught),
+            Leg::Along(stroke) => Some(stroke.to),
+            Leg::Still | Leg::Home => None,
+        });
+        for Taught { tip, held } in taught {
             let group = groups.entry(held).or_insert_with(|| Group {
                 held: Pose::from(Frame {
                     origin: Point3::new(0.0, 0.0, 0.0),
@@ -111,30 +114,4 @@ fn directions() -> impl Iterator<Item = DVec3> {
             .flat_map(move |y| SIGNS.into_iter().map(move |z| DVec3::new(x, y, z)))
             .filter(|direction| *direction != DVec3::ZERO)
     })
-}
-
-/// Where the tip is, and how the blade is held, after an action; unknown at home.
-const fn after(at: Option<(Point3, OrientationId)>, action: &Action) -> Option<(Point3, OrientationId)> {
-    match (*action, at) {
-        (Action::Home, _) => None,
-        (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
-            Some((to, orientation))
-        }
-        (
-            Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. },
-            Some((_, held)),
-        ) => Some((to, held)),
-        (Action::Turn { to, .. }, Some((tip, _))) => Some((tip, to)),
-        (
-            Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. },
-            at,
-        ) => at,
-    }
 }

@@ -1,11 +1,12 @@
 //! The search against judging every place of a coarse grid in another way.
 
-use super::score::{Judge, Score};
+use super::clearance::clearance;
+use super::score::{Judge, Score, singular_share};
 use super::search::{Bounds, search};
 use super::{Spot, score};
 use crate::kinematics::pose::Pose;
 use crate::machine::{Model, catalogue};
-use crate::reach::margin;
+use crate::reach::demand::axis_margin;
 use core::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
@@ -83,14 +84,14 @@ fn margin_by_definition(model: &Model, work_in_root: &Pose) -> Option<f64> {
                 joints
                     .iter()
                     .map(|joints| joints[axis] + TAU * ((start - joints[axis]) / TAU).round())
-                    .map(|angle| margin::of_axis(&model.axes[axis], angle, angle))
+                    .map(|angle| axis_margin(&model.axes[axis], angle, angle))
                     .fold(f64::INFINITY, f64::min)
             });
             turns.fold(f64::NEG_INFINITY, f64::max)
         });
         let singular = joints
             .iter()
-            .map(|joints| margin::of_clearance(&margin::clearance(&model.mechanism, joints)));
+            .map(|joints| singular_share(&clearance(&model.mechanism, joints)));
         Some(axes.chain(singular).fold(f64::INFINITY, f64::min))
     });
     margins.max_by(f64::total_cmp).filter(|&margin| margin >= 0.0)

@@ -1,8 +1,19 @@
 //! The path check: whether the axes follow the blade along a whole motion.
 
+mod along;
+mod arm;
+mod course;
+mod interval;
+mod march;
+#[cfg(test)]
+mod tests;
+
 use super::rig::Rig;
-use crate::kinematics::Joints;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::{Joints, Mechanism};
+use arm::ArmBranch;
+use course::Flight;
+use march::{Bounds, march};
 use vcutc_backend_api::motion::Branch;
 
 /// A motion as controllers interpolate it: the tip on a straight line, the orientation on one rotation axis (of a robot) or
@@ -94,7 +105,7 @@ pub enum Singularity {
 /// within the limits and rates of the rig's axes and no nearer to singular poses than `least`.
 ///
 /// # Errors
-/// The first place found where they do not.
+/// The first place where they do not, or where that cannot be told apart from rounding.
 pub fn prove(
     rig: &Rig<'_>,
     course: &Course,
@@ -102,9 +113,60 @@ pub fn prove(
     start: &Joints,
     least: &Clearance,
 ) -> Result<Proof, Breach> {
-    let _ = (rig, course, branch, start, least);
-    Err(Breach {
+    const BEGINNING: Breach = Breach {
         at: 0.0,
         what: Violation::OutOfReach,
-    })
+    };
+    let flight = Flight::new(rig, course).ok_or(BEGINNING)?;
+    if !(course.duration > 0.0 && course.duration.is_finite()) {
+        return Err(BEGINNING);
+    }
+    // Where the closed form finds no way, or another than the given one, there is nothing to continue.
+    let begun = rig.mechanism.on_branch(&flight.flange_at(0.0), branch, start);
+    if !begun.is_some_and(|begun| is_same(&begun, start)) {
+        return Err(BEGINNING);
+    }
+    let bounds = Bounds {
+        axes: rig.axes,
+        least: *least,
+        duration: course.duration,
+    };
+    let mut proof = match (rig.mechanism, branch) {
+        (
+            Mechanism::OrthoParallel(arm),
+            Branch::Arm {
+                shoulder,
+                elbow,
+                wrist,
+            },
+        ) => {
+            let branch = ArmBranch {
+                shoulder,
+                elbow,
+                wrist,
+            };
+            march(&bounds, start, |span, _| {
+                Ok(arm::posture(arm, branch, &flight.over(span))?.stretch(span))
+            })?
+        }
+        (Mechanism::OrthoParallel(_), Branch::Numbered(_)) => return Err(BEGINNING),
+    };
+    // The enclosure of the end tells the turns; this is the end to the last digit.
+    if let Some(end) = rig
+        .mechanism
+        .on_branch(&flight.flange_at(1.0), branch, &proof.end)
+    {
+        proof.end = end;
+    }
+    proof.solves += 2;
+    Ok(proof)
+}
+
+/// How far apart given and computed axis values at the start may be, in rad or mm.
+const SAME_START: f64 = 1e-5;
+
+fn is_same(one: &Joints, other: &Joints) -> bool {
+    one.iter()
+        .zip(other)
+        .all(|(one, other)| (one - other).abs() <= SAME_START)
 }

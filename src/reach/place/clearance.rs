@@ -1,30 +1,12 @@
-//! Margins: how much room is left, from 1 (every axis in the middle of its range, far from singular poses) to 0.
+//! How far a machine stands from its singular poses at given axis values.
 
-use super::path::Clearance;
-use crate::kinematics::Joints;
-use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
-use core::f64::consts::{FRAC_PI_2, PI};
-use vcutc_backend_api::ir::Axis;
-
-/// The margin of an axis that goes from `low` to `high`: what is left to the nearer limit, as a share of half the range.
-#[must_use]
-pub fn of_axis(axis: &Axis, low: f64, high: f64) -> f64 {
-    (low - axis.min).min(axis.max - high) / ((axis.max - axis.min) / 2.0)
-}
-
-/// The margin of an arm that keeps this far from its singular poses.
-#[must_use]
-pub fn of_clearance(clearance: &Clearance) -> f64 {
-    (clearance.wrist / FRAC_PI_2)
-        .min(clearance.elbow / FRAC_PI_2)
-        .min(clearance.shoulder / 1000.0)
-        .min(1.0)
-}
+use crate::kinematics::{Joints, Mechanism};
+use crate::reach::path::Clearance;
+use core::f64::consts::PI;
 
 /// How far an arm is from its singular poses.
-#[must_use]
-pub fn clearance(mechanism: &Mechanism, joints: &Joints) -> Clearance {
+pub(super) fn clearance(mechanism: &Mechanism, joints: &Joints) -> Clearance {
     match mechanism {
         Mechanism::OrthoParallel(arm) => arm_clearance(arm, joints),
     }

@@ -1,0 +1,1 @@
+//! The way up against trying all of them.

@@ -1,0 +1,333 @@
+//! The proof against dense sampling, on random moves of several arms.
+
+use super::*;
+use crate::kinematics::opw::{Coupling, Opw};
+use crate::machine::{Model, catalogue};
+use core::f64::consts::{FRAC_PI_2, PI};
+use glam::{DMat3, DQuat, DVec3};
+use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
+
+/// How near singular poses the tests let an arm come.
+const LEAST: Clearance = Clearance {
+    wrist: 0.02,
+    elbow: 0.02,
+    shoulder: 5.0,
+};
+
+/// Random numbers, the same in every run (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^= bits >> 31;
+        low + (high - low) * ((bits >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        loop {
+            let vector = DVec3::from_array(core::array::from_fn(|_| self.between(-1.0, 1.0)));
+            if (0.1..=1.0).contains(&vector.length()) {
+                return vector.normalize();
+            }
+        }
+    }
+
+    fn rotation(&mut self, most: f64) -> DMat3 {
+        let axis = self.direction();
+        let (sin, cos) = libm::sincos(0.5 * self.between(0.0, most));
+        DMat3::from_quat(DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos))
+    }
+}
+
+fn kuka() -> Model {
+    catalogue::find("kuka/kr210_r3100_ultra").unwrap()
+}
+
+/// Made up: an arm whose plane lies beside axis 1, with the forearm's axis above the elbow.
+fn beside() -> Model {
+    made_up(
+        Opw {
+            a1: 320.0,
+            a2: -200.0,
+            b: 85.0,
+            c1: 780.0,
+            c2: 1125.0,
+            c3: 1142.5,
+            c4: 200.0,
+            offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, 0.0],
+            signs: [1.0; 6],
+            coupling: Coupling::Serial,
+        },
+        [
+            (-170.0, 170.0),
+            (-65.0, 85.0),
+            (-180.0, 70.0),
+            (-300.0, 300.0),
+            (-130.0, 130.0),
+            (-360.0, 360.0),
+        ],
+    )
+}
+
+/// Made up: an arm with a parallelogram.
+fn rods() -> Model {
+    made_up(
+        Opw {
+            a1: 300.0,
+            a2: -280.0,
+            b: 0.0,
+            c1: 814.5,
+            c2: 700.0,
+            c3: 893.0,
+            c4: 200.0,
+            offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, 0.0],
+            signs: [1.0; 6],
+            coupling: Coupling::Parallelogram,
+        },
+        [
+            (-180.0, 180.0),
+            (-42.0, 85.0),
+            (-20.0, 120.0),
+            (-300.0, 300.0),
+            (-120.0, 120.0),
+            (-360.0, 360.0),
+        ],
+    )
+}
+
+fn made_up(arm: Opw, limits: [(f64, f64); 6]) -> Model {
+    let axes = limits.map(|(min, max)| Axis {
+        name: "J".to_owned(),
+        kind: AxisKind::Rotary,
+        min: f64::to_radians(min),
+        max: f64::to_radians(max),
+        rate: Some(f64::to_radians(110.0)),
+        acceleration: None,
+    });
+    Model {
+        name: "test/made_up".to_owned(),
+        maker: Maker::Other,
+        axes: axes.to_vec(),
+        mechanism: Mechanism::OrthoParallel(arm),
+    }
+}
+
+fn arm_of(model: &Model) -> Opw {
+    let Mechanism::OrthoParallel(arm) = &model.mechanism else {
+        panic!("{} is an ortho-parallel arm", model.name);
+    };
+    *arm
+}
+
+/// A blade held at an angle on the flange, and work that stands before the robot, turned.
+fn rig(model: &Model) -> Rig<'_> {
+    let mut dice = Dice(7);
+    let placed = |x, y, z, rotation| {
+        Frame::from(Pose {
+            rotation,
+            position: DVec3::new(x, y, z),
+        })
+    };
+    let tool = placed(40.0, -25.0, 310.0, dice.rotation(1.0));
+    let base = placed(1400.0, -300.0, 400.0, dice.rotation(0.5));
+    Rig::new(model, tool, base)
+}
+
+/// A move from within the axes' ranges, and the branch it begins on.
+fn random_move(dice: &mut Dice, rig: &Rig<'_>, longest: f64, most_turn: f64) -> (Course, Branch, Joints) {
+    let mut start = [0.0; 6];
+    for (value, axis) in start.iter_mut().zip(rig.axes) {
+        let inside = 0.02 * (axis.max - axis.min);
+        *value = dice.between(axis.min + inside, axis.max - inside);
+    }
+    let from = rig.blade_in_work(&start);
+    let length = dice.between(1.0, longest);
+    let to = Pose {
+        rotation: dice.rotation(most_turn) * from.rotation,
+        position: from.position + dice.direction() * length,
+    };
+    let duration = length / dice.between(20.0, 600.0);
+    let course = Course { from, to, duration };
+    (course, branch_of(rig, &start), start)
+}
+
+fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
+    let flange = rig.mechanism.flange_in_root(joints);
+    let apart = |other: &Joints| -> f64 {
+        (0..6)
+            .map(|i| libm::sin(0.5 * (other[i] - joints[i])).abs())
+            .sum()
+    };
+    let solutions = rig.mechanism.all(&flange);
+    let nearest = solutions
+        .iter()
+        .min_by(|a, b| apart(&a.joints).total_cmp(&apart(&b.joints)));
+    nearest.unwrap().branch
+}
+
+/// What sampling finds: values, rates and clearances at places at most 0.05 mm apart, by numbers and a formula of its own
+/// for the interpolation.
+struct Sampled {
+    low: Joints,
+    high: Joints,
+    rate: Joints,
+    clearance: Clearance,
+    end: Joints,
+}
+
+fn sample(rig: &Rig<'_>, arm: &Opw, course: &Course, branch: Branch, start: &Joints) -> Option<Sampled> {
+    let length = course.from.position.distance(course.to.position);
+    let steps = (length / 0.05).ceil().max(200.0);
+    let mut found = Sampled {
+        low: *start,
+        high: *start,
+        rate: [0.0; 6],
+        clearance: clearance_at(arm, start),
+        end: *start,
+    };
+    let (one, other) = (
+        DQuat::from_mat3(&course.from.rotation),
+        DQuat::from_mat3(&course.to.rotation),
+    );
+    for k in 1..=steps as u32 {
+        let s = f64::from(k) / steps;
+        let blade = Pose {
+            rotation: DMat3::from_quat(one.slerp(other, s)),
+            position: course.from.position.lerp(course.to.position, s),
+        };
+        let joints = rig
+            .mechanism
+            .on_branch(&rig.flange_in_root(&blade), branch, &found.end)?;
+        for i in 0..6 {
+            found.low[i] = found.low[i].min(joints[i]);
+            found.high[i] = found.high[i].max(joints[i]);
+            let rate = (joints[i] - found.end[i]).abs() * steps / course.duration;
+            found.rate[i] = found.rate[i].max(rate);
+        }
+        found.clearance = found.clearance.least(&clearance_at(arm, &joints));
+        found.end = joints;
+    }
+    Some(found)
+}
+
+fn clearance_at(arm: &Opw, joints: &Joints) -> Clearance {
+    let elbow = match arm.coupling {
+        Coupling::Serial => joints[2],
+        Coupling::Parallelogram => joints[2] - joints[1],
+    };
+    let psi = arm.signs[2] * elbow - arm.offsets[2] + libm::atan2(arm.a2, arm.c3);
+    let flange = arm.forward(joints);
+    let centre = flange.position - flange.rotation.z_axis * arm.c4;
+    let (sin, cos) = libm::sincos(arm.signs[0] * joints[0] - arm.offsets[0]);
+    let from_line = |angle: f64| libm::asin(libm::sin(angle).abs());
+    Clearance {
+        wrist: from_line(joints[4]),
+        elbow: from_line(psi),
+        shoulder: (cos * centre.x + sin * centre.y).abs(),
+    }
+}
+
+/// By how much the axes keep within all bounds, in parts of the margin below which the proof may refuse: 1 deg of angle,
+/// 5 mm, 5 percent of the rate. Negative where a bound is broken.
+fn margin(rig: &Rig<'_>, found: &Sampled) -> f64 {
+    let degree = 1.0_f64.to_radians();
+    let mut margin = f64::INFINITY;
+    for (i, axis) in rig.axes.iter().enumerate() {
+        margin = margin.min((axis.max - found.high[i]) / degree);
+        margin = margin.min((found.low[i] - axis.min) / degree);
+        if let Some(most) = axis.rate {
+            margin = margin.min((most - found.rate[i]) / (0.05 * most));
+        }
+    }
+    let clearance = &found.clearance;
+    margin
+        .min((clearance.wrist - LEAST.wrist) / degree)
+        .min((clearance.elbow - LEAST.elbow) / degree)
+        .min((clearance.shoulder - LEAST.shoulder) / 5.0)
+}
+
+fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64) {
+    let rig = rig(model);
+    let arm = arm_of(model);
+    let mut dice = Dice(u64::from(moves));
+    let (mut proven, mut refused, mut solves) = (0, 0, 0);
+    for number in 0..moves {
+        let (course, branch, start) = random_move(&mut dice, &rig, longest, most_turn);
+        let proof = prove(&rig, &course, branch, &start, &LEAST);
+        let sampled = sample(&rig, &arm, &course, branch, &start);
+        let margin = sampled.as_ref().map_or(-1.0, |found| margin(&rig, found));
+        match proof {
+            Ok(proof) => {
+                let found = sampled.unwrap();
+                assert!(
+                    margin > -1e-6,
+                    "{}, move {number}: a violation was missed",
+                    model.name
+                );
+                holds(&proof, &found, &format!("{}, move {number}", model.name));
+                proven += 1;
+                solves = solves.max(proof.solves);
+            }
+            Err(breach) => {
+                assert!(
+                    margin < 1.0,
+                    "{}, move {number}: {breach:?} with a margin of {margin}",
+                    model.name
+                );
+                refused += 1;
+            }
+        }
+    }
+    println!(
+        "{}: {proven} proven with at most {solves} solves, {refused} refused",
+        model.name
+    );
+    assert!(
+        proven > moves / 10 && refused > moves / 10,
+        "{proven} and {refused}: the moves are one-sided"
+    );
+}
+
+/// All samples lie within what was proven, and what was proven is not much more than the samples.
+fn holds(proof: &Proof, found: &Sampled, name: &str) {
+    const ROUNDING: f64 = 1e-9;
+    for i in 0..6 {
+        assert!(proof.low[i] <= found.low[i] + ROUNDING, "{name}, axis {i}");
+        assert!(proof.high[i] >= found.high[i] - ROUNDING, "{name}, axis {i}");
+        assert!(
+            proof.rate[i] >= found.rate[i] * (1.0 - 1e-6) - 1e-6,
+            "{name}, axis {i}: {} {}",
+            proof.rate[i],
+            found.rate[i]
+        );
+        assert!(
+            (proof.end[i] - found.end[i]).abs() <= ROUNDING,
+            "{name}, axis {i}"
+        );
+        let wide = (proof.high[i] - proof.low[i]) - (found.high[i] - found.low[i]);
+        assert!(wide <= 0.4_f64.to_radians(), "{name}, axis {i}: {wide}");
+    }
+    let (proven, seen) = (&proof.clearance, &found.clearance);
+    assert!(proven.wrist <= seen.wrist + ROUNDING, "{name}");
+    assert!(proven.elbow <= seen.elbow + ROUNDING, "{name}");
+    assert!(proven.shoulder <= seen.shoulder + 1e-6, "{name}");
+}
+
+#[test]
+fn agrees_with_dense_sampling_on_short_moves() {
+    for model in [kuka(), beside(), rods()] {
+        agrees_with_sampling(&model, 1000, 60.0, 0.6);
+    }
+}
+
+#[test]
+fn agrees_with_dense_sampling_on_long_moves() {
+    for model in [kuka(), beside(), rods()] {
+        agrees_with_sampling(&model, 100, 1000.0, PI * 0.9);
+    }
+}

@@ -1,0 +1,357 @@
+//! The branch for a whole program, and with it the axes at the end of every op.
+//!
+//! Wanted is one branch of the inverse kinematics, and one turn of each axis, that carries the whole program with the largest
+//! margin ([`super::demand`]). Taught poses alone say for each branch what its margin is at most, cheaply; branches are then
+//! proven in the order of these bounds, until a proven margin is no smaller than the bounds of all that are left.
+//!
+//! Where no branch carries the program, it is taken apart wherever all axes could move at once in the air above the stock,
+//! every branch is proven on every part, and the [`super::ladder`] says where to change. A `Travel` at which the branch
+//! changes becomes an `AxisTravel`.
+//!
+//! Nothing depends on how many threads prove: proofs are joined in the order of the ops.
+
+use super::demand::{Demand, axis_margin};
+use super::ladder::{Stuck, climb};
+use super::legs::{Leg, Taught, legs};
+use super::path::{Clearance, Proof};
+use super::rig::Rig;
+use super::runs::{Split, Station, StationKind, split};
+use super::survey::{Extent, Failure, Survey, middles, moved, opened};
+use super::trouble::{self, Trouble};
+use super::ways::{OnBranch, Ways};
+use crate::kinematics::Joints;
+use crate::machine::Model;
+use core::f64::consts::TAU;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::{Action, Axis, AxisKind, AxisValues, Cell, OpId, Program};
+use vcutc_backend_api::motion::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch};
+use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
+
+/// How near a singular pose an arm may come: a degree of axis 5, a degree of the elbow, 10 mm between wrist and axis 1. Nearer
+/// than that a controller's own rounding decides what the axes do; how fast they must go near such a pose is told by the
+/// rates, which usually say no much earlier.
+pub const LEAST_CLEARANCE: Clearance = Clearance {
+    wrist: core::f64::consts::PI / 180.0,
+    elbow: core::f64::consts::PI / 180.0,
+    shoulder: 10.0,
+};
+
+/// A program that the machine can carry out.
+#[derive(Debug)]
+pub struct Reached {
+    /// The program with the motion of the machine.
+    pub program: ReachableProgram,
+    /// What it asks of the machine.
+    pub report: ReachReport,
+}
+
+/// What a program asks of its machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReachReport {
+    /// The branches, in order.
+    pub stretches: Vec<Stretch>,
+    /// The axes where the first motion to a pose ends.
+    pub first: Joints,
+    /// What all motions along courses ask together.
+    pub demand: Demand,
+    /// The smallest margin (see [`super::demand`]).
+    pub margin: f64,
+}
+
+/// Why a program is not carried out.
+#[derive(Debug)]
+pub enum Unreached {
+    /// The machine cannot.
+    Unreachable(Box<Unreachable>),
+    /// The program that came out breaks a rule, which is a fault of the compiler.
+    Rules(Vec<Fault>),
+    /// The motion that came out breaks a rule, which is a fault of the compiler.
+    Motion(Vec<MotionFault>),
+}
+
+/// A program that its machine cannot carry out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unreachable {
+    /// The program.
+    pub program: VerifiedProgram,
+    /// What keeps the machine from it.
+    pub trouble: Trouble,
+}
+
+/// Finds how a machine carries out a program, nowhere nearer to singular poses than `least`.
+///
+/// # Errors
+/// Where and why it cannot.
+pub fn solve(program: VerifiedProgram, model: &Model, least: &Clearance) -> Result<Reached, Unreached> {
+    let Some(cell) = &program.program().cell else {
+        let what = MotionRule::Machine;
+        return Err(Unreached::Motion(vec![MotionFault { op: None, what }]));
+    };
+    let legs = legs(program.program());
+    let rig = rig(model, cell);
+    let open = opened(&model.axes);
+    let survey = Survey {
+        program: program.program(),
+        legs: &legs,
+        open: Rig {
+            axes: &open,
+            ..rig.clone()
+        },
+        rig: rig.clone(),
+        middle: middles(&model.axes),
+        least: *least,
+    };
+    let home = cell.home.map(|home| home.0);
+    let bounds = screen(&survey);
+    let solved = match on_one_branch(&survey, &bounds, home) {
+        Some(solved) => Ok(solved),
+        None => by_changes(&survey, &bounds, home),
+    };
+    match solved {
+        Ok(solved) => finish(program, &rig, solved),
+        Err(trouble) => Err(Unreached::Unreachable(Box::new(Unreachable { program, trouble }))),
+    }
+}
+
+/// A machine as a program's cell sets it up.
+#[must_use]
+pub fn rig<'m>(model: &'m Model, cell: &Cell) -> Rig<'m> {
+    Rig::new(model, cell.tool.frame, cell.base.frame)
+}
+
+/// Checks the motion and joins it to the program.
+fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Reached, Unreached> {
+    let program = if solved.changes.is_empty() {
+        program
+    } else {
+        let changed = with_changes(program.program(), &solved.changes);
+        verify(changed).map_err(Unreached::Rules)?
+    };
+    let motion = Motion {
+        ends: solved.ends.into_iter().map(AxisValues).collect(),
+        stretches: solved.report.stretches.clone(),
+    };
+    let blade_in_work = |values: &AxisValues| Frame::from(rig.blade_in_work(&values.0));
+    let program = ReachableProgram::assemble(program, motion, &blade_in_work).map_err(Unreached::Motion)?;
+    Ok(Reached {
+        program,
+        report: solved.report,
+    })
+}
+
+/// The program with moves of all axes in place of some of its travels.
+fn with_changes(program: &Program, changes: &[OpId]) -> Program {
+    let mut program = program.clone();
+    for &id in changes {
+        if let Some(op) = program.ops.get_mut(id.0 as usize)
+            && let Action::Travel { to, orientation, .. } = op.action
+        {
+            op.action = Action::AxisTravel { to, orientation };
+        }
+    }
+    program
+}
+
+/// The axes at the end of every op, before they are checked.
+struct Solved {
+    ends: Vec<Joints>,
+    changes: Vec<OpId>,
+    report: ReachReport,
+}
+
+/// A branch, and its margin at taught poses; none where it does not reach all of them.
+type Bound = (Branch, Option<f64>);
+
+/// What each branch makes of the taught poses alone.
+fn screen(survey: &Survey<'_>) -> Vec<Bound> {
+    let taught: Vec<Taught> = survey
+        .legs
+        .iter()
+        .filter_map(|leg| match leg {
+            Leg::ByAxes(taught) => Some(*taught),
+            Leg::Along(stroke) => Some(stroke.to),
+            Leg::Still | Leg::Home => None,
+        })
+        .collect();
+    let seen = taught
+        .par_chunks(SCREENED)
+        .map(|poses| {
+            let mut seen: BTreeMap<Branch, (usize, f64)> = BTreeMap::new();
+            for &pose in poses {
+                for solution in survey.stands(pose).iter() {
+                    let margin = best_margin(survey.rig.axes, &solution.joints);
+                    let entry = seen.entry(solution.branch).or_insert((0, f64::INFINITY));
+                    entry.0 += usize::from(margin >= 0.0);
+                    entry.1 = entry.1.min(margin);
+                }
+            }
+            seen
+        })
+        .reduce(BTreeMap::new, |mut all, more| {
+            for (branch, (count, margin)) in more {
+                let entry = all.entry(branch).or_insert((0, f64::INFINITY));
+                entry.0 += count;
+                entry.1 = entry.1.min(margin);
+            }
+            all
+        });
+    seen.into_iter()
+        .map(|(branch, (count, margin))| (branch, (count == taught.len()).then_some(margin)))
+        .collect()
+}
+
+/// Poses that are screened at once.
+const SCREENED: usize = 1024;
+
+/// The margin at axis values, each axis on its best turn: the one nearest to the middle of its range.
+fn best_margin(axes: &[Axis], joints: &Joints) -> f64 {
+    let margins = axes.iter().zip(joints).map(|(axis, &value)| {
+        let from_middle = value - f64::midpoint(axis.min, axis.max);
+        let by = match axis.kind {
+            AxisKind::Rotary => -(from_middle / TAU).round() * TAU,
+            AxisKind::Linear => 0.0,
+        };
+        axis_margin(axis, value + by, value + by)
+    });
+    margins.fold(f64::INFINITY, f64::min)
+}
+
+/// The branch that carries the whole program with the largest margin.
+fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Option<Solved> {
+    let stations = split(survey.legs, Split::AtAxisMoves);
+    let mut by_bound: Vec<(Branch, f64)> = bounds
+        .iter()
+        .filter_map(|&(branch, bound)| Some((branch, bound?)))
+        .collect();
+    // A stable sort: branches of the same bound stay in their order.
+    by_bound.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    let mut best: Option<Solved> = None;
+    for (branch, bound) in by_bound {
+        if best.as_ref().is_some_and(|best| best.report.margin >= bound) {
+            break;
+        }
+        let Some(carried) = on_branch(survey, &stations, branch) else {
+            continue;
+        };
+        let mut ways = Ways::new(survey, &stations, &carried, home);
+        let Ok(way) = climb(&mut ways) else { continue };
+        let solved = solved(survey, &stations, &ways, &way);
+        if best
+            .as_ref()
+            .is_none_or(|best| solved.report.margin > best.report.margin)
+        {
+            best = Some(solved);
+        }
+    }
+    best
+}
+
+/// All stations on one branch; nothing if it fails on any.
+fn on_branch(survey: &Survey<'_>, stations: &[Station], branch: Branch) -> Option<Vec<Vec<OnBranch>>> {
+    stations
+        .iter()
+        .map(|station| match station.kind {
+            StationKind::Home => Some(Vec::new()),
+            StationKind::Run(_) | StationKind::Joined(_) => {
+                let carried = survey.run(station, branch, Extent::FirstFailure).ok()?;
+                Some(vec![OnBranch {
+                    branch,
+                    carried,
+                    joined: None,
+                }])
+            }
+        })
+        .collect()
+}
+
+/// The best way with changes of the branch in the air.
+fn by_changes(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Result<Solved, Trouble> {
+    let stations = split(survey.legs, Split::AtDetours);
+    let mut carried = Vec::with_capacity(stations.len());
+    let mut failed: Vec<Vec<(Branch, Vec<Failure>)>> = Vec::with_capacity(stations.len());
+    for station in &stations {
+        let (mut carrying, mut failing) = (Vec::new(), Vec::new());
+        if station.kind != StationKind::Home {
+            for &(branch, _) in bounds {
+                match survey.run(station, branch, Extent::Whole) {
+                    Ok(carried) => carrying.push(OnBranch {
+                        branch,
+                        carried,
+                        joined: joined(survey, station, branch),
+                    }),
+                    Err(failures) => failing.push((branch, failures)),
+                }
+            }
+        }
+        carried.push(carrying);
+        failed.push(failing);
+    }
+    let mut ways = Ways::new(survey, &stations, &carried, home);
+    match climb(&mut ways) {
+        Ok(way) => Ok(solved(survey, &stations, &ways, &way)),
+        Err(Stuck::At(station)) => Err(trouble::found(survey, &stations, &carried, &failed, station)),
+        Err(Stuck::Refuted(station)) => Err(trouble::on_the_way(&stations, ways.refused, station)),
+    }
+}
+
+fn joined(survey: &Survey<'_>, station: &Station, branch: Branch) -> Option<Proof> {
+    match &station.kind {
+        StationKind::Home | StationKind::Run(_) => None,
+        StationKind::Joined(stroke) => survey.stroke(stroke, branch).ok(),
+    }
+}
+
+/// Puts together what a way up says of every op.
+fn solved(survey: &Survey<'_>, stations: &[Station], ways: &Ways<'_>, way: &[usize]) -> Solved {
+    let mut ends: Vec<Joints> = Vec::with_capacity(survey.legs.len());
+    let mut changes = Vec::new();
+    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut demand: Option<Demand> = None;
+    let mut first: Option<Joints> = None;
+    let mut add = |more: Demand| {
+        demand = Some(demand.as_ref().map_or(more, |demand| demand.and(&more)));
+    };
+    let mut from = 0;
+    for (index, (station, &rung)) in stations.iter().zip(way).enumerate() {
+        let Some(at) = ways.rung(index, rung) else {
+            continue;
+        };
+        // Ops before the first station move nothing.
+        ends.resize(station.ops.start, at.start);
+        match ways.on(index, rung) {
+            None => ends.resize(station.ops.end, at.start),
+            Some(run) => {
+                ends.extend(run.carried.ends.iter().map(|end| moved(end, &at.by)));
+                add(run.carried.demand.turned(&at.by));
+                first = first.or(Some(at.start));
+                if stretches.last().is_none_or(|last| last.branch != run.branch) {
+                    stretches.push(Stretch {
+                        from: station.entry(),
+                        branch: run.branch,
+                    });
+                }
+            }
+        }
+        match (station.kind, ways.join(index, from, rung)) {
+            (StationKind::Joined(_), Some(join)) => add(join),
+            (StationKind::Joined(_), None) => changes.push(station.entry()),
+            (StationKind::Home | StationKind::Run(_), _) => {}
+        }
+        from = rung;
+    }
+    let first = first.unwrap_or(survey.middle);
+    let demand = demand.unwrap_or_else(|| Demand::standing(OpId(0), &first));
+    let margin = demand.margin(survey.rig.axes);
+    Solved {
+        ends,
+        changes,
+        report: ReachReport {
+            stretches,
+            first,
+            demand,
+            margin,
+        },
+    }
+}

@@ -1,0 +1,249 @@
+//! The survey: what a branch makes of a run.
+//!
+//! Every course of a run is proven on its own, so that they can be proven at the same time, and joined afterwards. A course
+//! is begun with each axis within half a turn of the middle of its range; where a course ends a whole number of turns away
+//! from where the next begins, all that follows is moved on by those turns. Axes that can make a full turn have their
+//! limits left open meanwhile: which turn they are best on is decided when the sweep of the whole run is known, and it is
+//! known exactly, for turns move it as a whole.
+
+use super::demand::Demand;
+use super::legs::{Leg, Poses, Stroke, Taught, numbered};
+use super::path::{Breach, Clearance, Proof, Violation, prove};
+use super::rig::Rig;
+use super::runs::Station;
+use crate::kinematics::{Joints, Solutions};
+use core::f64::consts::TAU;
+use rayon::prelude::*;
+use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId, Program};
+use vcutc_backend_api::motion::Branch;
+
+/// A program on a machine, ready to be surveyed.
+pub(super) struct Survey<'s> {
+    pub(super) program: &'s Program,
+    pub(super) legs: &'s [Leg],
+    /// The machine as it is.
+    pub(super) rig: Rig<'s>,
+    /// The machine with the limits of axes that can make a full turn left open.
+    pub(super) open: Rig<'s>,
+    /// The middle of each axis' range.
+    pub(super) middle: Joints,
+    pub(super) least: Clearance,
+}
+
+/// A run that a branch carries.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Carried {
+    /// The axes at the end of each of its ops; the first op leads to its beginning.
+    pub(super) ends: Vec<Joints>,
+    /// What it asks of the machine, up to turns of its axes.
+    pub(super) demand: Demand,
+    /// How far the axes go, each measured by its range.
+    pub(super) travel: f64,
+}
+
+/// A motion that a branch does not carry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Failure {
+    pub(super) op: OpId,
+    pub(super) breach: Breach,
+}
+
+/// How much of a run is surveyed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// Up to a motion that is not carried.
+    FirstFailure,
+    /// All of it.
+    Whole,
+}
+
+/// Courses that are proven before they are joined: enough to keep processors busy, few enough to be held at once.
+const BATCH: usize = 4096;
+
+/// The axes with the limits of those that can make a full turn moved out by a turn either way, which no single motion uses up.
+pub(super) fn opened(axes: &[Axis]) -> Vec<Axis> {
+    axes.iter()
+        .map(|axis| {
+            let room = match axis.kind {
+                AxisKind::Rotary if axis.max - axis.min >= TAU => TAU,
+                AxisKind::Rotary | AxisKind::Linear => 0.0,
+            };
+            Axis {
+                min: axis.min - room,
+                max: axis.max + room,
+                ..axis.clone()
+            }
+        })
+        .collect()
+}
+
+/// The middle of each axis' range.
+pub(super) fn middles(axes: &[Axis]) -> Joints {
+    let mut middle = [0.0; MOST_AXES];
+    for (middle, axis) in middle.iter_mut().zip(axes) {
+        *middle = f64::midpoint(axis.min, axis.max);
+    }
+    middle
+}
+
+/// How far axes go, each measured by its range.
+pub(super) fn travel(axes: &[Axis], from: &Joints, to: &Joints) -> f64 {
+    let ways = axes.iter().zip(from.iter().zip(to)).map(|(axis, (from, to))| {
+        let range = axis.max - axis.min;
+        if range > 0.0 {
+            (to - from).abs() / range
+        } else {
+            0.0
+        }
+    });
+    ways.sum()
+}
+
+impl Survey<'_> {
+    /// The axes on a branch at a taught pose, each within half a turn of the middle of its range.
+    pub(super) fn stand(&self, taught: Taught, branch: Branch) -> Option<Joints> {
+        let blade_in_work = Poses::of(self.program).blade_in_work(taught)?;
+        let flange_in_root = self.rig.flange_in_root(&blade_in_work);
+        self.rig
+            .mechanism
+            .on_branch(&flange_in_root, branch, &self.middle)
+    }
+
+    /// All ways to stand at a taught pose.
+    pub(super) fn stands(&self, taught: Taught) -> Solutions {
+        match Poses::of(self.program).blade_in_work(taught) {
+            Some(pose) => self.rig.mechanism.all(&self.rig.flange_in_root(&pose)),
+            None => Solutions::NONE,
+        }
+    }
+
+    /// Proves one course on a branch.
+    pub(super) fn stroke(&self, stroke: &Stroke, branch: Branch) -> Result<Proof, Breach> {
+        let nowhere = Breach {
+            at: 0.0,
+            what: Violation::OutOfReach,
+        };
+        let start = self.stand(stroke.from, branch).ok_or(nowhere)?;
+        let course = Poses::of(self.program).course(stroke).ok_or(nowhere)?;
+        prove(&self.open, &course, branch, &start, &self.least)
+    }
+
+    /// What a branch makes of a run.
+    pub(super) fn run(
+        &self,
+        station: &Station,
+        branch: Branch,
+        extent: Extent,
+    ) -> Result<Carried, Vec<Failure>> {
+        let entry = station.entry();
+        let start = station.begins().and_then(|taught| self.stand(taught, branch));
+        let mut failures = Vec::new();
+        let mut chain = start.map(|start| Chain {
+            at: start,
+            axes: self.rig.axes,
+            carried: Carried {
+                ends: vec![start],
+                demand: Demand::standing(entry, &start),
+                travel: 0.0,
+            },
+        });
+        if chain.is_none() {
+            failures.push(Failure {
+                op: entry,
+                breach: Breach {
+                    at: 1.0,
+                    what: Violation::OutOfReach,
+                },
+            });
+        }
+        let legs = self.legs.get(station.ops.clone()).unwrap_or_default();
+        let after_entry: Vec<(OpId, &Leg)> = numbered(legs)
+            .skip(1)
+            .map(|(op, leg)| (OpId(op.0.saturating_add(entry.0)), leg))
+            .collect();
+        for batch in after_entry.chunks(BATCH) {
+            if extent == Extent::FirstFailure && !failures.is_empty() {
+                break;
+            }
+            let proofs: Vec<Option<Result<Proof, Breach>>> = batch
+                .par_iter()
+                .map(|(_, leg)| match leg {
+                    Leg::Along(stroke) => Some(self.stroke(stroke, branch)),
+                    Leg::Still | Leg::Home | Leg::ByAxes(_) => None,
+                })
+                .collect();
+            for (&(op, _), proof) in batch.iter().zip(&proofs) {
+                match proof {
+                    Some(Err(breach)) => failures.push(Failure { op, breach: *breach }),
+                    Some(Ok(proof)) => {
+                        if let Some(chain) = &mut chain
+                            && failures.is_empty()
+                            && let Err(breach) = chain.append(op, proof)
+                        {
+                            failures.push(Failure { op, breach });
+                        }
+                    }
+                    None => {
+                        if let Some(chain) = &mut chain {
+                            chain.rest();
+                        }
+                    }
+                }
+            }
+        }
+        match chain {
+            Some(chain) if failures.is_empty() => Ok(chain.carried),
+            Some(_) | None => Err(failures),
+        }
+    }
+}
+
+/// Courses joined so far.
+struct Chain<'a> {
+    at: Joints,
+    axes: &'a [Axis],
+    carried: Carried,
+}
+
+/// How far the axes may be from where the course before ended, in rad or mm: rounding.
+const JOINT: f64 = 1e-6;
+
+impl Chain<'_> {
+    fn append(&mut self, op: OpId, proof: &Proof) -> Result<(), Breach> {
+        let by = turns_between(self.axes, &proof.start, &self.at).ok_or(Breach {
+            at: 0.0,
+            what: Violation::OutOfReach,
+        })?;
+        let end = moved(&proof.end, &by);
+        self.carried.travel += travel(self.axes, &self.at, &end);
+        self.carried.demand = self.carried.demand.and(&Demand::of(op, proof).turned(&by));
+        self.carried.ends.push(end);
+        self.at = end;
+        Ok(())
+    }
+
+    fn rest(&mut self) {
+        self.carried.ends.push(self.at);
+    }
+}
+
+/// The turns that lead from axis values to others that stand for the same pose; none if they do not.
+pub(super) fn turns_between(axes: &[Axis], from: &Joints, to: &Joints) -> Option<Joints> {
+    let mut by = [0.0; MOST_AXES];
+    for (index, axis) in axes.iter().enumerate().take(MOST_AXES) {
+        let apart = to[index] - from[index];
+        by[index] = match axis.kind {
+            AxisKind::Rotary => (apart / TAU).round() * TAU,
+            AxisKind::Linear => 0.0,
+        };
+        if (apart - by[index]).abs() > JOINT {
+            return None;
+        }
+    }
+    Some(by)
+}
+
+/// Axis values moved on.
+pub(super) fn moved(joints: &Joints, by: &Joints) -> Joints {
+    core::array::from_fn(|axis| joints[axis] + by[axis])
+}

@@ -1,0 +1,249 @@
+//! What keeps a machine from a program, when it cannot carry it out: the [`Trouble`].
+//!
+//! A motion that no branch carries is told of by itself, as the branch has it that fails least. Where every motion is carried
+//! by some branch but no branch carries all that must be made on one, that is told.
+
+use super::legs::{Leg, Poses};
+use super::path::{Breach, Violation, prove};
+use super::runs::{Station, StationKind};
+use super::survey::{Failure, Survey, moved};
+use super::way::Obstacle;
+use super::ways::{OnBranch, Refused, axis_without_turn};
+use crate::kinematics::Joints;
+use std::collections::{BTreeMap, BTreeSet};
+use vcutc_backend_api::ir::{OpId, Site};
+use vcutc_backend_api::motion::Branch;
+
+/// What keeps a machine from a program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Trouble {
+    /// A motion that no branch carries.
+    Motion {
+        /// How the branch fails that fails least.
+        failing: Failing,
+        /// How many other cuts hold motions that no branch carries.
+        other_cuts: usize,
+    },
+    /// Motions that must be made on one branch, each of which one carries, but none carries all.
+    NoCommonBranch {
+        /// The first motion that the branch which fails least does not carry.
+        failing: Failing,
+        /// A branch that carries that motion, and where it fails itself.
+        other: Failing,
+    },
+    /// A move of all axes that leads the blade below the top of the stock.
+    Way {
+        /// Its op.
+        op: OpId,
+        /// Where it leads.
+        leads: Leads,
+        /// Where the blade is too low.
+        obstacle: Obstacle,
+    },
+    /// A machine that is nowhere: without a motion to any pose that it can take.
+    Nowhere,
+}
+
+/// A motion that a branch does not carry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Failing {
+    /// The op.
+    pub op: OpId,
+    /// The branch.
+    pub branch: Option<Branch>,
+    /// Where and why.
+    pub breach: Breach,
+}
+
+/// Where a move of all axes leads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leads {
+    /// From home or from another pose to a pose.
+    ToPose,
+    /// To home.
+    ToHome,
+}
+
+/// Says what is wrong with a station that has no way to stand.
+pub(super) fn found(
+    survey: &Survey<'_>,
+    stations: &[Station],
+    carried: &[Vec<OnBranch>],
+    failed: &[Vec<(Branch, Vec<Failure>)>],
+    stuck: usize,
+) -> Trouble {
+    let (Some(station), Some(carried), Some(failing)) =
+        (stations.get(stuck), carried.get(stuck), failed.get(stuck))
+    else {
+        return Trouble::Nowhere;
+    };
+    if let Some(failing) = carried
+        .iter()
+        .find_map(|run| beyond_all_turns(survey, station, run))
+    {
+        return Trouble::Motion {
+            failing,
+            other_cuts: 0,
+        };
+    }
+    let Some((branch, least)) = failing.iter().min_by_key(|(branch, failures)| {
+        let kind = failures.first().map(|failure| rank(failure.breach.what));
+        (failures.len(), kind, *branch)
+    }) else {
+        return out_of_reach(station);
+    };
+    let of = |failure: &Failure, branch: Branch| Failing {
+        op: failure.op,
+        branch: Some(branch),
+        breach: failure.breach,
+    };
+    let by_no_branch = common(failing);
+    match least.iter().find(|failure| by_no_branch.contains(&failure.op)) {
+        Some(failure) => Trouble::Motion {
+            failing: of(failure, *branch),
+            other_cuts: other_cuts(survey, failed, failure.op),
+        },
+        None => no_common_branch(station, failing, *branch, least, of),
+    }
+}
+
+fn no_common_branch(
+    station: &Station,
+    failing: &[(Branch, Vec<Failure>)],
+    branch: Branch,
+    least: &[Failure],
+    of: impl Fn(&Failure, Branch) -> Failing,
+) -> Trouble {
+    let Some(first) = least.first() else {
+        return out_of_reach(station);
+    };
+    let other = failing.iter().find_map(|(other, failures)| {
+        let carries = failures.iter().all(|failure| failure.op != first.op);
+        carries.then(|| failures.first().map(|failure| of(failure, *other)))?
+    });
+    match other {
+        Some(other) => Trouble::NoCommonBranch {
+            failing: of(first, branch),
+            other,
+        },
+        None => Trouble::Motion {
+            failing: of(first, branch),
+            other_cuts: 0,
+        },
+    }
+}
+
+fn out_of_reach(station: &Station) -> Trouble {
+    Trouble::Motion {
+        failing: Failing {
+            op: station.entry(),
+            branch: None,
+            breach: Breach {
+                at: 1.0,
+                what: Violation::OutOfReach,
+            },
+        },
+        other_cuts: 0,
+    }
+}
+
+/// Of several branches that fail equally often the one is told of whose failure is mended most easily.
+const fn rank(violation: Violation) -> u8 {
+    match violation {
+        Violation::Rate { .. } => 0,
+        Violation::Limit { .. } => 1,
+        Violation::Singular(_) => 2,
+        Violation::OutOfReach => 3,
+    }
+}
+
+/// The ops that all branches fail on.
+fn common(failing: &[(Branch, Vec<Failure>)]) -> BTreeSet<OpId> {
+    let mut counts: BTreeMap<OpId, usize> = BTreeMap::new();
+    for (_, failures) in failing {
+        for failure in failures {
+            *counts.entry(failure.op).or_default() += 1;
+        }
+    }
+    counts.retain(|_, count| *count == failing.len());
+    counts.into_keys().collect()
+}
+
+/// How many cuts besides that of `op` hold motions that no branch carries.
+fn other_cuts(survey: &Survey<'_>, failed: &[Vec<(Branch, Vec<Failure>)>], op: OpId) -> usize {
+    let site = |op: OpId| survey.program.ops.get(op.0 as usize).map(|op| op.site);
+    let own = site(op);
+    let cuts: BTreeSet<(u16, u32, u32)> = failed
+        .iter()
+        .flat_map(|failing| common(failing))
+        .filter_map(|op| match site(op) {
+            here @ Some(Site::Cut {
+                operation,
+                layer,
+                cut,
+            }) if here != own => Some((operation.0, layer.get(), cut.get())),
+            Some(Site::Cut { .. } | Site::Program | Site::Operation(_) | Site::Layer { .. }) | None => None,
+        })
+        .collect();
+    cuts.len()
+}
+
+/// Where a run leaves the range of an axis on every turn.
+fn beyond_all_turns(survey: &Survey<'_>, station: &Station, run: &OnBranch) -> Option<Failing> {
+    let axes = survey.rig.axes;
+    let (index, by) = axis_without_turn(&run.carried, axes)?;
+    let axis = axes.get(index)?;
+    let demand = run.carried.demand.turned(&by);
+    let (low, high) = (demand.low[index], demand.high[index]);
+    let worst = if axis.min - low.value > high.value - axis.max {
+        low
+    } else {
+        high
+    };
+    let breach = proven_breach(survey, station, run, &by, worst.op).unwrap_or(Breach {
+        at: 1.0,
+        what: Violation::Limit {
+            axis: index,
+            value: worst.value,
+        },
+    });
+    Some(Failing {
+        op: worst.op,
+        branch: Some(run.branch),
+        breach,
+    })
+}
+
+/// Where a motion leaves the ranges of the axes as they are, begun where the run has brought them.
+fn proven_breach(
+    survey: &Survey<'_>,
+    station: &Station,
+    run: &OnBranch,
+    by: &Joints,
+    op: OpId,
+) -> Option<Breach> {
+    let index = op.0 as usize;
+    let Some(Leg::Along(stroke)) = survey.legs.get(index) else {
+        return None;
+    };
+    let before = index.checked_sub(station.ops.start + 1)?;
+    let start = moved(run.carried.ends.get(before)?, by);
+    let course = Poses::of(survey.program).course(stroke)?;
+    prove(&survey.rig, &course, run.branch, &start, &survey.least).err()
+}
+
+/// Says what is wrong with a move of all axes.
+pub(super) fn on_the_way(stations: &[Station], refused: Option<Refused>, stuck: usize) -> Trouble {
+    let station = refused.map_or(stuck, |refused| refused.station);
+    match (stations.get(station), refused) {
+        (Some(station), Some(refused)) => Trouble::Way {
+            op: station.entry(),
+            leads: match station.kind {
+                StationKind::Home => Leads::ToHome,
+                StationKind::Run(_) | StationKind::Joined(_) => Leads::ToPose,
+            },
+            obstacle: refused.obstacle,
+        },
+        (Some(_) | None, _) => Trouble::Nowhere,
+    }
+}
