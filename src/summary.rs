@@ -2,6 +2,7 @@
 
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation};
+use crate::reach::solve::Reached;
 use crate::sim::report::Report;
 use vcutc_backend_api::units::Duration;
 
@@ -10,7 +11,7 @@ const LISTED_LAYERS: usize = 24;
 
 /// The lines of the summary.
 #[must_use]
-pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
+pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&Reached>) -> Vec<String> {
     let (cuts, layers) = (report.cuts(), report.layers.len());
     let mut lines = vec![format!(
         "{}: {cuts} {} in {layers} {}",
@@ -77,7 +78,12 @@ pub fn summary(plan: &PlannedJob, report: &Report) -> Vec<String> {
         "edge",
         &format!("{} mm in use at most", show(report.longest_edge.to_mm())),
     ));
+    lines.extend(reach.into_iter().flat_map(reach_lines));
     lines
+}
+
+fn reach_lines(_: &Reached) -> Vec<String> {
+    Vec::new()
 }
 
 fn row(name: &str, text: &str) -> String {

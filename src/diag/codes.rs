@@ -132,6 +132,19 @@ codes! {
     /// Uncut material in the way of the blade's body.
     BladeBlocked = "VC0404", Error, "uncut material in the way of the blade";
 
+    /// A motion that the machine does not reach.
+    OutOfReach = "VC0510", Error, "a motion out of the machine's reach";
+    /// A motion that takes an axis beyond its limit.
+    AxisLimit = "VC0511", Error, "a motion that takes an axis beyond its limit";
+    /// A motion that is too fast for an axis.
+    AxisRate = "VC0512", Error, "a motion that is too fast for an axis";
+    /// A motion too near to a singular pose.
+    NearSingular = "VC0513", Error, "a motion too near to a singular pose";
+    /// Motions that need different branches where none can be changed.
+    NoCommonBranch = "VC0514", Error, "motions that no one way to stand carries";
+    /// A move of all axes that leads through the stock.
+    WayThroughStock = "VC0515", Error, "a way to or from home through the stock";
+
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";
     /// A target that needs more of the machine.

@@ -3,12 +3,13 @@
 //! Pure: what it needs it asks of the [`Loader`], what it finds out it returns, and what a backend writes goes into the
 //! caller's [`Sink`].
 
-mod reachable;
 mod target;
 
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::plan::{self, PlannedJob};
+use crate::reach::solve::{LEAST_CLEARANCE, Reached, Unreached, solve};
+use crate::reach_verdict;
 use crate::sema;
 use crate::sim::report::Report;
 use crate::source::{Loader, SourceMap};
@@ -17,7 +18,8 @@ use crate::syntax::ast::Ast;
 use crate::verdict;
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::ir::OpId;
+use vcutc_backend_api::motion::MotionFault;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
 
 /// What to compile.
@@ -42,6 +44,8 @@ pub enum Stage {
     Planning,
     /// Proving that every chip comes free and no cut enters the part.
     Proving,
+    /// Proving that the machine can carry it out.
+    Reaching,
     /// Searching for the best place of the work.
     Placing,
     /// Writing the program.
@@ -70,8 +74,8 @@ pub struct Outcome {
 pub struct Compiled {
     /// The program.
     pub program: VerifiedProgram,
-    /// The program with the motion of the job's machine.
-    pub reach: Option<ReachableProgram>,
+    /// How the machine carries it out, when the job has one.
+    pub reach: Option<Reached>,
     /// Its figures.
     pub report: Report,
     /// The figures for people, a line each.
@@ -123,35 +127,67 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
         Ok(proven) => {
             outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
             if !has_errors(&outcome.diagnostics) {
-                let summary = summary(&plan, &proven.report);
-                let machine = job.machine.as_ref();
-                let reach = machine.and_then(|machine| reachable::reachable(machine, &proven.program));
-                outcome.compiled = Some(Compiled {
-                    reach,
-                    program: proven.program,
-                    report: proven.report,
-                    summary,
-                });
+                match reach(job, proven.program, progress) {
+                    Ok((program, reach)) => {
+                        let summary = summary(&plan, &proven.report, reach.as_ref());
+                        outcome.compiled = Some(Compiled {
+                            program,
+                            reach,
+                            report: proven.report,
+                            summary,
+                        });
+                    }
+                    Err(diagnostics) => outcome.diagnostics.extend(diagnostics),
+                }
             }
         }
-        Err(faults) => outcome.diagnostics.push(internal(job, &faults)),
+        Err(faults) => outcome.diagnostics.push(internal(job, &rules_broken(&faults))),
     }
     outcome.plan = Some(plan);
 }
 
+/// Finds how the job's machine carries out its program; a job without a machine has nothing to find.
+fn reach(
+    job: &CheckedJob,
+    program: VerifiedProgram,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<(VerifiedProgram, Option<Reached>), Vec<Diagnostic>> {
+    let Some(machine) = &job.machine else {
+        return Ok((program, None));
+    };
+    progress(Stage::Reaching);
+    match solve(program, &machine.model, &LEAST_CLEARANCE) {
+        Ok(reached) => Ok((reached.program.verified().clone(), Some(reached))),
+        Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, &unreachable)),
+        Err(Unreached::Rules(faults)) => Err(vec![internal(job, &rules_broken(&faults))]),
+        Err(Unreached::Motion(faults)) => Err(vec![internal(job, &motions_broken(&faults))]),
+    }
+}
+
 /// A program that breaks a rule of its own form is the compiler's fault, whatever the job says.
-pub(crate) fn internal(job: &CheckedJob, faults: &[Fault]) -> Diagnostic {
+pub(crate) fn internal(job: &CheckedJob, faults: &[(Option<OpId>, String)]) -> Diagnostic {
     let mut diagnostic = Diagnostic::new(
         Code::Internal,
         "the program made from this job breaks a rule, which is a fault of the compiler",
         job.name_span,
         "made from this job",
     );
-    for fault in faults.iter().take(3) {
-        let place = fault.op.map_or(String::new(), |op| format!("op {}: ", op.0));
-        diagnostic = diagnostic.note(format!("{place}{}", fault.rule));
+    for (op, rule) in faults.iter().take(3) {
+        let place = op.map_or(String::new(), |op| format!("op {}: ", op.0));
+        diagnostic = diagnostic.note(format!("{place}{rule}"));
     }
     diagnostic.help("nothing was written; please report the job together with this message")
+}
+
+/// Broken rules of a program, as [`internal`] takes them.
+pub(crate) fn rules_broken(faults: &[Fault]) -> Vec<(Option<OpId>, String)> {
+    let words = |fault: &Fault| (fault.op, fault.rule.to_string());
+    faults.iter().map(words).collect()
+}
+
+fn motions_broken(faults: &[MotionFault]) -> Vec<(Option<OpId>, String)> {
+    let words = |fault: &MotionFault| (fault.op, fault.what.to_string());
+    faults.iter().map(words).collect()
 }
 
 /// Writes the program of an outcome with a backend. An outcome without a program writes nothing.
@@ -177,7 +213,7 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
         return Err(refused(&missing));
     }
     let emission = backend
-        .check(reachable, &options)
+        .check(&reachable.program, &options)
         .map_err(|issues| refused(&issues))?;
     emission.write(sink).map_err(|error| match error {
         EmitError::Sink(error) => EmitFailure::Sink(error.0),
@@ -217,7 +253,7 @@ mod tests {
             rule: Rule::Number,
         };
         let faults = [fault(Some(vcutc_backend_api::ir::OpId(7))), fault(None)];
-        let diagnostic = internal(&job, &faults);
+        let diagnostic = internal(&job, &rules_broken(&faults));
         assert_eq!(diagnostic.code, Code::Internal);
         assert_eq!(diagnostic.primary.span, job.name_span);
         assert_eq!(

@@ -12,7 +12,7 @@ pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
 use crate::diag::{Code, Diagnostic, has_errors};
-use crate::driver::{Request, Stage};
+use crate::driver::{Request, Stage, internal, rules_broken};
 use crate::job::{CheckedJob, Machine};
 use crate::plan::{self, PlannedJob};
 use crate::reach::place::Spot;
@@ -170,7 +170,7 @@ fn prepare(
                 proven,
             })
         }
-        Err(faults) => Err(Failed::Diagnostics(vec![crate::driver::internal(&job, &faults)])),
+        Err(faults) => Err(Failed::Diagnostics(vec![internal(&job, &rules_broken(&faults))])),
     }
 }
 

@@ -5,6 +5,7 @@
 //! axes follow it.
 
 pub mod demand;
+pub mod describe;
 pub mod ladder;
 pub mod legs;
 pub mod path;

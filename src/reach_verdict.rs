@@ -1,0 +1,360 @@
+//! What keeps a machine from a program, in the words of the job: which cut, which axis, by how much, what to change.
+
+use crate::diag::{Code, Diagnostic};
+use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
+use crate::plan::parameters::show;
+use crate::reach::describe::{branch_words, site_words, value_words};
+use crate::reach::legs::{Leg, Pace, Stroke, legs};
+use crate::reach::path::{Singularity, Violation};
+use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
+use crate::reach::trouble::{Failing, Leads, Trouble};
+use crate::source::Span;
+use vcutc_backend_api::ir::{Action, Axis, OpId, Program, Site};
+
+/// Puts into words why a program is not carried out.
+#[must_use]
+pub fn diagnose(job: &CheckedJob, unreachable: &Unreachable) -> Vec<Diagnostic> {
+    let Some(machine) = &job.machine else {
+        return Vec::new();
+    };
+    let scene = Scene {
+        job,
+        machine,
+        program: unreachable.program.program(),
+    };
+    let diagnostic = match &unreachable.trouble {
+        Trouble::Motion { failing, other_cuts } => scene.motion(failing, *other_cuts),
+        Trouble::NoCommonBranch { failing, other } => scene.no_common_branch(failing, other),
+        Trouble::Way { op, leads, obstacle } => scene.way(*op, *leads, obstacle.depth),
+        Trouble::Nowhere => return Vec::new(),
+    };
+    vec![
+        remedies(job, unreachable)
+            .into_iter()
+            .fold(diagnostic, Diagnostic::help),
+    ]
+}
+
+/// Changes of the job that let the machine carry it out, each in a sentence.
+fn remedies(job: &CheckedJob, unreachable: &Unreachable) -> Vec<String> {
+    let _ = job;
+    let general = match &unreachable.trouble {
+        Trouble::Motion { failing, .. } => match failing.breach.what {
+            Violation::OutOfReach => {
+                "move the work nearer to the machine with `base`, or choose a machine of longer reach"
+            }
+            Violation::Limit { .. } => {
+                "turn or shift the work with `base`, so that this axis stays in its range"
+            }
+            Violation::Rate { .. } => {
+                "lower this speed, or shift the work with `base` away from where the axis must hurry"
+            }
+            Violation::Singular(_) => {
+                "shift or turn the work with `base`, or tilt the tool in its mount, so that the arm stays bent"
+            }
+        },
+        Trouble::NoCommonBranch { .. } => {
+            "shift or turn the work with `base`, so that one way to stand carries all of these motions"
+        }
+        Trouble::Way { .. } => "choose a `home` from which the blade comes to the work from above",
+        Trouble::Nowhere => return Vec::new(),
+    };
+    vec![general.to_owned()]
+}
+
+/// A job, its machine and the program made of it.
+struct Scene<'s> {
+    job: &'s CheckedJob,
+    machine: &'s Machine,
+    program: &'s Program,
+}
+
+impl Scene<'_> {
+    fn motion(&self, failing: &Failing, other_cuts: usize) -> Diagnostic {
+        let place = self.place(failing.op);
+        let (at, base) = (self.along(failing), self.base());
+        let diagnostic = match failing.breach.what {
+            Violation::OutOfReach => Diagnostic::new(
+                Code::OutOfReach,
+                format!("the machine does not reach {place}"),
+                base,
+                "no axis values bring the blade there with the work in this place",
+            )
+            .and(
+                self.machine.model_span,
+                format!("`{}` is too short, or too near", self.machine.model.name),
+            ),
+            Violation::Limit { axis, value } => self.limit(&place, axis, value, base),
+            Violation::Rate { axis, rate } => self.rate(&place, axis, rate, failing.op),
+            Violation::Singular(singularity) => self.singular(&place, singularity, base),
+        };
+        let diagnostic = diagnostic.note(at);
+        let diagnostic = match failing.branch {
+            Some(branch) => diagnostic.note(format!("tried with {}", branch_words(branch))),
+            None => diagnostic,
+        };
+        match other_cuts {
+            0 => diagnostic,
+            1 => diagnostic.note("one more cut is affected"),
+            others => diagnostic.note(format!("{others} more cuts are affected")),
+        }
+    }
+
+    fn limit(&self, place: &str, axis: usize, value: f64, base: Span) -> Diagnostic {
+        let Some(axis) = self.axis(axis) else {
+            return self.unnamed(Code::AxisLimit, place, base);
+        };
+        let limit = if value < axis.min { axis.min } else { axis.max };
+        let beyond = value_words(axis, (value - limit).abs());
+        let (name, limit) = (&axis.name, value_words(axis, limit));
+        Diagnostic::new(
+            Code::AxisLimit,
+            format!(
+                "{place} takes {name} to {}, {beyond} beyond its limit",
+                value_words(axis, value)
+            ),
+            base,
+            "with the work in this place",
+        )
+        .and(self.machine.model_span, format!("{name} ends at {limit}"))
+    }
+
+    fn rate(&self, place: &str, axis: usize, rate: f64, op: OpId) -> Diagnostic {
+        let (span, speed) = self.speed(op);
+        let Some(axis) = self.axis(axis) else {
+            return self.unnamed(Code::AxisRate, place, span);
+        };
+        let name = &axis.name;
+        let fastest = axis.rate.map_or_else(String::new, |fastest| {
+            format!("{name} does {}/s at most", value_words(axis, fastest))
+        });
+        Diagnostic::new(
+            Code::AxisRate,
+            format!(
+                "{place} takes {name} to {}/s at {speed}, faster than it moves",
+                value_words(axis, rate)
+            ),
+            span,
+            "too fast for this axis there",
+        )
+        .and(self.machine.model_span, fastest)
+    }
+
+    fn singular(&self, place: &str, singularity: Singularity, base: Span) -> Diagnostic {
+        let least = LEAST_CLEARANCE;
+        let (what, label) = match singularity {
+            Singularity::Wrist(angle) => (
+                format!(
+                    "the hand within {} of stretched, where two axes fall into one line",
+                    degrees(angle)
+                ),
+                format!(
+                    "the axis between them must be bent by {} at least",
+                    degrees(least.wrist)
+                ),
+            ),
+            Singularity::Elbow(angle) => (
+                format!("the arm within {} of stretched or folded", degrees(angle)),
+                format!("its elbow must be bent by {} at least", degrees(least.elbow)),
+            ),
+            Singularity::Shoulder(distance) => (
+                format!("the wrist within {} mm of the first axis", show(distance)),
+                format!("it must be {} mm away at least", show(least.shoulder)),
+            ),
+        };
+        Diagnostic::new(
+            Code::NearSingular,
+            format!("{place} takes {what}"),
+            base,
+            "with the work in this place",
+        )
+        .and(self.machine.model_span, label)
+    }
+
+    /// An axis that the machine does not have; cannot be.
+    fn unnamed(&self, code: Code, place: &str, span: Span) -> Diagnostic {
+        Diagnostic::new(
+            code,
+            format!("the machine cannot carry out {place}"),
+            span,
+            "from here",
+        )
+    }
+
+    fn no_common_branch(&self, failing: &Failing, other: &Failing) -> Diagnostic {
+        let words = |failing: &Failing| {
+            let branch = failing.branch.map(branch_words).unwrap_or_default();
+            format!("with {branch} {}", self.reason(failing))
+        };
+        Diagnostic::new(
+            Code::NoCommonBranch,
+            format!(
+                "no one way to stand carries all motions between {} and {}",
+                self.place(failing.op.min(other.op)),
+                self.place(failing.op.max(other.op))
+            ),
+            self.base(),
+            "with the work in this place",
+        )
+        .and(
+            self.machine.model_span,
+            "each motion is possible, but the arm cannot change its posture within them",
+        )
+        .note(words(failing))
+        .note(words(other))
+    }
+
+    /// Why a motion fails, in half a sentence.
+    fn reason(&self, failing: &Failing) -> String {
+        let place = self.place(failing.op);
+        match failing.breach.what {
+            Violation::OutOfReach => format!("{place} is out of reach"),
+            Violation::Limit { axis, value } => match self.axis(axis) {
+                Some(axis) => format!("{place} takes {} to {}", axis.name, value_words(axis, value)),
+                None => format!("{place} leaves the range of an axis"),
+            },
+            Violation::Rate { axis, rate } => match self.axis(axis) {
+                Some(axis) => format!("{place} takes {} to {}/s", axis.name, value_words(axis, rate)),
+                None => format!("{place} is too fast for an axis"),
+            },
+            Violation::Singular(_) => format!("{place} comes too near to a singular pose"),
+        }
+    }
+
+    fn way(&self, op: OpId, leads: Leads, depth: f64) -> Diagnostic {
+        let home = self.machine.home.and_then(|home| home.span);
+        let span = home.unwrap_or(self.machine.head_span);
+        let place = self.place(op);
+        let headline = match leads {
+            Leads::ToPose => format!(
+                "on the way of all axes to {place}, the blade comes {} mm below the top of the stock",
+                show(depth)
+            ),
+            Leads::ToHome => format!(
+                "on the way of all axes home, the blade comes {} mm below the top of the stock",
+                show(depth)
+            ),
+        };
+        Diagnostic::new(
+            Code::WayThroughStock,
+            headline,
+            span,
+            "the machine comes from here, and goes back to it",
+        )
+        .and(self.base(), "the work is here")
+        .note("all axes move at once, each straight to its value, so the blade does not go along a line")
+    }
+
+    fn axis(&self, index: usize) -> Option<&Axis> {
+        self.machine.model.axes.get(index)
+    }
+
+    fn base(&self) -> Span {
+        self.machine.base.span.unwrap_or(self.machine.head_span)
+    }
+
+    /// Where in the job the speed of an op was asked for, and what it is.
+    fn speed(&self, op: OpId) -> (Span, String) {
+        let pace = self.stroke(op).map(|stroke| stroke.pace);
+        let words = match pace {
+            Some(Pace::Feed(feed)) => self
+                .program
+                .feeds
+                .get(usize::from(feed.0))
+                .map(|feed| format!("{} mm/s", show(feed.to_mm_per_s()))),
+            Some(Pace::Rate(rate)) => self
+                .program
+                .rates
+                .get(usize::from(rate.0))
+                .map(|rate| format!("{} deg/s", show(rate.to_rad_per_s().to_degrees()))),
+            None => None,
+        };
+        let span = self.asked(op).and_then(|asked| {
+            let action = self.program.ops.get(op.0 as usize)?.action;
+            match (pace?, action) {
+                (Pace::Rate(_), _) => asked.reorient_rate.span,
+                (Pace::Feed(_), Action::Cut { .. }) => asked.cut_feed.span,
+                (Pace::Feed(_), _) => asked.travel_feed.span,
+            }
+        });
+        (span.unwrap_or(self.machine.head_span), words.unwrap_or_default())
+    }
+
+    fn asked(&self, op: OpId) -> Option<&RoughVcut> {
+        let operation = self.program.ops.get(op.0 as usize)?.site.operation()?;
+        let Operation::RoughVcut(asked) = self.job.operations.get(usize::from(operation.0))?;
+        Some(asked)
+    }
+
+    fn stroke(&self, op: OpId) -> Option<Stroke> {
+        match legs(self.program).get(op.0 as usize)? {
+            Leg::Along(stroke) => Some(*stroke),
+            Leg::Still | Leg::Home | Leg::ByAxes(_) => None,
+        }
+    }
+
+    /// `layer 7, cut 12 (x 43.2 mm, z 18.6 mm)`.
+    fn place(&self, op: OpId) -> String {
+        let Some(found) = self.program.ops.get(op.0 as usize) else {
+            return "the program".to_owned();
+        };
+        let tip = match found.action {
+            Action::Travel { to, .. }
+            | Action::AxisTravel { to, .. }
+            | Action::Approach { to, .. }
+            | Action::Retract { to, .. }
+            | Action::Cut { to, .. } => Some(to),
+            Action::Turn { .. } => self.stroke(op).map(|stroke| stroke.to.tip),
+            Action::Home
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => None,
+        };
+        let site = site_words(found.site);
+        let place = match tip {
+            Some(tip) => format!("{site} (x {} mm, z {} mm)", show(tip.x), show(tip.z)),
+            None => site,
+        };
+        match (found.site, found.action) {
+            (
+                Site::Cut { .. },
+                Action::Travel { .. } | Action::Approach { .. } | Action::AxisTravel { .. },
+            ) => {
+                format!("the way to {place}")
+            }
+            (Site::Cut { .. }, Action::Turn { .. }) => format!("the turn at {place}"),
+            (Site::Cut { .. }, Action::Retract { .. }) => format!("the way up from {place}"),
+            (Site::Layer { .. }, Action::Retract { .. }) => format!("the way up from {place}"),
+            (Site::Layer { .. }, _) => format!("the way to {place}"),
+            (Site::Cut { .. } | Site::Operation(_) | Site::Program, _) => place,
+        }
+    }
+
+    /// How far along its motion something fails.
+    fn along(&self, failing: &Failing) -> String {
+        let Some(stroke) = self.stroke(failing.op) else {
+            return "this is where the program comes to the work".to_owned();
+        };
+        let at = failing.breach.at.clamp(0.0, 1.0);
+        let length = stroke.from.tip.distance(stroke.to.tip).to_mm();
+        if length > 0.0 {
+            let (done, y) = (
+                at * length,
+                stroke.from.tip.y + at * (stroke.to.tip.y - stroke.from.tip.y),
+            );
+            format!(
+                "it happens {} mm along this motion of {} mm, at y {} mm",
+                show(done),
+                show(length),
+                show(y)
+            )
+        } else {
+            format!("it happens after {} % of this turn", show(at * 100.0))
+        }
+    }
+}
+
+fn degrees(angle: f64) -> String {
+    format!("{} deg", show(angle.to_degrees()))
+}
