@@ -127,7 +127,7 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
         Ok(proven) => {
             outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
             if !has_errors(&outcome.diagnostics) {
-                match reach(job, proven.program, progress) {
+                match reach(job, &plan, proven.program, progress) {
                     Ok((program, reach)) => {
                         let summary = summary(&plan, &proven.report, reach.as_ref());
                         outcome.compiled = Some(Compiled {
@@ -149,6 +149,7 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
 /// Finds how the job's machine carries out its program; a job without a machine has nothing to find.
 fn reach(
     job: &CheckedJob,
+    plan: &PlannedJob,
     program: VerifiedProgram,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<(VerifiedProgram, Option<Reached>), Vec<Diagnostic>> {
@@ -158,7 +159,7 @@ fn reach(
     progress(Stage::Reaching);
     match solve(program, &machine.model, &LEAST_CLEARANCE) {
         Ok(reached) => Ok((reached.program.verified().clone(), Some(reached))),
-        Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, &unreachable)),
+        Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, plan, &unreachable)),
         Err(Unreached::Rules(faults)) => Err(vec![internal(job, &rules_broken(&faults))]),
         Err(Unreached::Motion(faults)) => Err(vec![internal(job, &motions_broken(&faults))]),
     }

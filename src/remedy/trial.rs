@@ -1,16 +1,17 @@
 //! Trials: a changed job through the whole pipeline.
 
-use crate::job::Machine;
+use crate::job::{CheckedJob, Machine};
 use crate::lower;
 use crate::machine::Model;
 use crate::plan::PlannedJob;
-use crate::plan::parameters::show;
 use crate::reach::demand::{Demand, axis_margin};
+use crate::reach::describe::{site_words, value_words};
 use crate::reach::path::Violation;
 use crate::reach::solve::{LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve};
 use crate::reach::trouble::{Failing, Trouble};
 use crate::source::SourceMap;
-use vcutc_backend_api::ir::{AxisKind, OpId, PlacedFrame, Program, Site};
+use crate::verdict;
+use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 
 /// What room a program leaves its machine.
@@ -20,6 +21,15 @@ pub struct Room {
     pub margin: f64,
     /// What it is the margin of, and where: `A5 at layer 3, cut 14`.
     pub least: String,
+}
+
+/// A changed job through the whole pipeline; nothing where it does not come out at its end.
+pub(super) fn whole(job: &CheckedJob, change: impl FnOnce(&mut CheckedJob)) -> Option<Reached> {
+    let mut changed = job.clone();
+    change(&mut changed);
+    let (_, proven) = verdict::sound(&changed)?;
+    let machine = changed.machine.as_ref()?;
+    solve(proven.program, &machine.model, &LEAST_CLEARANCE).ok()
 }
 
 /// The plan on its machine with the base elsewhere.
@@ -65,10 +75,7 @@ fn least(demand: &Demand, model: &Model, program: &Program) -> String {
         } else {
             high
         };
-        let value = match axis.kind {
-            AxisKind::Rotary => format!("{} deg", show((nearer.value.to_degrees() * 10.0).round() / 10.0)),
-            AxisKind::Linear => format!("{} mm", show((nearer.value * 10.0).round() / 10.0)),
-        };
+        let value = value_words(axis, nearer.value);
         let words = format!("{} at {value}", axis.name);
         (axis_margin(axis, low.value, high.value), words, nearer.op)
     });
@@ -88,12 +95,7 @@ fn least(demand: &Demand, model: &Model, program: &Program) -> String {
 /// `layer 7, cut 12`, or what else an op belongs to.
 fn place(program: &Program, op: OpId) -> String {
     let site = program.ops.get(op.0 as usize).map_or(Site::Program, |op| op.site);
-    match site {
-        Site::Program => "at its start or end".to_owned(),
-        Site::Operation(operation) => format!("around operation {}", operation.0 + 1),
-        Site::Layer { layer, .. } => format!("around layer {layer}"),
-        Site::Cut { layer, cut, .. } => format!("layer {layer}, cut {cut}"),
-    }
+    site_words(site)
 }
 
 /// Why a program is not carried out, in a few words.

@@ -2,9 +2,10 @@
 //!
 //! What is offered has been tried in exactly the form in which it is offered, so values are rounded first and tried then.
 
+use crate::machine::Model;
 use crate::plan::parameters::show;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
-use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, PlacedFrame};
+use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MachineKind, PlacedFrame};
 use vcutc_backend_api::units::Angle;
 
 /// A frame with the decimals that [`frame_text`] writes: lengths and angles to thousandths of mm and deg.
@@ -55,6 +56,29 @@ pub fn rounded_home(axes: &[Axis], home: &AxisValues) -> AxisValues {
         }
     }
     rounded
+}
+
+/// `joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)` of a robot, `axes(x = 0 mm, ...)` of a five-axis machine.
+#[must_use]
+pub fn home_text(model: &Model, home: &AxisValues) -> String {
+    let values = model
+        .axes
+        .iter()
+        .zip(home.0)
+        .map(|(axis, value)| match axis.kind {
+            AxisKind::Rotary => format!("{} deg", show(value.to_degrees())),
+            AxisKind::Linear => format!("{} mm", show(value)),
+        });
+    match model.kind() {
+        MachineKind::Robot => format!("joints({})", values.collect::<Vec<_>>().join(", ")),
+        MachineKind::FiveAxis => {
+            let named = model.axes.iter().zip(values);
+            let named: Vec<String> = named
+                .map(|(axis, value)| format!("{} = {value}", axis.name.to_ascii_lowercase()))
+                .collect();
+            format!("axes({})", named.join(", "))
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,59 @@
+//! A home above the first cut.
+
+use super::{Case, Remedy, trial, wording};
+use crate::kinematics::pose::Pose;
+use crate::reach::legs::{Leg, Poses, legs};
+use crate::reach::rig::Rig;
+use glam::DVec3;
+use vcutc_backend_api::ir::AxisValues;
+
+/// How far above the first pose of the program the blade is at home, in mm.
+const RAISED: [f64; 4] = [100.0, 200.0, 50.0, 0.0];
+
+/// A home from which the blade comes to the work from above, in whole degrees.
+pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
+    let now = case.machine.home?;
+    let program = case.unreachable.program.program();
+    let first = legs(program).into_iter().find_map(|leg| match leg {
+        Leg::ByAxes(taught) => Some(taught),
+        Leg::Along(_) | Leg::Still | Leg::Home => None,
+    })?;
+    let blade_in_work = Poses::of(program).blade_in_work(first)?;
+    let model = case.machine.model.clone();
+    let rig = Rig::new(
+        &model,
+        case.machine.tool.value.frame,
+        case.machine.base.value.frame,
+    );
+    for raised in RAISED {
+        let above = Pose {
+            position: blade_in_work.position + DVec3::Z * raised,
+            ..blade_in_work
+        };
+        for solution in rig.mechanism.all(&rig.flange_in_root(&above)).iter() {
+            let within = model
+                .axes
+                .iter()
+                .zip(solution.joints)
+                .all(|(axis, value)| (axis.min..=axis.max).contains(&value));
+            if !within {
+                continue;
+            }
+            if !case.may_try() {
+                return None;
+            }
+            let home = wording::rounded_home(&model.axes, &AxisValues(solution.joints));
+            let works = trial::with_machine(case.plan, |machine| {
+                if let Some(stated) = &mut machine.home {
+                    stated.value = home;
+                }
+            });
+            if let Some(Ok(_)) = works {
+                let text = wording::home_text(&model, &home);
+                let advice = format!("begin above the work: `home = {text}`");
+                return Some(Remedy::replace(advice, now.span, text));
+            }
+        }
+    }
+    None
+}
