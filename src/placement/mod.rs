@@ -17,7 +17,8 @@ use crate::job::{CheckedJob, Machine};
 use crate::plan::{self, PlannedJob};
 use crate::reach::place::Spot;
 use crate::reach::place::score::Judge;
-use crate::reach::place::search::{Bounds, Placed, search};
+use crate::reach::place::search::{Bounds, Criteria, Placed, search};
+use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::remedy::trial::{self, Room};
@@ -196,6 +197,7 @@ fn placed(ready: &Ready, bounds: Bounds) -> Placement {
     let base = machine.base.value;
     let poses = TaughtPoses::of(&proven.program);
     let rig = Rig::new(&machine.model, machine.tool.value.frame, base.frame);
+    let strokes = Strokes::of(proven.program.program());
     let judge = |spread| {
         Judge::new(
             rig.mechanism,
@@ -210,7 +212,17 @@ fn placed(ready: &Ready, bounds: Bounds) -> Placement {
         room: tried(plan, machine, base),
     };
     let mut refused = Vec::new();
-    let best = search(&rough, &fine, &base.frame, &bounds)
+    let criteria = Criteria {
+        rough: &rough,
+        fine: &fine,
+        admits: &|spot: Spot| {
+            strokes.are_followed(&Rig {
+                work_in_root: spot.work_in_root(&base.frame),
+                ..rig.clone()
+            })
+        },
+    };
+    let best = search(&criteria, &base.frame, &bounds)
         .into_iter()
         .filter(|place| place.score.reached().is_some())
         .take(MOST_PROOFS)

@@ -1,13 +1,15 @@
 //! The base moved or turned by the least that helps.
 //!
-//! Places around the present one are judged by the taught poses, the nearest first; the first that promise something are put
-//! to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
+//! Places around the present one are judged by the taught poses and a few telling motions, the nearest first; the first that promise
+//! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
 
 use super::{Case, Remedy, trial, wording};
 use crate::plan::parameters::show;
 use crate::reach::place::score::Judge;
+use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
+use crate::reach::trouble::Trouble;
 use rayon::prelude::*;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
@@ -104,6 +106,17 @@ fn remedy(case: &Case<'_>, base: &PlacedFrame, what: &str) -> Remedy {
     Remedy::replace(format!("{what}: `base = {text}`"), case.machine.base.span, text)
 }
 
+/// The motion that fails, and others that tell.
+fn strokes(case: &Case<'_>) -> Strokes {
+    let program = case.unreachable.program.program();
+    let failing = match &case.unreachable.trouble {
+        Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => Some(failing.op),
+        Trouble::Way { .. } | Trouble::Nowhere => None,
+    };
+    let failing = failing.map_or_else(Strokes::default, |op| Strokes::only(program, op));
+    failing.and(Strokes::of(program))
+}
+
 /// The nearest of these places that carries out the whole program.
 fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, PlacedFrame)> {
     // Stable, so that of equally near ones the first stays first.
@@ -117,6 +130,7 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
         &rig.flange_in_blade,
         poses.telling(SPREAD),
     );
+    let strokes = strokes(case);
     let mut proofs = 0;
     let mut failed_at = 0.0;
     for batch in shifts.chunks(JUDGED) {
@@ -125,6 +139,10 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
             .map(|shift| {
                 let score = judge.score(&shift.of(&now.frame).into());
                 score.reached().is_some_and(|margin| margin >= PROMISING)
+                    && strokes.are_followed(&Rig {
+                        work_in_root: shift.of(&now.frame).into(),
+                        ..rig.clone()
+                    })
             })
             .collect();
         for (shift, _) in batch.iter().zip(promising).filter(|(_, promising)| *promising) {

@@ -109,7 +109,10 @@ pub fn remedies(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
 /// Lower speeds, and where they would be far lower, another posture before them.
 fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
     match speed::lowered(case) {
-        Some((remedy, speed::Loss::Bearable)) => vec![remedy],
+        Some((remedy, speed::Loss::Bearable)) => {
+            let base = base::moved(case);
+            core::iter::once(remedy).chain(base).collect()
+        }
         Some((remedy, speed::Loss::Severe)) => {
             let mut found = elsewhere(case);
             found.truncate(MOST_OFFERED - 1);

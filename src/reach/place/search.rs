@@ -33,6 +33,10 @@ const SPACING: [i32; 4] = [100, 100, 100, 150];
 const MOST_VALUES: [i32; 4] = [13, 13, 7, 13];
 /// How many places of the grid are climbed from.
 const CLIMBS: usize = 6;
+/// Most places of the grid that are asked whether the axes are fast enough there.
+const MOST_ASKED: usize = 600;
+/// How many are asked at once.
+const BATCH: usize = 24;
 /// Most rounds of a climb. Ten halve the steps down to one, the others go somewhere.
 const MOST_ROUNDS: usize = 60;
 
@@ -80,24 +84,64 @@ pub fn evenly(least: i32, most: i32, steps: i32) -> Vec<i32> {
     values
 }
 
-/// The best places within bounds, best first. `rough` judges the grid, `fine` the climbs; `base` is where the work stands
-/// now.
+/// What a search goes by.
+#[derive(Clone, Copy)]
+pub struct Criteria<'c, 'm> {
+    /// Judges the grid.
+    pub rough: &'c Judge<'m>,
+    /// Judges the climbs.
+    pub fine: &'c Judge<'m>,
+    /// Whether the axes are fast enough with the work in a place; asked of places that are good otherwise.
+    pub admits: &'c (dyn Fn(Spot) -> bool + Sync),
+}
+
+/// The best places within bounds, best first; those that are not admitted come last. `base` is where the work stands now.
 #[must_use]
-pub fn search(rough: &Judge<'_>, fine: &Judge<'_>, base: &Frame, bounds: &Bounds) -> Vec<Placed> {
-    let mut starts = judge(rough, base, bounds.grid());
+pub fn search(criteria: &Criteria<'_, '_>, base: &Frame, bounds: &Bounds) -> Vec<Placed> {
+    let mut grid = judge(criteria.rough, base, bounds.grid());
     // Stable, so that of equals the first stays first.
-    starts.sort_by(|a, b| b.score.better(&a.score));
+    grid.sort_by(|a, b| b.score.better(&a.score));
+    let mut starts = admitted(criteria, &grid);
+    // Where nothing is admitted, the best of the rest say what it breaks on.
+    starts.extend(
+        grid.iter()
+            .take(CLIMBS - starts.len().min(CLIMBS))
+            .map(|place| place.spot),
+    );
     let now = Spot::near(base);
-    let mut places: Vec<Placed> = starts
-        .iter()
-        .take(CLIMBS)
-        .map(|start| start.spot)
-        .chain(bounds.contain(now).then_some(now))
-        .filter_map(|start| climb(fine, base, bounds, start))
+    starts.extend(bounds.contain(now).then_some(now));
+    let mut places: Vec<(bool, Placed)> = starts
+        .into_iter()
+        .filter_map(|start| climb(criteria, base, bounds, start))
+        .map(|place| ((criteria.admits)(place.spot), place))
         .collect();
-    places.sort_by(|a, b| b.score.better(&a.score).then(a.spot.cmp(&b.spot)));
-    places.dedup_by_key(|place| place.spot);
-    places
+    places.sort_by(|(a_admitted, a), (b_admitted, b)| {
+        b_admitted
+            .cmp(a_admitted)
+            .then(b.score.better(&a.score))
+            .then(a.spot.cmp(&b.spot))
+    });
+    places.dedup_by_key(|(_, place)| place.spot);
+    places.into_iter().map(|(_, place)| place).collect()
+}
+
+/// The first few places of a grid that are admitted, sorted as it is.
+fn admitted(criteria: &Criteria<'_, '_>, grid: &[Placed]) -> Vec<Spot> {
+    let mut spots = Vec::new();
+    let reached = grid.iter().filter(|place| place.score.reached().is_some());
+    for batch in reached.take(MOST_ASKED).collect::<Vec<_>>().chunks(BATCH) {
+        let admits: Vec<bool> = batch
+            .par_iter()
+            .map(|place| (criteria.admits)(place.spot))
+            .collect();
+        let admitted = batch.iter().zip(admits).filter(|(_, admits)| *admits);
+        spots.extend(admitted.map(|(place, _)| place.spot));
+        if spots.len() >= CLIMBS {
+            break;
+        }
+    }
+    spots.truncate(CLIMBS);
+    spots
 }
 
 /// Judges spots, in parallel and in their order.
@@ -115,20 +159,23 @@ pub fn judge(judge: &Judge<'_>, base: &Frame, spots: Vec<Spot>) -> Vec<Placed> {
 /// Pattern search [Hooke, Jeeves: "Direct search" solution of numerical and statistical problems, 1961] with steps along each
 /// coordinate and each pair of them: the smallest of many margins has ridges that lead anywhere. Steps halve where none is
 /// better, down to a millimetre and a tenth of a degree.
-fn climb(by: &Judge<'_>, base: &Frame, bounds: &Bounds, start: Spot) -> Option<Placed> {
-    let mut best = judge(by, base, vec![start]).pop()?;
+fn climb(criteria: &Criteria<'_, '_>, base: &Frame, bounds: &Bounds, start: Spot) -> Option<Placed> {
+    let mut best = judge(criteria.fine, base, vec![start]).pop()?;
+    let keeps = (criteria.admits)(start);
     let mut step = SPACING.map(|spacing| spacing / 2);
     for _ in 0..MOST_ROUNDS {
         let around: Vec<Spot> = neighbours(best.spot, step)
             .filter(|&spot| bounds.contain(spot))
             .collect();
-        let next = judge(by, base, around)
+        let mut better: Vec<Placed> = judge(criteria.fine, base, around)
             .into_iter()
-            .reduce(|first, other| match other.score.better(&first.score) {
-                Ordering::Greater => other,
-                Ordering::Less | Ordering::Equal => first,
-            })
-            .filter(|next| next.score.better(&best.score) == Ordering::Greater);
+            .filter(|next| next.score.better(&best.score) == Ordering::Greater)
+            .collect();
+        better.sort_by(|a, b| b.score.better(&a.score));
+        // A climb that began where the axes are fast enough stays where they are.
+        let next = better
+            .into_iter()
+            .find(|next| !keeps || (criteria.admits)(next.spot));
         match next {
             Some(next) => best = next,
             None if step == [1; 4] => break,

@@ -83,10 +83,7 @@ impl Group {
     fn telling(&self, spread: usize) -> Vec<DVec3> {
         let step = (self.tips.len() / (spread + 1)).max(1);
         let spread = (step..self.tips.len()).step_by(step).take(spread);
-        let mut chosen: Vec<usize> = directions()
-            .filter_map(|direction| self.farthest(direction))
-            .chain(spread)
-            .collect();
+        let mut chosen: Vec<usize> = outermost(&self.tips).into_iter().chain(spread).collect();
         chosen.sort_unstable();
         chosen.dedup();
         let mut tips: Vec<DVec3> = Vec::with_capacity(chosen.len());
@@ -97,12 +94,24 @@ impl Group {
         }
         tips
     }
+}
 
-    /// The first of the tips farthest out in a direction.
-    fn farthest(&self, direction: DVec3) -> Option<usize> {
-        let out = |index: usize| self.tips.get(index).map_or(f64::MIN, |tip| tip.dot(direction));
-        (0..self.tips.len()).max_by(|&a, &b| out(a).total_cmp(&out(b)).then(b.cmp(&a)))
-    }
+/// The places of the points farthest out in 26 directions, the first of equals each.
+pub(super) fn outermost(points: &[DVec3]) -> Vec<usize> {
+    let farthest = |direction: DVec3| {
+        let mut best: Option<(usize, f64)> = None;
+        for (index, point) in points.iter().enumerate() {
+            let out = point.dot(direction);
+            if best.is_none_or(|(_, farthest)| out > farthest) {
+                best = Some((index, out));
+            }
+        }
+        best.map(|(index, _)| index)
+    };
+    let mut chosen: Vec<usize> = directions().filter_map(farthest).collect();
+    chosen.sort_unstable();
+    chosen.dedup();
+    chosen
 }
 
 /// To the faces, edges and corners of a cube.

@@ -2,7 +2,7 @@
 
 use super::clearance::clearance;
 use super::score::{Judge, Score, singular_share};
-use super::search::{Bounds, search};
+use super::search::{Bounds, Criteria, search};
 use super::{Spot, score};
 use crate::kinematics::pose::Pose;
 use crate::machine::{Model, catalogue};
@@ -51,6 +51,15 @@ fn judge(model: &Model) -> Judge<'_> {
         &blade_in_flange().inverse(),
         poses(),
     )
+}
+
+/// By margins alone.
+fn anywhere<'c, 'm>(judge: &'c Judge<'m>) -> Criteria<'c, 'm> {
+    Criteria {
+        rough: judge,
+        fine: judge,
+        admits: &|_| true,
+    }
 }
 
 fn upright(x: f64, y: f64, z: f64) -> Frame {
@@ -128,7 +137,7 @@ fn the_best_place_is_no_worse_than_any_of_a_coarse_grid() {
     }
     assert!(best > 0.1, "the grid has places that reach all: {best}");
     let judge = judge(&model);
-    let found = search(&judge, &judge, &base, &bounds);
+    let found = search(&anywhere(&judge), &base, &bounds);
     let winner = found[0];
     assert!(bounds.contain(winner.spot));
     let proven = margin_by_definition(&model, &winner.spot.work_in_root(&base)).unwrap();
@@ -155,7 +164,7 @@ fn out_of_reach_everywhere_the_search_still_says_where_it_is_least_bad() {
         },
     };
     let judge = judge(&model);
-    let found = search(&judge, &judge, &base, &bounds);
+    let found = search(&anywhere(&judge), &base, &bounds);
     assert!(!found.is_empty() && found.iter().all(|place| place.score.reached().is_none()));
 }
 
@@ -183,7 +192,7 @@ fn the_search_is_the_same_on_any_number_of_threads() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| search(&judge, &judge, &base, &bounds))
+        pool.install(|| search(&anywhere(&judge), &base, &bounds))
     };
     let one = on(1);
     assert!(one[0].score.reached().is_some());
