@@ -14,6 +14,7 @@ pub mod placement;
 pub mod plan;
 pub mod posture;
 pub mod reach;
+pub mod reach_summary;
 pub mod reach_verdict;
 pub mod registry;
 pub mod remedy;

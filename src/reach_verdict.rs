@@ -5,13 +5,14 @@ use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
 use crate::plan::PlannedJob;
 use crate::plan::parameters::show;
 use crate::reach::describe::{branch_words, site_words, value_words};
-use crate::reach::legs::{Leg, Pace, Stroke, legs};
+use crate::reach::legs::{Pace, Stroke, legs};
 use crate::reach::path::{Singularity, Violation};
 use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
 use crate::reach::trouble::{Failing, Leads, Trouble};
+use crate::reach::way::Obstacle;
 use crate::remedy;
 use crate::source::Span;
-use vcutc_backend_api::ir::{Action, Axis, OpId, Program, Site};
+use vcutc_backend_api::ir::{Action, Axis, OpId, OrientationId, Program, Site};
 
 /// Puts into words why a program is not carried out.
 #[must_use]
@@ -27,7 +28,7 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
     let diagnostic = match &unreachable.trouble {
         Trouble::Motion { failing, other_cuts } => scene.motion(failing, *other_cuts),
         Trouble::NoCommonBranch { failing, other } => scene.no_common_branch(failing, other),
-        Trouble::Way { op, leads, obstacle } => scene.way(*op, *leads, obstacle.depth),
+        Trouble::Way { op, leads, obstacle } => scene.way(*op, *leads, obstacle),
         Trouble::Nowhere => return Vec::new(),
     };
     let remedies = remedy::remedies(job, plan, unreachable);
@@ -70,7 +71,7 @@ impl Scene<'_> {
     fn motion(&self, failing: &Failing, other_cuts: usize) -> Diagnostic {
         let place = self.place(failing.op);
         let (at, base) = (self.along(failing), self.base());
-        let diagnostic = match failing.breach.what {
+        let diagnostic = match failing.worst.what {
             Violation::OutOfReach => Diagnostic::new(
                 Code::OutOfReach,
                 format!("the machine does not reach {place}"),
@@ -204,7 +205,7 @@ impl Scene<'_> {
     /// Why a motion fails, in half a sentence.
     fn reason(&self, failing: &Failing) -> String {
         let place = self.place(failing.op);
-        match failing.breach.what {
+        match failing.worst.what {
             Violation::OutOfReach => format!("{place} is out of reach"),
             Violation::Limit { axis, value } => match self.axis(axis) {
                 Some(axis) => format!("{place} takes {} to {}", axis.name, value_words(axis, value)),
@@ -218,19 +219,22 @@ impl Scene<'_> {
         }
     }
 
-    fn way(&self, op: OpId, leads: Leads, depth: f64) -> Diagnostic {
+    fn way(&self, op: OpId, leads: Leads, obstacle: &Obstacle) -> Diagnostic {
         let home = self.machine.home.and_then(|home| home.span);
         let span = home.unwrap_or(self.machine.head_span);
         let place = self.place(op);
-        let headline = match leads {
-            Leads::ToPose => format!(
-                "on the way of all axes to {place}, the blade comes {} mm below the top of the stock",
-                show(depth)
+        let way = match leads {
+            Leads::ToPose => format!("the move of all axes to {place}"),
+            Leads::ToHome => "the move of all axes home".to_owned(),
+        };
+        let headline = match obstacle.lowest {
+            Some(lowest) => format!(
+                "{way} leads through the stock: the blade comes down to x {} mm, y {} mm, z {} mm",
+                show(lowest.x),
+                show(lowest.y),
+                show(lowest.z)
             ),
-            Leads::ToHome => format!(
-                "on the way of all axes home, the blade comes {} mm below the top of the stock",
-                show(depth)
-            ),
+            None => format!("{way} begins or ends beyond the limit of an axis"),
         };
         Diagnostic::new(
             Code::WayThroughStock,
@@ -239,6 +243,11 @@ impl Scene<'_> {
             "the machine comes from here, and goes back to it",
         )
         .and(self.base(), "the work is here")
+        .note(format!(
+            "the stock's top is at z {} mm; this happens {} % along the way",
+            show(self.program.stock.height.to_mm()),
+            show((obstacle.at * 1000.0).round() / 10.0)
+        ))
         .note("all axes move at once, each straight to its value, so the blade does not go along a line")
     }
 
@@ -284,10 +293,7 @@ impl Scene<'_> {
     }
 
     fn stroke(&self, op: OpId) -> Option<Stroke> {
-        match legs(self.program).get(op.0 as usize)? {
-            Leg::Along(stroke) => Some(*stroke),
-            Leg::Still | Leg::Home | Leg::ByAxes(_) => None,
-        }
+        legs(self.program).get(op.0 as usize)?.stroke().copied()
     }
 
     /// `layer 7, cut 12 (x 43.2 mm, z 18.6 mm)`.
@@ -333,21 +339,33 @@ impl Scene<'_> {
         let Some(stroke) = self.stroke(failing.op) else {
             return "this is where the program comes to the work".to_owned();
         };
-        let at = failing.breach.at.clamp(0.0, 1.0);
+        let [first, worst] = [failing.breach, failing.worst].map(|breach| breach.at.clamp(0.0, 1.0));
         let length = stroke.from.tip.distance(stroke.to.tip).to_mm();
-        if length > 0.0 {
-            let (done, y) = (
-                at * length,
-                stroke.from.tip.y + at * (stroke.to.tip.y - stroke.from.tip.y),
-            );
-            format!(
-                "it happens {} mm along this motion of {} mm, at y {} mm",
-                show(done),
-                show(length),
-                show(y)
-            )
+        let turn = self.turn(&stroke);
+        let (whole, unit) = if length > 0.0 {
+            (length, "mm")
         } else {
-            format!("it happens after {} % of this turn", show(at * 100.0))
+            (turn, "deg")
+        };
+        let shown = |at: f64| show((at * whole * 10.0).round() / 10.0);
+        let begins = format!(
+            "it begins {} {unit} into this motion of {} {unit}",
+            shown(first),
+            shown(1.0)
+        );
+        if (worst - first) * whole < 0.1 {
+            begins
+        } else {
+            format!("{begins}, and is worst after {} {unit}", shown(worst))
+        }
+    }
+
+    /// How far a course turns the blade, in deg.
+    fn turn(&self, stroke: &Stroke) -> f64 {
+        let held = |id: OrientationId| self.program.orientations.get(id.0 as usize).copied();
+        match (held(stroke.from.held), held(stroke.to.held)) {
+            (Some(from), Some(to)) => from.angle_to(to).to_deg(),
+            (Some(_) | None, _) => 0.0,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation};
-use crate::reach::solve::Reached;
+use crate::reach_summary::{self, ReachFigures};
 use crate::sim::report::Report;
 use vcutc_backend_api::units::Duration;
 
@@ -11,7 +11,7 @@ const LISTED_LAYERS: usize = 24;
 
 /// The lines of the summary.
 #[must_use]
-pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&Reached>) -> Vec<String> {
+pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>) -> Vec<String> {
     let (cuts, layers) = (report.cuts(), report.layers.len());
     let mut lines = vec![format!(
         "{}: {cuts} {} in {layers} {}",
@@ -78,12 +78,9 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&Reached>) -> V
         "edge",
         &format!("{} mm in use at most", show(report.longest_edge.to_mm())),
     ));
-    lines.extend(reach.into_iter().flat_map(reach_lines));
+    let reach = reach.into_iter().flat_map(reach_summary::lines);
+    lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
-}
-
-fn reach_lines(_: &Reached) -> Vec<String> {
-    Vec::new()
 }
 
 fn row(name: &str, text: &str) -> String {

@@ -9,7 +9,7 @@ use vcutc_benches::stages::{self, Discard};
 
 fn all(criterion: &mut Criterion) {
     let (sources, job) = stages::check(&jobs::text(100_000));
-    let program = stages::lower(&stages::plan(&job), &sources);
+    let program = stages::reachable(&stages::lower(&stages::plan(&job), &sources));
     let options = stages::options();
     let mut bundle = Bundle::default();
     stages::emit(&program, &options, &mut bundle);

@@ -12,6 +12,7 @@ fn all(criterion: &mut Criterion) {
         let (sources, job) = stages::check(&text);
         let plan = stages::plan(&job);
         let program = stages::lower(&plan, &sources);
+        let reachable = stages::reachable(&program);
         let options = stages::options();
 
         let mut group = criterion.benchmark_group("stages");
@@ -43,7 +44,7 @@ fn all(criterion: &mut Criterion) {
             );
         });
         group.bench_function(id("emit"), |bench| {
-            bench.iter(|| stages::emit(black_box(&program), &options, &mut Discard::default()));
+            bench.iter(|| stages::emit(black_box(&reachable), &options, &mut Discard::default()));
         });
         group.finish();
     }

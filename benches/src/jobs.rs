@@ -42,7 +42,7 @@ rough vcut {{
   clearance = 10 mm
 }}
 
-machine cell = robot "kuka/kr210_r3100" {{
+machine cell = robot "kuka/kr210_r3100_ultra" {{
   tool       = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)
   base       = frame(x = 1800 mm, y = -25 mm, z = 700 mm, a = 0 deg, b = 0 deg, c = 0 deg)
   home       = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)

@@ -12,6 +12,8 @@ use vcutc::syntax::{self, ast::Ast};
 use vcutc::{lower, sim};
 use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};
 use vcutc_backend_api::bundle::{Sink, SinkError};
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::testkit;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_backend_krl::Krl;
 
@@ -138,15 +140,26 @@ pub fn options() -> Options {
     options
 }
 
+/// The program with the motion of a pretend machine in place of its own, so that writing is measured alone.
+#[must_use]
+pub fn reachable(program: &VerifiedProgram) -> ReachableProgram {
+    let mut program = program.program().clone();
+    if let Some(cell) = &mut program.cell {
+        cell.axes = testkit::axes();
+    }
+    let program = verify(program).expect("other axes break no rule");
+    testkit::reachable(program).expect("the pretend machine carries out everything")
+}
+
 /// Program to lines, as far as that can go wrong.
 #[must_use]
-pub fn prepare<'p>(program: &'p VerifiedProgram, options: &'p Options) -> Box<dyn Emission + 'p> {
+pub fn prepare<'p>(program: &'p ReachableProgram, options: &'p Options) -> Box<dyn Emission + 'p> {
     Krl.check(program, options).expect("KRL can say it")
 }
 
 /// Program to text.
 #[inline(never)]
-pub fn emit(program: &VerifiedProgram, options: &Options, sink: &mut dyn Sink) {
+pub fn emit(program: &ReachableProgram, options: &Options, sink: &mut dyn Sink) {
     prepare(program, options)
         .write(sink)
         .expect("the sink takes everything");

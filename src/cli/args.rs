@@ -212,7 +212,7 @@ pub(super) struct DisplayArgs {
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub(super) quiet: bool,
 
-    /// Print how long each stage took, too
+    /// Print what is asked of every axis of the machine and how long each stage took, too
     #[arg(short, long, global = true)]
     pub(super) verbose: bool,
 }
@@ -246,4 +246,6 @@ pub(super) enum InnerForm {
     Plan,
     /// The verified intermediate program, as JSON
     Ir,
+    /// The machine's axes all along the program, as CSV with a row at least every 5 mm or 2 degrees
+    Joints,
 }

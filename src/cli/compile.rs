@@ -138,6 +138,10 @@ fn tell(
             .compiled
             .as_ref()
             .map_or(&[], |compiled| &compiled.summary),
+        reach: outcome
+            .compiled
+            .as_ref()
+            .and_then(|compiled| compiled.figures.as_ref()),
         files: &made.files,
         remark: remark(product, exit),
         timings,
@@ -187,6 +191,11 @@ fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) 
     match inner::write(form, outcome, job, &mut output) {
         Ok(Progressed::Written) => published(output),
         Ok(Progressed::NotSoFar) => Ok(Made::default()),
+        Ok(Progressed::WithoutMachine) => {
+            Err(Failure::new("the job has no machine, so there are no axes to show").help(
+                "add a block such as `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
+            ))
+        }
         Err(error) => Err(Failure::new(error.to_string())),
     }
 }

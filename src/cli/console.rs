@@ -6,6 +6,7 @@
 use super::Exit;
 use super::args::{Color, DisplayArgs, MessageFormat};
 use crate::diag::{Diagnostic, Severity, json, render};
+use crate::reach_summary::{self, ReachFigures};
 use crate::source::SourceMap;
 use anstream::AutoStream;
 use serde::Serialize;
@@ -32,8 +33,8 @@ pub(super) enum Detail {
     DiagnosticsOnly,
     /// The summary, and progress.
     Summary,
-    /// How long each stage took, too.
-    Timings,
+    /// Every axis of the machine and how long each stage took, too.
+    Everything,
 }
 
 /// Why nothing could be judged: wrong usage, or a file that could not be read or written.
@@ -67,6 +68,8 @@ pub(super) struct Summary<'a> {
     pub(super) diagnostics: &'a [Diagnostic],
     /// What was planned, a line each.
     pub(super) lines: &'a [String],
+    /// What is asked of the machine.
+    pub(super) reach: Option<&'a ReachFigures>,
     /// Files that were written, as people see them.
     pub(super) files: &'a [String],
     /// What else there is to say of files, or of there being none.
@@ -90,6 +93,8 @@ struct SummaryBody<'a> {
     errors: usize,
     warnings: usize,
     lines: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reach: Option<&'a ReachFigures>,
     files: &'a [String],
     #[serde(skip_serializing_if = "Vec::is_empty")]
     stages: Vec<StageBody>,
@@ -109,7 +114,7 @@ impl Console {
             detail: match (display.quiet, display.verbose) {
                 (true, _) => Detail::DiagnosticsOnly,
                 (false, false) => Detail::Summary,
-                (false, true) => Detail::Timings,
+                (false, true) => Detail::Everything,
             },
         }
     }
@@ -173,6 +178,7 @@ impl Console {
                     errors,
                     warnings,
                     lines: summary.lines,
+                    reach: summary.reach,
                     files: summary.files,
                     stages: self.stage_bodies(summary.timings),
                 },
@@ -184,7 +190,9 @@ impl Console {
 
     fn human_summary(&self, summary: &Summary<'_>, errors: usize, warnings: usize) {
         let mut text: String = summary.lines.iter().map(|line| format!("{line}\n")).collect();
-        if self.detail == Detail::Timings {
+        if self.detail == Detail::Everything {
+            let table = summary.reach.map(reach_summary::table).unwrap_or_default();
+            text.extend(table.iter().map(|line| format!("{line}\n")));
             for (stage, time) in summary.timings {
                 text += &format!("{stage:<10} {:>9.1} ms\n", milliseconds(*time));
             }
@@ -198,7 +206,7 @@ impl Console {
     }
 
     fn stage_bodies(&self, timings: &[(&'static str, Duration)]) -> Vec<StageBody> {
-        if self.detail != Detail::Timings {
+        if self.detail != Detail::Everything {
             return Vec::new();
         }
         timings

@@ -1,13 +1,15 @@
 //! `--emit`: the forms a job has between its text and the program.
 //!
-//! Only the intermediate program is an exchange format with a version. The tree is for people who work on the compiler;
+//! Only the intermediate program, with its motion, is an exchange format with a version. The tree is for people who work on the compiler;
 //! the plan is a table for people who want to look at the cuts, in a spreadsheet or a plot.
 
 use super::args::InnerForm;
+use super::joints;
 use crate::driver::Outcome;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
+use vcutc_backend_api::exchange::Exchange;
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
 ///
@@ -29,8 +31,19 @@ pub(super) fn write(
             None => Ok(Progressed::NotSoFar),
         },
         InnerForm::Ir => match &outcome.compiled {
-            Some(compiled) => file(sink, &name, |out| write_json(compiled.program.program(), out)),
+            Some(compiled) => {
+                let motion = compiled.reach.as_ref().map(|reached| reached.program.motion());
+                let form = Exchange::of(compiled.program.program(), motion);
+                file(sink, &name, |out| write_json(&form, out))
+            }
             None => Ok(Progressed::NotSoFar),
+        },
+        InnerForm::Joints => match (&outcome.job, &outcome.compiled) {
+            (Some(job), Some(compiled)) => match &compiled.reach {
+                Some(reached) => file(sink, &name, |out| joints::write(job, reached, out)),
+                None => Ok(Progressed::WithoutMachine),
+            },
+            (Some(_) | None, _) => Ok(Progressed::NotSoFar),
         },
     }
 }
@@ -42,6 +55,8 @@ pub(super) enum Progressed {
     Written,
     /// Errors kept the job from getting there.
     NotSoFar,
+    /// The job has no machine, and the form is about one.
+    WithoutMachine,
 }
 
 /// `jobs/rib.vcut` as a tree is `rib.ast.txt`.
@@ -53,6 +68,7 @@ fn file_name(form: InnerForm, job: &str) -> String {
         InnerForm::Ast => "ast.txt",
         InnerForm::Plan => "plan.csv",
         InnerForm::Ir => "ir.json",
+        InnerForm::Joints => "joints.csv",
     };
     format!("{stem}.{ending}")
 }

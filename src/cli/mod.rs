@@ -5,7 +5,7 @@
 //! | What | Where |
 //! | --- | --- |
 //! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
-//! | `--emit ast`, `plan`, `ir` | standard output, or a file in the folder of `-o` |
+//! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
 //! | pages of `explain`, list of `targets`, help | standard output |
 //! | diagnostics, summary, timings, progress | standard error |
 //!
@@ -34,6 +34,7 @@ mod console;
 mod explain;
 mod files;
 mod inner;
+mod joints;
 mod output;
 mod place;
 mod progress;

@@ -132,6 +132,14 @@ codes! {
     /// Uncut material in the way of the blade's body.
     BladeBlocked = "VC0404", Error, "uncut material in the way of the blade";
 
+    /// A machine that is not in the catalogue.
+    UnknownMachine = "VC0501", Error, "a machine that is not in the catalogue";
+    /// A machine's file that cannot be used.
+    BadMachineFile = "VC0502", Error, "a machine's file that cannot be used";
+    /// A home that the axes cannot reach.
+    HomeOutsideLimits = "VC0503", Error, "a home outside of the axes' limits";
+    /// An orientation that is none.
+    NotARotation = "VC0504", Error, "an orientation that is no rotation";
     /// A motion that the machine does not reach.
     OutOfReach = "VC0510", Error, "a motion out of the machine's reach";
     /// A motion that takes an axis beyond its limit.

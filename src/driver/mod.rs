@@ -9,6 +9,7 @@ use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::plan::{self, PlannedJob};
 use crate::reach::solve::{LEAST_CLEARANCE, Reached, Unreached, solve};
+use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
 use crate::sema;
 use crate::sim::report::Report;
@@ -76,6 +77,8 @@ pub struct Compiled {
     pub program: VerifiedProgram,
     /// How the machine carries it out, when the job has one.
     pub reach: Option<Reached>,
+    /// What it asks of the machine.
+    pub figures: Option<ReachFigures>,
     /// Its figures.
     pub report: Report,
     /// The figures for people, a line each.
@@ -129,10 +132,12 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
             if !has_errors(&outcome.diagnostics) {
                 match reach(job, &plan, proven.program, progress) {
                     Ok((program, reach)) => {
-                        let summary = summary(&plan, &proven.report, reach.as_ref());
+                        let figures = reach.as_ref().map(reach_summary::figures);
+                        let summary = summary(&plan, &proven.report, figures.as_ref());
                         outcome.compiled = Some(Compiled {
                             program,
                             reach,
+                            figures,
                             report: proven.report,
                             summary,
                         });
@@ -200,7 +205,7 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
         return Ok(());
     };
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
-    let Some(reachable) = &compiled.reach else {
+    let Some(reached) = &compiled.reach else {
         return Err(EmitFailure::Diagnostics(vec![target::without_machine(
             job, backend,
         )]));
@@ -214,7 +219,7 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
         return Err(refused(&missing));
     }
     let emission = backend
-        .check(&reachable.program, &options)
+        .check(&reached.program, &options)
         .map_err(|issues| refused(&issues))?;
     emission.write(sink).map_err(|error| match error {
         EmitError::Sink(error) => EmitFailure::Sink(error.0),

@@ -3,6 +3,8 @@
 //! Readers of sheets and of URDF collect flaws instead of stopping at the first, and know nothing of jobs: who asked for
 //! the file turns each flaw into a diagnostic that points into it.
 
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Span};
 use core::ops::Range;
 
 /// One thing that is wrong with a description.
@@ -35,5 +37,16 @@ impl Flaw {
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
+    }
+
+    /// What people get to see, when the description is that file.
+    #[must_use]
+    pub fn diagnostic(&self, file: FileId) -> Diagnostic {
+        let span = Span::of_bytes(file, self.span.clone());
+        let diagnostic = Diagnostic::new(Code::BadMachineFile, &*self.message, span, &*self.label);
+        match &self.help {
+            Some(help) => diagnostic.help(help),
+            None => diagnostic,
+        }
     }
 }

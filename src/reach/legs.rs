@@ -30,6 +30,17 @@ pub enum Leg {
     Along(Stroke),
 }
 
+impl Leg {
+    /// The course, if it is one.
+    #[must_use]
+    pub const fn stroke(&self) -> Option<&Stroke> {
+        match self {
+            Self::Along(stroke) => Some(stroke),
+            Self::Still | Self::Home | Self::ByAxes(_) => None,
+        }
+    }
+}
+
 /// A course between two taught poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {

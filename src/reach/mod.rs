@@ -14,6 +14,7 @@ pub mod rig;
 mod runs;
 pub mod solve;
 mod survey;
+pub mod trajectory;
 pub mod trouble;
 pub mod way;
 mod ways;

@@ -4,7 +4,7 @@
 //! by some branch but no branch carries all that must be made on one, that is told.
 
 use super::legs::{Leg, Poses};
-use super::path::{Breach, Violation, prove};
+use super::path::{Breach, Violation, prove, worst};
 use super::runs::{Station, StationKind};
 use super::survey::{Failure, Survey, moved};
 use super::way::Obstacle;
@@ -51,8 +51,10 @@ pub struct Failing {
     pub op: OpId,
     /// The branch.
     pub branch: Option<Branch>,
-    /// Where and why.
+    /// Where it fails first, and why.
     pub breach: Breach,
+    /// Where on the same motion it fails most, as sampled.
+    pub worst: Breach,
 }
 
 /// Where a move of all axes leads.
@@ -92,11 +94,7 @@ pub(super) fn found(
     }) else {
         return out_of_reach(station);
     };
-    let of = |failure: &Failure, branch: Branch| Failing {
-        op: failure.op,
-        branch: Some(branch),
-        breach: failure.breach,
-    };
+    let of = |failure: &Failure, branch: Branch| failing_on(survey, failure, branch);
     let by_no_branch = common(failing);
     match least.iter().find(|failure| by_no_branch.contains(&failure.op)) {
         Some(failure) => Trouble::Motion {
@@ -104,6 +102,23 @@ pub(super) fn found(
             other_cuts: other_cuts(survey, failed, failure.op),
         },
         None => no_common_branch(station, failing, *branch, least, of),
+    }
+}
+
+/// A failure together with the worst of it.
+fn failing_on(survey: &Survey<'_>, failure: &Failure, branch: Branch) -> Failing {
+    let Failure { op, breach } = *failure;
+    let stroke = survey.legs.get(op.0 as usize).and_then(Leg::stroke);
+    let worst = stroke.and_then(|stroke| {
+        let start = survey.stand(stroke.from, branch)?;
+        let course = Poses::of(survey.program).course(stroke)?;
+        Some(worst(&survey.open, &course, branch, &start, &breach))
+    });
+    Failing {
+        op,
+        branch: Some(branch),
+        breach,
+        worst: worst.unwrap_or(breach),
     }
 }
 
@@ -134,14 +149,16 @@ fn no_common_branch(
 }
 
 fn out_of_reach(station: &Station) -> Trouble {
+    let breach = Breach {
+        at: 1.0,
+        what: Violation::OutOfReach,
+    };
     Trouble::Motion {
         failing: Failing {
             op: station.entry(),
             branch: None,
-            breach: Breach {
-                at: 1.0,
-                what: Violation::OutOfReach,
-            },
+            breach,
+            worst: breach,
         },
         other_cuts: 0,
     }
@@ -200,17 +217,19 @@ fn beyond_all_turns(survey: &Survey<'_>, station: &Station, run: &OnBranch) -> O
     } else {
         high
     };
-    let breach = proven_breach(survey, station, run, &by, worst.op).unwrap_or(Breach {
+    let farthest = Breach {
         at: 1.0,
         what: Violation::Limit {
             axis: index,
             value: worst.value,
         },
-    });
+    };
+    let first = proven_breach(survey, station, run, &by, worst.op);
     Some(Failing {
         op: worst.op,
         branch: Some(run.branch),
-        breach,
+        breach: first.unwrap_or(farthest),
+        worst: farthest,
     })
 }
 
@@ -223,9 +242,7 @@ fn proven_breach(
     op: OpId,
 ) -> Option<Breach> {
     let index = op.0 as usize;
-    let Some(Leg::Along(stroke)) = survey.legs.get(index) else {
-        return None;
-    };
+    let stroke = survey.legs.get(index)?.stroke()?;
     let before = index.checked_sub(station.ops.start + 1)?;
     let start = moved(run.carried.ends.get(before)?, by);
     let course = Poses::of(survey.program).course(stroke)?;

@@ -1,19 +1,56 @@
-//! The way of a move of all axes: whether the blade stays above the work.
+//! The way of a move of all axes: whether the blade stays out of the stock.
 
+use super::path::{AxesViolation, Block, prove_axes};
 use super::survey::Survey;
 use crate::kinematics::Joints;
+use glam::DVec3;
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Blade, Program};
 
 /// What is in the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Obstacle {
     /// Where on the way, from 0 to 1.
     pub at: f64,
-    /// How far the blade is below the stock's top there, in mm.
-    pub depth: f64,
+    /// The lowest point of the blade there, in W; none where an axis is beyond its limit instead.
+    pub lowest: Option<Point3>,
 }
 
-/// Proves that a move of all axes keeps the blade above the stock.
+/// Proves that a move of all axes keeps blade and tool out of the stock.
 pub(super) fn clear(survey: &Survey<'_>, from: &Joints, to: &Joints) -> Result<(), Obstacle> {
-    let _ = (survey, from, to);
-    Ok(())
+    let points = outline(survey);
+    prove_axes(&survey.rig, from, to, &points, &stock(survey.program)).map_err(|breach| Obstacle {
+        at: breach.at,
+        lowest: match breach.what {
+            AxesViolation::Stock { lowest } => Some(Point3::new(lowest.x, lowest.y, lowest.z)),
+            AxesViolation::Limit { .. } => None,
+        },
+    })
+}
+
+fn stock(program: &Program) -> Block {
+    let stock = program.stock;
+    Block {
+        low: DVec3::ZERO,
+        high: DVec3::new(stock.width.to_mm(), stock.depth.to_mm(), stock.height.to_mm()),
+    }
+}
+
+/// Points of the blade frame T between which blade and tool lie: the tip, the ends of both edges of each blade, and the
+/// flange. The arm behind the flange is farther away from the work than these.
+fn outline(survey: &Survey<'_>) -> Vec<DVec3> {
+    let ends = survey.program.operations.iter().flat_map(|operation| {
+        let Blade {
+            cutting_length,
+            half_apex,
+            ..
+        } = &operation.blade;
+        let (sin, cos) = libm::sincos(half_apex.to_rad());
+        let (aside, up) = (cutting_length.to_mm() * sin, -cutting_length.to_mm() * cos);
+        [DVec3::new(aside, 0.0, up), DVec3::new(-aside, 0.0, up)]
+    });
+    [DVec3::ZERO, survey.rig.flange_in_blade.position]
+        .into_iter()
+        .chain(ends)
+        .collect()
 }

@@ -11,13 +11,13 @@ use crate::syntax::ast::{Argument, Expr};
 
 /// A named value of a call.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Parameter {
+pub(crate) struct Parameter<'p> {
     /// Its name.
-    pub(crate) name: &'static str,
+    pub(crate) name: &'p str,
     /// Its range.
     pub(crate) range: Range,
     /// A typical value.
-    pub(crate) typical: &'static str,
+    pub(crate) typical: &'p str,
 }
 
 /// A call that a field takes.
@@ -25,16 +25,17 @@ pub(crate) struct Arguments<'a> {
     /// Which of the calls that the field takes.
     pub(crate) function: &'static str,
     /// How a whole call looks.
-    example: &'static str,
-    span: Span,
-    given: &'a [Argument],
+    example: &'a str,
+    /// The whole call.
+    pub(crate) span: Span,
+    given: Vec<&'a Argument>,
 }
 
 /// The call that a field's value is. `known` are the calls it takes, each with an example.
 pub(crate) fn calls<'a>(
     field: &str,
     expr: &'a Spanned<Expr>,
-    known: &[(&'static str, &'static str)],
+    known: &[(&'static str, &'a str)],
     reports: &mut Reports,
 ) -> Checked<Arguments<'a>> {
     let forms: Vec<String> = known
@@ -58,7 +59,7 @@ pub(crate) fn calls<'a>(
             function: name,
             example,
             span: expr.span,
-            given: arguments,
+            given: arguments.iter().collect(),
         });
     }
     let diagnostic = Diagnostic::new(
@@ -74,7 +75,7 @@ pub(crate) fn calls<'a>(
 impl<'a> Arguments<'a> {
     /// The only value, without a name.
     pub(crate) fn single(&self, reports: &mut Reports) -> Checked<&'a Spanned<Expr>> {
-        match self.given {
+        match self.given.as_slice() {
             [Argument { name: None, value }] => Ok(value),
             [
                 Argument {
@@ -91,6 +92,22 @@ impl<'a> Arguments<'a> {
                 "one value is wanted here",
             ))),
         }
+    }
+
+    /// The values, however many and whether they have names or not.
+    pub(crate) fn all(&self) -> &[&'a Argument] {
+        &self.given
+    }
+
+    /// Takes the values of these names out, for a caller who reads them in another way.
+    pub(crate) fn take(&mut self, names: &[&str]) -> Vec<&'a Argument> {
+        let is_wanted = |argument: &&Argument| {
+            let label = argument.name.as_ref();
+            label.is_some_and(|label| names.contains(&label.node.as_str()))
+        };
+        let (taken, rest) = self.given.iter().partition(|argument| is_wanted(argument));
+        self.given = rest;
+        taken
     }
 
     /// A fixed count of values without names.
@@ -124,9 +141,26 @@ impl<'a> Arguments<'a> {
     /// Values with names, all of which must be given, in the order of the parameters.
     pub(crate) fn named<const N: usize>(
         &self,
-        parameters: &'static [Parameter],
+        parameters: &[Parameter<'_>; N],
         reader: &mut Reader<'_>,
     ) -> Checked<[f64; N]> {
+        let values = self.read_all(parameters, reader)?;
+        <[f64; N]>::try_from(values).map_err(|_| {
+            reader.reports.push(Diagnostic::new(
+                Code::Internal,
+                format!("`{}` is read with a wrong count of values", self.function),
+                self.span,
+                "here",
+            ))
+        })
+    }
+
+    /// Values with names, all of which must be given, in the order of the parameters.
+    pub(crate) fn read_all(
+        &self,
+        parameters: &[Parameter<'_>],
+        reader: &mut Reader<'_>,
+    ) -> Checked<Vec<f64>> {
         let mut fault = None;
         for (at, argument) in self.given.iter().enumerate() {
             if let Some(diagnostic) = self.misnamed(at, argument, parameters) {
@@ -148,25 +182,20 @@ impl<'a> Arguments<'a> {
                 None => {}
             }
         }
-        match (fault, <[f64; N]>::try_from(values)) {
-            (None, Ok(values)) => Ok(values),
-            (Some(reported), _) => Err(reported),
-            (None, Err(_)) => Err(reader.reports.push(Diagnostic::new(
-                Code::Internal,
-                format!("`{}` is read with a wrong count of values", self.function),
-                self.span,
-                "here",
-            ))),
+        match fault {
+            None => Ok(values),
+            Some(reported) => Err(reported),
         }
     }
 
-    fn find(&self, name: &str) -> Option<&'a Argument> {
-        let is_it = |argument: &&Argument| argument.name.as_ref().is_some_and(|label| label.node == name);
-        self.given.iter().find(is_it)
+    /// The value of that name.
+    pub(crate) fn find(&self, name: &str) -> Option<&'a Argument> {
+        let is_it = |argument: &Argument| argument.name.as_ref().is_some_and(|label| label.node == name);
+        self.given.iter().copied().find(|argument| is_it(argument))
     }
 
     /// What is wrong with the name of an argument.
-    fn misnamed(&self, at: usize, argument: &Argument, parameters: &[Parameter]) -> Option<Diagnostic> {
+    fn misnamed(&self, at: usize, argument: &Argument, parameters: &[Parameter<'_>]) -> Option<Diagnostic> {
         let Some(label) = &argument.name else {
             let diagnostic = self.misfit(
                 format!("the values of `{}` need names", self.function),
@@ -199,7 +228,7 @@ impl<'a> Arguments<'a> {
     }
 
     /// A parameter that is not given.
-    fn lacks(&self, parameter: &Parameter) -> Diagnostic {
+    fn lacks(&self, parameter: &Parameter<'_>) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::BadCall,
             format!("`{}` needs `{}`", self.function, parameter.name),
@@ -217,7 +246,8 @@ impl<'a> Arguments<'a> {
         }
     }
 
-    fn misfit(&self, message: String, span: Span, label: impl Into<String>) -> Diagnostic {
+    /// The diagnostic for values that do not fit the call.
+    pub(crate) fn misfit(&self, message: String, span: Span, label: impl Into<String>) -> Diagnostic {
         Diagnostic::new(Code::BadCall, message, span, label).help(format!("write it like `{}`", self.example))
     }
 }

@@ -32,7 +32,10 @@ const FORMS: &[(&str, &str)] = &[
     ("profile", "profile { ... }"),
     ("blade", "blade NAME { ... }"),
     ("rough", "rough vcut { ... }"),
-    ("machine", "machine NAME = robot \"kuka/kr210_r3100\" { ... }"),
+    (
+        "machine",
+        "machine NAME = robot \"kuka/kr210_r3100_ultra\" { ... }",
+    ),
     ("cell", "cell { machine = NAME }"),
 ];
 
@@ -40,7 +43,10 @@ const FORMS: &[(&str, &str)] = &[
 const ROUGHINGS: &[&str] = &["vcut"];
 
 /// Kinds of machine.
-const MACHINES: &[(&str, MachineKind)] = &[("robot", MachineKind::Robot)];
+pub(crate) const MACHINES: &[(&str, MachineKind)] = &[
+    ("robot", MachineKind::Robot),
+    ("five_axis", MachineKind::FiveAxis),
+];
 
 /// The kind of a block.
 pub(crate) fn classify(block: &Block) -> Result<Kind<'_>, Box<Diagnostic>> {
@@ -164,7 +170,7 @@ fn machine<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<
     };
     let (kind, behind) = match behind {
         [(HeadPart::Equals, _), (HeadPart::Word(kind), span), behind @ ..] => {
-            (machine_kind(kind, *span)?, behind)
+            (Spanned::new(machine_kind(kind, *span)?, *span), behind)
         }
         _ => return Err(incomplete("machine", "what it is", name.span)),
     };

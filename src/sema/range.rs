@@ -51,6 +51,8 @@ pub(crate) const RAKE: Range = range(Dimension::ANGLE, Low::Above(0.0), High::At
 pub(crate) const SWING: Range = range(Dimension::ANGLE, Low::Above(0.0), High::Below(90.0));
 /// Angles of a frame.
 pub(crate) const FRAME_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-360.0), High::AtMost(360.0));
+/// Parts of a quaternion. Whether all four make a rotation is looked at together.
+pub(crate) const QUATERNION_PART: Range = range(Dimension::PURE, Low::AtLeast(-1000.0), High::AtMost(1000.0));
 /// Angles of robot axes, which may turn more than once.
 pub(crate) const AXIS_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-1080.0), High::AtMost(1080.0));
 /// Speeds of the tip, up to 100 m/s.

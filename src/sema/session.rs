@@ -1,8 +1,10 @@
 //! What the checks of one run share: the loader, the source texts, and what has been found so far.
 
-use super::report::{Reported, Reports};
+use super::report::{Checked, Reported, Reports};
+use crate::machine::Model;
 use crate::source::{FileId, Loader, SourceMap, Span};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// One run.
 pub(crate) struct Session<'a> {
@@ -14,6 +16,8 @@ pub(crate) struct Session<'a> {
     pub(crate) reports: Reports,
     /// Files of which a part could not be read. What seems to be missing there may be in the unreadable part.
     damaged: BTreeMap<FileId, Reported>,
+    /// Machines described by files, by path: a shop may put one arm into several cells.
+    pub(crate) machines: BTreeMap<String, Checked<Arc<Model>>>,
     /// Set when definitions may be missing because a file could not be had or read in full.
     incomplete: Option<Reported>,
 }
@@ -26,6 +30,7 @@ impl<'a> Session<'a> {
             sources,
             reports: Reports::default(),
             damaged: BTreeMap::new(),
+            machines: BTreeMap::new(),
             incomplete: None,
         }
     }

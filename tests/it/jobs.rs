@@ -16,7 +16,7 @@ use vcutc::driver::Outcome;
 use vcutc::job::{Auto, Operation};
 use vcutc::plan::{PlannedOperation, TipOrigin, Way};
 use vcutc_backend_api::bundle::Bundle;
-use vcutc_backend_api::ir::Program;
+use vcutc_backend_api::exchange::Exchange;
 
 /// The file that a folder is about.
 const JOB: &str = "job.vcut";
@@ -171,14 +171,11 @@ fn programs_say_what_was_planned() {
 fn intermediate_programs_come_back_from_json() {
     for folder in folders() {
         let text = fs::read_to_string(folder.join("ir.json")).unwrap();
-        let program: Program = serde_json::from_str(&text).unwrap();
-        let outcome = compiled(&folder);
-        assert_eq!(
-            &program,
-            outcome.compiled.unwrap().program.program(),
-            "{}",
-            folder.display()
-        );
+        let form: Exchange<'_> = serde_json::from_str(&text).unwrap();
+        let compiled = compiled(&folder).compiled.unwrap();
+        assert_eq!(&*form.program, compiled.program.program(), "{}", folder.display());
+        let motion = compiled.reach.as_ref().map(|reached| reached.program.motion());
+        assert_eq!(form.motion.as_deref(), motion, "{}", folder.display());
     }
 }
 

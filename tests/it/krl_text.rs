@@ -6,28 +6,37 @@ mod expected;
 #[path = "../../backends/krl/tests/support/reader.rs"]
 mod reader;
 
-use expected::{Rounding, compare, events, poses_agree};
+use expected::{Rounding, compare, poses_agree, steps};
 use reader::{Event, Pose, Setting};
 use vcutc::driver::Outcome;
 use vcutc::job::GivenValue;
+use vcutc::kinematics::Mechanism;
+use vcutc::kinematics::opw::Opw;
 use vcutc_backend_api::bundle::Bundle;
-use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::Registered;
+use vcutc_backend_api::ir::{AxisValues, PlacedFrame};
 
-/// Asserts that the text of a job's program does what its ops say, within rounding, in the frames of its machine.
+/// Asserts that the text of a job's program does what its ops say, within rounding, in the frames of its machine and on the
+/// branch that its axes are on.
 pub(crate) fn check(outcome: &Outcome, bundle: &Bundle) {
-    let program = &outcome.compiled.as_ref().unwrap().program;
+    let program = &outcome.compiled.as_ref().unwrap().reach.as_ref().unwrap().program;
+    let model = &outcome.job.as_ref().unwrap().machine.as_ref().unwrap().model;
+    #[allow(irrefutable_let_patterns, reason = "KRL drives no other mechanism")]
+    let Mechanism::OrthoParallel(arm) = &model.mechanism else {
+        panic!("{}: not an arm of KUKA's", model.name)
+    };
+    let status = |axes: &AxisValues| status(arm, axes);
     let name = &program.program().name;
     let main = bundle.files()[0].0.trim_end_matches(".src");
     let got = reader::run(bundle, main).unwrap_or_else(|problem| panic!("{name}: {problem}"));
     let rounding = Rounding::of_decimals(decimals(outcome));
-    compare(&got, &events(program), rounding).unwrap_or_else(|problem| panic!("{name}: {problem}"));
+    compare(&got, &steps(program, &status), rounding).unwrap_or_else(|problem| panic!("{name}: {problem}"));
     let cell = program.program().cell.as_ref().unwrap();
     for event in &got {
         match event {
             Event::Tool(setting) => assert_frame(setting, cell.tool, rounding),
             Event::Base(setting) => assert_frame(setting, cell.base, rounding),
             Event::Axes(_)
+            | Event::Point { .. }
             | Event::Line { .. }
             | Event::Output(..)
             | Event::Await(_)
@@ -37,13 +46,29 @@ pub(crate) fn check(outcome: &Outcome, bundle: &Bundle) {
     }
 }
 
-fn assert_frame(got: &Setting, want: Registered<Frame>, rounding: Rounding) {
-    let agrees = match (*got, want) {
-        (Setting::Number(got), Registered::Number(want)) => got == want,
-        (Setting::Value(got), Registered::Value(want)) => {
+/// `S` from the axes alone, by its definition: where the wrist centre is, seen from axis 1 and from the line through axes
+/// 2 and 3, and the sign of axis 5.
+#[expect(clippy::disallowed_methods, reason = "another sine than the compiler's")]
+fn status(arm: &Opw, axes: &AxisValues) -> u32 {
+    let [_, a2, a3, _, a5, _] = axes.0;
+    // Both lean forward from upright; A2 is counted from the upper arm lying forward.
+    let upper = a2 + std::f64::consts::FRAC_PI_2;
+    let fore = upper + a3;
+    let wrist_x = arm.a1 + arm.c2 * upper.sin() + arm.c3 * fore.sin() + arm.a2 * fore.cos();
+    let stretched = -(arm.a2 / arm.c3).atan();
+    let bits = [wrist_x < 0.0, a3 > stretched, a5 < 0.0];
+    bits.into_iter()
+        .rev()
+        .fold(0, |bits, bit| 2 * bits + u32::from(bit))
+}
+
+fn assert_frame(got: &Setting, want: PlacedFrame, rounding: Rounding) {
+    let agrees = match (*got, want.number) {
+        (Setting::Number(got), Some(want)) => got == want,
+        (Setting::Value(got), None) => {
             let want = Pose {
-                tip: [want.origin.x, want.origin.y, want.origin.z],
-                axes: want.orientation.matrix(),
+                tip: [want.frame.origin.x, want.frame.origin.y, want.frame.origin.z],
+                axes: want.frame.orientation.matrix(),
             };
             poses_agree(&got, &want, rounding)
         }

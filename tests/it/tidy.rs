@@ -16,7 +16,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("posture", &[]),
     ("diag", &["source"]),
     ("kinematics", &[]),
-    ("machine", &["diag", "kinematics"]),
+    ("machine", &["diag", "kinematics", "source"]),
     ("reach", &["kinematics", "machine"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),
@@ -32,7 +32,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
-            "diag", "job", "plan", "registry", "sema", "sim", "source", "summary", "syntax", "verdict",
+            "diag", "job", "machine", "plan", "reach", "registry", "sema", "sim", "source", "summary",
+            "syntax", "verdict",
         ],
     ),
     ("cli", &["diag", "driver", "plan", "registry", "source"]),
@@ -52,6 +53,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),
     ("tempfile::", &["src/cli/"]),
+    ("toml::", &["src/machine/"]),
     ("std::fs", &["src/cli/"]),
     ("std::net", &[]),
     ("std::env::", &["src/cli/"]),

@@ -16,14 +16,28 @@
 //! rotation between consecutive poses is therefore always less than 180 degrees (there would be two ways
 //! round); [`verify::verify`] refuses anything else.
 //!
+//! Two ops say where the axes go instead, all of them arriving together: [`ir::Action::Home`], to the values of home, and
+//! [`ir::Action::AxisTravel`], to one of the ways in which the machine can hold the blade in a pose (KRL `PTP`, RAPID
+//! `MoveJ`). The first way from home is always such a move, since the way of a straight move from axis values would
+//! depend on the arm; later ones are where the arm has to stand differently, and lie above the stock.
+//!
+//! # How a machine carries it out
+//!
+//! The program says nothing of axes but at home. Which way of holding the blade is meant, and where the axes are at the end
+//! of every op, is said by the [`motion::Motion`] that goes with it. Between two ops that are no moves of all axes the
+//! machine stays on one [`motion::Branch`]; that the axes follow the tip there, within their limits and rates, has been
+//! proven before.
+//!
 //! # From program to files
 //!
-//! Only a [`verify::VerifiedProgram`] can reach a backend, and only [`verify::verify`] makes one. A
+//! Only a [`motion::ReachableProgram`] can reach a backend: it joins a [`verify::VerifiedProgram`], which only
+//! [`verify::verify`] makes, and a motion, which [`motion::ReachableProgram::assemble`] checks against it. A
 //! [`backend::Backend`] first checks whether its dialect can say the program (data, no text) and then writes
 //! bytes into a [`bundle::Sink`]; it does no kinematics, reads nothing and invents no defaults.
 
 pub mod backend;
 pub mod bundle;
+pub mod exchange;
 pub mod geometry;
 pub mod ir;
 pub mod motion;

@@ -111,8 +111,8 @@ impl Backend for Krl {
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         let settings = Settings::read(options);
-        let cell = limits::check(program)?;
         let parts = split::split(&program.program().ops, settings.lines_per_part);
+        let cell = limits::check(program, &parts)?;
         if parts.len() > MOST_PARTS {
             return Err(vec![too_many_parts(parts.len())]);
         }

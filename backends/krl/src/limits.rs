@@ -5,6 +5,7 @@
 //! would otherwise be told a million times.
 
 use crate::configuration::status;
+use crate::split::Part;
 use crate::text::trimmed_text;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
@@ -62,7 +63,10 @@ const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
 const DRIVES: &str = "KUKA robots with six rotary axes and a spherical wrist";
 
 /// The cell of a program, or everything that stands in the way of writing it.
-pub(crate) fn check(program: &ReachableProgram) -> Result<&Cell, Vec<BackendIssue>> {
+pub(crate) fn check<'p>(
+    program: &'p ReachableProgram,
+    parts: &[Part],
+) -> Result<&'p Cell, Vec<BackendIssue>> {
     let wrong = |mismatch| {
         let drives = DRIVES;
         vec![BackendIssue::WrongMachine { mismatch, drives }]
@@ -77,6 +81,7 @@ pub(crate) fn check(program: &ReachableProgram) -> Result<&Cell, Vec<BackendIssu
     let mut findings = Findings::default();
     findings.cell(cell);
     findings.ops(program);
+    findings.restarts(program, parts);
     if findings.issues.is_empty() {
         Ok(cell)
     } else {
@@ -258,10 +263,7 @@ impl Findings {
                 Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
                 Action::AxisTravel { to, .. } => {
                     self.target(id, to);
-                    // T tells only two turns of an axis apart.
-                    if let Some(axes) = program.axes_after(id) {
-                        self.axes(Some(id), "axis angle", axes);
-                    }
+                    self.turns(program, id);
                 }
                 Action::Travel { to, feed, rate, .. } => {
                     self.target(id, to);
@@ -281,6 +283,21 @@ impl Findings {
                     self.tell(what, BackendIssue::Unsupported { op: id, what });
                 }
             }
+        }
+    }
+
+    /// Parts begin with a move of all axes to where the op before them ended.
+    fn restarts(&mut self, program: &ReachableProgram, parts: &[Part]) {
+        let before = |part: &Part| u32::try_from(part.ops.start.checked_sub(1)?).ok();
+        for op in parts.iter().filter_map(before) {
+            self.turns(program, OpId(op));
+        }
+    }
+
+    /// The axes at the end of an op, where T has to say which turn is meant.
+    fn turns(&mut self, program: &ReachableProgram, op: OpId) {
+        if let Some(axes) = program.axes_after(op) {
+            self.axes(Some(op), "axis angle", axes);
         }
     }
 

@@ -74,7 +74,9 @@ fn continuation(
     text.line(&format!("; part {number} of {count}: start {main}, not this"))?;
     if let Some(before) = before {
         text.line(&format!("; goes on where {before} stopped"))?;
-        text.line("; if started alone: from home only, and watch the way to the first point")?;
+        text.line(
+            "; if started alone: in T1, the blade clear of the work, watching the way to the first point",
+        )?;
     }
     Ok(())
 }

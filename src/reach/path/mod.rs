@@ -2,18 +2,27 @@
 
 mod along;
 mod arm;
+mod axes;
+mod bounds;
 mod course;
 mod interval;
 mod march;
 #[cfg(test)]
 mod tests;
+mod worst;
+
+pub use axes::{AxesBreach, AxesViolation, Block, prove_axes};
+pub use worst::worst;
 
 use super::rig::Rig;
+use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::{Joints, Mechanism};
 use arm::ArmBranch;
-use course::Flight;
-use march::{Bounds, march};
+use bounds::{Bounds, Progress, Stretch};
+use course::{Flight, Span};
+use interval::Interval;
+use march::march;
 use vcutc_backend_api::motion::Branch;
 
 /// A motion as controllers interpolate it: the tip on a straight line, the orientation on one rotation axis (of a robot) or
@@ -105,7 +114,7 @@ pub enum Singularity {
 /// within the limits and rates of the rig's axes and no nearer to singular poses than `least`.
 ///
 /// # Errors
-/// The first place where they do not, or where that cannot be told apart from rounding.
+/// The first place where they do not. An axis is there just beyond its bound; [`worst`] tells how far it would go.
 pub fn prove(
     rig: &Rig<'_>,
     course: &Course,
@@ -113,53 +122,106 @@ pub fn prove(
     start: &Joints,
     least: &Clearance,
 ) -> Result<Proof, Breach> {
-    const BEGINNING: Breach = Breach {
-        at: 0.0,
-        what: Violation::OutOfReach,
-    };
-    let flight = Flight::new(rig, course).ok_or(BEGINNING)?;
-    if !(course.duration > 0.0 && course.duration.is_finite()) {
-        return Err(BEGINNING);
-    }
-    // Where the closed form finds no way, or another than the given one, there is nothing to continue.
-    let begun = rig.mechanism.on_branch(&flight.flange_at(0.0), branch, start);
-    if !begun.is_some_and(|begun| is_same(&begun, start)) {
-        return Err(BEGINNING);
+    let begins_with = |what| Breach { at: 0.0, what };
+    let way = Way::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
+    // Where kinematics finds no axis values, or others than the given ones, there is nothing to continue.
+    if !way
+        .joints_at(0.0, start)
+        .is_some_and(|begun| is_same(&begun, start))
+    {
+        return Err(begins_with(Violation::OutOfReach));
     }
     let bounds = Bounds {
         axes: rig.axes,
         least: *least,
         duration: course.duration,
     };
-    let mut proof = match (rig.mechanism, branch) {
-        (
-            Mechanism::OrthoParallel(arm),
-            Branch::Arm {
-                shoulder,
-                elbow,
-                wrist,
-            },
-        ) => {
-            let branch = ArmBranch {
-                shoulder,
-                elbow,
-                wrist,
-            };
-            march(&bounds, start, |span, _| {
-                Ok(arm::posture(arm, branch, &flight.over(span))?.stretch(span))
-            })?
-        }
-        (Mechanism::OrthoParallel(_), Branch::Numbered(_)) => return Err(BEGINNING),
-    };
+    bounds
+        .hold_values(&start.map(Interval::exactly))
+        .map_err(begins_with)?;
+    let mut progress = Progress::new(bounds, start);
+    let tries = march(|span, effort| {
+        let found = way.stretch(span, &progress.end());
+        progress.add(found, effort)
+    })
+    .map_err(|(at, why)| Breach {
+        at,
+        what: why.finite(),
+    })?;
     // The enclosure of the end tells the turns; this is the end to the last digit.
-    if let Some(end) = rig
-        .mechanism
-        .on_branch(&flight.flange_at(1.0), branch, &proof.end)
-    {
-        proof.end = end;
+    let end = way.joints_at(1.0, &progress.end()).unwrap_or(progress.end());
+    Ok(progress.done(end, tries + 2))
+}
+
+/// The axes on a branch at a place of a course, from 0 to 1, within half a turn of `near`.
+#[must_use]
+pub fn joints_on(
+    rig: &Rig<'_>,
+    course: &Course,
+    branch: Branch,
+    place: f64,
+    near: &Joints,
+) -> Option<Joints> {
+    Way::new(rig, course, branch)?.joints_at(place, near)
+}
+
+/// A machine on a branch that carries the blade along a course: the one place of this module that tells mechanisms apart.
+struct Way<'m> {
+    mechanism: &'m Mechanism,
+    branch: Branch,
+    flight: Flight,
+    kind: Kind<'m>,
+}
+
+/// How spans are proven.
+enum Kind<'m> {
+    /// By the closed form.
+    Arm(&'m Opw, ArmBranch),
+}
+
+impl<'m> Way<'m> {
+    /// `None` for a course without a duration, beyond all machines, or a branch that the machine does not have.
+    fn new(rig: &Rig<'m>, course: &Course, branch: Branch) -> Option<Self> {
+        let lasts = course.duration > 0.0 && course.duration.is_finite();
+        let kind = match (rig.mechanism, branch) {
+            (
+                Mechanism::OrthoParallel(arm),
+                Branch::Arm {
+                    shoulder,
+                    elbow,
+                    wrist,
+                },
+            ) => Kind::Arm(
+                arm,
+                ArmBranch {
+                    shoulder,
+                    elbow,
+                    wrist,
+                },
+            ),
+            (Mechanism::OrthoParallel(_), Branch::Numbered(_)) => return None,
+        };
+        let flight = Flight::new(rig, course).filter(|_| lasts)?;
+        Some(Self {
+            mechanism: rig.mechanism,
+            branch,
+            flight,
+            kind,
+        })
     }
-    proof.solves += 2;
-    Ok(proof)
+
+    /// The axes at a place of the course.
+    fn joints_at(&self, place: f64, near: &Joints) -> Option<Joints> {
+        self.mechanism
+            .on_branch(&self.flight.flange_at(place), self.branch, near)
+    }
+
+    /// What the axes do on a span, proven.
+    fn stretch(&self, span: Span, _begin: &Joints) -> Result<Stretch, Violation> {
+        match self.kind {
+            Kind::Arm(arm, branch) => Ok(arm::posture(arm, branch, &self.flight.over(span))?.stretch(span)),
+        }
+    }
 }
 
 /// How far apart given and computed axis values at the start may be, in rad or mm.

@@ -1,4 +1,8 @@
-//! The proof against dense sampling, on random moves of several arms.
+//! Arms, random moves, and dense sampling, against which the proofs are tested.
+
+mod axes;
+mod sampling;
+mod windows;
 
 use super::*;
 use crate::kinematics::opw::{Coupling, Opw};
@@ -138,13 +142,15 @@ fn rig(model: &Model) -> Rig<'_> {
     Rig::new(model, tool, base)
 }
 
-/// A move from within the axes' ranges, and the branch it begins on.
-fn random_move(dice: &mut Dice, rig: &Rig<'_>, longest: f64, most_turn: f64) -> (Course, Branch, Joints) {
-    let mut start = [0.0; 6];
-    for (value, axis) in start.iter_mut().zip(rig.axes) {
-        let inside = 0.02 * (axis.max - axis.min);
-        *value = dice.between(axis.min + inside, axis.max - inside);
-    }
+/// A move from within the axes' ranges, and the branch and the axis values that it begins with.
+fn random_move(
+    dice: &mut Dice,
+    rig: &Rig<'_>,
+    ranges: &[Axis],
+    longest: f64,
+    most_turn: f64,
+) -> (Course, Branch, Joints) {
+    let start = random_joints(dice, ranges);
     let from = rig.blade_in_work(&start);
     let length = dice.between(1.0, longest);
     let to = Pose {
@@ -154,6 +160,15 @@ fn random_move(dice: &mut Dice, rig: &Rig<'_>, longest: f64, most_turn: f64) -> 
     let duration = length / dice.between(20.0, 600.0);
     let course = Course { from, to, duration };
     (course, branch_of(rig, &start), start)
+}
+
+fn random_joints(dice: &mut Dice, ranges: &[Axis]) -> Joints {
+    let mut joints = [0.0; 6];
+    for (value, axis) in joints.iter_mut().zip(ranges) {
+        let inside = 0.02 * (axis.max - axis.min);
+        *value = dice.between(axis.min + inside, axis.max - inside);
+    }
+    joints
 }
 
 fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
@@ -168,6 +183,18 @@ fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
         .iter()
         .min_by(|a, b| apart(&a.joints).total_cmp(&apart(&b.joints)));
     nearest.unwrap().branch
+}
+
+/// The interpolation by another formula than the proof's.
+fn blade_at(course: &Course, s: f64) -> Pose {
+    let (one, other) = (
+        DQuat::from_mat3(&course.from.rotation),
+        DQuat::from_mat3(&course.to.rotation),
+    );
+    Pose {
+        rotation: DMat3::from_quat(one.slerp(other, s)),
+        position: course.from.position.lerp(course.to.position, s),
+    }
 }
 
 /// What sampling finds: values, rates and clearances at places at most 0.05 mm apart, by numbers and a formula of its own
@@ -190,16 +217,8 @@ fn sample(rig: &Rig<'_>, arm: &Opw, course: &Course, branch: Branch, start: &Joi
         clearance: clearance_at(arm, start),
         end: *start,
     };
-    let (one, other) = (
-        DQuat::from_mat3(&course.from.rotation),
-        DQuat::from_mat3(&course.to.rotation),
-    );
     for k in 1..=steps as u32 {
-        let s = f64::from(k) / steps;
-        let blade = Pose {
-            rotation: DMat3::from_quat(one.slerp(other, s)),
-            position: course.from.position.lerp(course.to.position, s),
-        };
+        let blade = blade_at(course, f64::from(k) / steps);
         let joints = rig
             .mechanism
             .on_branch(&rig.flange_in_root(&blade), branch, &found.end)?;
@@ -229,105 +248,5 @@ fn clearance_at(arm: &Opw, joints: &Joints) -> Clearance {
         wrist: from_line(joints[4]),
         elbow: from_line(psi),
         shoulder: (cos * centre.x + sin * centre.y).abs(),
-    }
-}
-
-/// By how much the axes keep within all bounds, in parts of the margin below which the proof may refuse: 1 deg of angle,
-/// 5 mm, 5 percent of the rate. Negative where a bound is broken.
-fn margin(rig: &Rig<'_>, found: &Sampled) -> f64 {
-    let degree = 1.0_f64.to_radians();
-    let mut margin = f64::INFINITY;
-    for (i, axis) in rig.axes.iter().enumerate() {
-        margin = margin.min((axis.max - found.high[i]) / degree);
-        margin = margin.min((found.low[i] - axis.min) / degree);
-        if let Some(most) = axis.rate {
-            margin = margin.min((most - found.rate[i]) / (0.05 * most));
-        }
-    }
-    let clearance = &found.clearance;
-    margin
-        .min((clearance.wrist - LEAST.wrist) / degree)
-        .min((clearance.elbow - LEAST.elbow) / degree)
-        .min((clearance.shoulder - LEAST.shoulder) / 5.0)
-}
-
-fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64) {
-    let rig = rig(model);
-    let arm = arm_of(model);
-    let mut dice = Dice(u64::from(moves));
-    let (mut proven, mut refused, mut solves) = (0, 0, 0);
-    for number in 0..moves {
-        let (course, branch, start) = random_move(&mut dice, &rig, longest, most_turn);
-        let proof = prove(&rig, &course, branch, &start, &LEAST);
-        let sampled = sample(&rig, &arm, &course, branch, &start);
-        let margin = sampled.as_ref().map_or(-1.0, |found| margin(&rig, found));
-        match proof {
-            Ok(proof) => {
-                let found = sampled.unwrap();
-                assert!(
-                    margin > -1e-6,
-                    "{}, move {number}: a violation was missed",
-                    model.name
-                );
-                holds(&proof, &found, &format!("{}, move {number}", model.name));
-                proven += 1;
-                solves = solves.max(proof.solves);
-            }
-            Err(breach) => {
-                assert!(
-                    margin < 1.0,
-                    "{}, move {number}: {breach:?} with a margin of {margin}",
-                    model.name
-                );
-                refused += 1;
-            }
-        }
-    }
-    println!(
-        "{}: {proven} proven with at most {solves} solves, {refused} refused",
-        model.name
-    );
-    assert!(
-        proven > moves / 10 && refused > moves / 10,
-        "{proven} and {refused}: the moves are one-sided"
-    );
-}
-
-/// All samples lie within what was proven, and what was proven is not much more than the samples.
-fn holds(proof: &Proof, found: &Sampled, name: &str) {
-    const ROUNDING: f64 = 1e-9;
-    for i in 0..6 {
-        assert!(proof.low[i] <= found.low[i] + ROUNDING, "{name}, axis {i}");
-        assert!(proof.high[i] >= found.high[i] - ROUNDING, "{name}, axis {i}");
-        assert!(
-            proof.rate[i] >= found.rate[i] * (1.0 - 1e-6) - 1e-6,
-            "{name}, axis {i}: {} {}",
-            proof.rate[i],
-            found.rate[i]
-        );
-        assert!(
-            (proof.end[i] - found.end[i]).abs() <= ROUNDING,
-            "{name}, axis {i}"
-        );
-        let wide = (proof.high[i] - proof.low[i]) - (found.high[i] - found.low[i]);
-        assert!(wide <= 0.4_f64.to_radians(), "{name}, axis {i}: {wide}");
-    }
-    let (proven, seen) = (&proof.clearance, &found.clearance);
-    assert!(proven.wrist <= seen.wrist + ROUNDING, "{name}");
-    assert!(proven.elbow <= seen.elbow + ROUNDING, "{name}");
-    assert!(proven.shoulder <= seen.shoulder + 1e-6, "{name}");
-}
-
-#[test]
-fn agrees_with_dense_sampling_on_short_moves() {
-    for model in [kuka(), beside(), rods()] {
-        agrees_with_sampling(&model, 1000, 60.0, 0.6);
-    }
-}
-
-#[test]
-fn agrees_with_dense_sampling_on_long_moves() {
-    for model in [kuka(), beside(), rods()] {
-        agrees_with_sampling(&model, 100, 1000.0, PI * 0.9);
     }
 }

@@ -9,7 +9,7 @@ mod pretend;
 mod recipe;
 
 pub use conformance::conformance;
-pub use pretend::{blade_in_work, reachable};
+pub use pretend::{axes, blade_in_work, reachable};
 pub use recipe::{CellRecipe, Crossing, Passes, Recipe};
 
 use crate::geometry::{Frame, Orientation, Point3};
@@ -75,7 +75,7 @@ pub fn samples() -> Result<Vec<(&'static str, ReachableProgram)>, String> {
             "beyond_half_a_turn",
             Recipe {
                 cell: CellRecipe {
-                    home: AxisValues([0.0, -90.0, 90.0, 340.0, 45.0, -340.0].map(f64::to_radians)),
+                    home: AxisValues([0.0, -90.0, 90.0, -340.0, 45.0, -340.0].map(f64::to_radians)),
                     ..CellRecipe::default()
                 },
                 ..plain.clone()

@@ -27,9 +27,9 @@ const FARTHEST_TURN: Angle = Angle::deg(350.0);
 /// Limits of all axes: wider than any dialect says.
 const LIMIT: Angle = Angle::deg(720.0);
 
-/// The axes of the machine, called A1 to A6.
+/// The axes of the pretend machine, called A1 to A6.
 #[must_use]
-pub(super) fn axes() -> Vec<Axis> {
+pub fn axes() -> Vec<Axis> {
     (1..=6)
         .map(|number| Axis {
             name: format!("A{number}"),

@@ -2,7 +2,7 @@
 
 use crate::support::expected::{self, Rounding, compare};
 use crate::support::reader::{self, Event};
-use crate::support::{emit, lines, verified};
+use crate::support::{emit, lines, reachable, status};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::{Action, Edges};
@@ -31,7 +31,7 @@ fn part_names(bundle: &Bundle) -> Vec<String> {
 
 #[test]
 fn a_program_is_split_one_line_beyond_the_limit_and_not_before() {
-    let program = verified(Recipe::default().program());
+    let program = reachable(Recipe::default().program());
     let whole = emit(&program, &limit(0));
     let length = u32::try_from(body(&whole, "sample").len()).unwrap();
     for (lines, files) in [(length + 1, 2), (length, 2), (length - 1, 6)] {
@@ -68,15 +68,19 @@ fn parts_together_do_what_the_whole_does() {
             let bundle = emit(&program, &limit(lines));
             let main = bundle.files()[0].0.trim_end_matches(".src");
             let got = reader::run(&bundle, main).unwrap();
-            compare(&got, &expected::events(&program), Rounding::of_decimals(3))
-                .unwrap_or_else(|problem| panic!("{name}, {lines} lines: {problem}"));
+            compare(
+                &got,
+                &expected::steps(&program, &status),
+                Rounding::of_decimals(3),
+            )
+            .unwrap_or_else(|problem| panic!("{name}, {lines} lines: {problem}"));
         }
     }
 }
 
 #[test]
 fn the_flanks_of_a_v_stay_together() {
-    let program = verified(Recipe::default().program());
+    let program = reachable(Recipe::default().program());
     let bundle = emit(&program, &limit(1));
     let parts = part_names(&bundle);
     assert_eq!(parts.len(), 8, "home, the way to the stock, and six cuts");
@@ -95,7 +99,7 @@ fn the_way_back_through_the_air_does_not_part_the_flanks_of_a_v() {
         edges: Edges::Single,
         ..Recipe::default()
     };
-    let bundle = emit(&verified(recipe.program()), &limit(1));
+    let bundle = emit(&reachable(recipe.program()), &limit(1));
     for part in part_names(&bundle).iter().skip(2) {
         let body = body(&bundle, part);
         let feeds = body.iter().filter(|line| *line == "$VEL.CP=0.2").count();
@@ -105,7 +109,7 @@ fn the_way_back_through_the_air_does_not_part_the_flanks_of_a_v() {
 
 #[test]
 fn a_part_sets_everything_up_again() {
-    let program = verified(Recipe::default().program());
+    let program = reachable(Recipe::default().program());
     let bundle = emit(&program, &limit(30));
     let setup = |module: &str| {
         let lines = lines(&bundle, &format!("{module}.src"));
@@ -122,21 +126,21 @@ fn a_part_sets_everything_up_again() {
 
 #[test]
 fn a_part_alone_starts_from_a_known_pose_with_the_blade_vibrating() {
-    let program = verified(Recipe::default().program());
+    let program = reachable(Recipe::default().program());
     let bundle = emit(&program, &limit(30));
     for part in part_names(&bundle).iter().skip(1) {
         let body = body(&bundle, part);
-        let motion = body.iter().position(|line| line.starts_with("LIN")).unwrap();
-        let speed = body.iter().position(|line| line.starts_with("$VEL.CP")).unwrap();
-        let output = body.iter().position(|line| line == "$OUT[12]=TRUE").unwrap();
-        assert!(speed < motion && motion < output && output < body.len());
+        let place = |start: &str| body.iter().position(|line| line.starts_with(start)).unwrap();
+        let (pose, output, motion) = (place("PTP {X "), place("$OUT[12]=TRUE"), place("LIN"));
+        assert!(pose < output && output < motion, "{body:?}");
+        assert!(place("$VEL.CP") < motion && place("$VEL.ORI1") < motion && place("$VEL.ORI2") < motion);
         assert_eq!(body[output + 1], "WAIT SEC 0.5");
     }
 }
 
 #[test]
 fn old_releases_are_told_of_the_parts() {
-    let program = verified(Recipe::default().program());
+    let program = reachable(Recipe::default().program());
     let values = [
         ("lines_per_part", OptionValue::Integer(30)),
         ("declare_parts", OptionValue::Choice("yes")),
@@ -159,7 +163,7 @@ fn old_releases_are_told_of_the_parts() {
 
 #[test]
 fn the_main_program_calls_each_part_once_in_order() {
-    let program = verified(Recipe::default().program());
+    let program = reachable(Recipe::default().program());
     let bundle = emit(&program, &limit(20));
     let called: Vec<String> = reader::run(&bundle, "sample")
         .unwrap()
@@ -184,11 +188,17 @@ fn a_part_that_begins_while_the_generator_starts_does_not_wait_for_it_early() {
         .unwrap();
     assert!(matches!(program.ops[ready + 1].action, Action::Travel { .. }));
     program.ops.swap(ready, ready + 1);
-    let program = verified(program);
+    let program = reachable(program);
     let bundle = emit(&program, &limit(1));
     let got = reader::run(&bundle, "sample").unwrap();
-    compare(&got, &expected::events(&program), Rounding::of_decimals(3)).unwrap();
+    compare(
+        &got,
+        &expected::steps(&program, &status),
+        Rounding::of_decimals(3),
+    )
+    .unwrap();
     let body = body(&bundle, "sample_p003");
     let output = body.iter().position(|line| line == "$OUT[12]=TRUE").unwrap();
-    assert!(body[output + 1].starts_with("LIN"), "{body:?}");
+    let after = body[output + 1..].iter().find(|line| !line.starts_with(';'));
+    assert!(after.unwrap().starts_with("LIN"), "{body:?}");
 }

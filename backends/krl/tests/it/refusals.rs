@@ -1,11 +1,16 @@
 //! What cannot be said is refused, never written wrong.
 
-use crate::support::issues;
-use vcutc_backend_api::backend::{BackendIssue, OptionValue};
+use crate::support::{issues, numbered, options, reachable};
+use vcutc_backend_api::backend::{Backend, BackendIssue, MachineMismatch, OptionValue};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{Action, Load, Op, OpId, OperationId, Program, RateId, Ready, Registered, Site};
-use vcutc_backend_api::testkit::{CellRecipe, Recipe};
-use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+use vcutc_backend_api::ir::{
+    Action, AxisKind, Cell, Load, MachineKind, Maker, Op, OpId, OperationId, PlacedFrame, Program, RateId,
+    Ready, Registered, Site,
+};
+use vcutc_backend_api::motion::{Branch, ReachableProgram};
+use vcutc_backend_api::testkit::{CellRecipe, Recipe, blade_in_work};
+use vcutc_backend_api::units::{AngularSpeed, Duration, Length, Mass, Speed};
+use vcutc_backend_krl::Krl;
 
 fn with_cell(change: impl FnOnce(&mut CellRecipe)) -> Program {
     let mut recipe = Recipe::default();
@@ -33,12 +38,110 @@ fn refused(program: Program) -> Vec<&'static str> {
     out_of_range(program).into_iter().map(|(what, ..)| what).collect()
 }
 
+/// What of a machine is refused.
+fn mismatch(program: &ReachableProgram) -> Option<MachineMismatch> {
+    let options = options(&[]);
+    let Err(issues) = Krl.check(program, &options) else {
+        return None;
+    };
+    match issues.as_slice() {
+        [BackendIssue::WrongMachine { mismatch, .. }] => Some(*mismatch),
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
-fn a_program_without_a_machine() {
-    let mut program = Recipe::default().program();
-    program.cell = None;
-    program.ops.clear();
-    assert_eq!(issues(program, &[]), [BackendIssue::MissingMachine]);
+fn machines_that_krl_does_not_drive() {
+    type Change = fn(&mut Cell);
+    let cases: [(Change, Option<MachineMismatch>); 6] = [
+        (|_| {}, None),
+        (
+            |cell| cell.kind = MachineKind::FiveAxis,
+            Some(MachineMismatch::Kind),
+        ),
+        (|cell| cell.maker = Maker::Abb, Some(MachineMismatch::Maker)),
+        (|cell| cell.maker = Maker::Other, Some(MachineMismatch::Maker)),
+        (
+            |cell| cell.axes[0].kind = AxisKind::Linear,
+            Some(MachineMismatch::Arm),
+        ),
+        // It is told once, and nothing else of a machine that is another one anyway.
+        (
+            |cell| {
+                cell.maker = Maker::Abb;
+                cell.ultrasonic = Some(u32::MAX);
+            },
+            Some(MachineMismatch::Maker),
+        ),
+    ];
+    for (case, (change, expected)) in cases.into_iter().enumerate() {
+        let mut program = Recipe::default().program();
+        change(program.cell.as_mut().unwrap());
+        assert_eq!(mismatch(&reachable(program)), expected, "case {case}");
+    }
+}
+
+#[test]
+fn an_arm_with_too_few_axes() {
+    let mut program = Recipe {
+        layers: 0,
+        ..Recipe::default()
+    }
+    .program();
+    let cell = program.cell.as_mut().unwrap();
+    cell.axes.truncate(5);
+    cell.home.as_mut().unwrap().0[5] = 0.0;
+    assert_eq!(mismatch(&reachable(program)), Some(MachineMismatch::Arm));
+}
+
+#[test]
+fn an_arm_whose_branches_have_no_status() {
+    let program = reachable(Recipe::default().program());
+    let mut motion = program.motion().clone();
+    for stretch in &mut motion.stretches {
+        stretch.branch = Branch::Numbered(0);
+    }
+    let program = ReachableProgram::assemble(program.verified().clone(), motion, &blade_in_work).unwrap();
+    assert_eq!(mismatch(&program), Some(MachineMismatch::Arm));
+}
+
+/// A turn of the axes that `T` cannot tell from another, at a move of all axes and where a part begins.
+#[test]
+fn axes_beyond_a_whole_turn() {
+    let angles = |shift: fn(&Action) -> bool, lines: u32| {
+        let program = reachable(Recipe::default().program());
+        let mut motion = program.motion().clone();
+        let ops = program.program().ops.iter();
+        // From the first such op on, so that signals leave the axes where they are.
+        let from = ops.clone().position(|op| shift(&op.action)).unwrap();
+        let home = ops.clone().rposition(|op| op.action == Action::Home).unwrap();
+        for axes in &mut motion.ends[from..home] {
+            axes.0[3] += 2.0 * core::f64::consts::TAU;
+        }
+        let mut limits = program.program().clone();
+        limits.cell.as_mut().unwrap().axes[3].max = 20.0;
+        let verified = vcutc_backend_api::verify::verify(limits).unwrap();
+        let program = ReachableProgram::assemble(verified, motion, &blade_in_work).unwrap();
+        let options = options(&[("lines_per_part", OptionValue::Integer(lines))]);
+        let issues = Krl.check(&program, &options).err().unwrap_or_default();
+        issues
+            .iter()
+            .map(|issue| match issue {
+                BackendIssue::OutOfRange { what, .. } => *what,
+                other => panic!("{other:?}"),
+            })
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        angles(|action| matches!(action, Action::AxisTravel { .. }), 0),
+        ["axis angle"]
+    );
+    // The axes get there while the tip moves on lines, which say nothing of turns.
+    assert_eq!(angles(|action| matches!(action, Action::Cut { .. }), 0), [""; 0]);
+    assert_eq!(
+        angles(|action| matches!(action, Action::Cut { .. }), 1),
+        ["axis angle"]
+    );
 }
 
 #[test]
@@ -120,8 +223,8 @@ fn another_blade_for_a_later_operation() {
 fn numbers_of_tools_bases_loads_and_signals() {
     type Set = fn(&mut CellRecipe, u32);
     let cases: [(Set, &str, u32); 5] = [
-        (|cell, n| cell.tool = Registered::Number(n), "tool number", 16),
-        (|cell, n| cell.base = Registered::Number(n), "base number", 32),
+        (|cell, n| cell.tool = numbered(n), "tool number", 16),
+        (|cell, n| cell.base = numbered(n), "base number", 32),
         (
             |cell, n| cell.load = Some(Registered::Number(n)),
             "load number",
@@ -224,28 +327,25 @@ fn coordinates_out_of_the_world() {
 
 #[test]
 fn frames_and_loads_that_no_robot_has() {
-    let far = Frame {
-        origin: Point3::new(0.0, -1e5, 0.0),
-        orientation: Orientation::IDENTITY,
+    let far = PlacedFrame {
+        frame: Frame {
+            origin: Point3::new(0.0, -1e5, 0.0),
+            orientation: Orientation::IDENTITY,
+        },
+        number: None,
     };
     let heavy = Load {
         mass: Mass::kg(5000.0),
         centre: Point3::new(1e9, 0.0, 0.0),
     };
-    assert_eq!(
-        refused(with_cell(|cell| cell.tool = Registered::Value(far))),
-        ["tool Y"]
-    );
-    assert_eq!(
-        refused(with_cell(|cell| cell.base = Registered::Value(far))),
-        ["base Y"]
-    );
+    assert_eq!(refused(with_cell(|cell| cell.tool = far)), ["tool Y"]);
+    assert_eq!(refused(with_cell(|cell| cell.base = far)), ["base Y"]);
     assert_eq!(
         refused(with_cell(|cell| cell.load = Some(Registered::Value(heavy)))),
         ["load mass", "load X"]
     );
     assert_eq!(
-        refused(with_cell(|cell| cell.home[2] = Angle::deg(361.0))),
+        refused(with_cell(|cell| cell.home.0[2] = f64::to_radians(361.0))),
         ["home angle"]
     );
 }
@@ -286,8 +386,8 @@ fn everything_at_once() {
     let program = Recipe {
         cut_feed: Speed::m_per_s(5.0),
         cell: CellRecipe {
-            tool: Registered::Number(17),
-            base: Registered::Number(33),
+            tool: numbered(17),
+            base: numbered(33),
             ..CellRecipe::default()
         },
         ..Recipe::default()

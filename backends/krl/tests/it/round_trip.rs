@@ -1,12 +1,12 @@
 //! Random programs come back from the text as they went in.
 
 use crate::support::expected::{self, Rounding, compare};
-use crate::support::{emit, reader, verified};
+use crate::support::{emit, reachable, reader, status};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{Edges, Load, Ready, Registered, Stock};
-use vcutc_backend_api::testkit::{CellRecipe, Passes, Recipe};
+use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
+use vcutc_backend_api::testkit::{CellRecipe, Crossing, Passes, Recipe};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 
 fn frame() -> impl Strategy<Value = Frame> {
@@ -17,6 +17,10 @@ fn frame() -> impl Strategy<Value = Frame> {
         origin: Point3::new(px, py, pz),
         orientation: Orientation::from_quaternion(w, x, y, z).unwrap_or(Orientation::IDENTITY),
     })
+}
+
+fn placed(most: u32) -> impl Strategy<Value = PlacedFrame> {
+    (frame(), proptest::option::of(1..=most)).prop_map(|(frame, number)| PlacedFrame { frame, number })
 }
 
 fn load() -> impl Strategy<Value = Registered<Load>> {
@@ -31,16 +35,10 @@ fn load() -> impl Strategy<Value = Registered<Load>> {
 
 fn cell() -> impl Strategy<Value = CellRecipe> {
     (
-        prop_oneof![
-            frame().prop_map(Registered::Value),
-            (1..=16_u32).prop_map(Registered::Number)
-        ],
-        prop_oneof![
-            frame().prop_map(Registered::Value),
-            (1..=32_u32).prop_map(Registered::Number)
-        ],
+        placed(16),
+        placed(32),
         proptest::option::of(load()),
-        [(); 6].map(|()| -180.0..180.0_f64),
+        [(); 6].map(|()| -350.0..350.0_f64),
         (1..=4096_u32).prop_map(Some),
         prop_oneof![
             (1..=1024_u32).prop_map(Ready::Input),
@@ -51,7 +49,7 @@ fn cell() -> impl Strategy<Value = CellRecipe> {
             tool,
             base,
             load,
-            home: home.map(Angle::deg),
+            home: AxisValues(home.map(f64::to_radians)),
             ultrasonic,
             ready,
         })
@@ -66,9 +64,11 @@ fn process() -> impl Strategy<Value = Recipe> {
         0.1..20.0_f64,
         0.5..60.0_f64,
         (50.0..900.0_f64, 20.0..900.0_f64),
+        prop_oneof![Just(Crossing::Straight), Just(Crossing::ByAxes)],
     )
         .prop_map(
-            |(passes, edges, swing, rake, step, clearance, (depth, height))| Recipe {
+            |(passes, edges, swing, rake, step, clearance, (depth, height), crossing)| Recipe {
+                crossing,
                 passes,
                 edges,
                 swing: Angle::deg(swing),
@@ -137,7 +137,7 @@ proptest! {
 
     #[test]
     fn the_text_says_what_the_ops_say(recipe in recipe(), values in values()) {
-        let program = verified(recipe.program());
+        let program = reachable(recipe.program());
         let bundle = emit(&program, &values);
         let main = bundle.files()[0].0.trim_end_matches(".src").to_owned();
         let got = reader::run(&bundle, &main).map_err(TestCaseError::fail)?;
@@ -145,38 +145,38 @@ proptest! {
             unreachable!("decimals come first");
         };
         let rounding = Rounding::of_decimals(i32::try_from(*decimals).unwrap());
-        compare(&got, &expected::events(&program), rounding).map_err(TestCaseError::fail)?;
+        compare(&got, &expected::steps(&program, &status), rounding).map_err(TestCaseError::fail)?;
     }
 
     #[test]
     fn the_same_program_gives_the_same_bytes(recipe in recipe(), values in values()) {
-        let program = verified(recipe.program());
-        prop_assert_eq!(emit(&program, &values), emit(&verified(recipe.program()), &values));
+        let program = reachable(recipe.program());
+        prop_assert_eq!(emit(&program, &values), emit(&reachable(recipe.program()), &values));
     }
 
     #[test]
     fn the_frames_are_those_of_the_cell(recipe in recipe()) {
-        let bundle = emit(&verified(recipe.program()), &[]);
+        let bundle = emit(&reachable(recipe.program()), &[]);
         let main = bundle.files()[0].0.trim_end_matches(".src").to_owned();
         let got = reader::run(&bundle, &main).map_err(TestCaseError::fail)?;
-        for (is_tool, registered) in [(true, recipe.cell.tool), (false, recipe.cell.base)] {
+        for (is_tool, placed) in [(true, recipe.cell.tool), (false, recipe.cell.base)] {
             let set = got.iter().find_map(|event| match event {
                 reader::Event::Tool(setting) if is_tool => Some(*setting),
                 reader::Event::Base(setting) if !is_tool => Some(*setting),
                 _ => None,
             });
-            let agrees = match (set, registered) {
-                (Some(reader::Setting::Number(got)), Registered::Number(want)) => got == want,
-                (Some(reader::Setting::Value(got)), Registered::Value(want)) => {
+            let agrees = match (set, placed.number) {
+                (Some(reader::Setting::Number(got)), Some(want)) => got == want,
+                (Some(reader::Setting::Value(got)), None) => {
                     let want = reader::Pose {
-                        tip: [want.origin.x, want.origin.y, want.origin.z],
-                        axes: want.orientation.matrix(),
+                        tip: [placed.frame.origin.x, placed.frame.origin.y, placed.frame.origin.z],
+                        axes: placed.frame.orientation.matrix(),
                     };
                     expected::poses_agree(&got, &want, Rounding::of_decimals(3))
                 }
                 _ => false,
             };
-            prop_assert!(agrees, "{set:?} instead of {registered:?}");
+            prop_assert!(agrees, "{set:?} instead of {placed:?}");
         }
     }
 }

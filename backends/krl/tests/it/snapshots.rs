@@ -1,9 +1,9 @@
 //! Small programs as a whole, to be read by people.
 
-use crate::support::{emit, verified};
+use crate::support::{emit, numbered, reachable};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::bundle::Bundle;
-use vcutc_backend_api::ir::{Ready, Registered};
+use vcutc_backend_api::ir::Ready;
 use vcutc_backend_api::testkit::{CellRecipe, Recipe};
 use vcutc_backend_api::units::Length;
 
@@ -38,15 +38,15 @@ fn classic_in_parts() {
             OptionValue::Lines(vec!["Drawing 4711, issue B".to_owned()]),
         ),
     ];
-    insta::assert_snapshot!(shown(&emit(&verified(recipe().program()), &values)));
+    insta::assert_snapshot!(shown(&emit(&reachable(recipe().program()), &values)));
 }
 
 #[test]
 fn spline_with_numbered_frames() {
     let recipe = Recipe {
         cell: CellRecipe {
-            tool: Registered::Number(3),
-            base: Registered::Number(2),
+            tool: numbered(3),
+            base: numbered(2),
             load: None,
             ready: Ready::Input(7),
             ..CellRecipe::default()
@@ -58,5 +58,5 @@ fn spline_with_numbered_frames() {
         ("approximation", OptionValue::Length(Length::mm(2.5))),
         ("decimals", OptionValue::Integer(4)),
     ];
-    insta::assert_snapshot!(shown(&emit(&verified(recipe.program()), &values)));
+    insta::assert_snapshot!(shown(&emit(&reachable(recipe.program()), &values)));
 }

@@ -1,47 +1,89 @@
-//! What the robot should do, straight from the ops, to be compared with what the reader makes of the text.
+//! What the robot should do, straight from the ops and the motion, to be compared with what the reader makes of the text.
 
 use super::reader::{Event, Matrix, Pose};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, OrientationId, Ready, Switch};
-use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_backend_api::ir::{Action, AxisValues, OpId, OrientationId, Ready, Switch};
+use vcutc_backend_api::motion::ReachableProgram;
 
-/// An event for each op.
-pub(crate) fn events(program: &VerifiedProgram) -> Vec<Event> {
+/// What an op should come to.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    /// What the robot does.
+    event: Event,
+    /// The motion by which a module that begins behind the op gets to where the op ends.
+    restart: Option<Event>,
+}
+
+/// A step for each op. `status` computes `S` from axis values, in another way than the backend.
+pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> u32) -> Vec<Step> {
     let cell = program.program().cell.as_ref().unwrap();
+    let home = || Event::Axes(cell.home.unwrap().0.map(f64::to_degrees));
     let mut at: Option<(Point3, OrientationId)> = None;
     let mut speeds = (f64::NAN, f64::NAN);
-    program
-        .ops()
-        .map(|(_, op)| {
-            if let Some(pose) = target(&op.action, at) {
-                at = Some(pose);
+    let mut restart = None;
+    let step = |(id, op): (OpId, &vcutc_backend_api::ir::Op)| {
+        if let Some(pose) = target(&op.action, at) {
+            at = Some(pose);
+            restart = Some(point(program, id, pose, status));
+        }
+        speeds = speeds_of(program, &op.action, speeds);
+        let event = match op.action {
+            Action::Home => {
+                at = None;
+                restart = Some(home());
+                home()
             }
-            speeds = speeds_of(program, &op.action, speeds);
-            match op.action {
-                Action::Home => {
-                    at = None;
-                    Event::Axes(cell.home.unwrap().map(|angle| angle.to_deg()))
-                }
-                Action::Travel { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. } => line(program, at.unwrap(), speeds),
-                Action::Ultrasonic { state } => Event::Output(cell.ultrasonic.unwrap(), state == Switch::On),
-                Action::AwaitReady => match cell.ready {
-                    Ready::Input(input) => Event::Await(input),
-                    Ready::After(time) => Event::Wait(time.to_s()),
-                },
-                Action::Dwell { time } => Event::Wait(time.to_s()),
-                Action::ToolChange { .. } => unreachable!("not in a sample"),
-            }
-        })
-        .collect()
+            Action::AxisTravel { .. } => restart.clone().unwrap(),
+            Action::Travel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. } => line(program, at.unwrap(), speeds),
+            Action::Ultrasonic { state } => Event::Output(cell.ultrasonic.unwrap(), state == Switch::On),
+            Action::AwaitReady => match cell.ready {
+                Ready::Input(input) => Event::Await(input),
+                Ready::After(time) => Event::Wait(time.to_s()),
+            },
+            Action::Dwell { time } => Event::Wait(time.to_s()),
+            Action::ToolChange { .. } => unreachable!("not in a sample"),
+        };
+        Step {
+            event,
+            restart: restart.clone(),
+        }
+    };
+    program.verified().ops().map(step).collect()
+}
+
+/// `T` from axis values: a bit for each angle that reads as negative with nine decimals.
+fn turn(axes: &AxisValues) -> u32 {
+    let is_negative = |angle: f64| {
+        let text = format!("{:.9}", angle.to_degrees());
+        text.starts_with('-') && text.contains(|c: char| ('1'..='9').contains(&c))
+    };
+    let bits = axes.0.iter().rev();
+    bits.fold(0, |bits, &axis| 2 * bits + u32::from(is_negative(axis)))
+}
+
+fn point(
+    program: &ReachableProgram,
+    op: OpId,
+    at: (Point3, OrientationId),
+    status: &dyn Fn(&AxisValues) -> u32,
+) -> Event {
+    let axes = program.axes_after(op).unwrap();
+    Event::Point {
+        to: pose(program, at),
+        status: status(&axes),
+        turn: turn(&axes),
+    }
 }
 
 fn target(action: &Action, at: Option<(Point3, OrientationId)>) -> Option<(Point3, OrientationId)> {
     match *action {
-        Action::Travel { to, orientation, .. } => Some((to, orientation)),
+        Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation } => {
+            Some((to, orientation))
+        }
         Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. } => {
             Some((to, at.unwrap().1))
         }
@@ -50,7 +92,7 @@ fn target(action: &Action, at: Option<(Point3, OrientationId)>) -> Option<(Point
     }
 }
 
-fn speeds_of(program: &VerifiedProgram, action: &Action, (feed, rate): (f64, f64)) -> (f64, f64) {
+fn speeds_of(program: &ReachableProgram, action: &Action, (feed, rate): (f64, f64)) -> (f64, f64) {
     let tables = program.program();
     let feed_of = |id: vcutc_backend_api::ir::FeedId| tables.feeds[usize::from(id.0)].to_m_per_s();
     let rate_of = |id: vcutc_backend_api::ir::RateId| tables.rates[usize::from(id.0)].to_deg_per_s();
@@ -64,15 +106,19 @@ fn speeds_of(program: &VerifiedProgram, action: &Action, (feed, rate): (f64, f64
     }
 }
 
-fn line(program: &VerifiedProgram, (tip, held): (Point3, OrientationId), (feed, rate): (f64, f64)) -> Event {
+fn line(program: &ReachableProgram, at: (Point3, OrientationId), (feed, rate): (f64, f64)) -> Event {
     Event::Line {
-        to: Pose {
-            tip: [tip.x, tip.y, tip.z],
-            axes: program.orientation(held).matrix(),
-        },
+        to: pose(program, at),
         feed,
         rate,
         rounded: false,
+    }
+}
+
+fn pose(program: &ReachableProgram, (tip, held): (Point3, OrientationId)) -> Pose {
+    Pose {
+        tip: [tip.x, tip.y, tip.z],
+        axes: program.verified().orientation(held).matrix(),
     }
 }
 
@@ -111,9 +157,22 @@ pub(crate) fn same(got: &Event, want: &Event, rounding: Rounding) -> bool {
             },
         ) => {
             near(*feed, *wanted_feed, 0.5001e-6)
-                && near(*rate, *wanted_rate, 0.5001e-6)
+                // Before the first op that has a rate, any will do.
+                && (wanted_rate.is_nan() || near(*rate, *wanted_rate, 0.5001e-6))
                 && poses_agree(got, want, rounding)
         }
+        (
+            Event::Point {
+                to: got,
+                status,
+                turn,
+            },
+            Event::Point {
+                to: want,
+                status: wanted_status,
+                turn: wanted_turn,
+            },
+        ) => (status, turn) == (wanted_status, wanted_turn) && poses_agree(got, want, rounding),
         (Event::Wait(got), Event::Wait(want)) => near(*got, *want, 0.5001e-6),
         (got, want) => got == want,
     }
@@ -138,10 +197,11 @@ fn entries(matrix: &Matrix) -> impl Iterator<Item = f64> {
 
 /// Compares what a bundle's main program did with what the ops say, op by op. At the start of every part but the first
 /// the state that the part before ended in must come again: its last pose, and the generator as it was.
-pub(crate) fn compare(got: &[Event], want: &[Event], rounding: Rounding) -> Result<(), String> {
+pub(crate) fn compare(got: &[Event], want: &[Step], rounding: Rounding) -> Result<(), String> {
     let mut got = got.iter().peekable();
     let mut history = History::default();
-    for wanted in want {
+    for step in want {
+        let wanted = &step.event;
         while let Some(Event::Module(_) | Event::Tool(_) | Event::Base(_)) = got.peek() {
             let Some(Event::Module(name)) = got.next() else {
                 continue;
@@ -152,7 +212,7 @@ pub(crate) fn compare(got: &[Event], want: &[Event], rounding: Rounding) -> Resu
         }
         match got.next() {
             Some(event) if same(event, wanted, rounding) || history.is_same_turn(event, wanted, rounding) => {
-                history.note(wanted);
+                history.note(step);
             }
             other => return Err(format!("{other:?} instead of {wanted:?}")),
         }
@@ -171,16 +231,18 @@ fn only_setup(event: &Event) -> bool {
 
 #[derive(Default)]
 struct History {
-    motion: Option<Event>,
+    /// The motion to where the last op ended.
+    restart: Option<Event>,
     /// The output while it is on, and what was waited for since.
     generator: Option<Event>,
     awaited: Option<Event>,
 }
 
 impl History {
-    fn note(&mut self, event: &Event) {
+    fn note(&mut self, step: &Step) {
+        self.restart.clone_from(&step.restart);
+        let event = &step.event;
         match event {
-            Event::Axes(_) | Event::Line { .. } => self.motion = Some(event.clone()),
             Event::Output(_, true) => self.generator = Some(event.clone()),
             Event::Output(_, false) => {
                 self.generator = None;
@@ -197,14 +259,14 @@ impl History {
     /// A turn about the still tip runs at its rate; the feed that happens to be set is of no account.
     fn is_same_turn(&self, got: &Event, want: &Event, rounding: Rounding) -> bool {
         let (
-            Some(Event::Line { to: from, .. }),
+            Some(Event::Point { to: from, .. }),
             Event::Line { to: got, rate, .. },
             Event::Line {
                 to: want,
                 rate: wanted,
                 ..
             },
-        ) = (&self.motion, got, want)
+        ) = (&self.restart, got, want)
         else {
             return false;
         };
@@ -220,20 +282,12 @@ impl History {
             .next_if(|event| matches!(event, Event::Tool(_) | Event::Base(_)))
             .is_some()
         {}
-        let pose = |event: &Event| match event {
-            Event::Line { to, .. } => Some(*to),
-            _ => None,
-        };
-        for wanted in [&self.motion, &self.generator, &self.awaited]
+        for wanted in [&self.restart, &self.generator, &self.awaited]
             .into_iter()
             .flatten()
         {
             let event = got.next().ok_or("a part without a start")?;
-            let agrees = match (pose(event), pose(wanted)) {
-                (Some(got), Some(want)) => poses_agree(&got, &want, rounding),
-                _ => same(event, wanted, rounding),
-            };
-            if !agrees {
+            if !same(event, wanted, rounding) {
                 return Err(format!("a part starts with {event:?} instead of {wanted:?}"));
             }
         }

@@ -5,8 +5,11 @@ pub(crate) mod reader;
 
 use vcutc_backend_api::backend::{Backend, BackendIssue, OptionValue, Options};
 use vcutc_backend_api::bundle::Bundle;
-use vcutc_backend_api::ir::Program;
-use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
+use vcutc_backend_api::ir::{AxisValues, PlacedFrame, Program};
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::testkit;
+use vcutc_backend_api::verify::verify;
 use vcutc_backend_krl::Krl;
 
 /// The options with these values set.
@@ -19,11 +22,28 @@ pub(crate) fn options(values: &[(&str, OptionValue)]) -> Options {
     options
 }
 
-pub(crate) fn verified(program: Program) -> VerifiedProgram {
-    verify(program).unwrap()
+/// A program with the motion of the pretend machine.
+pub(crate) fn reachable(program: Program) -> ReachableProgram {
+    testkit::reachable(verify(program).unwrap()).unwrap()
 }
 
-pub(crate) fn emit(program: &VerifiedProgram, values: &[(&str, OptionValue)]) -> Bundle {
+/// A frame that the controller keeps. Its values are beside the point here.
+pub(crate) fn numbered(number: u32) -> PlacedFrame {
+    PlacedFrame {
+        frame: Frame {
+            origin: Point3::new(0.0, 0.0, 0.0),
+            orientation: Orientation::IDENTITY,
+        },
+        number: Some(number),
+    }
+}
+
+/// `S` of the pretend machine, whose shoulder is in front and whose elbow is forward.
+pub(crate) fn status(axes: &AxisValues) -> u32 {
+    if axes.0[4] < 0.0 { 6 } else { 2 }
+}
+
+pub(crate) fn emit(program: &ReachableProgram, values: &[(&str, OptionValue)]) -> Bundle {
     let mut bundle = Bundle::default();
     let options = options(values);
     Krl.check(program, &options)
@@ -35,7 +55,7 @@ pub(crate) fn emit(program: &VerifiedProgram, values: &[(&str, OptionValue)]) ->
 }
 
 pub(crate) fn issues(program: Program, values: &[(&str, OptionValue)]) -> Vec<BackendIssue> {
-    Krl.check(&verified(program), &options(values))
+    Krl.check(&reachable(program), &options(values))
         .err()
         .unwrap_or_default()
 }

@@ -27,7 +27,14 @@ pub(crate) enum Setting {
 /// Something the robot does.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Event {
+    /// A move of all axes to where they should be.
     Axes([f64; 6]),
+    /// A move of all axes to a pose, with status and turn.
+    Point {
+        to: Pose,
+        status: u32,
+        turn: u32,
+    },
     Line {
         to: Pose,
         /// `$VEL.CP` in m/s, `$VEL.ORI1` in deg/s.
@@ -52,6 +59,7 @@ pub(crate) fn run(bundle: &Bundle, name: &str) -> Result<Vec<Event>, String> {
         feed: None,
         rates: (None, None),
         rounding: None,
+        has_axis_speed: false,
         knows_pose: false,
         depth: 0,
     };
@@ -65,6 +73,7 @@ struct Robot<'b> {
     feed: Option<f64>,
     rates: (Option<f64>, Option<f64>),
     rounding: Option<f64>,
+    has_axis_speed: bool,
     knows_pose: bool,
     depth: u32,
 }
@@ -79,6 +88,8 @@ impl Robot<'_> {
         }
         self.depth += 1;
         self.events.push(Event::Module(name.to_owned()));
+        // Whoever starts a module, its first motion must say where to and how.
+        self.knows_pose = false;
         let data = self.data(name)?;
         let lines = self.file(name, "src")?;
         let mut folds: Vec<String> = Vec::new();
@@ -138,6 +149,7 @@ impl Robot<'_> {
                 self.feed = None;
                 self.rates = (None, None);
                 self.rounding = None;
+                self.has_axis_speed = false;
                 return Ok(Place::Instructions);
             }
             Place::Instructions => {}
@@ -152,20 +164,7 @@ impl Robot<'_> {
 
     fn instruction(&mut self, data: &Data, code: &str) -> Result<(), String> {
         if let Some(target) = code.strip_prefix("PTP ").or(code.strip_prefix("SPTP ")) {
-            if target == "$AXIS_ACT" {
-                // Where the robot is: no motion.
-                return Ok(());
-            }
-            let value = data.get(target).ok_or("an unknown point")?;
-            let parts = aggregate(value)?;
-            let axes = ["A1", "A2", "A3", "A4", "A5", "A6"];
-            let mut angles = [0.0; 6];
-            for (angle, axis) in angles.iter_mut().zip(axes) {
-                *angle = *parts.get(axis).ok_or("an axis is missing")?;
-            }
-            self.knows_pose = true;
-            self.events.push(Event::Axes(angles));
-            return Ok(());
+            return self.axes(data, target);
         }
         if let Some(rest) = code.strip_prefix("LIN ").or(code.strip_prefix("SLIN ")) {
             return self.line(rest, if code.starts_with('S') { "C_SPL" } else { "C_DIS" });
@@ -190,6 +189,26 @@ impl Robot<'_> {
         }
         let (variable, value) = code.split_once('=').ok_or("an unknown instruction")?;
         self.assign(variable, value)
+    }
+
+    fn axes(&mut self, data: &Data, target: &str) -> Result<(), String> {
+        if !self.has_axis_speed {
+            return Err("a move of all axes without a speed".into());
+        }
+        self.knows_pose = true;
+        if target.starts_with('{') {
+            self.events.push(point(target)?);
+            return Ok(());
+        }
+        let value = data.get(target).ok_or("an unknown point")?;
+        let parts = aggregate(value)?;
+        let axes = ["A1", "A2", "A3", "A4", "A5", "A6"];
+        let mut angles = [0.0; 6];
+        for (angle, axis) in angles.iter_mut().zip(axes) {
+            *angle = *parts.get(axis).ok_or("an axis is missing")?;
+        }
+        self.events.push(Event::Axes(angles));
+        Ok(())
     }
 
     fn line(&mut self, rest: &str, approximate: &str) -> Result<(), String> {
@@ -230,7 +249,7 @@ impl Robot<'_> {
         match (command, number) {
             ("TOOL", 1..=16) => self.events.push(Event::Tool(Setting::Number(number))),
             ("BASE", 1..=32) => self.events.push(Event::Base(Setting::Number(number))),
-            ("VEL_PTP", 1..=100) => {}
+            ("VEL_PTP", 1..=100) => self.has_axis_speed = true,
             _ => return Err("an unknown BAS command".into()),
         }
         Ok(())
@@ -370,6 +389,24 @@ fn pose(text: &str) -> Result<Pose, String> {
             ],
             [-sin_b, cos_b * sin_c, cos_b * cos_c],
         ],
+    })
+}
+
+/// A pose with status and turn, both of them sums of bits.
+fn point(text: &str) -> Result<Event, String> {
+    let (frame, bits) = text.split_once(",S ").ok_or("a pose without status")?;
+    let (status, turn) = bits
+        .strip_suffix('}')
+        .and_then(|bits| bits.split_once(",T "))
+        .ok_or("a pose without turn")?;
+    let bits = |text: &str, highest: u32| match text.parse() {
+        Ok(bits) if bits <= highest && text == format!("{bits}") => Ok(bits),
+        _ => Err(format!("{text} is no sum of bits")),
+    };
+    Ok(Event::Point {
+        to: pose(&format!("{frame}}}"))?,
+        status: bits(status, 7)?,
+        turn: bits(turn, 63)?,
     })
 }
 

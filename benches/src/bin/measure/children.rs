@@ -48,6 +48,7 @@ fn stages(text: &str) -> Vec<(&'static str, f64)> {
         let (lower, program) = time(|| stages::lower(&planned, &sources));
         let (contour, replay) = time(|| stages::contour(&planned, &program));
         let (report, _) = time(|| stages::report(&planned, &program, replay));
+        let program = stages::reachable(&program);
         let (emit, ()) = time(|| stages::emit(&program, &options, &mut Discard::default()));
         let mut folder = Folder::new(&path);
         let (to_files, ()) = time(|| stages::emit(&program, &options, &mut folder));
@@ -82,6 +83,7 @@ fn memory(text: &str) -> Vec<(&'static str, f64)> {
     let contour = peak();
     let _removed = stages::report(&planned, &program, replay);
     let path = folder("memory");
+    let program = stages::reachable(&program);
     stages::emit(&program, &stages::options(), &mut Folder::new(&path));
     let emit = peak();
     remove(&path);
@@ -99,7 +101,7 @@ fn memory(text: &str) -> Vec<(&'static str, f64)> {
 /// Time of each way of writing the same files, in ns.
 fn emission(text: &str) -> Vec<(&'static str, f64)> {
     let (sources, job) = stages::check(text);
-    let program = stages::lower(&stages::plan(&job), &sources);
+    let program = stages::reachable(&stages::lower(&stages::plan(&job), &sources));
     let options = stages::options();
     let mut bundle = Bundle::default();
     stages::emit(&program, &options, &mut bundle);
@@ -207,6 +209,7 @@ fn instructions(text: &str) {
     let program = stages::lower(&planned, &sources);
     let replay = stages::contour(&planned, &program);
     let _removed = stages::report(&planned, &program, replay);
+    let program = stages::reachable(&program);
     stages::emit(&program, &stages::options(), &mut Discard::default());
 }
 

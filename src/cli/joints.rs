@@ -1,0 +1,85 @@
+//! `--emit joints`: where the axes are all along the program, as CSV.
+//!
+//! A row for the end of every op that moves, and rows between, at most 5 mm of the tip's way or 2 deg of turning apart.
+//! Columns: `op`, its place in the program (as in `--emit ir`); `operation`, `layer` and `cut` that it serves, counted from 1,
+//! empty where it serves none; `motion`, its kind; `done`, how much of it is done, from 0 to 1; then each axis under its
+//! name and unit, as the controller counts it. The axes at the program's start are those of home.
+
+use crate::job::CheckedJob;
+use crate::reach::solve::{Reached, rig};
+use crate::reach::trajectory::{Sample, trajectory};
+use std::io::{self, Write};
+use vcutc_backend_api::ir::{Action, Axis, AxisKind, Flank, Op, Site};
+
+/// Writes the rows, one after the other.
+pub(super) fn write(job: &CheckedJob, reached: &Reached, out: &mut dyn Write) -> io::Result<()> {
+    let program = reached.program.program();
+    let (Some(machine), Some(cell)) = (&job.machine, &program.cell) else {
+        return Ok(());
+    };
+    write!(out, "op,operation,layer,cut,motion,done")?;
+    for axis in &cell.axes {
+        write!(out, ",{}_{}", axis.name, unit(axis))?;
+    }
+    writeln!(out)?;
+    let rig = rig(&machine.model, cell);
+    trajectory(&reached.program, &rig, |sample| {
+        match program.ops.get(sample.op.0 as usize) {
+            Some(op) => row(op, &sample, &cell.axes, out),
+            None => Ok(()),
+        }
+    })
+}
+
+fn row(op: &Op, sample: &Sample, axes: &[Axis], out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "{},", sample.op.0)?;
+    match op.site {
+        Site::Program => write!(out, ",,")?,
+        Site::Operation(operation) => write!(out, "{},,", u32::from(operation.0) + 1)?,
+        Site::Layer { operation, layer } => write!(out, "{},{layer},", u32::from(operation.0) + 1)?,
+        Site::Cut {
+            operation,
+            layer,
+            cut,
+        } => write!(out, "{},{layer},{cut}", u32::from(operation.0) + 1)?,
+    }
+    write!(out, ",{},{:.4}", motion(op.action), sample.done)?;
+    for (axis, value) in axes.iter().zip(sample.joints) {
+        let shown = match axis.kind {
+            AxisKind::Rotary => value.to_degrees(),
+            AxisKind::Linear => value,
+        };
+        // Adding zero turns a negative zero into zero.
+        let rounded = (shown * 1e4).round() / 1e4 + 0.0;
+        write!(out, ",{rounded:.4}")?;
+    }
+    writeln!(out)
+}
+
+const fn unit(axis: &Axis) -> &'static str {
+    match axis.kind {
+        AxisKind::Rotary => "deg",
+        AxisKind::Linear => "mm",
+    }
+}
+
+const fn motion(action: Action) -> &'static str {
+    match action {
+        Action::Home => "home",
+        Action::Travel { .. } => "travel",
+        Action::AxisTravel { .. } => "axis_travel",
+        Action::Approach { .. } => "approach",
+        Action::Retract { .. } => "retract",
+        Action::Cut {
+            flank: Flank::Left, ..
+        } => "cut_left",
+        Action::Cut {
+            flank: Flank::Right, ..
+        } => "cut_right",
+        Action::Turn { .. } => "turn",
+        Action::Ultrasonic { .. } => "ultrasonic",
+        Action::AwaitReady => "await_ready",
+        Action::Dwell { .. } => "dwell",
+        Action::ToolChange { .. } => "tool_change",
+    }
+}

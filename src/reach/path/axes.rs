@@ -1,0 +1,155 @@
+//! Moves of all axes at once: each goes straight from its value to the next, all at the same time (PTP, MoveJ).
+//!
+//! Limits that hold at both ends hold between. The blade's way is no line, though: its points are computed along spans of
+//! the move, as [`super::along`] does, and a span is proven when one face of the stock has all of them on its outer side.
+//! What is between the points is then out there too, since a half space that has the points has their convex hull.
+
+use super::along::Along;
+use super::arm;
+use super::bounds::limits;
+use super::course::Span;
+use super::interval::Interval;
+use super::march::{Tried, march};
+use crate::kinematics::{Joints, Mechanism};
+use crate::reach::rig::Rig;
+use glam::{DMat3, DVec3};
+use vcutc_backend_api::ir::MOST_AXES;
+
+/// By how much a point may be inside of a face, in mm: rounding.
+const SLACK: f64 = 1e-6;
+
+/// A box in the workpiece frame W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    /// Its least coordinates, in mm.
+    pub low: DVec3,
+    /// Its greatest coordinates, in mm.
+    pub high: DVec3,
+}
+
+/// Why a move of all axes must not be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxesBreach {
+    /// Where on the move, from 0 to 1.
+    pub at: f64,
+    /// What breaks there.
+    pub what: AxesViolation,
+}
+
+/// What breaks in a move of all axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AxesViolation {
+    /// An axis is outside of its range.
+    Limit {
+        /// The axis, from 0.
+        axis: usize,
+        /// Where it is.
+        value: f64,
+    },
+    /// The blade cannot be told to be outside of the stock.
+    Stock {
+        /// Its lowest point, in W, in mm.
+        lowest: DVec3,
+    },
+}
+
+/// Proves that a move of all axes keeps within their limits and keeps the blade outside of the stock, which it may touch.
+/// `blade` are points in the blade frame T; what is proven to stay out is all that lies between them.
+///
+/// # Errors
+/// The first place where it does not, or where that cannot be proven. A blade is only seen to be outside where all its
+/// points are beyond the same face.
+pub fn prove_axes(
+    rig: &Rig<'_>,
+    from: &Joints,
+    to: &Joints,
+    blade: &[DVec3],
+    stock: &Block,
+) -> Result<(), AxesBreach> {
+    for (at, joints) in [(0.0, from), (1.0, to)] {
+        if let Some((axis, value)) = limits(rig.axes, &joints.map(Interval::exactly)) {
+            let what = AxesViolation::Limit { axis, value };
+            return Err(AxesBreach { at, what });
+        }
+    }
+    march(|span, _| {
+        let joints = moving(from, to, span);
+        let points = blade.iter().map(|point| point_in_work(rig, joints, *point));
+        let is_outside = Sides::of(points, stock).any();
+        if is_outside {
+            Tried::Proven
+        } else {
+            Tried::Refused(())
+        }
+    })
+    .map(|_| ())
+    .map_err(|(at, ())| AxesBreach {
+        at,
+        what: AxesViolation::Stock {
+            lowest: lowest(rig, from, to, at, blade),
+        },
+    })
+}
+
+/// The axes on a span of the move.
+fn moving(from: &Joints, to: &Joints, span: Span) -> [Along; MOST_AXES] {
+    core::array::from_fn(|i| {
+        let way = to[i] - from[i];
+        Along::line(from[i] + way * span.middle, way * span.half)
+    })
+}
+
+/// A point of the blade in the work.
+fn point_in_work(rig: &Rig<'_>, joints: [Along; MOST_AXES], in_blade: DVec3) -> [Along; 3] {
+    let blade_in_flange = rig.flange_in_blade.inverse();
+    let in_flange = blade_in_flange.rotation * in_blade + blade_in_flange.position;
+    let in_root = match rig.mechanism {
+        Mechanism::OrthoParallel(arm) => arm::point_in_root(arm, joints, in_flange),
+    };
+    let root_in_work = rig.work_in_root.inverse();
+    turned(&root_in_work.rotation, in_root, root_in_work.position)
+}
+
+fn turned(rotation: &DMat3, [x, y, z]: [Along; 3], shift: DVec3) -> [Along; 3] {
+    core::array::from_fn(|i| {
+        let row = rotation.row(i);
+        (x * row.x + y * row.y + z * row.z).plus(shift[i])
+    })
+}
+
+/// Beyond which faces of a block all points are.
+struct Sides {
+    below: [bool; 3],
+    above: [bool; 3],
+}
+
+impl Sides {
+    fn of(points: impl Iterator<Item = [Along; 3]>, block: &Block) -> Self {
+        let mut sides = Self {
+            below: [true; 3],
+            above: [true; 3],
+        };
+        for point in points {
+            for (i, coordinate) in point.map(Along::value).into_iter().enumerate() {
+                sides.below[i] &= coordinate.high <= block.low[i] + SLACK;
+                sides.above[i] &= coordinate.low >= block.high[i] - SLACK;
+            }
+        }
+        sides
+    }
+
+    fn any(&self) -> bool {
+        self.below.iter().chain(&self.above).any(|is_beyond| *is_beyond)
+    }
+}
+
+fn lowest(rig: &Rig<'_>, from: &Joints, to: &Joints, at: f64, blade: &[DVec3]) -> DVec3 {
+    let joints = core::array::from_fn(|i| from[i] + (to[i] - from[i]) * at);
+    let blade_in_work = rig.blade_in_work(&joints);
+    let points = blade
+        .iter()
+        .map(|point| blade_in_work.rotation * *point + blade_in_work.position);
+    points
+        .min_by(|a, b| a.z.total_cmp(&b.z))
+        .unwrap_or(blade_in_work.position)
+}

@@ -1,0 +1,103 @@
+//! Moves of all axes against dense sampling.
+
+use super::*;
+
+const STOCK: Block = Block {
+    low: DVec3::ZERO,
+    high: DVec3::new(600.0, 400.0, 300.0),
+};
+
+/// Tip, and the end of the shank with something of width.
+const BLADE: [DVec3; 4] = [
+    DVec3::ZERO,
+    DVec3::new(-20.0, 0.0, -60.0),
+    DVec3::new(20.0, 0.0, -60.0),
+    DVec3::new(0.0, 0.0, -150.0),
+];
+
+/// Axis values within their ranges that hold the blade down over the stock or beside it.
+fn near_the_stock(dice: &mut Dice, rig: &Rig<'_>) -> Joints {
+    loop {
+        let blade = Pose {
+            rotation: dice.rotation(0.8) * DMat3::from_cols(DVec3::Y, DVec3::X, -DVec3::Z),
+            position: DVec3::new(
+                dice.between(-200.0, 800.0),
+                dice.between(-200.0, 600.0),
+                dice.between(230.0, 550.0),
+            ),
+        };
+        let solutions = rig.mechanism.all(&rig.flange_in_root(&blade));
+        let in_range = |joints: &Joints| {
+            let mut axes = joints.iter().zip(rig.axes);
+            axes.all(|(value, axis)| (axis.min..axis.max).contains(value))
+        };
+        if let Some(found) = solutions.iter().find(|solution| in_range(&solution.joints)) {
+            return found.joints;
+        }
+    }
+}
+
+/// How far all points are beyond the best of the stock's faces, where that is least on the move; in mm.
+fn outside(rig: &Rig<'_>, from: &Joints, to: &Joints) -> f64 {
+    (0..=4000)
+        .map(|k| {
+            let joints = core::array::from_fn(|i| from[i] + (to[i] - from[i]) * f64::from(k) / 4000.0);
+            let blade = rig.blade_in_work(&joints);
+            let points = BLADE.map(|point| blade.rotation * point + blade.position);
+            let beyond = |depth: fn(DVec3) -> DVec3| -> f64 {
+                points
+                    .map(depth)
+                    .into_iter()
+                    .reduce(DVec3::min)
+                    .unwrap()
+                    .max_element()
+            };
+            beyond(|point| point - STOCK.high).max(beyond(|point| STOCK.low - point))
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn moves_of_all_axes_stay_out_of_the_stock_as_sampled() {
+    for model in [kuka(), beside(), rods()] {
+        let rig = rig(&model);
+        let mut dice = Dice(21);
+        let (mut proven, mut refused) = (0, 0);
+        for number in 0..400 {
+            let (from, to) = (near_the_stock(&mut dice, &rig), near_the_stock(&mut dice, &rig));
+            let outside = outside(&rig, &from, &to);
+            match prove_axes(&rig, &from, &to, &BLADE, &STOCK) {
+                Ok(()) => {
+                    assert!(outside >= -1e-3, "{}, move {number}: {outside} mm", model.name);
+                    proven += 1;
+                }
+                Err(breach) => {
+                    assert!(
+                        outside < 0.1,
+                        "{}, move {number}: {breach:?} but {outside} mm",
+                        model.name
+                    );
+                    refused += 1;
+                }
+            }
+        }
+        assert!(proven > 40 && refused > 20, "{proven} and {refused}");
+    }
+}
+
+#[test]
+fn both_ends_have_to_be_within_the_limits() {
+    let model = kuka();
+    let rig = rig(&model);
+    let home = [0.0, -FRAC_PI_2, FRAC_PI_2, 0.0, 0.0, 0.0];
+    let mut beyond = home;
+    beyond[4] = -2.2;
+    let far = Block {
+        low: DVec3::splat(-9e5),
+        high: DVec3::splat(-8e5),
+    };
+    assert_eq!(prove_axes(&rig, &home, &home, &BLADE, &far), Ok(()));
+    let what = AxesViolation::Limit { axis: 4, value: -2.2 };
+    let breach = prove_axes(&rig, &home, &beyond, &BLADE, &far);
+    assert_eq!(breach, Err(AxesBreach { at: 1.0, what }));
+}

@@ -1,0 +1,375 @@
+//! What a program asks of its machine, for people and for programs: the [`ReachFigures`], their lines and their table.
+
+use crate::plan::parameters::show;
+use crate::reach::demand::{Extreme, axis_margin};
+use crate::reach::describe::{branch_words, kuka_status, site_words};
+use crate::reach::solve::Reached;
+use serde::Serialize;
+use vcutc_backend_api::ir::{Axis, AxisKind, Maker, Program};
+use vcutc_backend_api::motion::Stretch;
+
+/// What a program asks of its machine.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReachFigures {
+    /// The branches, in order.
+    pub branches: Vec<BranchFigure>,
+    /// The smallest share that anything has left; see `src/reach/demand.rs`.
+    pub margin: f64,
+    /// What has the smallest share: an axis or a kind of singular pose.
+    pub least: Least,
+    /// The axes, in the controller's order.
+    pub axes: Vec<AxisFigure>,
+    /// How near the arm comes to its singular poses; nothing for a machine without such poses.
+    pub singular: Vec<SingularFigure>,
+    /// How many times the inverse kinematics was solved to prove it.
+    pub solves: u64,
+}
+
+/// A branch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BranchFigure {
+    /// The op that ends on it first.
+    pub op: u32,
+    /// What it is.
+    pub words: String,
+    /// KUKA's status bits, for KUKA robots.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kuka_status: Option<u8>,
+}
+
+/// A place in the program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlaceFigure {
+    /// The op.
+    pub op: u32,
+    /// What of the job it serves.
+    pub words: String,
+}
+
+/// What has the smallest share left.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Least {
+    /// The axis, or the kind of singular pose.
+    pub of: String,
+    /// Where.
+    pub at: PlaceFigure,
+}
+
+/// What is asked of an axis, in deg or mm.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AxisFigure {
+    /// Its name.
+    pub name: String,
+    /// `deg` or `mm`.
+    pub unit: &'static str,
+    /// Its lowest value.
+    pub low: f64,
+    /// Its highest value.
+    pub high: f64,
+    /// Its lower limit.
+    pub min: f64,
+    /// Its upper limit.
+    pub max: f64,
+    /// Its distance to the nearer limit over half of its range.
+    pub margin: f64,
+    /// Where it is nearest to a limit.
+    pub margin_at: PlaceFigure,
+    /// Its highest rate, in units a second.
+    pub rate: f64,
+    /// Its highest rate by its maker, when known.
+    pub rate_limit: Option<f64>,
+    /// Where it is fastest.
+    pub rate_at: PlaceFigure,
+}
+
+/// How near the arm comes to a kind of singular pose.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SingularFigure {
+    /// `wrist`, `elbow` or `shoulder`.
+    pub kind: &'static str,
+    /// `deg` or `mm`.
+    pub unit: &'static str,
+    /// How far it stays away.
+    pub distance: f64,
+    /// The same as a share of all one could wish for.
+    pub share: f64,
+    /// Where it is nearest.
+    pub at: PlaceFigure,
+}
+
+/// The figures of a program.
+#[must_use]
+pub fn figures(reached: &Reached) -> ReachFigures {
+    let program = reached.program.program();
+    let (axes, is_kuka) = program.cell.as_ref().map_or((&[][..], false), |cell| {
+        (&cell.axes[..], cell.maker == Maker::Kuka)
+    });
+    let demand = &reached.report.demand;
+    let axes: Vec<AxisFigure> = axes
+        .iter()
+        .enumerate()
+        .filter_map(|(index, axis)| {
+            let (low, high) = (demand.low.get(index)?, demand.high.get(index)?);
+            Some(axis_figure(program, axis, *low, *high, *demand.rate.get(index)?))
+        })
+        .collect();
+    let kinds = [("wrist", "deg"), ("elbow", "deg"), ("shoulder", "mm")];
+    let nearest = demand.clearance.iter().zip(demand.singular_shares());
+    let singular: Vec<SingularFigure> = kinds
+        .into_iter()
+        .zip(nearest)
+        .filter(|(_, (nearest, _))| nearest.value.is_finite())
+        .map(|((kind, unit), (nearest, share))| SingularFigure {
+            kind,
+            unit,
+            distance: match unit {
+                "deg" => nearest.value.to_degrees(),
+                _ => nearest.value,
+            },
+            share,
+            at: place(program, *nearest),
+        })
+        .collect();
+    let axis_shares = axes
+        .iter()
+        .map(|axis| (axis.margin, axis.name.clone(), &axis.margin_at));
+    let singular_shares = singular
+        .iter()
+        .map(|kind| (kind.share, kind.kind.to_owned(), &kind.at));
+    let least = axis_shares
+        .chain(singular_shares)
+        .min_by(|(a, ..), (b, ..)| a.total_cmp(b))
+        .map_or_else(
+            || Least {
+                of: String::new(),
+                at: PlaceFigure {
+                    op: 0,
+                    words: String::new(),
+                },
+            },
+            |(_, of, at)| Least { of, at: at.clone() },
+        );
+    ReachFigures {
+        branches: branches(&reached.report.stretches, is_kuka),
+        margin: reached.report.margin,
+        least,
+        axes,
+        singular,
+        solves: demand.solves,
+    }
+}
+
+fn branches(stretches: &[Stretch], is_kuka: bool) -> Vec<BranchFigure> {
+    stretches
+        .iter()
+        .map(|stretch| BranchFigure {
+            op: stretch.from.0,
+            words: branch_words(stretch.branch),
+            kuka_status: kuka_status(stretch.branch).filter(|_| is_kuka),
+        })
+        .collect()
+}
+
+fn axis_figure(program: &Program, axis: &Axis, low: Extreme, high: Extreme, rate: Extreme) -> AxisFigure {
+    let shown = |value: f64| match axis.kind {
+        AxisKind::Rotary => value.to_degrees(),
+        AxisKind::Linear => value,
+    };
+    let nearest = if low.value - axis.min < axis.max - high.value {
+        low
+    } else {
+        high
+    };
+    AxisFigure {
+        name: axis.name.clone(),
+        unit: match axis.kind {
+            AxisKind::Rotary => "deg",
+            AxisKind::Linear => "mm",
+        },
+        low: shown(low.value),
+        high: shown(high.value),
+        min: shown(axis.min),
+        max: shown(axis.max),
+        margin: axis_margin(axis, low.value, high.value),
+        margin_at: place(program, nearest),
+        rate: shown(rate.value),
+        rate_limit: axis.rate.map(shown),
+        rate_at: place(program, rate),
+    }
+}
+
+fn place(program: &Program, extreme: Extreme) -> PlaceFigure {
+    let words = program
+        .ops
+        .get(extreme.op.0 as usize)
+        .map_or_else(String::new, |op| site_words(op.site));
+    PlaceFigure {
+        op: extreme.op.0,
+        words,
+    }
+}
+
+impl AxisFigure {
+    /// The share of its rate that is used, when its rate is known.
+    fn rate_share(&self) -> Option<f64> {
+        self.rate_limit.map(|limit| self.rate / limit)
+    }
+}
+
+/// The figures in a few lines: a name and a text each.
+#[must_use]
+pub fn lines(figures: &ReachFigures) -> Vec<(&'static str, String)> {
+    let mut lines = vec![("reach", reach_line(figures)), ("margins", margins_line(figures))];
+    let nearest = figures.singular.iter().min_by(|a, b| a.share.total_cmp(&b.share));
+    lines.extend(nearest.map(|nearest| {
+        let SingularFigure {
+            kind,
+            unit,
+            distance,
+            at,
+            ..
+        } = nearest;
+        let text = format!(
+            "nearest is the {kind}, {} {unit} away at {}",
+            show_tenths(*distance),
+            at.words
+        );
+        ("singular", text)
+    }));
+    lines.extend(rates_line(figures).map(|line| ("rates", line)));
+    lines
+}
+
+fn reach_line(figures: &ReachFigures) -> String {
+    let Some(first) = figures.branches.first() else {
+        return "nothing moves".to_owned();
+    };
+    let status = first
+        .kuka_status
+        .map_or_else(String::new, |status| format!(" (KUKA status {status})"));
+    let changes = match figures.branches.len() - 1 {
+        0 => String::new(),
+        1 => "; changed once in the air".to_owned(),
+        times => format!("; changed {times} times in the air"),
+    };
+    format!("{}{status}{changes}", first.words)
+}
+
+fn margins_line(figures: &ReachFigures) -> String {
+    let axes: Vec<String> = figures
+        .axes
+        .iter()
+        .map(|axis| format!("{} {:.0} %", axis.name, axis.margin * 100.0))
+        .collect();
+    format!(
+        "{}; least {} at {}",
+        axes.join(", "),
+        figures.least.of,
+        figures.least.at.words
+    )
+}
+
+fn rates_line(figures: &ReachFigures) -> Option<String> {
+    let known = figures
+        .axes
+        .iter()
+        .filter_map(|axis| Some((axis, axis.rate_share()?)));
+    let slowest = known
+        .max_by(|(_, a), (_, b)| a.total_cmp(b))
+        .map(|(axis, share)| {
+            format!(
+                "slowest is {}, at {:.0} % of its rate at {}",
+                axis.name,
+                share * 100.0,
+                axis.rate_at.words
+            )
+        });
+    let unknown: Vec<&str> = figures
+        .axes
+        .iter()
+        .filter(|axis| axis.rate_limit.is_none())
+        .map(|axis| axis.name.as_str())
+        .collect();
+    let unknown =
+        (!unknown.is_empty()).then(|| format!("rates of {} unknown: not checked", unknown.join(", ")));
+    match (slowest, unknown) {
+        (Some(slowest), Some(unknown)) => Some(format!("{slowest}; {unknown}")),
+        (slowest, unknown) => slowest.or(unknown),
+    }
+}
+
+/// The figures of every axis, a line each under a heading.
+#[must_use]
+pub fn table(figures: &ReachFigures) -> Vec<String> {
+    let heading = format!(
+        "{:<5} {:>9} {:>9}   {:>9} {:>9} {:>8}  {:>9} {:>9}  nearest to its limit",
+        "axis", "low", "high", "min", "max", "margin", "rate", "of"
+    );
+    let rows = figures.axes.iter().map(|axis| {
+        let limit = axis
+            .rate_limit
+            .map_or_else(|| "unknown".to_owned(), |limit| format!("{limit:.1}"));
+        format!(
+            "{:<5} {:>9.2} {:>9.2}   {:>9.2} {:>9.2} {:>6.1} %  {:>9.1} {limit:>9}  {}",
+            axis.name,
+            axis.low,
+            axis.high,
+            axis.min,
+            axis.max,
+            axis.margin * 100.0,
+            axis.rate,
+            axis.margin_at.words
+        )
+    });
+    core::iter::once(heading).chain(rows).collect()
+}
+
+fn show_tenths(value: f64) -> String {
+    show((value * 10.0).round() / 10.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(name: &str, rate_limit: Option<f64>) -> AxisFigure {
+        let at = |words: &str| PlaceFigure {
+            op: 1,
+            words: words.to_owned(),
+        };
+        AxisFigure {
+            name: name.to_owned(),
+            unit: "deg",
+            low: -10.0,
+            high: 20.0,
+            min: -100.0,
+            max: 100.0,
+            margin: 0.8,
+            margin_at: at("layer 1, cut 2"),
+            rate: 50.0,
+            rate_limit,
+            rate_at: at("layer 3, cut 4"),
+        }
+    }
+
+    #[test]
+    fn axes_without_a_known_rate_are_named() {
+        let mut figures = ReachFigures {
+            branches: Vec::new(),
+            margin: 0.8,
+            least: Least {
+                of: "A1".to_owned(),
+                at: axis("", None).margin_at,
+            },
+            axes: vec![axis("A1", Some(100.0)), axis("A2", None), axis("A3", Some(60.0))],
+            singular: Vec::new(),
+            solves: 7,
+        };
+        assert_eq!(
+            rates_line(&figures).unwrap(),
+            "slowest is A3, at 83 % of its rate at layer 3, cut 4; rates of A2 unknown: not checked"
+        );
+        figures.axes.truncate(0);
+        assert_eq!(rates_line(&figures), None);
+    }
+}
