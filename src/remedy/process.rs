@@ -5,6 +5,7 @@ use crate::job::{Auto, CheckedJob, Direction, Operation, Order, RoughVcut};
 use crate::plan::PlannedOperation;
 use crate::plan::parameters::show;
 use crate::reach::trouble::Trouble;
+use crate::source::Span;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::Angle;
 
@@ -24,8 +25,7 @@ pub(super) fn other_direction(case: &mut Case<'_>) -> Option<Remedy> {
                 Direction::Forward => "forward",
                 Direction::Backward => "backward",
             };
-            let advice = format!("cut with `direction = {word}`");
-            Remedy::replace(advice, asked.direction.span, word.to_owned())
+            stated(asked, "direction", asked.direction.span, word)
         })
 }
 
@@ -36,13 +36,8 @@ pub(super) fn other_order(case: &mut Case<'_>) -> Option<Remedy> {
         Order::Point => (Order::Layer, "layer"),
         Order::Layer => (Order::Point, "point"),
     };
-    works(case, operation, |asked| asked.order.value = order).then(|| {
-        Remedy::replace(
-            format!("cut with `order = {word}`"),
-            asked.order.span,
-            word.to_owned(),
-        )
-    })
+    works(case, operation, |asked| asked.order.value = order)
+        .then(|| stated(asked, "order", asked.order.span, word))
 }
 
 /// The largest of a few smaller swings that works, in whole degrees.
@@ -64,6 +59,23 @@ pub(super) fn smaller_swing(case: &mut Case<'_>) -> Option<Remedy> {
             let text = format!("{} deg", show(swing));
             Remedy::replace(format!("use a `swing` of {text}"), asked.swing.span, text)
         })
+}
+
+/// A field with a word in place of the one it has, or added behind another where it is left out.
+fn stated(asked: &RoughVcut, field: &str, span: Option<Span>, word: &str) -> Remedy {
+    let behind_rake = asked.rake.span.map(|rake| Span {
+        start: rake.end,
+        ..rake
+    });
+    let edit = match (span, behind_rake) {
+        (Some(span), _) => Some((span, word.to_owned())),
+        (None, Some(end)) => Some((end, format!("\n  {field} = {word}"))),
+        (None, None) => None,
+    };
+    Remedy {
+        advice: format!("cut with `{field} = {word}`"),
+        edits: edit.into_iter().collect(),
+    }
 }
 
 fn works(case: &mut Case<'_>, operation: OperationId, change: impl FnOnce(&mut RoughVcut)) -> bool {
