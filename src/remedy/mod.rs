@@ -7,7 +7,7 @@
 //! | What breaks | What is tried |
 //! | --- | --- |
 //! | a rate | the highest speeds that the axes follow (`speed`) |
-//! | reach, limits, singular poses, the branch | another direction or order of the cuts (`process`), the base moved or turned by the least that helps (`base`), a smaller swing (`process`) |
+//! | reach, limits, singular poses, the branch | another direction or order of the cuts, a smaller swing (`process`), the base moved or turned by the least that helps (`base`) |
 //! | the way from home or to home | a home above the first cut (`home`), the base |
 //!
 //! A rate that would need speeds far below those asked for is taken for a place the arm had better avoid: what mends the
@@ -123,19 +123,12 @@ fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
     }
 }
 
-/// The same cuts in another way or in another place, or cuts that ask less of the arm.
+/// The same cuts in another way, cuts that ask less of the arm, or the work in another place: one of each kind.
 fn elsewhere(case: &mut Case<'_>) -> Vec<Remedy> {
-    let mut found: Vec<Remedy> = Vec::new();
-    found.extend(process::other_direction(case));
-    found.extend(process::other_order(case));
-    found.extend(base::moved(case));
-    if found.len() < MOST_OFFERED {
-        found.extend(base::turned(case));
-    }
-    if found.len() < MOST_OFFERED {
-        found.extend(process::smaller_swing(case));
-    }
-    found
+    let way = process::other_direction(case).or_else(|| process::other_order(case));
+    let swing = process::smaller_swing(case);
+    let base = base::moved(case).or_else(|| base::turned(case));
+    [way, swing, base].into_iter().flatten().collect()
 }
 
 impl Remedy {

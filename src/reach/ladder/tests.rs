@@ -35,7 +35,11 @@ impl Ladder for Given {
 fn cost(ladder: &Given, way: &[usize]) -> Option<(f64, u32, f64)> {
     let mut total = (f64::INFINITY, 0, 0.0);
     let mut add = |cost: Cost| {
-        total = (total.0.min(cost.margin), total.1 + cost.changes, total.2 + cost.travel);
+        total = (
+            total.0.min(cost.margin),
+            total.1 + cost.changes,
+            total.2 + cost.travel,
+        );
     };
     for (run, &rung) in way.iter().enumerate() {
         add(ladder.rungs[run][rung]);
