@@ -12,6 +12,12 @@ Examples:
                                           The same job for another stock
   vcutc check *.vcut                      Look for errors, write nothing
   vcutc explain VC0203                    Read what an error means and how to mend it
+  vcutc machines                          See the machines of the catalogue
+  vcutc machines kuka/kr210_r3100_ultra   Read all numbers of one, and where they come from
+  vcutc fk kuka/kr210_r3100_ultra --joints 0,-90,90,0,45,0
+                                          Where these axis values bring the flange
+  vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
+                                          All axis values that bring the flange there
   vcutc targets                           See what programs can be written, and with which options
 
 Exit status:
@@ -97,8 +103,59 @@ pub(super) enum Command {
     /// Looks for the place of the work (and its turn about z) where the smallest margin of the whole job is largest, proves
     /// the whole program there, and prints the frame to paste. The job file is not changed.
     Place(PlaceArgs),
+    /// List the machines of the catalogue, or show one
+    ///
+    /// Shown are lengths, limits and speeds, where the numbers come from, where sources differ, and how far they can be
+    /// trusted.
+    Machines {
+        /// A name of the catalogue, or a file that describes a machine (.toml, .urdf); without it, the list
+        machine: Option<String>,
+    },
+    /// Tell where axis values bring a machine's flange or blade
+    ///
+    /// Lengths are in mm, angles in deg. For robots the way to stand comes along in the terms of their controllers: status
+    /// and turn (KUKA), confdata (ABB).
+    Fk {
+        #[command(flatten)]
+        cell: CellArgs,
+
+        /// The axis values, in the controller's order and sense: deg for rotary axes, mm for linear ones
+        #[arg(long, value_name = "J1,J2,...", allow_hyphen_values = true)]
+        joints: String,
+    },
+    /// List all axis values that bring a machine's flange or blade to a pose
+    ///
+    /// All ways to stand are listed, with all turns of each axis within its limits; ways that leave the limits too, with
+    /// the axes that do and by how much. For robots each comes with status and turn (KUKA) or confdata (ABB).
+    Ik {
+        #[command(flatten)]
+        cell: CellArgs,
+
+        /// The pose: x, y, z in mm and a, b, c in deg (R = Rz(A) Ry(B) Rx(C)); only x, y, z with --quaternion
+        #[arg(long, value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true)]
+        pose: String,
+
+        /// The orientation of the pose as a unit quaternion, the order of ABB's controllers
+        #[arg(long, value_name = "W,X,Y,Z", allow_hyphen_values = true)]
+        quaternion: Option<String>,
+    },
     /// List the targets and their options
     Targets,
+}
+
+/// A machine and the frames between its flange and the blade, its root and the work.
+#[derive(Debug, Args)]
+pub(super) struct CellArgs {
+    /// A machine of the catalogue (see `vcutc machines`), or a file that describes one (.toml, .urdf)
+    pub(super) machine: String,
+
+    /// The blade seen from the flange [default: the flange itself]
+    #[arg(long, value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true)]
+    pub(super) tool: Option<String>,
+
+    /// The work seen from the machine's root [default: the root itself]
+    #[arg(long, value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true)]
+    pub(super) base: Option<String>,
 }
 
 #[derive(Debug, Args)]

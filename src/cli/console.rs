@@ -124,6 +124,11 @@ impl Console {
         self.format == MessageFormat::Human && self.detail != Detail::DiagnosticsOnly
     }
 
+    /// Whether what is asked for goes to a program, as JSON.
+    pub(super) fn speaks_json(&self) -> bool {
+        self.format == MessageFormat::Json
+    }
+
     /// Prints a text that was asked for to standard output.
     pub(super) fn document(&self, text: &str) -> Exit {
         let mut stdout = io::stdout().lock();

@@ -6,7 +6,7 @@
 //! | --- | --- |
 //! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
-//! | pages of `explain`, list of `targets`, help | standard output |
+//! | pages of `explain`, `machines`, answers of `fk` and `ik`, list of `targets`, help | standard output |
 //! | diagnostics, summary, timings, progress | standard error |
 //!
 //! A run ends with 0 when all is well, with 1 when a job has errors, and with 2 when there was nothing to judge: a
@@ -35,6 +35,8 @@ mod explain;
 mod files;
 mod inner;
 mod joints;
+mod kinematics;
+mod machines;
 mod output;
 mod place;
 mod progress;
@@ -81,6 +83,13 @@ pub fn run(targets: &Targets) -> ExitCode {
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
         Some(Command::Place(place)) => place::place(place, targets, &console),
+        Some(Command::Fk { cell, joints }) => kinematics::forward(&cell, &joints, &console),
+        Some(Command::Ik {
+            cell,
+            pose,
+            quaternion,
+        }) => kinematics::inverse(&cell, &pose, quaternion.as_deref(), &console),
+        Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
         Some(Command::Targets) => targets::list(targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),
     };

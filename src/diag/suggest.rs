@@ -6,7 +6,27 @@
 /// such change is always near. Capitals make no difference.
 #[must_use]
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
-    const MOST: usize = 3;
+    let near = ranked(wanted, known);
+    near.into_iter().take(MOST).map(|(_, name)| name).collect()
+}
+
+/// Those of the [`nearest`] names that no other one is nearer than: for long names, of which many share most letters.
+#[must_use]
+pub fn closest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let near = ranked(wanted, known);
+    let least = near.first().map(|(distance, _)| *distance);
+    near.into_iter()
+        .take_while(|(distance, _)| Some(*distance) == least)
+        .take(MOST)
+        .map(|(_, name)| name)
+        .collect()
+}
+
+/// Most names that are offered.
+const MOST: usize = 3;
+
+/// Near names with the number of changes that lead to them, the best first.
+fn ranked<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<(usize, &'a str)> {
     let wanted = wanted.to_lowercase();
     let length = wanted.chars().count();
     let allowed = (length / 3).max(1);
@@ -19,7 +39,7 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Ve
         .collect();
     near.sort_unstable();
     near.dedup();
-    near.into_iter().take(MOST).map(|(_, name)| name).collect()
+    near
 }
 
 #[cfg(test)]
@@ -42,5 +62,13 @@ mod tests {
     fn the_best_come_first_and_only_three() {
         let known = ["cuts", "cat", "cut", "cot", "cup"];
         assert_eq!(nearest("cut", known), ["cut", "cat", "cot"]);
+    }
+
+    #[test]
+    fn the_closest_leave_out_what_is_farther() {
+        let known = ["kr210_r2700", "kr210_r3100", "kr240_r3330"];
+        assert_eq!(closest("kr210_r3101", known), ["kr210_r3100"]);
+        assert_eq!(closest("kr220_r3100", known), ["kr210_r3100"]);
+        assert!(closest("m20", known).is_empty());
     }
 }

@@ -4,11 +4,24 @@
 //! robot the flange in the frame of its foot, for a five-axis machine the spindle nose in the frame in which work is
 //! mounted. Lengths are in mm, angles in rad.
 
+pub mod configuration;
+pub mod five_axis;
+pub mod jacobian;
+pub mod mounted;
+pub mod newton;
 pub mod opw;
 pub mod pose;
+#[cfg(test)]
+pub(crate) mod samples;
+pub mod serial;
 
+use five_axis::FiveAxis;
+use glam::DVec3;
+use jacobian::{Jacobian, Twist};
+use mounted::Mounted;
 use opw::Opw;
 use pose::Pose;
+use serial::SerialArm;
 use vcutc_backend_api::ir::{MOST_AXES, MachineKind};
 use vcutc_backend_api::motion::Branch;
 
@@ -20,6 +33,12 @@ pub type Joints = [f64; MOST_AXES];
 pub enum Mechanism {
     /// An arm with an ortho-parallel basis and a spherical wrist.
     OrthoParallel(Opw),
+    /// Three linear axes and two or three rotary ones.
+    FiveAxis(FiveAxis),
+    /// The same between a foot and a flange that others have chosen.
+    Mounted(Mounted),
+    /// Any other arm of six revolute joints.
+    Serial(SerialArm),
 }
 
 /// One way to reach a pose. Angles of rotary axes are within half a turn either way; other turns of the same axis are for
@@ -65,7 +84,8 @@ impl Mechanism {
     #[must_use]
     pub const fn kind(&self) -> MachineKind {
         match self {
-            Self::OrthoParallel(_) => MachineKind::Robot,
+            Self::OrthoParallel(_) | Self::Mounted(_) | Self::Serial(_) => MachineKind::Robot,
+            Self::FiveAxis(_) => MachineKind::FiveAxis,
         }
     }
 
@@ -74,22 +94,67 @@ impl Mechanism {
     pub fn flange_in_root(&self, joints: &Joints) -> Pose {
         match self {
             Self::OrthoParallel(arm) => arm.forward(joints),
+            Self::FiveAxis(machine) => machine.forward(joints),
+            Self::Mounted(arm) => arm.forward(joints),
+            Self::Serial(arm) => arm.forward(joints),
         }
     }
 
-    /// All ways to bring the flange there, each checked by forward kinematics.
+    /// All ways to bring the flange there, each checked by forward kinematics. Of a general serial arm: those found (see
+    /// [`newton::search`]).
     #[must_use]
     pub fn all(&self, flange_in_root: &Pose) -> Solutions {
         match self {
             Self::OrthoParallel(arm) => arm.inverse(flange_in_root),
+            Self::FiveAxis(machine) => machine.inverse(flange_in_root),
+            Self::Mounted(arm) => arm.inverse(flange_in_root),
+            Self::Serial(arm) => newton::search(arm, flange_in_root),
         }
     }
 
     /// The way on a branch, checked by forward kinematics. Angles of rotary axes are within half a turn of those of `near`.
+    ///
+    /// A general serial arm is on the branch on which it is at `near`, and is led from there (see [`newton::follow`]).
     #[must_use]
     pub fn on_branch(&self, flange_in_root: &Pose, branch: Branch, near: &Joints) -> Option<Joints> {
         match self {
             Self::OrthoParallel(arm) => arm.on_branch(flange_in_root, branch, near),
+            Self::FiveAxis(machine) => machine.on_branch(flange_in_root, branch, near),
+            Self::Mounted(arm) => arm.on_branch(flange_in_root, branch, near),
+            Self::Serial(arm) => match branch {
+                Branch::Numbered(_) => newton::follow(arm, flange_in_root, near),
+                Branch::Arm { .. } => None,
+            },
+        }
+    }
+
+    /// What each of the controller's joints does to the flange and to a point fixed to it, `point_in_flange` in mm, such as
+    /// the tip of the blade.
+    #[must_use]
+    pub fn jacobian(&self, joints: &Joints, point_in_flange: DVec3) -> Jacobian {
+        match self {
+            Self::OrthoParallel(arm) => SerialArm::from(arm).jacobian(joints, point_in_flange),
+            Self::Mounted(arm) => SerialArm::from(arm).jacobian(joints, point_in_flange),
+            Self::Serial(arm) => arm.jacobian(joints, point_in_flange),
+            Self::FiveAxis(machine) => machine.jacobian(joints, point_in_flange),
+        }
+    }
+
+    /// How fast the axes move when a point fixed to the flange has this twist, seen from the root.
+    ///
+    /// None in singular poses, and where the machine cannot move that way.
+    #[must_use]
+    pub fn joint_rates(&self, joints: &Joints, point_in_flange: DVec3, twist: &Twist) -> Option<Joints> {
+        self.jacobian(joints, point_in_flange).rates(twist)
+    }
+
+    /// The closed-form arm in it, if there is one: for questions about its singular poses, in which its mounting plays no
+    /// part.
+    #[must_use]
+    pub const fn ortho_parallel(&self) -> Option<&Opw> {
+        match self {
+            Self::OrthoParallel(arm) | Self::Mounted(Mounted { arm, .. }) => Some(arm),
+            Self::Serial(_) | Self::FiveAxis(_) => None,
         }
     }
 }

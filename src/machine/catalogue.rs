@@ -1,10 +1,10 @@
 //! The machines that come with the compiler, by name.
 //!
-//! Each is a sheet under `src/machine/robots`, compiled in as it is and read when it is asked for.
+//! Each is a sheet under `src/machine/robots` or `src/machine/generic`, compiled in as it is and read when it is asked for.
 
 use super::Model;
 use super::sheet::{self, Confidence, Sheet};
-use crate::diag::suggest::nearest;
+use crate::diag::suggest::closest;
 use vcutc_backend_api::ir::MachineKind;
 
 /// Names and sheets, in the order of the names.
@@ -56,6 +56,25 @@ const SHEETS: &[(&str, &str)] = &[
     (
         "abb/irb6700_235_265",
         include_str!("robots/abb/irb6700_235_265.toml"),
+    ),
+    ("generic/head_head_ac", include_str!("generic/head_head_ac.toml")),
+    (
+        "generic/head_head_ac_spindle",
+        include_str!("generic/head_head_ac_spindle.toml"),
+    ),
+    ("generic/head_head_ba", include_str!("generic/head_head_ba.toml")),
+    ("generic/head_head_bc", include_str!("generic/head_head_bc.toml")),
+    (
+        "generic/head_table_ab",
+        include_str!("generic/head_table_ab.toml"),
+    ),
+    (
+        "generic/table_table_ab",
+        include_str!("generic/table_table_ab.toml"),
+    ),
+    (
+        "generic/table_table_ac",
+        include_str!("generic/table_table_ac.toml"),
     ),
     ("kuka/kr10_r1100_2", include_str!("robots/kuka/kr10_r1100_2.toml")),
     (
@@ -150,7 +169,7 @@ pub fn near(wanted: &str) -> Vec<&'static str> {
     if !model.is_empty() && (1..=MOST_NEAR).contains(&begins.len()) {
         begins
     } else {
-        nearest(&tidy, names())
+        closest(&tidy, names())
     }
 }
 
@@ -191,21 +210,56 @@ pub fn summaries() -> Vec<Summary> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::pose::Pose;
-    use glam::{DMat3, DQuat, DVec3};
 
     #[test]
     fn every_sheet_is_a_machine_with_limits_and_sources() {
         for (name, text) in SHEETS {
             let sheet = sheet::parse(text).unwrap_or_else(|flaws| panic!("{name}: {flaws:#?}"));
-            assert_eq!(sheet.axes.len(), 6, "{name}");
             assert!(sheet.confidence.is_some(), "{name}");
-            assert!(!sheet.facts.sources.is_empty(), "{name}");
-            assert!(sheet.facts.fk_checks.len() >= 3, "{name}");
+            match sheet.kind() {
+                MachineKind::Robot => {
+                    assert_eq!(sheet.axes.len(), 6, "{name}");
+                    assert!(!sheet.facts.sources.is_empty(), "{name}");
+                    assert!(sheet.facts.fk_checks.len() >= 3, "{name}");
+                }
+                MachineKind::FiveAxis => {
+                    assert!((5..=6).contains(&sheet.axes.len()), "{name}");
+                    assert_eq!(sheet.confidence, Some(Confidence::Example), "{name}");
+                }
+            }
             assert_eq!(find(name).map(|model| model.name).as_deref(), Some(*name));
         }
-        assert_eq!(SHEETS.len(), 33);
+        assert_eq!(SHEETS.len(), 33 + 7);
         assert!(names().is_sorted());
+    }
+
+    #[test]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "what lies in the folders is the question"
+    )]
+    fn the_folders_and_the_table_agree() {
+        let mut found = Vec::new();
+        let here = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/machine");
+        for (folder, prefix) in [
+            ("robots/abb", "abb"),
+            ("robots/kuka", "kuka"),
+            ("generic", "generic"),
+        ] {
+            for entry in std::fs::read_dir(here.join(folder)).unwrap() {
+                let file = entry.unwrap().file_name().into_string().unwrap();
+                let name = format!("{prefix}/{}", file.strip_suffix(".toml").unwrap());
+                let path = here.join(folder).join(&file);
+                assert_eq!(
+                    std::fs::read_to_string(path).unwrap(),
+                    text(&name).unwrap(),
+                    "{name}"
+                );
+                found.push(name);
+            }
+        }
+        found.sort();
+        assert_eq!(found, names().collect::<Vec<_>>());
     }
 
     /// The conventions: zero positions, senses, order of the wrist, coupling, the flange's axes.
@@ -215,24 +269,12 @@ mod tests {
         for name in names() {
             let sheet = sheet(name).unwrap();
             for check in &sheet.facts.fk_checks {
-                let flange = sheet
-                    .mechanism
-                    .flange_in_root(&check.joints_deg.map(f64::to_radians));
-                let published = Pose {
-                    rotation: check.quaternion.map_or(flange.rotation, |[w, x, y, z]| {
-                        DMat3::from_quat(DQuat::from_xyzw(x, y, z, w).normalize())
-                    }),
-                    position: DVec3::from_array(check.xyz_mm),
-                };
-                let (apart, norm) = flange.apart(&published);
-                // The Frobenius norm of a difference of rotations by an angle is sqrt(8) sin(angle / 2).
-                let turned = 2.0 * libm::asin((norm / libm::sqrt(8.0)).min(1.0));
+                let (apart, turned) = check.apart(&sheet.mechanism, &sheet.axes);
                 let joints = check.joints_deg;
                 assert!(
                     apart <= check.position_tolerance_mm,
                     "{name} {joints:?}: {apart} mm"
                 );
-                let turned = turned.to_degrees();
                 assert!(
                     turned <= check.rotation_tolerance_deg,
                     "{name} {joints:?}: {turned} deg"
@@ -251,19 +293,20 @@ mod tests {
         );
         assert_eq!(near("KUKA/KR210 R3100-ultra"), ["kuka/kr210_r3100_ultra"]);
         assert_eq!(near("irb6660_205_190"), ["abb/irb6660_205_190"]);
-        assert_eq!(near("abb/irb6670_205_190").first(), Some(&"abb/irb6660_205_190"));
+        assert_eq!(near("abb/irb6670_205_190"), ["abb/irb6660_205_190"]);
         assert!(near("fanuc/m20").is_empty());
         assert!(near("").is_empty());
     }
 
     #[test]
     fn parallelograms_are_those_with_rods() {
-        use crate::kinematics::Mechanism;
         use crate::kinematics::opw::Coupling;
         let coupled: Vec<_> = names()
             .filter(|name| {
-                let Mechanism::OrthoParallel(arm) = sheet(name).unwrap().mechanism;
-                arm.coupling == Coupling::Parallelogram
+                let mechanism = sheet(name).unwrap().mechanism;
+                mechanism
+                    .ortho_parallel()
+                    .is_some_and(|arm| arm.coupling == Coupling::Parallelogram)
             })
             .collect();
         assert_eq!(coupled, ["abb/irb2400_16", "abb/irb6660_205_190"]);

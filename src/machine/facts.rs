@@ -2,6 +2,11 @@
 
 use super::flaw::Flaw;
 use super::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Table};
+use crate::kinematics::{Joints, Mechanism};
+use core::ops::Range;
+use glam::DVec3;
+use vcutc_backend_api::geometry::{Frame, Orientation};
+use vcutc_backend_api::ir::{Axis, AxisKind};
 
 /// For people.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,6 +55,52 @@ pub struct FkCheck {
     pub independence: Option<String>,
     /// What else there is to know.
     pub note: Option<String>,
+    /// Where it stands in the sheet.
+    pub span: Range<usize>,
+}
+
+impl FkCheck {
+    /// How far a mechanism with these axes is from the published pose: in mm, and in deg.
+    #[must_use]
+    pub fn apart(&self, mechanism: &Mechanism, axes: &[Axis]) -> (f64, f64) {
+        let mut joints = Joints::default();
+        for (joint, (value, axis)) in joints.iter_mut().zip(self.joints_deg.iter().zip(axes)) {
+            *joint = match axis.kind {
+                AxisKind::Rotary => value.to_radians(),
+                AxisKind::Linear => *value,
+            };
+        }
+        let flange_in_root = mechanism.flange_in_root(&joints);
+        let apart = flange_in_root.position.distance(DVec3::from_array(self.xyz_mm));
+        let published = self
+            .quaternion
+            .and_then(|[w, x, y, z]| Orientation::from_quaternion(w, x, y, z));
+        let turned = published.map_or(0.0, |published| {
+            published
+                .angle_to(Frame::from(flange_in_root).orientation)
+                .to_deg()
+        });
+        (apart, turned)
+    }
+
+    /// The flaw of a sheet whose mechanism does not meet the pose.
+    pub(super) fn missed(&self, mechanism: &Mechanism, axes: &[Axis]) -> Option<Flaw> {
+        let (apart, turned) = self.apart(mechanism, axes);
+        if apart <= self.position_tolerance_mm && turned <= self.rotation_tolerance_deg {
+            return None;
+        }
+        let missed = Flaw::new(
+            self.span.clone(),
+            format!(
+                "the numbers of this sheet put the flange {apart:.3} mm and {turned:.3} deg away from a pose that is known"
+            ),
+            format!(
+                "known to {} mm and {} deg",
+                self.position_tolerance_mm, self.rotation_tolerance_deg
+            ),
+        );
+        Some(missed.help("compare lengths, `joint_offsets_deg` and `joint_signs` with the machine's own, or the pose with its source"))
+    }
 }
 
 /// Masses of the links.
@@ -174,6 +225,7 @@ fn fk_check(check: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<FkCheck> {
         source,
         independence,
         note,
+        span: check.span(),
     })
 }
 

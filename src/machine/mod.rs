@@ -3,6 +3,7 @@
 
 pub mod catalogue;
 pub mod facts;
+mod five_axis;
 pub mod flaw;
 mod robot;
 pub mod sheet;

@@ -4,10 +4,10 @@
 //! numbers come from and how far to trust them ([`Facts`]). `docs/machines.md` has the form. One form is read for robots
 //! and one for five-axis machines; the key `kind` says which.
 
-use super::facts::{self, Facts, Sources};
+use super::facts::{self, Facts, FkCheck, Sources};
 use super::flaw::Flaw;
 use super::table::{MASS, Table};
-use super::{Model, robot};
+use super::{Model, five_axis, robot};
 use crate::kinematics::Mechanism;
 use toml::de::DeTable;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
@@ -144,11 +144,7 @@ fn read<'t>(root: &'t DeTable<'t>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
     };
     let form = match kind {
         MachineKind::Robot => robot::FORM,
-        MachineKind::FiveAxis => {
-            let message = "sheets of five-axis machines cannot be read";
-            flaws.push(Flaw::new(root.span_of("kind"), message, "not supported"));
-            return None;
-        }
+        MachineKind::FiveAxis => five_axis::FORM,
     };
     root.allow(&[COMMON_KEYS, facts::KEYS, form.keys].concat(), flaws);
     root.require(&[("model", "model = \"KUKA KR 210 R3100 ultra\"")], flaws);
@@ -161,13 +157,16 @@ fn read<'t>(root: &'t DeTable<'t>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
     let body = (form.read)(&root, maker(manufacturer), flaws)?;
     facts.sources.extend(body.sources);
     facts.remarks.extend(body.remarks);
+    let mechanism = body.mechanism?;
+    let missed = |check: &FkCheck| check.missed(&mechanism, &body.axes);
+    flaws.extend(facts.fk_checks.iter().filter_map(missed));
     Some(Sheet {
         model: model?.to_owned(),
         manufacturer: manufacturer.map(str::to_owned),
         payload,
         confidence,
         axes: body.axes,
-        mechanism: body.mechanism?,
+        mechanism,
         facts,
     })
 }

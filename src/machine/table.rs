@@ -126,7 +126,7 @@ impl<'t> Table<'t> {
             Flaw::new(
                 self.span(),
                 format!("{holder} lacks {keys}"),
-                format!("{keys} missing here"),
+                format!("missing: {keys}"),
             )
             .help(format!("add, with the values of your machine: {lines}")),
         );
@@ -223,6 +223,18 @@ impl<'t> Table<'t> {
             }
         }
         texts
+    }
+
+    /// The names in a list under a key.
+    pub(super) fn names(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<&'t str> {
+        let mut names = Vec::new();
+        for value in self.elements(key, "a list of names", flaws) {
+            match value.get_ref() {
+                DeValue::String(name) => names.push(name.as_ref()),
+                other => flaws.push(wrong_kind(key, "names in quotes", value.span(), other)),
+            }
+        }
+        names
     }
 
     /// The word under a key, one of a few.
@@ -361,7 +373,7 @@ fn number(key: &str, value: &Spanned<DeValue<'_>>, measure: Measure, flaws: &mut
             format!("`{key}` takes a finite number"),
             "not a finite number",
         )
-        .help("leave an optional key out when its value is not known"),
+        .help("write it in digits, such as `120.5`; leave an optional key out when its value is not known"),
     };
     flaws.push(flaw);
     None

@@ -6,6 +6,7 @@
 
 pub mod demand;
 pub mod describe;
+pub mod five_axis_path;
 pub mod ladder;
 pub mod legs;
 pub mod path;

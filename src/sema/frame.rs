@@ -121,7 +121,8 @@ fn frame(mut call: Arguments<'_>, reader: &mut Reader<'_>) -> Checked<Frame> {
             (Point3::new(x, y, z), Orientation::from_zyx(angles))
         }
         [quaternion, surplus @ ..] => {
-            for other in call.take(&["a", "b", "c"]).iter().chain(surplus) {
+            let angles = call.take(&["a", "b", "c"]);
+            if let Some(other) = angles.iter().chain(surplus).next() {
                 let diagnostic = Diagnostic::new(
                     Code::BadCall,
                     "the orientation of the frame is given twice",

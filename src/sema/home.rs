@@ -172,3 +172,52 @@ const fn dimension(axis: &Axis) -> Dimension {
         AxisKind::Linear => Dimension::LENGTH,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::catalogue;
+    use crate::source::SourceMap;
+
+    /// What a fix writes is within the limits as they are kept, in rad or mm, and as near to them as four decimals allow.
+    #[test]
+    fn the_nearest_position_is_within_on_every_axis_of_the_catalogue() {
+        let span = Span::of_bytes(SourceMap::default().add("job", ""), 0..0);
+        for name in catalogue::names() {
+            for axis in catalogue::find(name).unwrap().axes {
+                let unit = dimension(&axis).unit_size();
+                for (limit, value) in [(axis.max, axis.max + 0.1), (axis.min, axis.min - 7.0)] {
+                    let edit = edit(&axis, &Place { value, span });
+                    let (number, _) = edit.replacement.split_once(' ').unwrap();
+                    let fixed = number.parse::<f64>().unwrap() * unit;
+                    assert!(
+                        (axis.min..=axis.max).contains(&fixed),
+                        "{name} {}: {number}",
+                        axis.name
+                    );
+                    assert!(
+                        (fixed - limit).abs() < 1.01e-4 * unit,
+                        "{name} {}: {number}",
+                        axis.name
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn limits_with_more_digits_are_rounded_inwards() {
+        let span = Span::of_bytes(SourceMap::default().add("job", ""), 0..0);
+        let axis = Axis {
+            name: "X".to_owned(),
+            kind: AxisKind::Linear,
+            min: -1000.000_06,
+            max: 1234.567_89,
+            rate: None,
+            acceleration: None,
+        };
+        let written = |value| edit(&axis, &Place { value, span }).replacement;
+        assert_eq!(written(2000.0), "1234.5678 mm");
+        assert_eq!(written(-2000.0), "-1000 mm");
+    }
+}

@@ -2,6 +2,7 @@
 
 mod gallery;
 mod jobs;
+mod machines;
 mod refusals;
 
 use std::fs;

@@ -36,7 +36,18 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "syntax", "verdict",
         ],
     ),
-    ("cli", &["diag", "driver", "plan", "registry", "source"]),
+    (
+        "cli",
+        &[
+            "diag",
+            "driver",
+            "kinematics",
+            "machine",
+            "plan",
+            "registry",
+            "source",
+        ],
+    ),
 ];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.

@@ -34,7 +34,8 @@ impl<'a> Exchange<'a> {
     }
 }
 
-#[cfg(all(test, feature = "testkit"))]
+#[cfg(test)]
+#[cfg(feature = "testkit")]
 mod tests {
     use super::*;
     use crate::testkit::samples;

@@ -5,7 +5,8 @@
 //! A backend that says a pose in a controller's terms (KUKA's status and turn, ABB's configuration) reads both from here and
 //! computes no kinematics itself.
 
-#[cfg(all(test, feature = "testkit"))]
+#[cfg(test)]
+#[cfg(feature = "testkit")]
 mod tests;
 
 use crate::geometry::{Frame, Point3};

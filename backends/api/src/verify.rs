@@ -7,7 +7,8 @@
 //! and cuts come in pairs.
 
 mod capability;
-#[cfg(all(test, feature = "testkit"))]
+#[cfg(test)]
+#[cfg(feature = "testkit")]
 mod tests;
 
 pub use capability::{Capabilities, Capability};

@@ -53,12 +53,12 @@ pub(crate) fn write(source: Source<'_>, part: &Part, text: &mut Text<'_>) -> Wri
     body.first_speeds(ops)?;
     body.restate(part.ops.start)?;
     let mut rest = ops;
-    let mut place = part.ops.start;
+    let mut index = part.ops.start;
     while let [op, after @ ..] = rest {
         body.lead(op)?;
-        body.op(place, op, after.first())?;
+        body.op(index, op, after.first())?;
         rest = after;
-        place += 1;
+        index += 1;
     }
     body.finish()
 }
@@ -178,9 +178,9 @@ impl Body<'_, '_, '_> {
         Ok(())
     }
 
-    /// Repeats the state in which the part begins, with this op. Called from the main program this changes nothing; a part
-    /// started alone is brought to the pose, on the branch and with the blade vibrating, that its first move was checked
-    /// from.
+    /// Repeats the state in which the part begins, whose first op has this index. Called from the main program this changes
+    /// nothing; a part started alone is brought to the pose, on the branch and with the blade vibrating, that its first move
+    /// was checked from.
     fn restate(&mut self, first: usize) -> Written {
         match (self.state.place, first.checked_sub(1)) {
             (Place::Tip(tip, held), Some(before)) => self.axis_travel(before, tip, held)?,
@@ -197,12 +197,12 @@ impl Body<'_, '_, '_> {
         }
     }
 
-    fn op(&mut self, place: usize, op: &Op, next: Option<&Op>) -> Written {
+    fn op(&mut self, index: usize, op: &Op, next: Option<&Op>) -> Written {
         let before = self.state;
         self.state = before.after(&op.action);
         match op.action {
             Action::Home => self.home(),
-            Action::AxisTravel { to, orientation } => self.axis_travel(place, to, orientation),
+            Action::AxisTravel { to, orientation } => self.axis_travel(index, to, orientation),
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } | Action::Cut { .. } => {
                 let end = self.end(before.place, &op.action, next.map(|next| &next.action));
                 self.go(end)
@@ -266,10 +266,10 @@ impl Body<'_, '_, '_> {
         Ok(self.text.line(HOME)?)
     }
 
-    /// A move of all axes to the pose in which the op at `place` ends, with the status and turn that it has there.
-    fn axis_travel(&mut self, place: usize, to: Point3, held: OrientationId) -> Written {
+    /// A move of all axes to the pose in which the op of that index ends, with the status and turn that the arm has there.
+    fn axis_travel(&mut self, index: usize, to: Point3, held: OrientationId) -> Written {
         let Configuration { status, turn } =
-            configuration(self.source.reachable, place).ok_or(EmitError::Internal("a pose has no status"))?;
+            configuration(self.source.reachable, index).ok_or(EmitError::Internal("a pose has no status"))?;
         self.text.put(self.source.settings.planner.axes());
         self.text.put(b" {X ");
         self.pose(to, held)?;
@@ -318,8 +318,8 @@ impl Body<'_, '_, '_> {
     }
 }
 
-/// Status and turn at the end of an op.
-fn configuration(reachable: &ReachableProgram, place: usize) -> Option<Configuration> {
-    let op = OpId(u32::try_from(place).ok()?);
+/// Status and turn at the end of the op of that index.
+fn configuration(reachable: &ReachableProgram, index: usize) -> Option<Configuration> {
+    let op = OpId(u32::try_from(index).ok()?);
     Configuration::of(reachable.branch_after(op)?, reachable.axes_after(op)?)
 }

@@ -50,8 +50,8 @@ const FIXED_INPUTS: [u32; 2] = [1025, 1026];
 
 const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
     field: "home",
-    why: "a KRL program begins with a move of all six axes, which also decides the posture of the arm in every straight \
-          move after it",
+    why: "a KRL program begins and ends with a move of all six axes to angles that the job states, so that it does not \
+          depend on where the arm happens to stand",
 };
 
 const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {

@@ -53,7 +53,9 @@ fn a_small_sheet_is_a_machine() {
     assert_eq!(sheet.maker(), Maker::Other);
     let model = sheet.machine("arm.toml");
     assert_eq!(model.kind(), MachineKind::Robot);
-    let Mechanism::OrthoParallel(arm) = &model.mechanism;
+    let Mechanism::OrthoParallel(arm) = &model.mechanism else {
+        panic!("an arm is wanted");
+    };
     assert_eq!((arm.a1, arm.c3), (300.0, 1000.0));
     assert_eq!(arm.coupling, Coupling::Serial);
     let third = &model.axes[2];
@@ -75,7 +77,9 @@ fn a_maker_and_rates_and_coupling_are_optional() {
     assert_eq!(sixth.name, "A6");
     assert_eq!(sixth.rate, Some(200_f64.to_radians()));
     assert_eq!(sixth.acceleration, Some(400_f64.to_radians()));
-    let Mechanism::OrthoParallel(arm) = sheet.mechanism;
+    let Mechanism::OrthoParallel(arm) = sheet.mechanism else {
+        panic!("an arm is wanted");
+    };
     assert_eq!(arm.coupling, Coupling::Parallelogram);
 }
 
@@ -171,6 +175,23 @@ fn unknown_keys_are_told_with_what_was_meant() {
     let found = parse(&SMALL.replace("[limits]", "[limit]")).unwrap_err();
     let helps: Vec<_> = found.iter().filter_map(|flaw| flaw.help.as_deref()).collect();
     assert!(helps.contains(&"did you mean `limits`?"), "{helps:?}");
+}
+
+#[test]
+fn a_known_pose_that_is_missed_is_told_with_the_distance() {
+    let check =
+        "[[fk_check]]\njoints_deg = [0, 0, 0, 0, 0, 0]\nquat_wxyz = [0.70710678, 0.0, 0.70710678, 0.0]\n";
+    let right = format!("{SMALL}{check}xyz_mm = [1450.0, 0.0, 1700.0]\n");
+    assert!(parse(&right).is_ok(), "{:?}", parse(&right));
+    let wrong = format!("{SMALL}{check}xyz_mm = [1450.0, 3.0, 1700.0]\n");
+    let found = parse(&wrong).unwrap_err();
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert!(found[0].message.contains("3.000 mm and 0.000 deg"), "{found:#?}");
+    let turned = right
+        .replace("= [1, 1, 1, 1, 1, 1]", "= [1, 1, 1, 1, 1, -1]")
+        .replace("[0, 0, 0, 0, 0, 0]", "[0, 0, 0, 0, 0, 15]");
+    let found = parse(&turned).unwrap_err();
+    assert!(found[0].message.contains("0.000 mm and 15.000 deg"), "{found:#?}");
 }
 
 #[test]

@@ -55,11 +55,6 @@ impl Along {
         }
     }
 
-    /// At the middle of the span.
-    pub(super) const fn here(self) -> Interval {
-        self.here
-    }
-
     /// On the whole span.
     pub(super) const fn value(self) -> Interval {
         self.value

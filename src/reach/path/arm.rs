@@ -11,7 +11,7 @@ use super::{Clearance, Singularity, Violation};
 use crate::kinematics::opw::{Coupling, Opw};
 use core::f64::consts::PI;
 use glam::DVec3;
-use vcutc_backend_api::motion::{Elbow, Shoulder, Wrist};
+use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 
 /// The branch of an arm.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,21 @@ pub(super) struct ArmBranch {
     pub(super) shoulder: Shoulder,
     pub(super) elbow: Elbow,
     pub(super) wrist: Wrist,
+}
+
+impl From<ArmBranch> for Branch {
+    fn from(branch: ArmBranch) -> Self {
+        let ArmBranch {
+            shoulder,
+            elbow,
+            wrist,
+        } = branch;
+        Self::Arm {
+            shoulder,
+            elbow,
+            wrist,
+        }
+    }
 }
 
 /// An arm along a span.
@@ -144,45 +159,6 @@ fn controller_angles(arm: &Opw, q: [Along; 6]) -> [Along; 6] {
         angles[2] = angles[2] + angles[1];
     }
     angles
-}
-
-fn model_angles(arm: &Opw, joints: [Along; 6]) -> [Along; 6] {
-    let mut angles = joints;
-    if arm.coupling == Coupling::Parallelogram {
-        angles[2] = joints[2] - joints[1];
-    }
-    core::array::from_fn(|i| (angles[i] * arm.signs[i]).plus(-arm.offsets[i]))
-}
-
-/// A point that is fixed to the flange, seen from the root, while the axes move: the product of
-/// [`crate::kinematics::opw`] from its end.
-pub(super) fn point_in_root(arm: &Opw, joints: [Along; 6], in_flange: DVec3) -> [Along; 3] {
-    let [q1, q2, q3, q4, q5, q6] = model_angles(arm, joints);
-    let from_wrist = in_flange + DVec3::new(0.0, 0.0, arm.c4);
-    let hand = about_z(
-        q4,
-        about_y(q5, about_z(q6, from_wrist.to_array().map(Along::constant))),
-    );
-    let upper = about_y(q3, shifted(hand, [arm.a2, 0.0, arm.c3]));
-    let upright = about_y(q2, shifted(upper, [0.0, 0.0, arm.c2]));
-    shifted(
-        about_z(q1, shifted(upright, [arm.a1, arm.b, 0.0])),
-        [0.0, 0.0, arm.c1],
-    )
-}
-
-fn about_z(angle: Along, [x, y, z]: [Along; 3]) -> [Along; 3] {
-    let (sin, cos) = angle.sin_cos();
-    [cos * x - sin * y, sin * x + cos * y, z]
-}
-
-fn about_y(angle: Along, [x, y, z]: [Along; 3]) -> [Along; 3] {
-    let (sin, cos) = angle.sin_cos();
-    [cos * x + sin * z, y, cos * z - sin * x]
-}
-
-fn shifted(point: [Along; 3], by: [f64; 3]) -> [Along; 3] {
-    core::array::from_fn(|i| point[i].plus(by[i]))
 }
 
 /// What it means that a radicand is not positive on a span: nowhere positive is out of reach.

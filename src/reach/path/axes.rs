@@ -5,15 +5,13 @@
 //! What is between the points is then out there too, since a half space that has the points has their convex hull.
 
 use super::along::Along;
-use super::arm;
 use super::bounds::limits;
-use super::course::Span;
+use super::chain::{Chain, Point, evenly, moved};
 use super::interval::Interval;
 use super::march::{Tried, march};
-use crate::kinematics::{Joints, Mechanism};
+use crate::kinematics::Joints;
 use crate::reach::rig::Rig;
-use glam::{DMat3, DVec3};
-use vcutc_backend_api::ir::MOST_AXES;
+use glam::DVec3;
 
 /// By how much a point may be inside of a face, in mm: rounding.
 const SLACK: f64 = 1e-6;
@@ -72,9 +70,14 @@ pub fn prove_axes(
             return Err(AxesBreach { at, what });
         }
     }
+    let (chain, blade_in_flange) = (Chain::of(rig.mechanism), rig.flange_in_blade.inverse());
+    let root_in_work = rig.work_in_root.inverse();
     march(|span, _| {
-        let joints = moving(from, to, span);
-        let points = blade.iter().map(|point| point_in_work(rig, joints, *point));
+        let joints = evenly(from, to, span.middle, span.half);
+        let points = blade.iter().map(|point| {
+            let in_flange = blade_in_flange.rotation * *point + blade_in_flange.position;
+            moved(&root_in_work, chain.point_in_root(&joints, in_flange))
+        });
         let is_outside = Sides::of(points, stock).any();
         if is_outside {
             Tried::Proven
@@ -91,32 +94,6 @@ pub fn prove_axes(
     })
 }
 
-/// The axes on a span of the move.
-fn moving(from: &Joints, to: &Joints, span: Span) -> [Along; MOST_AXES] {
-    core::array::from_fn(|i| {
-        let way = to[i] - from[i];
-        Along::line(from[i] + way * span.middle, way * span.half)
-    })
-}
-
-/// A point of the blade in the work.
-fn point_in_work(rig: &Rig<'_>, joints: [Along; MOST_AXES], in_blade: DVec3) -> [Along; 3] {
-    let blade_in_flange = rig.flange_in_blade.inverse();
-    let in_flange = blade_in_flange.rotation * in_blade + blade_in_flange.position;
-    let in_root = match rig.mechanism {
-        Mechanism::OrthoParallel(arm) => arm::point_in_root(arm, joints, in_flange),
-    };
-    let root_in_work = rig.work_in_root.inverse();
-    turned(&root_in_work.rotation, in_root, root_in_work.position)
-}
-
-fn turned(rotation: &DMat3, [x, y, z]: [Along; 3], shift: DVec3) -> [Along; 3] {
-    core::array::from_fn(|i| {
-        let row = rotation.row(i);
-        (x * row.x + y * row.y + z * row.z).plus(shift[i])
-    })
-}
-
 /// Beyond which faces of a block all points are.
 struct Sides {
     below: [bool; 3],
@@ -124,7 +101,7 @@ struct Sides {
 }
 
 impl Sides {
-    fn of(points: impl Iterator<Item = [Along; 3]>, block: &Block) -> Self {
+    fn of(points: impl Iterator<Item = Point>, block: &Block) -> Self {
         let mut sides = Self {
             below: [true; 3],
             above: [true; 3],

@@ -1,12 +1,16 @@
 //! The motion of the blade as controllers interpolate it, seen from the machine's root.
 
 use super::along::Along;
+use super::interval::Interval;
 use super::{Course, Rig};
 use crate::kinematics::pose::Pose;
 use glam::{DMat3, DQuat, DVec3};
 
 /// Farther out (mm) there is nothing to work on, and nothing to compute with.
 const FARTHEST: f64 = 1e9;
+
+/// What positions on the course may be off by rounding, in mm.
+const ROUNDING: f64 = 1e-9;
 
 /// A part of a course: all places within `half` of `middle`, in parts of the course from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +75,17 @@ impl Flight {
     /// How fast the tip moves, in mm a course, and how fast the flange turns, as a vector in rad a course.
     pub(super) fn velocity(&self) -> (DVec3, DVec3) {
         (self.way, self.axis * self.angle)
+    }
+
+    /// Where the tip is on the flange.
+    pub(super) fn tip_in_flange(&self) -> DVec3 {
+        self.start.rotation.transpose() * (self.tip - self.start.position)
+    }
+
+    /// Where the tip is in the root on a span.
+    pub(super) fn tip_over(&self, span: Span) -> [Interval; 3] {
+        let (tip, slope) = (self.tip + self.way * span.middle, self.way * span.half);
+        core::array::from_fn(|i| Interval::around(tip[i], slope[i].abs() + ROUNDING))
     }
 
     /// The flange on a span.

@@ -106,8 +106,8 @@ impl Interval {
     pub(super) fn sin_cos(self) -> (Self, Self) {
         let centre = self.middle();
         let (sin, cos) = libm::sincos(centre);
-        // Neither changes faster than the angle.
-        let radius = self.width() + FUNCTION_ERROR;
+        // Neither changes faster than the angle; the middle is rounded.
+        let radius = 0.5 * self.width() + centre.abs() * f64::EPSILON + FUNCTION_ERROR;
         (Self::around(sin, radius), Self::around(cos, radius))
     }
 

@@ -4,9 +4,11 @@ mod along;
 mod arm;
 mod axes;
 mod bounds;
+mod chain;
 mod course;
 mod interval;
 mod march;
+mod serial;
 #[cfg(test)]
 mod tests;
 mod worst;
@@ -14,10 +16,12 @@ mod worst;
 pub use axes::{AxesBreach, AxesViolation, Block, prove_axes};
 pub use worst::worst;
 
+use super::five_axis_path;
 use super::rig::Rig;
 use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, Mechanism};
+use crate::kinematics::serial::SerialArm;
+use crate::kinematics::{Joints, Mechanism, newton};
 use arm::ArmBranch;
 use bounds::{Bounds, Progress, Stretch};
 use course::{Flight, Span};
@@ -123,6 +127,10 @@ pub fn prove(
     least: &Clearance,
 ) -> Result<Proof, Breach> {
     let begins_with = |what| Breach { at: 0.0, what };
+    // Its controller interpolates in another way.
+    if let Mechanism::FiveAxis(machine) = rig.mechanism {
+        return five_axis_path::prove(machine, rig, course, branch, start);
+    }
     let way = Way::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
     // Where kinematics finds no axis values, or others than the given ones, there is nothing to continue.
     if !way
@@ -162,28 +170,32 @@ pub fn joints_on(
     place: f64,
     near: &Joints,
 ) -> Option<Joints> {
+    if let Mechanism::FiveAxis(machine) = rig.mechanism {
+        return five_axis_path::joints_on(machine, rig, course, branch, place, near);
+    }
     Way::new(rig, course, branch)?.joints_at(place, near)
 }
 
-/// A machine on a branch that carries the blade along a course: the one place of this module that tells mechanisms apart.
+/// A machine on a branch that carries the blade along a course.
 struct Way<'m> {
-    mechanism: &'m Mechanism,
-    branch: Branch,
     flight: Flight,
-    kind: Kind<'m>,
+    machine: Machine<'m>,
 }
 
-/// How spans are proven.
-enum Kind<'m> {
-    /// By the closed form.
+/// How the axes are found, and how spans are proven.
+enum Machine<'m> {
+    /// By a closed form.
     Arm(&'m Opw, ArmBranch),
+    /// By iteration and the Jacobian.
+    Serial(&'m SerialArm),
 }
 
 impl<'m> Way<'m> {
     /// `None` for a course without a duration, beyond all machines, or a branch that the machine does not have.
     fn new(rig: &Rig<'m>, course: &Course, branch: Branch) -> Option<Self> {
         let lasts = course.duration > 0.0 && course.duration.is_finite();
-        let kind = match (rig.mechanism, branch) {
+        let mut rig = rig.clone();
+        let machine = match (rig.mechanism, branch) {
             (
                 Mechanism::OrthoParallel(arm),
                 Branch::Arm {
@@ -191,7 +203,7 @@ impl<'m> Way<'m> {
                     elbow,
                     wrist,
                 },
-            ) => Kind::Arm(
+            ) => Machine::Arm(
                 arm,
                 ArmBranch {
                     shoulder,
@@ -199,27 +211,51 @@ impl<'m> Way<'m> {
                     wrist,
                 },
             ),
-            (Mechanism::OrthoParallel(_), Branch::Numbered(_)) => return None,
+            (
+                Mechanism::Mounted(mounted),
+                Branch::Arm {
+                    shoulder,
+                    elbow,
+                    wrist,
+                },
+            ) => {
+                // Seen from the arm's own foot and for its own flange it is any other arm.
+                rig.work_in_root = mounted.foot_in_root.inverse() * rig.work_in_root;
+                rig.flange_in_blade = rig.flange_in_blade * mounted.flange_in_hand.inverse();
+                Machine::Arm(
+                    &mounted.arm,
+                    ArmBranch {
+                        shoulder,
+                        elbow,
+                        wrist,
+                    },
+                )
+            }
+            (Mechanism::Serial(arm), Branch::Numbered(_)) => Machine::Serial(arm),
+            (Mechanism::OrthoParallel(_) | Mechanism::Mounted(_), Branch::Numbered(_))
+            | (Mechanism::Serial(_), Branch::Arm { .. })
+            | (Mechanism::FiveAxis(_), _) => return None,
         };
-        let flight = Flight::new(rig, course).filter(|_| lasts)?;
-        Some(Self {
-            mechanism: rig.mechanism,
-            branch,
-            flight,
-            kind,
-        })
+        let flight = Flight::new(&rig, course).filter(|_| lasts)?;
+        Some(Self { flight, machine })
     }
 
     /// The axes at a place of the course.
     fn joints_at(&self, place: f64, near: &Joints) -> Option<Joints> {
-        self.mechanism
-            .on_branch(&self.flight.flange_at(place), self.branch, near)
+        let flange = self.flight.flange_at(place);
+        match self.machine {
+            Machine::Arm(arm, branch) => arm.on_branch(&flange, branch.into(), near),
+            Machine::Serial(arm) => newton::follow(arm, &flange, near),
+        }
     }
 
-    /// What the axes do on a span, proven.
-    fn stretch(&self, span: Span, _begin: &Joints) -> Result<Stretch, Violation> {
-        match self.kind {
-            Kind::Arm(arm, branch) => Ok(arm::posture(arm, branch, &self.flight.over(span))?.stretch(span)),
+    /// What the axes do on a span that they enter at `begin`, proven.
+    fn stretch(&self, span: Span, begin: &Joints) -> Result<Stretch, Violation> {
+        match self.machine {
+            Machine::Arm(arm, branch) => {
+                Ok(arm::posture(arm, branch, &self.flight.over(span))?.stretch(span))
+            }
+            Machine::Serial(arm) => serial::stretch(arm, &self.flight, span, begin),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod axes;
 mod sampling;
+mod serial;
 mod windows;
 
 use super::*;
@@ -122,10 +123,7 @@ fn made_up(arm: Opw, limits: [(f64, f64); 6]) -> Model {
 }
 
 fn arm_of(model: &Model) -> Opw {
-    let Mechanism::OrthoParallel(arm) = &model.mechanism else {
-        panic!("{} is an ortho-parallel arm", model.name);
-    };
-    *arm
+    *model.mechanism.ortho_parallel().expect("a closed-form arm")
 }
 
 /// A blade held at an angle on the flange, and work that stands before the robot, turned.

@@ -7,7 +7,7 @@
 
 use super::clearance::clearance;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, MOST_BRANCHES, Mechanism};
+use crate::kinematics::{Joints, MOST_BRANCHES, Mechanism, Solution, Solutions};
 use crate::reach::demand::{FULL, axis_margin};
 use crate::reach::path::Clearance;
 use core::cmp::Ordering;
@@ -81,15 +81,15 @@ impl<'m> Judge<'m> {
         let mut tallies: [Option<Tally>; MOST_BRANCHES] = [None; MOST_BRANCHES];
         for flange_in_work in &self.flange_in_work {
             let flange_in_root = *work_in_root * *flange_in_work;
-            for solution in self.mechanism.all(&flange_in_root).iter() {
+            for &Solution { branch, joints } in self.ways(&flange_in_root).iter() {
                 let place = tallies
                     .iter_mut()
-                    .find(|tally| tally.is_none_or(|tally| tally.branch == solution.branch));
+                    .find(|tally| tally.is_none_or(|tally| tally.branch == branch));
                 if let Some(place) = place {
-                    let singular = singular_share(&clearance(self.mechanism, &solution.joints));
+                    let singular = singular_share(&clearance(self.mechanism, &joints));
                     match place {
-                        Some(tally) => tally.add(self.axes, &solution.joints, singular),
-                        None => *place = Some(Tally::new(solution.branch, &solution.joints, singular)),
+                        Some(tally) => tally.add(self.axes, &joints, singular),
+                        None => *place = Some(Tally::new(branch, &joints, singular)),
                     }
                 }
             }
@@ -102,6 +102,45 @@ impl<'m> Judge<'m> {
             .max_by(Score::better)
             .unwrap_or(Score::WORST)
     }
+}
+
+impl Judge<'_> {
+    /// How much a search may ask of this judge.
+    pub(super) const fn effort(&self) -> Effort {
+        match self.mechanism {
+            Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::FiveAxis(_) => Effort::Full,
+            Mechanism::Serial(_) => Effort::Sparing,
+        }
+    }
+
+    /// The ways to reach a pose. The solutions of a general arm have no branches that could be compared from pose to pose,
+    /// so that its best one stands for all.
+    fn ways(&self, flange_in_root: &Pose) -> Solutions {
+        let all = self.mechanism.all(flange_in_root);
+        match self.effort() {
+            Effort::Full => all,
+            Effort::Sparing => {
+                let alone = |way: &Solution| Tally::new(way.branch, &way.joints, 1.0).score(self.axes, 1);
+                let mut best = Solutions::NONE;
+                if let Some(way) = all.iter().max_by(|a, b| alone(a).better(&alone(b))) {
+                    best.push(Solution {
+                        branch: Branch::Numbered(0),
+                        joints: way.joints,
+                    });
+                }
+                best
+            }
+        }
+    }
+}
+
+/// How much a search may ask of a judge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Effort {
+    /// The closed form answers at once.
+    Full,
+    /// Every pose is searched for numerically.
+    Sparing,
 }
 
 /// What is known of a branch so far.

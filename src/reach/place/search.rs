@@ -4,7 +4,7 @@
 //! depend on threads: the places of a round are judged in parallel, gathered in their order, and the first of equals wins.
 
 use super::Spot;
-use super::score::{Judge, Score};
+use super::score::{Effort, Judge, Score};
 use core::cmp::Ordering;
 use rayon::prelude::*;
 use vcutc_backend_api::geometry::Frame;
@@ -31,6 +31,8 @@ pub struct Placed {
 const SPACING: [i32; 4] = [100, 100, 100, 150];
 /// Most values of each coordinate on the grid.
 const MOST_VALUES: [i32; 4] = [13, 13, 7, 13];
+/// The same where every pose is searched for numerically.
+const FEW_VALUES: [i32; 4] = [5, 5, 3, 3];
 /// How many places of the grid are climbed from.
 const CLIMBS: usize = 6;
 /// Most places of the grid that are asked whether the axes are fast enough there.
@@ -39,6 +41,8 @@ const MOST_ASKED: usize = 600;
 const BATCH: usize = 24;
 /// Most rounds of a climb. Ten halve the steps down to one, the others go somewhere.
 const MOST_ROUNDS: usize = 60;
+/// The same where every pose is searched for numerically.
+const FEW_ROUNDS: usize = 12;
 
 impl Bounds {
     /// Whether a spot lies within them.
@@ -52,8 +56,12 @@ impl Bounds {
     }
 
     /// The grid, in the order of x, then y, z and turn.
-    fn grid(&self) -> Vec<Spot> {
-        let [xs, ys, zs, yaws] = [0, 1, 2, 3].map(|part| self.values(part));
+    fn grid(&self, effort: Effort) -> Vec<Spot> {
+        let most = match effort {
+            Effort::Full => MOST_VALUES,
+            Effort::Sparing => FEW_VALUES,
+        };
+        let [xs, ys, zs, yaws] = [0, 1, 2, 3].map(|part| self.values(part, most[part]));
         let mut spots = Vec::with_capacity(xs.len() * ys.len() * zs.len() * yaws.len());
         for &x in &xs {
             for &y in &ys {
@@ -66,10 +74,10 @@ impl Bounds {
     }
 
     /// Evenly from the least to the greatest, both included.
-    fn values(&self, part: usize) -> Vec<i32> {
+    fn values(&self, part: usize, at_most: i32) -> Vec<i32> {
         let (least, most) = (self.least.parts()[part], self.most.parts()[part]);
         let steps = (most.saturating_sub(least)).div_euclid(SPACING[part]) + 1;
-        evenly(least, most, steps.min(MOST_VALUES[part] - 1))
+        evenly(least, most, steps.min(at_most - 1))
     }
 }
 
@@ -98,7 +106,7 @@ pub struct Criteria<'c, 'm> {
 /// The best places within bounds, best first; those that are not admitted come last. `base` is where the work stands now.
 #[must_use]
 pub fn search(criteria: &Criteria<'_, '_>, base: &Frame, bounds: &Bounds) -> Vec<Placed> {
-    let mut grid = judge(criteria.rough, base, bounds.grid());
+    let mut grid = judge(criteria.rough, base, bounds.grid(criteria.rough.effort()));
     // Stable, so that of equals the first stays first.
     grid.sort_by(|a, b| b.score.better(&a.score));
     let mut starts = admitted(criteria, &grid);
@@ -163,7 +171,11 @@ fn climb(criteria: &Criteria<'_, '_>, base: &Frame, bounds: &Bounds, start: Spot
     let mut best = judge(criteria.fine, base, vec![start]).pop()?;
     let keeps = (criteria.admits)(start);
     let mut step = SPACING.map(|spacing| spacing / 2);
-    for _ in 0..MOST_ROUNDS {
+    let rounds = match criteria.fine.effort() {
+        Effort::Full => MOST_ROUNDS,
+        Effort::Sparing => FEW_ROUNDS,
+    };
+    for _ in 0..rounds {
         let around: Vec<Spot> = neighbours(best.spot, step)
             .filter(|&spot| bounds.contain(spot))
             .collect();

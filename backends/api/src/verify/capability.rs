@@ -5,7 +5,7 @@
 pub enum Capability {
     /// Straight moves with a turning blade.
     LinearMove,
-    /// A move of all axes to given angles.
+    /// Moves of all axes, to the values of home or to those at a pose.
     JointMove,
     /// Turning about a still tip.
     StillTipTurn,
@@ -36,7 +36,7 @@ impl Capability {
     pub const fn words(self) -> &'static str {
         match self {
             Self::LinearMove => "straight moves of the tip with a turning blade",
-            Self::JointMove => "moves of all axes to given angles",
+            Self::JointMove => "moves of all axes",
             Self::StillTipTurn => "turns about the still tip",
             Self::Output => "digital outputs",
             Self::AwaitInput => "waiting for a digital input",

@@ -1,9 +1,11 @@
 //! The test programs that every dialect should be covered by, one by one.
 
+use crate::support::expected::{Rounding, compare, steps};
 use crate::support::reader::{self, Event};
-use crate::support::{emit, lines, reachable};
+use crate::support::{emit, lines, reachable, status};
 use vcutc_backend_api::backend::OptionValue;
-use vcutc_backend_api::ir::{AxisValues, Edges, Ready, Stock};
+use vcutc_backend_api::bundle::Bundle;
+use vcutc_backend_api::ir::{Action, AxisValues, Edges, Ready, Stock};
 use vcutc_backend_api::testkit::{CellRecipe, Crossing, Passes, Recipe, conformance};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_krl::Krl;
@@ -116,6 +118,34 @@ fn a_branch_changes_at_a_move_of_all_axes_above_the_stock() {
         })
         .collect();
     assert_eq!(points, [(true, 2), (true, 6), (true, 2)]);
+}
+
+/// A program that turns the blade in such moves only has no rate to say.
+#[test]
+fn every_way_through_the_air_may_be_a_move_of_all_axes() {
+    let mut program = Recipe {
+        edges: Edges::Single,
+        ..Recipe::default()
+    }
+    .program();
+    for op in &mut program.ops {
+        if let Action::Travel { to, orientation, .. } = op.action {
+            op.action = Action::AxisTravel { to, orientation };
+        }
+    }
+    let program = reachable(program);
+    for lines in [0, 1] {
+        let bundle = emit(&program, &[("lines_per_part", OptionValue::Integer(lines))]);
+        let got = reader::run(&bundle, "sample").unwrap();
+        compare(&got, &steps(&program, &status), Rounding::of_decimals(3)).unwrap();
+        let text = lines_of_code(&bundle);
+        assert!(!text.iter().any(|line| line.contains("ORI1")), "{text:?}");
+    }
+}
+
+fn lines_of_code(bundle: &Bundle) -> Vec<String> {
+    let sources = bundle.files().iter().filter(|(name, _)| name.ends_with(".src"));
+    sources.flat_map(|(name, _)| lines(bundle, name)).collect()
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
     let cell = program.program().cell.as_ref().unwrap();
     let home = || Event::Axes(cell.home.unwrap().0.map(f64::to_degrees));
     let mut at: Option<(Point3, OrientationId)> = None;
-    let mut speeds = (f64::NAN, f64::NAN);
+    let mut speeds = (f64::NAN, None);
     let mut restart = None;
     let step = |(id, op): (OpId, &vcutc_backend_api::ir::Op)| {
         if let Some(pose) = target(&op.action, at) {
@@ -92,10 +92,14 @@ fn target(action: &Action, at: Option<(Point3, OrientationId)>) -> Option<(Point
     }
 }
 
-fn speeds_of(program: &ReachableProgram, action: &Action, (feed, rate): (f64, f64)) -> (f64, f64) {
+fn speeds_of(
+    program: &ReachableProgram,
+    action: &Action,
+    (feed, rate): (f64, Option<f64>),
+) -> (f64, Option<f64>) {
     let tables = program.program();
     let feed_of = |id: vcutc_backend_api::ir::FeedId| tables.feeds[usize::from(id.0)].to_m_per_s();
-    let rate_of = |id: vcutc_backend_api::ir::RateId| tables.rates[usize::from(id.0)].to_deg_per_s();
+    let rate_of = |id: vcutc_backend_api::ir::RateId| Some(tables.rates[usize::from(id.0)].to_deg_per_s());
     match *action {
         Action::Travel { feed, rate, .. } => (feed_of(feed), rate_of(rate)),
         Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
@@ -106,7 +110,7 @@ fn speeds_of(program: &ReachableProgram, action: &Action, (feed, rate): (f64, f6
     }
 }
 
-fn line(program: &ReachableProgram, at: (Point3, OrientationId), (feed, rate): (f64, f64)) -> Event {
+fn line(program: &ReachableProgram, at: (Point3, OrientationId), (feed, rate): (f64, Option<f64>)) -> Event {
     Event::Line {
         to: pose(program, at),
         feed,
@@ -157,8 +161,7 @@ pub(crate) fn same(got: &Event, want: &Event, rounding: Rounding) -> bool {
             },
         ) => {
             near(*feed, *wanted_feed, 0.5001e-6)
-                // Before the first op that has a rate, any will do.
-                && (wanted_rate.is_nan() || near(*rate, *wanted_rate, 0.5001e-6))
+                && rates_agree(*rate, *wanted_rate)
                 && poses_agree(got, want, rounding)
         }
         (
@@ -176,6 +179,12 @@ pub(crate) fn same(got: &Event, want: &Event, rounding: Rounding) -> bool {
         (Event::Wait(got), Event::Wait(want)) => near(*got, *want, 0.5001e-6),
         (got, want) => got == want,
     }
+}
+
+/// The reader demands a rate of moves that turn the blade. On others any will do, or none, until an op has set one.
+fn rates_agree(got: Option<f64>, want: Option<f64>) -> bool {
+    let pair = got.zip(want);
+    pair.is_none_or(|(got, want)| (got - want).abs() <= 0.5001e-6)
 }
 
 pub(crate) fn poses_agree(got: &Pose, want: &Pose, rounding: Rounding) -> bool {
@@ -270,7 +279,7 @@ impl History {
         else {
             return false;
         };
-        from.tip == want.tip && (rate - wanted).abs() <= 0.5001e-6 && poses_agree(got, want, rounding)
+        from.tip == want.tip && rates_agree(*rate, *wanted) && poses_agree(got, want, rounding)
     }
 
     fn expect_again<'e>(

@@ -37,9 +37,10 @@ pub(crate) enum Event {
     },
     Line {
         to: Pose,
-        /// `$VEL.CP` in m/s, `$VEL.ORI1` in deg/s.
+        /// `$VEL.CP` in m/s.
         feed: f64,
-        rate: f64,
+        /// `$VEL.ORI1` in deg/s, which a move that turns the blade must have.
+        rate: Option<f64>,
         rounded: bool,
     },
     Output(u32, bool),
@@ -61,6 +62,7 @@ pub(crate) fn run(bundle: &Bundle, name: &str) -> Result<Vec<Event>, String> {
         rounding: None,
         has_axis_speed: false,
         knows_pose: false,
+        axes: None,
         depth: 0,
     };
     robot.module(name)?;
@@ -75,6 +77,8 @@ struct Robot<'b> {
     rounding: Option<f64>,
     has_axis_speed: bool,
     knows_pose: bool,
+    /// How the tool is turned, where the program has said so.
+    axes: Option<Matrix>,
     depth: u32,
 }
 
@@ -197,7 +201,11 @@ impl Robot<'_> {
         }
         self.knows_pose = true;
         if target.starts_with('{') {
-            self.events.push(point(target)?);
+            let event = point(target)?;
+            if let Event::Point { to, .. } = event {
+                self.axes = Some(to.axes);
+            }
+            self.events.push(event);
             return Ok(());
         }
         let value = data.get(target).ok_or("an unknown point")?;
@@ -207,6 +215,7 @@ impl Robot<'_> {
         for (angle, axis) in angles.iter_mut().zip(axes) {
             *angle = *parts.get(axis).ok_or("an axis is missing")?;
         }
+        self.axes = None;
         self.events.push(Event::Axes(angles));
         Ok(())
     }
@@ -227,13 +236,14 @@ impl Robot<'_> {
         if rounded && self.rounding.is_none_or(|distance| distance <= 0.0) {
             return Err("rounding without a distance".into());
         }
-        let (Some(feed), (Some(rate), Some(turn))) = (self.feed, self.rates) else {
-            return Err("a move without speeds".into());
-        };
-        if (rate - turn).abs() > 1e-9 {
-            return Err("two rates".into());
-        }
         let to = pose(&literal)?;
+        let turns = self.axes.replace(to.axes) != Some(to.axes);
+        let feed = self.feed.ok_or("a move without speed")?;
+        let rate = match self.rates {
+            (Some(swivel), Some(turn)) if (swivel - turn).abs() <= 1e-9 => Some(swivel),
+            (None, None) if !turns => None,
+            rates => return Err(format!("a turning move with rates {rates:?}")),
+        };
         self.events.push(Event::Line {
             to,
             feed,

@@ -1,0 +1,254 @@
+//! `vcutc machines`: the machines of the catalogue, and what is known about one of them or about one of a user's file.
+
+mod mechanism;
+mod text;
+
+use super::Exit;
+use super::console::{Console, Failure};
+use super::files::Disk;
+use crate::machine::facts::{Dynamics, Facts, FkCheck};
+use crate::machine::flaw::Flaw;
+use crate::machine::sheet::{self, Sheet};
+use crate::machine::{self, FileKind, Model, Origin, catalogue};
+use crate::source::{Loader, SourceMap, text_from_bytes};
+use serde_json::{Value, json};
+use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, Maker};
+
+/// Version of the JSON objects that describe machines and their poses.
+pub(super) const SCHEMA: u32 = 1;
+
+/// Prints the list, or one machine.
+pub(super) fn machines(name: Option<&str>, console: &Console) -> Exit {
+    match name {
+        None => list(console),
+        Some(name) => match description(name, console) {
+            Ok(description) => show(&description, console),
+            Err(exit) => exit,
+        },
+    }
+}
+
+/// The machine of a name of the catalogue or of a file. What is wrong has been told when there is none.
+pub(super) fn load(name: &str, console: &Console) -> Result<Model, Exit> {
+    description(name, console).map(|description| description.model)
+}
+
+/// A machine, and what its sheet says besides if it has one.
+struct Description {
+    model: Model,
+    sheet: Option<Sheet>,
+}
+
+impl Description {
+    fn of_sheet(sheet: Sheet, name: &str) -> Self {
+        Self {
+            model: sheet.machine(name),
+            sheet: Some(sheet),
+        }
+    }
+}
+
+fn description(name: &str, console: &Console) -> Result<Description, Exit> {
+    match Origin::of(name) {
+        Origin::Catalogue => match catalogue::sheet(name) {
+            Some(sheet) => Ok(Description::of_sheet(sheet, name)),
+            None => Err(console.failure(&unknown(name))),
+        },
+        Origin::File(kind) => of_file(name, kind, console),
+    }
+}
+
+fn unknown(name: &str) -> Failure {
+    let failure = Failure::new(format!("there is no machine `{name}` in the catalogue"));
+    let near: Vec<String> = catalogue::near(name)
+        .iter()
+        .map(|near| format!("`{near}`"))
+        .collect();
+    let failure = if near.is_empty() {
+        failure
+    } else {
+        failure.help(format!("did you mean {}?", near.join(" or ")))
+    };
+    failure.help("run `vcutc machines` for the list; names of files end in `.toml` or `.urdf`")
+}
+
+fn of_file(path: &str, kind: FileKind, console: &Console) -> Result<Description, Exit> {
+    let refuse = |reason: String| console.failure(&Failure::new(format!("cannot read `{path}`: {reason}")));
+    let disk = Disk::around(path);
+    let bytes = disk.load(disk.job()).map_err(|error| refuse(error.to_string()))?;
+    let text = text_from_bytes(bytes).map_err(|at| {
+        refuse(format!(
+            "it is not a text file in UTF-8, byte {} is not valid",
+            at + 1
+        ))
+    })?;
+    let description = match kind {
+        FileKind::Sheet => sheet::parse(&text).map(|sheet| Description::of_sheet(sheet, path)),
+        FileKind::Urdf => machine::read(path, kind, &text).map(|model| Description { model, sheet: None }),
+    };
+    description.map_err(|flaws| tell(&flaws, path, text, console))
+}
+
+/// Tells what is wrong with a file.
+fn tell(flaws: &[Flaw], path: &str, text: String, console: &Console) -> Exit {
+    let mut sources = SourceMap::default();
+    let file = sources.add(path, text);
+    let diagnostics: Vec<_> = flaws.iter().map(|flaw| flaw.diagnostic(file)).collect();
+    console.diagnostics(&diagnostics, &sources);
+    Exit::JobHasErrors
+}
+
+fn list(console: &Console) -> Exit {
+    let summaries = catalogue::summaries();
+    if !console.speaks_json() {
+        return console.document(&text::list(&summaries));
+    }
+    let lines = summaries.iter().map(|summary| {
+        let line = json!({
+            "kind": "machine",
+            "schema": SCHEMA,
+            "name": summary.name,
+            "is": kind_word(summary.kind),
+            "model": summary.model,
+            "payload_kg": summary.payload,
+            "reach_mm": summary.reach,
+            "confidence": summary.confidence.map(sheet::Confidence::word),
+        });
+        format!("{line}\n")
+    });
+    console.document(&lines.collect::<String>())
+}
+
+fn show(description: &Description, console: &Console) -> Exit {
+    if console.speaks_json() {
+        console.document(&format!("{}\n", in_json(description)))
+    } else {
+        console.document(&text::machine(description))
+    }
+}
+
+/// The word for a kind in jobs.
+const fn kind_word(kind: MachineKind) -> &'static str {
+    match kind {
+        MachineKind::Robot => "robot",
+        MachineKind::FiveAxis => "five_axis",
+    }
+}
+
+const fn maker_word(maker: Maker) -> &'static str {
+    match maker {
+        Maker::Abb => "ABB",
+        Maker::Kuka => "KUKA",
+        Maker::Other => "other",
+    }
+}
+
+fn in_json(description: &Description) -> Value {
+    let Description { model, sheet } = description;
+    let mut value = json!({
+        "kind": "machine",
+        "schema": SCHEMA,
+        "name": model.name,
+        "is": kind_word(model.kind()),
+        "maker": maker_word(model.maker),
+        "axes": model.axes.iter().map(axis_in_json).collect::<Vec<_>>(),
+        "mechanism": mechanism::in_json(&model.mechanism),
+    });
+    if let (Some(sheet), Some(object)) = (sheet, value.as_object_mut()) {
+        let more = [
+            ("model", json!(sheet.model)),
+            ("manufacturer", json!(sheet.manufacturer)),
+            ("payload_kg", json!(sheet.payload)),
+            ("confidence", json!(sheet.confidence.map(sheet::Confidence::word))),
+            ("facts", facts_in_json(&sheet.facts)),
+        ];
+        object.extend(more.map(|(key, value)| (key.to_owned(), value)));
+    }
+    value
+}
+
+fn axis_in_json(axis: &Axis) -> Value {
+    let unit = axis_unit(axis);
+    json!({
+        "name": axis.name,
+        "unit": unit.name,
+        "min": unit.of(axis.min),
+        "max": unit.of(axis.max),
+        "rate": axis.rate.map(|rate| unit.of(rate)),
+        "acceleration": axis.acceleration.map(|acceleration| unit.of(acceleration)),
+    })
+}
+
+/// The unit in which people read an axis.
+pub(super) struct Unit {
+    pub(super) name: &'static str,
+    pub(super) size: f64,
+}
+
+impl Unit {
+    /// A value in this unit, free of what the conversion has added in the last digits.
+    pub(super) fn of(&self, value: f64) -> f64 {
+        const STEPS: f64 = 1e9;
+        (value / self.size * STEPS).round() / STEPS
+    }
+}
+
+const DEGREES: Unit = Unit {
+    name: "deg",
+    size: core::f64::consts::PI / 180.0,
+};
+
+const MILLIMETRES: Unit = Unit {
+    name: "mm",
+    size: 1.0,
+};
+
+pub(super) const fn axis_unit(axis: &Axis) -> Unit {
+    match axis.kind {
+        AxisKind::Rotary => DEGREES,
+        AxisKind::Linear => MILLIMETRES,
+    }
+}
+
+fn facts_in_json(facts: &Facts) -> Value {
+    let sources = facts.sources.iter().filter(|sources| !sources.list.is_empty());
+    let sources: Vec<Value> = sources
+        .map(|sources| json!({ "of": sources.of, "list": sources.list }))
+        .collect();
+    json!({
+        "sources": sources,
+        "remarks": facts.remarks,
+        "wrist_reach_mm": facts.wrist_reach,
+        "designated_reach_mm": facts.designated_reach,
+        "disagreements": facts.disagreements,
+        "fk_checks": facts.fk_checks.iter().map(check_in_json).collect::<Vec<_>>(),
+        "dynamics": facts.dynamics.as_ref().map(dynamics_in_json),
+    })
+}
+
+fn check_in_json(check: &FkCheck) -> Value {
+    json!({
+        "joints_deg": check.joints_deg,
+        "xyz_mm": check.xyz_mm,
+        "quat_wxyz": check.quaternion,
+        "position_tolerance_mm": check.position_tolerance_mm,
+        "rotation_tolerance_deg": check.rotation_tolerance_deg,
+        "source": check.source,
+        "independence": check.independence,
+        "note": check.note,
+    })
+}
+
+fn dynamics_in_json(dynamics: &Dynamics) -> Value {
+    let links: Vec<Value> = dynamics
+        .links
+        .iter()
+        .map(|link| json!({ "name": link.name, "mass_kg": link.mass, "com_mm": link.centre_mm }))
+        .collect();
+    json!({
+        "note": dynamics.note,
+        "source": dynamics.sources,
+        "total_mass_kg": dynamics.total_mass,
+        "links": links,
+    })
+}

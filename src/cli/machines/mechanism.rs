@@ -1,0 +1,160 @@
+//! How a machine's axes carry its flange, for people and for programs.
+
+use super::DEGREES;
+use super::text::row;
+use crate::kinematics::Mechanism;
+use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
+use crate::kinematics::opw::{Coupling, Opw};
+use crate::kinematics::serial::SerialArm;
+use serde_json::{Value, json};
+
+/// A few indented lines.
+pub(super) fn text(mechanism: &Mechanism) -> String {
+    match mechanism {
+        Mechanism::OrthoParallel(arm) => arm_text(arm),
+        Mechanism::Mounted(mounted) => arm_text(&mounted.arm),
+        Mechanism::Serial(arm) => serial_text(arm),
+        Mechanism::FiveAxis(machine) => five_axis_text(machine),
+    }
+}
+
+/// An object whose `form` says what the other keys are.
+pub(super) fn in_json(mechanism: &Mechanism) -> Value {
+    match mechanism {
+        Mechanism::OrthoParallel(arm) => arm_in_json(arm),
+        Mechanism::Mounted(mounted) => arm_in_json(&mounted.arm),
+        Mechanism::Serial(arm) => serial_in_json(arm),
+        Mechanism::FiveAxis(machine) => five_axis_in_json(machine),
+    }
+}
+
+fn degrees(angles: &[f64; 6]) -> [f64; 6] {
+    angles.map(|angle| DEGREES.of(angle))
+}
+
+fn arm_text(arm: &Opw) -> String {
+    let Opw {
+        a1,
+        a2,
+        b,
+        c1,
+        c2,
+        c3,
+        c4,
+        offsets,
+        signs,
+        coupling,
+    } = arm;
+    let third = match coupling {
+        Coupling::Serial => "the angle at the elbow",
+        Coupling::Parallelogram => "the inclination of the forearm; the angle at the elbow is J3 - J2",
+    };
+    format!(
+        "  ortho-parallel arm with spherical wrist (Brandstötter, Angerer, Hofbaur 2014)\n    \
+         lengths in mm   a1 {a1}  a2 {a2}  b {b}  c1 {c1}  c2 {c2}  c3 {c3}  c4 {c4}\n    \
+         zero offsets    {} deg\n    \
+         senses          {}\n    \
+         axis 3 counts   {third}\n",
+        row(&degrees(offsets)),
+        row(signs)
+    )
+}
+
+fn arm_in_json(arm: &Opw) -> Value {
+    json!({
+        "form": "ortho_parallel",
+        "a1_mm": arm.a1,
+        "a2_mm": arm.a2,
+        "b_mm": arm.b,
+        "c1_mm": arm.c1,
+        "c2_mm": arm.c2,
+        "c3_mm": arm.c3,
+        "c4_mm": arm.c4,
+        "joint_offsets_deg": degrees(&arm.offsets),
+        "joint_signs": arm.signs,
+        "j2_j3_parallelogram": arm.coupling == Coupling::Parallelogram,
+    })
+}
+
+fn serial_text(arm: &SerialArm) -> String {
+    let mut text =
+        "  serial arm; each axis with all others at zero, as a point (mm) and a direction\n".to_owned();
+    for axis in arm.axes() {
+        text += &format!(
+            "    {}   {}\n",
+            row(&axis.point.to_array()),
+            row(&axis.direction.to_array())
+        );
+    }
+    text
+}
+
+fn serial_in_json(arm: &SerialArm) -> Value {
+    let axes = arm.axes().map(|axis| {
+        json!({
+            "point_mm": axis.point.to_array(),
+            "direction": axis.direction.to_array(),
+        })
+    });
+    json!({ "form": "serial", "axes": axes })
+}
+
+/// The rotary axes in the order of the machine's axes, each with what it turns.
+fn rotary_axes(machine: &FiveAxis) -> [(&'static str, Rotary); 2] {
+    match machine.arrangement() {
+        Arrangement::HeadHead([outer, inner]) => [("head", outer), ("head", inner)],
+        Arrangement::HeadTable { head, table } => [("head", head), ("table", table)],
+        Arrangement::TableTable([outer, inner]) => [("table", outer), ("table", inner)],
+    }
+}
+
+const fn direction_word(direction: Direction) -> &'static str {
+    match direction {
+        Direction::PlusX => "+X",
+        Direction::MinusX => "-X",
+        Direction::PlusY => "+Y",
+        Direction::MinusY => "-Y",
+        Direction::PlusZ => "+Z",
+        Direction::MinusZ => "-Z",
+    }
+}
+
+const fn spindle_word(sense: SpindleSense) -> &'static str {
+    match sense {
+        SpindleSense::PlusZ => "+Z",
+        SpindleSense::MinusZ => "-Z",
+    }
+}
+
+fn five_axis_text(machine: &FiveAxis) -> String {
+    let mut text = String::from("  five-axis machine, rotary axes in the order of the list above\n");
+    for (carried, axis) in rotary_axes(machine) {
+        text += &format!(
+            "    turns the {carried} about {} through {} mm\n",
+            direction_word(axis.about),
+            row(&axis.centre.to_array())
+        );
+    }
+    text + &match machine.spindle() {
+        Some(sense) => format!("    orientable spindle about {}\n", spindle_word(sense)),
+        None => "    no orientable spindle: the plane of the blade follows from its direction\n".to_owned(),
+    }
+}
+
+fn five_axis_in_json(machine: &FiveAxis) -> Value {
+    let rotary: Vec<Value> = rotary_axes(machine)
+        .iter()
+        .map(|(carried, axis)| {
+            json!({
+                "turns": carried,
+                "about": direction_word(axis.about),
+                "centre_mm": axis.centre.to_array(),
+            })
+        })
+        .collect();
+    json!({
+        "form": "five_axis",
+        "rotary": rotary,
+        "spindle": machine.spindle().map(spindle_word),
+    })
+}

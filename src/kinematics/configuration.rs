@@ -1,0 +1,156 @@
+//! Which of its ways to stand an arm has taken, in the terms of controllers: KUKA's status and turn, ABB's confdata.
+//!
+//! A pose alone does not say how an arm stands. Controllers add a few integers to it:
+//!
+//! - **KUKA** status S, bits with the weights 1, 2, 4: the wrist centre behind axis 1; the forearm folded forward
+//!   (`A3 > phi`); A5 negative. Turn T, bits with the weights 1 to 32: A1 to A6 negative. (Beckhoff TF5200 "Status & Turn";
+//!   KUKA's expert manual as quoted on robot-forum.com, threads 7173 and 45777.)
+//! - **ABB** `[cf1, cf4, cf6, cfx]`: the quarter turns in which axes 1, 4 and 6 are, counted from 0 upwards and -1 downwards;
+//!   cfx with the weights 1, 2, 4: axis 5 negative; the wrist centre behind the lower arm; behind axis 1. (RAPID reference,
+//!   `confdata`.) "Behind the lower arm" is meant here as seen in the frame that turns with axis 1, so that it is
+//!   [`Elbow::Backward`] on both sides of axis 1. visose/Robots agrees: it swaps the sense of the elbow in its kinematics
+//!   and once more where it writes cfx. The table of ABB's manual was not at hand; before relying on 4 to 7, compare with
+//!   RobotStudio. Arms with a parallelogram write 0 for cfx: they cannot fold over.
+//!
+//! On the border between two ways a controller may decide one way or the other; [`borders`] names the borders that axis
+//! values lie on.
+
+use super::Joints;
+use super::opw::{Coupling, Opw};
+use core::f64::consts::FRAC_PI_2;
+use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
+
+/// Angles (rad) and sines up to this count as zero.
+const ZERO_ANGLE: f64 = 1e-9;
+/// Distances (mm) up to this count as zero.
+const ZERO_DISTANCE: f64 = 1e-6;
+
+/// KUKA's status S; none for machines that are no such arms.
+#[must_use]
+pub const fn kuka_status(branch: Branch) -> Option<u8> {
+    match branch {
+        Branch::Arm {
+            shoulder,
+            elbow,
+            wrist,
+        } => {
+            let behind = matches!(shoulder, Shoulder::Back) as u8;
+            let forward = matches!(elbow, Elbow::Forward) as u8;
+            let negative = matches!(wrist, Wrist::Negative) as u8;
+            Some(behind | forward << 1 | negative << 2)
+        }
+        Branch::Numbered(_) => None,
+    }
+}
+
+/// KUKA's turn T. What is negative by rounding only counts as zero.
+#[must_use]
+pub fn kuka_turn(joints: &Joints) -> u8 {
+    joints
+        .iter()
+        .enumerate()
+        .filter(|(_, joint)| **joint < -ZERO_ANGLE)
+        .fold(0, |turn, (axis, _)| turn | 1 << axis)
+}
+
+/// ABB's `[cf1, cf4, cf6, cfx]`; none for machines that are no such arms, and for axis values that are no angles.
+#[must_use]
+pub fn abb_confdata(joints: &Joints, branch: Branch, coupling: Coupling) -> Option<[i32; 4]> {
+    let Branch::Arm {
+        shoulder,
+        elbow,
+        wrist,
+    } = branch
+    else {
+        return None;
+    };
+    let cfx = match coupling {
+        Coupling::Serial => {
+            i32::from(wrist == Wrist::Negative)
+                + 2 * i32::from(elbow == Elbow::Backward)
+                + 4 * i32::from(shoulder == Shoulder::Back)
+        }
+        Coupling::Parallelogram => 0,
+    };
+    let [cf1, cf4, cf6] = [joints[0], joints[3], joints[5]].map(quarter);
+    Some([cf1?, cf4?, cf6?, cfx])
+}
+
+/// The quarter turn in which an angle is. What is below a border by rounding only counts as on it.
+fn quarter(angle: f64) -> Option<i32> {
+    let quarter = ((angle + ZERO_ANGLE) / FRAC_PI_2).floor();
+    let is_angle = quarter.abs() <= 1e6;
+    #[expect(clippy::cast_possible_truncation, reason = "an integer of at most a million")]
+    is_angle.then_some(quarter as i32)
+}
+
+/// A border between two ways to stand, or between two values of a controller's integers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Border {
+    /// The wrist centre is over axis 1.
+    Shoulder,
+    /// The arm is stretched or folded.
+    Elbow,
+    /// Axis 5 is at 0.
+    Wrist,
+}
+
+/// The way in which an arm stands with these axis values.
+#[must_use]
+pub fn branch_of(arm: &Opw, joints: &Joints) -> Branch {
+    let stance = Stance::new(arm, joints);
+    Branch::Arm {
+        shoulder: if stance.wrist_x < 0.0 {
+            Shoulder::Back
+        } else {
+            Shoulder::Front
+        },
+        elbow: if stance.sin_psi < 0.0 {
+            Elbow::Backward
+        } else {
+            Elbow::Forward
+        },
+        wrist: if joints[4] < -ZERO_ANGLE {
+            Wrist::Negative
+        } else {
+            Wrist::Positive
+        },
+    }
+}
+
+/// The borders that axis values of an arm lie on.
+pub fn borders(arm: &Opw, joints: &Joints) -> impl Iterator<Item = Border> + use<> {
+    let stance = Stance::new(arm, joints);
+    let shoulder = (stance.wrist_x.abs() <= ZERO_DISTANCE).then_some(Border::Shoulder);
+    let elbow = (stance.sin_psi.abs() <= ZERO_ANGLE).then_some(Border::Elbow);
+    let wrist = (joints[4].abs() <= ZERO_ANGLE).then_some(Border::Wrist);
+    [shoulder, elbow, wrist].into_iter().flatten()
+}
+
+/// What tells the ways of an arm apart.
+struct Stance {
+    /// The wrist centre in the frame that turns with axis 1, to the front, in mm.
+    wrist_x: f64,
+    /// Of the angle by which the line from axis 3 to the wrist centre is turned against the upper arm.
+    sin_psi: f64,
+}
+
+impl Stance {
+    fn new(arm: &Opw, joints: &Joints) -> Self {
+        let elbow = match arm.coupling {
+            Coupling::Serial => joints[2],
+            Coupling::Parallelogram => joints[2] - joints[1],
+        };
+        let upper = arm.signs[1] * joints[1] - arm.offsets[1];
+        let bend = arm.signs[2] * elbow - arm.offsets[2];
+        let (upper_sin, _) = libm::sincos(upper);
+        let (fore_sin, fore_cos) = libm::sincos(upper + bend);
+        Self {
+            wrist_x: arm.a1 + arm.c2 * upper_sin + arm.a2 * fore_cos + arm.c3 * fore_sin,
+            sin_psi: libm::sin(bend + libm::atan2(arm.a2, arm.c3)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

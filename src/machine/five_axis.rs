@@ -1,0 +1,324 @@
+//! The part of a sheet that describes a five-axis machine: which rotary axes it has and where, and what its axes can do.
+//!
+//! ```toml
+//! [arrangement]
+//! head = ["b", "a"]   # from the frame outwards: B carries A
+//! table = []          # from the frame to the work
+//! spindle = "s"       # an orientable spindle; left out without one
+//! nose_mm = [0.0, 0.0, 0.0]
+//! mount_mm = [0.0, 0.0, -800.0]
+//!
+//! [axis.x]
+//! travel_mm = [-1000.0, 1000.0]
+//! rate_mm_s = 500.0
+//! acceleration_mm_s2 = 3000.0
+//!
+//! [axis.b]
+//! about = "+Y"
+//! centre_mm = [0.0, 0.0, 250.0]
+//! range_deg = [-110.0, 110.0]
+//! rate_deg_s = 90.0
+//! ```
+//!
+//! All positions are seen from the machine frame with all axes at zero, see [`FiveAxis`].
+
+use super::facts::Sources;
+use super::flaw::Flaw;
+use super::sheet::{Body, Form};
+use super::table::{
+    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_RATE, TURNING_ACCELERATION, TURNING_RATE, Table,
+};
+use crate::kinematics::Mechanism;
+use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense, Unfit};
+use core::ops::Range;
+use glam::DVec3;
+use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
+
+/// Sheets of five-axis machines.
+pub(super) const FORM: Form = Form {
+    keys: &["arrangement", "axis"],
+    read,
+};
+
+const ARRANGEMENT_KEYS: &[&str] = &[
+    "head", "table", "spindle", "nose_mm", "mount_mm", "source", "note",
+];
+const ARRANGEMENT_LINES: &[(&str, &str)] = &[
+    ("head", "head = [\"b\", \"a\"]"),
+    ("table", "table = []"),
+    ("nose_mm", "nose_mm = [0.0, 0.0, 0.0]"),
+    ("mount_mm", "mount_mm = [0.0, 0.0, -800.0]"),
+];
+
+/// Names that rotary axes may have. What an axis turns about is not said by its name but by `about`: a machine can have two
+/// called C.
+const ROTARY_NAMES: &[&str] = &["a", "b", "c", "s"];
+const LINEAR_NAMES: [&str; 3] = ["x", "y", "z"];
+
+const LINEAR_KEYS: &[&str] = &["travel_mm", "rate_mm_s", "acceleration_mm_s2", "source"];
+const ROTARY_KEYS: &[&str] = &[
+    "about",
+    "centre_mm",
+    "range_deg",
+    "rate_deg_s",
+    "acceleration_deg_s2",
+    "source",
+];
+const SPINDLE_KEYS: &[&str] = &[
+    "about",
+    "range_deg",
+    "rate_deg_s",
+    "acceleration_deg_s2",
+    "source",
+];
+
+const DIRECTIONS: &[(&str, Direction)] = &[
+    ("+X", Direction::PlusX),
+    ("-X", Direction::MinusX),
+    ("+Y", Direction::PlusY),
+    ("-Y", Direction::MinusY),
+    ("+Z", Direction::PlusZ),
+    ("-Z", Direction::MinusZ),
+];
+const SENSES: &[(&str, SpindleSense)] = &[("+Z", SpindleSense::PlusZ), ("-Z", SpindleSense::MinusZ)];
+
+/// Longest travel of a linear axis in mm.
+const LONGEST_TRAVEL: f64 = 200_000.0;
+/// Two turns, as for robots.
+const WIDEST_RANGE: f64 = 720.0;
+
+/// The names of the rotary axes by where they are.
+struct Names<'t> {
+    head: Vec<&'t str>,
+    table: Vec<&'t str>,
+    spindle: Option<&'t str>,
+}
+
+impl Names<'_> {
+    /// Where in `[arrangement]` an axis is named; the last place if it has several.
+    fn place(&self, table: &Table<'_>, name: &str) -> Range<usize> {
+        table.span_of(if self.spindle == Some(name) {
+            "spindle"
+        } else if self.table.contains(&name) {
+            "table"
+        } else {
+            "head"
+        })
+    }
+}
+
+fn read(root: &Table<'_>, _: Maker, flaws: &mut Vec<Flaw>) -> Option<Body> {
+    root.require(&[("arrangement", "[arrangement]"), ("axis", "[axis.x]")], flaws);
+    let mut body = Body::default();
+    let table = root.table("arrangement", ARRANGEMENT_KEYS, flaws)?;
+    table.require(ARRANGEMENT_LINES, flaws);
+    body.sources.push(Sources {
+        of: "arrangement",
+        list: table.texts("source", flaws),
+    });
+    body.remarks.extend(table.text("note", flaws).map(str::to_owned));
+    let names = names(&table, flaws);
+    let nose = table.numbers("nose_mm", LENGTH, flaws).map(DVec3::from_array);
+    let mount = table.numbers("mount_mm", LENGTH, flaws).map(DVec3::from_array);
+    let names = names?;
+    let axes = axis_tables(root, &names, flaws)?;
+    let linear = LINEAR_NAMES.map(|name| linear_axis(&axes, name, flaws));
+    let mut rotary = |name: &&str| rotary_axis(&axes, name, flaws);
+    let head: Vec<_> = names.head.iter().map(&mut rotary).collect();
+    let below: Vec<_> = names.table.iter().map(&mut rotary).collect();
+    let spindle = names.spindle.map(|name| spindle_axis(&axes, name, flaws));
+    let (mut rotaries, mut parts) = (Vec::new(), linear.into_iter().collect::<Option<Vec<Axis>>>()?);
+    for found in head.into_iter().chain(below) {
+        let (rotary, axis) = found?;
+        rotaries.push(rotary);
+        parts.push(axis);
+    }
+    let sense = match spindle {
+        Some(found) => {
+            let (sense, axis) = found?;
+            parts.push(axis);
+            Some(sense)
+        }
+        None => None,
+    };
+    body.axes = parts;
+    let arrangement = arranged(&names, &rotaries)?;
+    match FiveAxis::new(arrangement, sense, nose?, mount?) {
+        Ok(machine) => body.mechanism = Some(Mechanism::FiveAxis(machine)),
+        Err(unfit) => flaws.push(cannot_tilt(&table, &names, unfit)),
+    }
+    Some(body)
+}
+
+fn names<'t>(table: &Table<'t>, flaws: &mut Vec<Flaw>) -> Option<Names<'t>> {
+    let before = flaws.len();
+    let names = Names {
+        head: table.names("head", flaws),
+        table: table.names("table", flaws),
+        spindle: table.text("spindle", flaws),
+    };
+    let count = names.head.len() + names.table.len();
+    if flaws.len() == before && count != 2 {
+        flaws.push(
+            Flaw::new(
+                table.span_of("head"),
+                format!("head and table have {count} rotary axes together, a five-axis machine has 2"),
+                format!("with `table`, {count} rotary axes"),
+            )
+            .help("name two in `head` and `table`; one that turns the blade about itself goes to `spindle`"),
+        );
+        return None;
+    }
+    let all = || names.head.iter().chain(&names.table).chain(&names.spindle);
+    if let Some(name) = all().find(|name| !ROTARY_NAMES.contains(name)) {
+        flaws.push(
+            Flaw::new(
+                names.place(table, name),
+                format!("a rotary axis cannot be called \"{name}\""),
+                "names a rotary axis",
+            )
+            .help(format!("call rotary axes one of {}", ROTARY_NAMES.join(", "))),
+        );
+    }
+    if let Some(name) = all().find(|name| all().filter(|other| other == name).count() > 1) {
+        flaws.push(
+            Flaw::new(
+                names.place(table, name),
+                format!("two rotary axes are called \"{name}\""),
+                "names an axis that has that name",
+            )
+            .help("give each axis its own name; an orientable spindle can be called \"s\""),
+        );
+    }
+    (flaws.len() == before).then_some(names)
+}
+
+/// `[axis]` with a table for each axis of the arrangement.
+fn axis_tables<'t>(root: &Table<'t>, names: &Names<'t>, flaws: &mut Vec<Flaw>) -> Option<Table<'t>> {
+    let rotary = names.head.iter().chain(&names.table).chain(&names.spindle);
+    let known: Vec<&str> = LINEAR_NAMES.iter().chain(rotary).copied().collect();
+    let axes = root.table("axis", &known, flaws)?;
+    let before = flaws.len();
+    for name in known.iter().filter(|name| !axes.has(name)) {
+        flaws.push(
+            Flaw::new(
+                root.span_of("axis"),
+                format!("the sheet lacks `[axis.{name}]`"),
+                format!("no axis {}", name.to_uppercase()),
+            )
+            .help(format!("add a table `[axis.{name}]` with its range")),
+        );
+    }
+    (flaws.len() == before).then_some(axes)
+}
+
+fn linear_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Axis> {
+    let table = axes.table(name, LINEAR_KEYS, flaws)?;
+    table.require(&[("travel_mm", "travel_mm = [-1000.0, 1000.0]")], flaws);
+    let range = table.range("travel_mm", LENGTH, LONGEST_TRAVEL, flaws);
+    let rate = optional(&table, "rate_mm_s", SLIDING_RATE, flaws);
+    let acceleration = optional(&table, "acceleration_mm_s2", SLIDING_ACCELERATION, flaws);
+    let (min, max) = range?;
+    Some(Axis {
+        name: name.to_uppercase(),
+        kind: AxisKind::Linear,
+        min,
+        max,
+        rate: rate?,
+        acceleration: acceleration?,
+    })
+}
+
+fn rotary_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<(Rotary, Axis)> {
+    let table = axes.table(name, ROTARY_KEYS, flaws)?;
+    table.require(
+        &[
+            ("about", "about = \"+Y\""),
+            ("centre_mm", "centre_mm = [0.0, 0.0, 250.0]"),
+        ],
+        flaws,
+    );
+    let about = table.word("about", DIRECTIONS, flaws);
+    let centre = table.numbers("centre_mm", LENGTH, flaws);
+    let axis = turning_axis(&table, name, flaws);
+    let rotary = Rotary {
+        about: about?,
+        centre: DVec3::from_array(centre?),
+    };
+    Some((rotary, axis?))
+}
+
+fn spindle_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<(SpindleSense, Axis)> {
+    let table = axes.table(name, SPINDLE_KEYS, flaws)?;
+    table.require(&[("about", "about = \"+Z\"")], flaws);
+    let sense = table.word("about", SENSES, flaws);
+    let axis = turning_axis(&table, name, flaws);
+    Some((sense?, axis?))
+}
+
+fn turning_axis(table: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Axis> {
+    table.require(&[("range_deg", "range_deg = [-110.0, 110.0]")], flaws);
+    let range = table.range("range_deg", ANGLE, WIDEST_RANGE, flaws);
+    let rate = optional(table, "rate_deg_s", TURNING_RATE, flaws);
+    let acceleration = optional(table, "acceleration_deg_s2", TURNING_ACCELERATION, flaws);
+    let (min, max) = range?;
+    Some(Axis {
+        name: name.to_uppercase(),
+        kind: AxisKind::Rotary,
+        min: min.to_radians(),
+        max: max.to_radians(),
+        rate: rate?.map(f64::to_radians),
+        acceleration: acceleration?.map(f64::to_radians),
+    })
+}
+
+/// A number that may be left out; none when it is there and faulty.
+fn optional(table: &Table<'_>, key: &str, measure: Measure, flaws: &mut Vec<Flaw>) -> Option<Option<f64>> {
+    if table.has(key) {
+        table.number(key, measure, flaws).map(Some)
+    } else {
+        Some(None)
+    }
+}
+
+/// Two rotary axes in the places that their names have; none for another number of them.
+fn arranged(names: &Names<'_>, rotaries: &[Rotary]) -> Option<Arrangement> {
+    let &[first, second] = rotaries else { return None };
+    match names.head.len() {
+        2 => Some(Arrangement::HeadHead([first, second])),
+        1 => Some(Arrangement::HeadTable {
+            head: first,
+            table: second,
+        }),
+        0 => Some(Arrangement::TableTable([first, second])),
+        _ => None,
+    }
+}
+
+fn cannot_tilt(table: &Table<'_>, names: &Names<'_>, unfit: Unfit) -> Flaw {
+    let at_blade = match names.head.len() {
+        0 => names.table.first(),
+        _ => names.head.last(),
+    };
+    let at_blade = at_blade.copied().unwrap_or_default();
+    let name = at_blade.to_uppercase();
+    match unfit {
+        Unfit::Parallel => Flaw::new(
+            names.place(table, at_blade),
+            "the two rotary axes are parallel, so the blade tilts one way only",
+            "parallel axes",
+        )
+        .help("write `about` of one of them along another axis of the machine"),
+        Unfit::AlongSpindle => Flaw::new(
+            names.place(table, at_blade),
+            format!("axis {name} lies along the spindle, so the blade tilts one way only"),
+            format!("{name} does not tilt the blade"),
+        )
+        .help(format!(
+            "let the other rotary axis be carried by {name} if that is how it is built, or name {name} as `spindle`"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,202 @@
+//! Sheets of five-axis machines: those of the catalogue, and one with a fault at a time.
+
+use crate::kinematics::Mechanism;
+use crate::kinematics::five_axis::FiveAxis;
+use crate::machine::catalogue;
+use crate::machine::flaw::Flaw;
+use crate::machine::sheet::parse;
+use glam::DVec3;
+use vcutc_backend_api::ir::AxisKind;
+
+fn machine(name: &str) -> FiveAxis {
+    match catalogue::find(name).unwrap().mechanism {
+        Mechanism::FiveAxis(machine) => machine,
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => {
+            panic!("{name} is an arm")
+        }
+    }
+}
+
+fn generic() -> Vec<&'static str> {
+    catalogue::names()
+        .filter(|name| name.starts_with("generic/"))
+        .collect()
+}
+
+#[test]
+fn axes_come_in_the_order_of_the_arrangement() {
+    let names = |name| {
+        let axes = catalogue::find(name).unwrap().axes;
+        axes.iter()
+            .map(|axis| axis.name.clone())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    assert_eq!(names("generic/head_head_ba"), "X Y Z B A");
+    assert_eq!(names("generic/head_table_ab"), "X Y Z A B");
+    assert_eq!(names("generic/table_table_ac"), "X Y Z A C");
+    assert_eq!(names("generic/head_head_ac_spindle"), "X Y Z C A S");
+}
+
+#[test]
+fn ranges_and_rates_come_in_radians_and_mm() {
+    let axes = catalogue::find("generic/head_head_ba").unwrap().axes;
+    assert_eq!(axes[0].kind, AxisKind::Linear);
+    assert_eq!(
+        (axes[0].min, axes[0].max, axes[0].rate),
+        (-1000.0, 1000.0, Some(500.0))
+    );
+    assert_eq!(axes[3].kind, AxisKind::Rotary);
+    assert!((axes[3].max.to_degrees() - 110.0).abs() < 1e-12);
+    assert!((axes[3].rate.unwrap().to_degrees() - 90.0).abs() < 1e-12);
+    assert!((axes[3].acceleration.unwrap().to_degrees() - 400.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_arrangements_that_swing_and_rake_are_three() {
+    let bare: Vec<_> = generic()
+        .into_iter()
+        .filter(|name| machine(name).swings_then_rakes())
+        .collect();
+    assert_eq!(
+        bare,
+        [
+            "generic/head_head_ba",
+            "generic/head_table_ab",
+            "generic/table_table_ab"
+        ]
+    );
+    let spindles: Vec<_> = generic()
+        .into_iter()
+        .filter(|name| machine(name).spindle().is_some())
+        .collect();
+    assert_eq!(spindles, ["generic/head_head_ac_spindle"]);
+}
+
+/// Positive angles lean the spindle, seen from the work, as ISO 841 wants them: A from Y to Z, B from Z to X.
+#[test]
+fn positive_angles_turn_the_blade_right_handed_against_the_work() {
+    for name in generic() {
+        let model = catalogue::find(name).unwrap();
+        for (place, axis) in model.axes.iter().enumerate().skip(3) {
+            let mut joints = [0.0; 6];
+            joints[place] = 0.1;
+            let turned = machine(name).forward(&joints).rotation
+                * machine(name).forward(&[0.0; 6]).rotation.transpose();
+            let about = match axis.name.as_str() {
+                "A" => DVec3::X,
+                "B" => DVec3::Y,
+                _ => DVec3::Z,
+            };
+            assert!(
+                (turned - glam::DMat3::from_axis_angle(about, 0.1))
+                    .determinant()
+                    .abs()
+                    < 1e-9
+            );
+            let across = about.any_orthonormal_vector();
+            assert!(
+                about.dot(across.cross(turned * across)) > 0.09,
+                "{name} {}",
+                axis.name
+            );
+        }
+    }
+}
+
+fn flaws(name: &str, from: &str, to: &str) -> Vec<Flaw> {
+    let text = catalogue::text(name).unwrap();
+    assert!(text.contains(from), "{from}");
+    parse(&text.replacen(from, to, 1)).expect_err(to)
+}
+
+/// The only flaw after a change of a sheet: the text it points at, and what it says.
+fn flaw(name: &str, from: &str, to: &str) -> (String, String) {
+    let text = catalogue::text(name).unwrap().replacen(from, to, 1);
+    let mut found = flaws(name, from, to);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    let flaw = found.remove(0);
+    (text[flaw.span].to_owned(), flaw.message)
+}
+
+fn assert_flaw(from: &str, to: &str, place: &str, message: &str) {
+    let found = flaw("generic/head_head_ac_spindle", from, to);
+    assert_eq!((found.0.as_str(), found.1.as_str()), (place, message));
+}
+
+#[test]
+fn arrangements_have_two_rotary_axes_with_names_of_their_own() {
+    assert_flaw(
+        "[\"c\", \"a\"]",
+        "[\"c\"]",
+        "[\"c\"]",
+        "head and table have 1 rotary axes together, a five-axis machine has 2",
+    );
+    assert_flaw("\"s\"", "\"w\"", "\"w\"", "a rotary axis cannot be called \"w\"");
+    assert_flaw("\"s\"", "\"c\"", "\"c\"", "two rotary axes are called \"c\"");
+    assert_flaw(
+        "[\"c\", \"a\"]",
+        "\"ca\"",
+        "\"ca\"",
+        "`head` takes a list of names, not a text",
+    );
+    assert_flaw(
+        "[\"c\", \"a\"]",
+        "[\"c\", 1]",
+        "1",
+        "`head` takes names in quotes, not a number",
+    );
+}
+
+#[test]
+fn rotary_axes_have_to_tilt_the_blade() {
+    assert_flaw(
+        "[\"c\", \"a\"]",
+        "[\"a\", \"c\"]",
+        "[\"a\", \"c\"]",
+        "axis C lies along the spindle, so the blade tilts one way only",
+    );
+    let (place, message) = flaw("generic/head_head_ba", "\"+Y\"", "\"-X\"");
+    assert_eq!(place, "[\"b\", \"a\"]");
+    assert_eq!(
+        message,
+        "the two rotary axes are parallel, so the blade tilts one way only"
+    );
+    let (place, _) = flaw("generic/table_table_ac", "[\"a\", \"c\"]", "[\"c\", \"a\"]");
+    assert_eq!(place, "[\"c\", \"a\"]");
+}
+
+#[test]
+fn every_axis_has_a_table_with_its_range() {
+    let name = "generic/head_head_ac_spindle";
+    let missing = flaws(name, "[axis.s]", "[axis.t]");
+    assert!(
+        missing
+            .iter()
+            .any(|flaw| flaw.message == "the sheet lacks `[axis.s]`"),
+        "{missing:#?}"
+    );
+    assert!(
+        missing.iter().any(|flaw| flaw.message == "`[axis]` has no `t`"),
+        "{missing:#?}"
+    );
+    let (_, message) = flaw(name, "travel_mm = [-1000.0, 1000.0]\n", "");
+    assert_eq!(message, "`[axis.x]` lacks `travel_mm`");
+    assert_flaw(
+        "[-1000.0, 1000.0]",
+        "[1000.0, -1000.0]",
+        "[1000.0, -1000.0]",
+        "a range of `travel_mm` ends before it begins: 1000 mm is not below -1000 mm",
+    );
+    assert_flaw(
+        "rate_deg_s = 120.0",
+        "rate_deg_s = nan",
+        "nan",
+        "`rate_deg_s` takes a finite number",
+    );
+    let (place, message) = flaw(name, "about = \"+X\"", "about = \"X\"");
+    assert_eq!(
+        (place.as_str(), message.as_str()),
+        ("\"X\"", "`about` cannot be \"X\"")
+    );
+}

@@ -1,0 +1,394 @@
+//! The path check of five-axis machines.
+//!
+//! A controller with tool-centre-point control (TCPM, G43.4, TRAORI) moves the tip on a straight line in the work while
+//! **the rotary axes go each at a constant rate to their values at the end**. It does so unless told to interpolate the
+//! orientation vector (ORIVECT), and it is what is proven here. Between two taught poses the blade is therefore not turned
+//! about one fixed axis as a robot turns it. For cuts, approaches and retracts that makes no difference, since they keep
+//! their orientation; travels and turns happen outside of the work.
+//!
+//! Rotary axes need little proof: linear in the part `s` of the course that is done, they are within their ranges when both
+//! ends are. What has to be found is how far and how fast the linear axes move meanwhile. With the mount `M` turned by the
+//! axes of the table and the nose `C` by those of the head,
+//!
+//! `xyz(s) = M(s) tip_in_root(s) - C(s) tip_in_nose`,
+//!
+//! two points that are carried by rotary axes at constant rates.
+//!
+//! **Proof.** Let a point `p` have at most the distance `r` from the centre of a rotary axis, and its first, second and third
+//! derivatives at most the lengths `d1`, `d2`, `d3`. Carried by the axis at the rate `w` it is at `c + R(s)(p - c)` with
+//! `|R'| = w`, `|R''| = w^2`, `|R'''| = w^3` (as operators), so by Leibniz its derivatives have at most the lengths
+//!
+//! - `d1 + w r`,
+//! - `d2 + 2 w d1 + w^2 r`,
+//! - `d3 + 3 w d2 + 3 w^2 d1 + w^3 r`.
+//!
+//! Starting with the tip on its line (`d1` its length, `d2 = d3 = 0`) and going through the axes from the inside out gives
+//! bounds `b2` and `b3` of second and third derivatives of all linear axes, on the whole course. Between two places that
+//! are `w` apart a function keeps within `b2 w^2 / 8` of the straight line through its values there, and its derivative
+//! within `b3 w^2 / 8` of the line through the derivatives (the error of linear interpolation). The course is divided until
+//! what these bounds allow either lies within the limits, or a value that was computed lies outside of them. A violation
+//! between two places that were looked at is thus never missed; a motion that keeps less than about [`FINEST`] from a limit
+//! may be refused, when its bounds do not become fine enough.
+
+use super::path::{Breach, Clearance, Course, Proof, Violation};
+use super::rig::Rig;
+use crate::kinematics::Joints;
+use crate::kinematics::five_axis::{FiveAxis, Rotary};
+use glam::DVec3;
+use vcutc_backend_api::ir::Axis;
+use vcutc_backend_api::motion::Branch;
+
+/// By how much an axis may be beyond its limit, in rad or mm (or a second): rounding.
+const AT_LIMIT: f64 = 1e-9;
+/// How far the blade may be from the start of a course, in mm and as Frobenius norm, with the axes at their start.
+const SAME: (f64, f64) = (1e-6, 1e-7);
+/// How much farther than computed values (mm) what is proven may reach, at places where limits do not ask for more.
+const TIGHT: f64 = 1e-3;
+/// The same for rates, in mm a second.
+const TIGHT_RATE: f64 = 1e-2;
+/// Parts of a course are not divided when their bounds are as near to computed values as this, in mm or mm a second.
+const FINEST: f64 = 1e-7;
+/// Most places of a course that are looked at.
+const MOST_LOOKS: u32 = 1 << 16;
+/// A machine without singular poses on its courses: rotary axes move evenly whatever the blade points along.
+const NEVER_SINGULAR: Clearance = Clearance {
+    wrist: f64::INFINITY,
+    elbow: f64::INFINITY,
+    shoulder: f64::INFINITY,
+};
+
+/// Proves that the axes follow a course on a branch, beginning at `start` (which must bring the blade to `course.from`),
+/// within the limits and rates of the rig's axes. `machine` is the rig's mechanism.
+///
+/// # Errors
+/// The first place found where they do not.
+pub fn prove(
+    machine: &FiveAxis,
+    rig: &Rig<'_>,
+    course: &Course,
+    branch: Branch,
+    start: &Joints,
+) -> Result<Proof, Breach> {
+    let out_of_reach = |at| Breach {
+        at,
+        what: Violation::OutOfReach,
+    };
+    let (apart, turned) = rig.blade_in_work(start).apart(&course.from);
+    let begins_there = apart <= SAME.0 && turned <= SAME.1;
+    if !begins_there || !(course.duration > 0.0 && course.duration.is_finite()) {
+        return Err(out_of_reach(0.0));
+    }
+    let end = machine
+        .on_branch(&rig.flange_in_root(&course.to), branch, start)
+        .ok_or(out_of_reach(1.0))?;
+    let mut search = Search::new(rig.axes, course.duration, start, &end);
+    search.rotary_axes(start, &end)?;
+    let run = Run::new(machine, rig, course, start, &end);
+    search.linear_axes(&run)?;
+    Ok(Proof {
+        start: *start,
+        end,
+        low: search.low,
+        high: search.high,
+        rate: search.rate,
+        clearance: NEVER_SINGULAR,
+        solves: search.looks + 1,
+    })
+}
+
+/// The axes at a place of a course, from 0 to 1, with those of its start within half a turn of `near`. `machine` is the rig's
+/// mechanism.
+#[must_use]
+pub fn joints_on(
+    machine: &FiveAxis,
+    rig: &Rig<'_>,
+    course: &Course,
+    branch: Branch,
+    place: f64,
+    near: &Joints,
+) -> Option<Joints> {
+    let start = machine.on_branch(&rig.flange_in_root(&course.from), branch, near)?;
+    let end = machine.on_branch(&rig.flange_in_root(&course.to), branch, &start)?;
+    let [x, y, z] = Run::new(machine, rig, course, &start, &end).at(place).xyz;
+    let mut joints = core::array::from_fn(|axis| start[axis] + (end[axis] - start[axis]) * place);
+    [joints[0], joints[1], joints[2]] = [x, y, z];
+    Some(joints)
+}
+
+/// A point at a moment of the course, and how it moves (mm a course).
+#[derive(Clone, Copy, Debug)]
+struct Moving {
+    at: DVec3,
+    velocity: DVec3,
+}
+
+/// How far from a point of reference something gets (mm) and how long its derivatives become (mm a course, its square, its
+/// cube).
+#[derive(Clone, Copy, Debug, Default)]
+struct Bounds {
+    first: f64,
+    second: f64,
+    third: f64,
+}
+
+/// A point that rotary axes at constant rates carry.
+#[derive(Clone, Debug)]
+struct Carried {
+    /// Where it is at the start with all axes at zero.
+    from: DVec3,
+    /// What it moves by on what carries it, during the course.
+    way: DVec3,
+    /// What carries it, from the inside out: axis, value at the start, change during the course.
+    by: Vec<(Rotary, f64, f64)>,
+}
+
+impl Carried {
+    fn at(&self, s: f64) -> Moving {
+        let inside = Moving {
+            at: self.from + self.way * s,
+            velocity: self.way,
+        };
+        self.by.iter().fold(inside, |point, &(rotary, value, change)| {
+            let turned = rotary.turned(value + s * change);
+            let at = turned.rotation * point.at + turned.position;
+            let about = rotary.about.vector() * change;
+            Moving {
+                at,
+                velocity: turned.rotation * point.velocity + about.cross(at - rotary.centre),
+            }
+        })
+    }
+
+    fn bounds(&self) -> Bounds {
+        // The ball around the line, seen from where the axis before lies.
+        let (mut seen_from, mut reach) = (self.from, self.way.length());
+        let mut bounds = Bounds {
+            first: self.way.length(),
+            ..Bounds::default()
+        };
+        for &(rotary, _, change) in &self.by {
+            reach += seen_from.distance(rotary.centre);
+            seen_from = rotary.centre;
+            let w = change.abs();
+            let Bounds { first, second, third } = bounds;
+            bounds = Bounds {
+                first: first + w * reach,
+                second: second + 2.0 * w * first + w * w * reach,
+                third: third + 3.0 * w * second + 3.0 * w * w * first + w * w * w * reach,
+            };
+        }
+        bounds
+    }
+}
+
+/// X, Y and Z during a course: the tip as the work carries it, less the tip as the head does.
+#[derive(Clone, Debug)]
+struct Run {
+    by_work: Carried,
+    by_head: Carried,
+    second: f64,
+    third: f64,
+}
+
+impl Run {
+    fn new(machine: &FiveAxis, rig: &Rig<'_>, course: &Course, start: &Joints, end: &Joints) -> Self {
+        let moving = |(rotary, place): (Rotary, usize)| (rotary, start[place], end[place] - start[place]);
+        let mount = machine.mount_at_zero();
+        let [from, to] = [course.from, course.to].map(|blade| (mount * rig.work_in_root * blade).position);
+        let by_work = Carried {
+            from,
+            way: to - from,
+            by: machine.table().rev().map(moving).collect(),
+        };
+        let tip_in_nose = rig.flange_in_blade.inverse();
+        let by_head = Carried {
+            from: (machine.nose_at_zero() * tip_in_nose).position,
+            way: DVec3::ZERO,
+            by: machine.head().rev().map(moving).collect(),
+        };
+        let (work, head) = (by_work.bounds(), by_head.bounds());
+        Self {
+            by_work,
+            by_head,
+            second: work.second + head.second,
+            third: work.third + head.third,
+        }
+    }
+
+    fn at(&self, s: f64) -> Look {
+        let (work, head) = (self.by_work.at(s), self.by_head.at(s));
+        Look {
+            s,
+            xyz: (work.at - head.at).to_array(),
+            velocity: (work.velocity - head.velocity).to_array(),
+        }
+    }
+}
+
+/// The linear axes at a place of the course: mm, and mm a course.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    s: f64,
+    xyz: [f64; 3],
+    velocity: [f64; 3],
+}
+
+/// What has been found out about the axes.
+#[derive(Clone, Debug)]
+struct Search<'m> {
+    axes: &'m [Axis],
+    duration: f64,
+    low: Joints,
+    high: Joints,
+    rate: Joints,
+    looks: u32,
+}
+
+impl<'m> Search<'m> {
+    fn new(axes: &'m [Axis], duration: f64, start: &Joints, end: &Joints) -> Self {
+        let low = core::array::from_fn(|axis| start[axis].min(end[axis]));
+        let high = core::array::from_fn(|axis| start[axis].max(end[axis]));
+        Self {
+            axes,
+            duration,
+            low,
+            high,
+            rate: Joints::default(),
+            looks: 0,
+        }
+    }
+
+    /// Rotary axes go evenly from end to end.
+    fn rotary_axes(&mut self, start: &Joints, end: &Joints) -> Result<(), Breach> {
+        for axis in 3..start.len() {
+            self.within_limits(axis, start[axis], 0.0)?;
+            self.within_limits(axis, end[axis], 1.0)?;
+            self.rate[axis] = (end[axis] - start[axis]).abs() / self.duration;
+            self.within_rate(axis, self.rate[axis], 0.0)?;
+        }
+        Ok(())
+    }
+
+    fn within_limits(&self, axis: usize, value: f64, at: f64) -> Result<(), Breach> {
+        let kept = self
+            .axes
+            .get(axis)
+            .is_none_or(|limits| (limits.min - AT_LIMIT..=limits.max + AT_LIMIT).contains(&value));
+        let what = Violation::Limit { axis, value };
+        if kept { Ok(()) } else { Err(Breach { at, what }) }
+    }
+
+    fn within_rate(&self, axis: usize, rate: f64, at: f64) -> Result<(), Breach> {
+        let most = self.axes.get(axis).and_then(|limits| limits.rate);
+        let what = Violation::Rate { axis, rate };
+        match most {
+            Some(most) if rate > most + AT_LIMIT => Err(Breach { at, what }),
+            Some(_) | None => Ok(()),
+        }
+    }
+
+    /// Looks at the course from its start on, dividing what is too coarse to tell.
+    fn linear_axes(&mut self, run: &Run) -> Result<(), Breach> {
+        let mut left = self.look(run, 0.0)?;
+        let mut rest = vec![self.look(run, 1.0)?];
+        while let Some(right) = rest.last().copied() {
+            let part = Part::new(run, left, right);
+            let fine = part.beyond_values <= FINEST && part.beyond_rates / self.duration <= FINEST;
+            if fine || self.looks >= MOST_LOOKS {
+                self.settle(&part)?;
+            } else if self.tells(&part) {
+                self.take(&part);
+            } else {
+                rest.push(self.look(run, f64::midpoint(left.s, right.s))?);
+                continue;
+            }
+            left = right;
+            rest.pop();
+        }
+        Ok(())
+    }
+
+    /// A place of the course. What is computed there has to be within the limits.
+    fn look(&mut self, run: &Run, s: f64) -> Result<Look, Breach> {
+        self.looks += 1;
+        let look = run.at(s);
+        for axis in 0..3 {
+            let (value, rate) = (look.xyz[axis], look.velocity[axis].abs() / self.duration);
+            self.within_limits(axis, value, s)?;
+            self.within_rate(axis, rate, s)?;
+            self.low[axis] = self.low[axis].min(value);
+            self.high[axis] = self.high[axis].max(value);
+            self.rate[axis] = self.rate[axis].max(rate);
+        }
+        Ok(look)
+    }
+
+    /// Whether all that a part may do is within the limits, and not much beyond what has been found elsewhere.
+    fn tells(&self, part: &Part) -> bool {
+        (0..3).all(|axis| {
+            let (low, high) = part.values(axis);
+            let rate = part.rate(axis) / self.duration;
+            self.within_limits(axis, low, 0.0).is_ok()
+                && self.within_limits(axis, high, 0.0).is_ok()
+                && self.within_rate(axis, rate, 0.0).is_ok()
+                && low >= self.low[axis] - TIGHT
+                && high <= self.high[axis] + TIGHT
+                && rate <= self.rate[axis] + TIGHT_RATE
+        })
+    }
+
+    /// Takes a part that will not be divided, if its bounds are within the limits.
+    fn settle(&mut self, part: &Part) -> Result<(), Breach> {
+        for axis in 0..3 {
+            let (low, high) = part.values(axis);
+            self.within_limits(axis, low, part.left.s)?;
+            self.within_limits(axis, high, part.left.s)?;
+            self.within_rate(axis, part.rate(axis) / self.duration, part.left.s)?;
+        }
+        self.take(part);
+        Ok(())
+    }
+
+    fn take(&mut self, part: &Part) {
+        for axis in 0..3 {
+            let (low, high) = part.values(axis);
+            self.low[axis] = self.low[axis].min(low);
+            self.high[axis] = self.high[axis].max(high);
+            self.rate[axis] = self.rate[axis].max(part.rate(axis) / self.duration);
+        }
+    }
+}
+
+/// A part of the course between two places, and how far values and rates in it may go beyond those at its ends.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    left: Look,
+    right: Look,
+    beyond_values: f64,
+    beyond_rates: f64,
+}
+
+impl Part {
+    fn new(run: &Run, left: Look, right: Look) -> Self {
+        let square = (right.s - left.s) * (right.s - left.s);
+        Self {
+            left,
+            right,
+            beyond_values: run.second * square / 8.0,
+            beyond_rates: run.third * square / 8.0,
+        }
+    }
+
+    fn values(&self, axis: usize) -> (f64, f64) {
+        let (a, b) = (self.left.xyz[axis], self.right.xyz[axis]);
+        (a.min(b) - self.beyond_values, a.max(b) + self.beyond_values)
+    }
+
+    fn rate(&self, axis: usize) -> f64 {
+        let (a, b) = (self.left.velocity[axis].abs(), self.right.velocity[axis].abs());
+        a.max(b) + self.beyond_rates
+    }
+}
+
+#[cfg(test)]
+mod tests;

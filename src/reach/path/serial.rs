@@ -1,0 +1,296 @@
+//! Arms without a closed form: enclosures of what the Jacobian makes of the course.
+//!
+//! With `v` the twist of the blade about its tip, which is constant along a course, the axes follow `q' = J(q)^-1 v`. Let
+//! `A` be some matrix near `J^-1`, `Q` a box of axis values, and `N` an interval matrix with `I - A J(q)` in it for all `q`
+//! of `Q`. From `J q' = v` follows `q' = A v + N q'`. If the row sums of `N` are at most `b < 1`, then `J(q)` is regular on
+//! `Q`, no axis is faster there than `|A v| / (1 - b)`, and putting that in on the right gives the box `D` of all rates.
+//!
+//! **A span.** If `q` at its beginning, plus `D` times its length, lies inside of `Q`, then the axes cannot leave `Q` on the
+//! span: they would have to be faster before. So on the span there is one continuous motion, its values are in
+//! `q + D [0, length]` and its rates in `D` (the first step of Lohner's method for differential equations; Moore, Kearfott,
+//! Cloud 2009, chapter 10).
+//!
+//! **The end.** Newton's method improves the end, and the same contraction, on the box that is known to have the true end
+//! and the improved one, tells that they are the same but for rounding: the pose, as position of the tip and as the vector
+//! `w` of the skew part of `R_end^T R(q)`, has a derivative by `q` that differs from `J` in its angular rows by a factor
+//! that is no further from `I` than the angle through which the box can turn the blade. Where that still contracts, the pose
+//! is reached once in the box only.
+
+use super::bounds::Stretch;
+use super::course::{Flight, Span};
+use super::interval::Interval;
+use super::{Clearance, Violation};
+use crate::kinematics::pose::Pose;
+use crate::kinematics::serial::SerialArm;
+use crate::kinematics::{Joints, newton};
+use glam::DVec3;
+use nalgebra::SMatrix;
+use vcutc_backend_api::ir::MOST_AXES;
+
+/// How far found axis values may be from the true ones, in rad.
+const UNCERTAIN: f64 = 1e-8;
+/// Most that `N` may have as a row sum: beyond it bounds are of little use.
+const LARGEST_DEFECT: f64 = 0.6;
+
+type Box6 = [Interval; MOST_AXES];
+type Vector = [Interval; 3];
+type Matrix = [Vector; 3];
+type Square = SMatrix<f64, MOST_AXES, MOST_AXES>;
+
+/// What the axes do on a span that they enter at `begin`, proven.
+pub(super) fn stretch(
+    arm: &SerialArm,
+    flight: &Flight,
+    span: Span,
+    begin: &Joints,
+) -> Result<Stretch, Violation> {
+    span_of(arm, flight, span, begin).ok_or(Violation::OutOfReach)
+}
+
+fn span_of(arm: &SerialArm, flight: &Flight, span: Span, begin: &Joints) -> Option<Stretch> {
+    let length = 2.0 * span.half;
+    let (linear, angular) = flight.velocity();
+    let twist = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z];
+    let tip_in_flange = flight.tip_in_flange();
+    let first = inverse_at(arm, begin, tip_in_flange)?;
+    let ahead: Joints = core::array::from_fn(|i| begin[i] + times(&first, &twist)[i] * span.half);
+    let near_inverse = inverse_at(arm, &ahead, tip_in_flange)?;
+    let straight = times(&near_inverse, &twist);
+    let contraction = Contraction {
+        arm,
+        near_inverse,
+        tip_in_flange,
+    };
+
+    let begin_box = begin.map(|value| Interval::around(value, UNCERTAIN));
+    let course_tip = flight.tip_over(span);
+    let moved = |rates: &Box6| -> Box6 {
+        core::array::from_fn(|i| {
+            begin_box[i]
+                + rates[i]
+                    * Interval {
+                        low: 0.0,
+                        high: length,
+                    }
+        })
+    };
+    let room = 0.1 * length * straight.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+    let guess: Box6 = core::array::from_fn(|i| {
+        let way = Interval::exactly(straight[i] * length) * Interval { low: -0.2, high: 1.2 };
+        begin_box[i] + way + Interval::around(0.0, room + UNCERTAIN)
+    });
+    let rates = contraction.rates(&guess, &course_tip, &twist)?;
+    let value = moved(&rates);
+    if !(0..MOST_AXES).all(|i| value[i].within(guess[i].low, guess[i].high)) {
+        return None;
+    }
+    // Once more in the smaller box.
+    let rates = contraction.rates(&value, &course_tip, &twist)?;
+    let value = moved(&rates);
+    let by_length = |rates: &Box6| -> Box6 { core::array::from_fn(|i| begin_box[i] + rates[i] * length) };
+    let end = contraction.improved(&by_length(&rates), &flight.flange_at(span.middle + span.half))?;
+    Some(Stretch {
+        begin: begin_box,
+        value,
+        end: end.map(|value| Interval::around(value, UNCERTAIN)),
+        rate: rates,
+        excess: rates.map(|rate| rate.width() * length),
+        rate_excess: rates.map(Interval::width),
+        clearance: Clearance::UNLIMITED,
+    })
+}
+
+/// An arm and a matrix that is nearly the inverse of its Jacobian, about the tip.
+struct Contraction<'m> {
+    arm: &'m SerialArm,
+    near_inverse: Square,
+    tip_in_flange: DVec3,
+}
+
+impl Contraction<'_> {
+    /// All rates with which the axes can follow a twist while they are in a box and the tip in another.
+    fn rates(&self, joints: &Box6, tip: &Vector, twist: &Joints) -> Option<Box6> {
+        let lines = Lines::of(self.arm, joints, self.tip_in_flange);
+        let tip = core::array::from_fn(|i| lines.tip[i].and(tip[i]));
+        let defect = self.defect(&lines.jacobian(self.arm, &tip));
+        let largest = row_sum(&defect);
+        if !(largest <= LARGEST_DEFECT) {
+            return None;
+        }
+        let straight: Box6 = core::array::from_fn(|i| {
+            (0..MOST_AXES).fold(Interval::ZERO, |sum, k| {
+                sum + Interval::exactly(self.near_inverse[(i, k)]) * twist[k]
+            })
+        });
+        let fastest = straight
+            .iter()
+            .fold(0.0, |most: f64, rate| most.max(rate.magnitude()));
+        let mut rates = [Interval::around(0.0, fastest / (1.0 - largest)); MOST_AXES];
+        for _ in 0..3 {
+            rates = core::array::from_fn(|i| {
+                let more = (0..MOST_AXES).fold(Interval::ZERO, |sum, j| sum + defect[i][j] * rates[j]);
+                (straight[i] + more).and(rates[i])
+            });
+        }
+        Some(rates)
+    }
+
+    /// The axis values at a pose, to the last digits, when they are known to be in a box.
+    fn improved(&self, known: &Box6, flange_in_root: &Pose) -> Option<Joints> {
+        let found = newton::refine(self.arm, flange_in_root, &known.map(Interval::middle))?;
+        let both: Box6 = core::array::from_fn(|i| known[i].hull(Interval::around(found[i], UNCERTAIN)));
+        let lines = Lines::of(self.arm, &both, self.tip_in_flange);
+        let defect = row_sum(&self.defect(&lines.jacobian(self.arm, &lines.tip)));
+        let turn: f64 = both.iter().map(|value| value.width()).sum();
+        let (by_length, by_angle) = self.sensitivity();
+        let contracts = defect + 6.0 * by_angle * turn;
+        let (apart, turned) = self.arm.forward(&found).apart(flange_in_root);
+        let reach = self.tip_in_flange.length();
+        let off = (by_length * (apart + reach * turned) + by_angle * turned) / (1.0 - contracts);
+        (contracts <= LARGEST_DEFECT && off <= UNCERTAIN).then_some(found)
+    }
+
+    /// `I - A J`.
+    fn defect(&self, jacobian: &[Box6; MOST_AXES]) -> [Box6; MOST_AXES] {
+        core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                let one = Interval::exactly(f64::from(u8::from(i == j)));
+                (0..MOST_AXES).fold(one, |sum, k| sum - jacobian[k][j] * self.near_inverse[(i, k)])
+            })
+        })
+    }
+
+    /// By how much, at most, an axis turns for a mm, and for a rad.
+    fn sensitivity(&self) -> (f64, f64) {
+        let most = |columns: [usize; 3]| {
+            (0..MOST_AXES)
+                .map(|i| columns.iter().map(|k| self.near_inverse[(i, *k)].abs()).sum())
+                .fold(0.0, f64::max)
+        };
+        (most([0, 1, 2]), most([3, 4, 5]))
+    }
+}
+
+/// The lines of an arm's joints where boxes of joint values bring them, and the tip.
+struct Lines {
+    points: [Vector; MOST_AXES],
+    directions: [Vector; MOST_AXES],
+    tip: Vector,
+}
+
+impl Lines {
+    fn of(arm: &SerialArm, joints: &Box6, tip_in_flange: DVec3) -> Self {
+        let turns = arm.turns_of(*joints, |third, second| third - second);
+        let mut rotation =
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|row| row.map(Interval::exactly));
+        let mut position = [Interval::ZERO; 3];
+        let mut lines = Self {
+            points: [[Interval::ZERO; 3]; MOST_AXES],
+            directions: [[Interval::ZERO; 3]; MOST_AXES],
+            tip: [Interval::ZERO; 3],
+        };
+        for (i, (axis, turn)) in arm.axes().iter().zip(turns).enumerate() {
+            let point = exactly(axis.point);
+            lines.directions[i] = turned(&rotation, &exactly(axis.direction));
+            lines.points[i] = plus(&turned(&rotation, &point), &position);
+            let about = about(axis.direction, turn);
+            let shift = minus(&point, &turned(&about, &point));
+            position = plus(&turned(&rotation, &shift), &position);
+            rotation = product(&rotation, &about);
+        }
+        let at_zero = arm.flange_at_zero();
+        let tip = exactly(at_zero.rotation * tip_in_flange + at_zero.position);
+        lines.tip = plus(&turned(&rotation, &tip), &position);
+        lines
+    }
+
+    /// Rows of linear velocity of the tip above rows of angular velocity; a column for each of the controller's joints.
+    fn jacobian(&self, arm: &SerialArm, tip: &Vector) -> [Box6; MOST_AXES] {
+        let by_turn: [Box6; MOST_AXES] = core::array::from_fn(|i| {
+            let angular = self.directions[i];
+            let linear = cross(&angular, &minus(tip, &self.points[i]));
+            [
+                linear[0], linear[1], linear[2], angular[0], angular[1], angular[2],
+            ]
+        });
+        let by_joint: [Box6; MOST_AXES] = core::array::from_fn(|j| {
+            let mut only = [0.0; MOST_AXES];
+            only[j] = 1.0;
+            let turns = arm.turns_of(only, |third, second| third - second);
+            core::array::from_fn(|row| {
+                (0..MOST_AXES)
+                    .filter(|i| turns[*i] != 0.0)
+                    .fold(Interval::ZERO, |sum, i| sum + by_turn[i][row] * turns[i])
+            })
+        });
+        core::array::from_fn(|row| core::array::from_fn(|j| by_joint[j][row]))
+    }
+}
+
+/// The inverse of the Jacobian at axis values, as far as floating point gives it.
+fn inverse_at(arm: &SerialArm, joints: &Joints, tip_in_flange: DVec3) -> Option<Square> {
+    let columns = arm.jacobian(joints, tip_in_flange).columns;
+    let matrix = Square::from_fn(|row, j| {
+        let column = &columns[j];
+        if row < 3 {
+            column.linear[row]
+        } else {
+            column.angular[row - 3]
+        }
+    });
+    let inverse = matrix.try_inverse()?;
+    inverse.iter().all(|entry| entry.abs() < 1e9).then_some(inverse)
+}
+
+fn times(matrix: &Square, vector: &Joints) -> Joints {
+    core::array::from_fn(|i| (0..MOST_AXES).map(|k| matrix[(i, k)] * vector[k]).sum())
+}
+
+fn row_sum(matrix: &[Box6; MOST_AXES]) -> f64 {
+    matrix
+        .iter()
+        .map(|row| row.iter().map(|entry| entry.magnitude()).sum())
+        .fold(0.0, f64::max)
+}
+
+fn exactly(vector: DVec3) -> Vector {
+    vector.to_array().map(Interval::exactly)
+}
+
+fn plus(a: &Vector, b: &Vector) -> Vector {
+    core::array::from_fn(|i| a[i] + b[i])
+}
+
+fn minus(a: &Vector, b: &Vector) -> Vector {
+    core::array::from_fn(|i| a[i] - b[i])
+}
+
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn turned(matrix: &Matrix, vector: &Vector) -> Vector {
+    matrix.map(|row| row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2])
+}
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    a.map(|row| core::array::from_fn(|j| row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j]))
+}
+
+/// The rotation about a direction through the origin, by Rodrigues' formula.
+fn about(direction: DVec3, angle: Interval) -> Matrix {
+    let (sin, cos) = angle.sin_cos();
+    let k = direction.to_array();
+    let cross = [[0.0, -k[2], k[1]], [k[2], 0.0, -k[0]], [-k[1], k[0], 0.0]];
+    core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
+            let along = k[i] * k[j];
+            let across = f64::from(u8::from(i == j)) - along;
+            Interval::exactly(along) + cos * across + sin * cross[i][j]
+        })
+    })
+}
