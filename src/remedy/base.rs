@@ -5,7 +5,7 @@
 
 use super::{Case, Remedy, trial, wording};
 use crate::plan::parameters::show;
-use crate::reach::place::score::Judge;
+use crate::reach::place::score::{Effort, Judge};
 use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
@@ -130,6 +130,10 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
         &rig.flange_in_blade,
         poses.telling(SPREAD),
     );
+    if judge.effort() == Effort::Sparing {
+        shifts.retain(|shift| shift.by.iter().filter(|part| **part != 0.0).count() <= 1);
+        shifts = shifts.into_iter().step_by(3).collect();
+    }
     let strokes = strokes(case);
     let mut proofs = 0;
     let mut failed_at = 0.0;

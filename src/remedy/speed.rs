@@ -169,7 +169,11 @@ fn remedy(operations: &[Operation], speeds: &Speeds) -> Option<(Remedy, Loss)> {
             Field::Reorient => ("reorient", "deg/s", asked.reorient_rate.span),
         };
         let text = format!("{} {unit}", show(speed));
-        words.push(format!("`{name} = {text}`"));
+        let word = format!("`{name} = {text}`");
+        // Two operations may ask for the same.
+        if !words.contains(&word) {
+            words.push(word);
+        }
         edits.extend(span.map(|span| (span, text)));
     }
     let advice = format!("use {}, which the axes just follow", words.join(" with "));

@@ -65,14 +65,20 @@ impl<'m> Judge<'m> {
         flange_in_blade: &Pose,
         blade_in_work: impl IntoIterator<Item = Pose>,
     ) -> Self {
-        Self {
+        let flange_in_work: Vec<Pose> = blade_in_work
+            .into_iter()
+            .map(|blade_in_work| blade_in_work * *flange_in_blade)
+            .collect();
+        let mut judge = Self {
             mechanism,
             axes,
-            flange_in_work: blade_in_work
-                .into_iter()
-                .map(|blade_in_work| blade_in_work * *flange_in_blade)
-                .collect(),
+            flange_in_work,
+        };
+        if judge.effort() == Effort::Sparing {
+            let step = judge.flange_in_work.len().div_ceil(FEW_POSES).max(1);
+            judge.flange_in_work = judge.flange_in_work.into_iter().step_by(step).collect();
         }
+        judge
     }
 
     /// How good a base is.
@@ -106,7 +112,8 @@ impl<'m> Judge<'m> {
 
 impl Judge<'_> {
     /// How much a search may ask of this judge.
-    pub(super) const fn effort(&self) -> Effort {
+    #[must_use]
+    pub const fn effort(&self) -> Effort {
         match self.mechanism {
             Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::FiveAxis(_) => Effort::Full,
             Mechanism::Serial(_) => Effort::Sparing,
@@ -134,9 +141,12 @@ impl Judge<'_> {
     }
 }
 
+/// Most poses that are asked where each is searched for numerically.
+const FEW_POSES: usize = 24;
+
 /// How much a search may ask of a judge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Effort {
+pub enum Effort {
     /// The closed form answers at once.
     Full,
     /// Every pose is searched for numerically.
