@@ -43,6 +43,12 @@ pub fn text(placement: &Placement) -> String {
         Some(best) => {
             row("best", &room(&best.room));
             row("moved", &moved(best, &now.base));
+            if bounds.touch(best.spot) {
+                row(
+                    "note",
+                    "it lies at the edge of what was searched: wider bounds may have better places",
+                );
+            }
             let _ = write!(text, "\n  base = {}\n", frame_text(&best.base));
         }
         None => {

@@ -16,9 +16,8 @@ use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
 
 /// How far the base is moved along a direction, in mm.
-const DISTANCES: [f64; 26] = [
-    10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 120.0, 140.0, 160.0, 180.0, 200.0, 250.0,
-    300.0, 350.0, 400.0, 500.0, 600.0, 700.0, 800.0, 1000.0, 1200.0, 1500.0,
+const DISTANCES: [f64; 14] = [
+    10.0, 20.0, 40.0, 60.0, 80.0, 100.0, 150.0, 200.0, 250.0, 300.0, 400.0, 500.0, 700.0, 1000.0,
 ];
 /// By how much the work is turned, in degrees.
 const TURNS: [f64; 12] = [
@@ -33,7 +32,7 @@ const FURTHER: f64 = 1.2;
 /// Places that are judged at once.
 const JUDGED: usize = 52;
 /// Poses beside the outermost ones, for each orientation.
-const SPREAD: usize = 12;
+const SPREAD: usize = 4;
 
 /// A change of the base: by these mm along the root's axes, and turned by these degrees about its z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,15 +105,15 @@ fn remedy(case: &Case<'_>, base: &PlacedFrame, what: &str) -> Remedy {
     Remedy::replace(format!("{what}: `base = {text}`"), case.machine.base.span, text)
 }
 
-/// The motion that fails, and others that tell.
-fn strokes(case: &Case<'_>) -> Strokes {
+/// The motion that fails.
+fn failing(case: &Case<'_>) -> Strokes {
     let program = case.unreachable.program.program();
-    let failing = match &case.unreachable.trouble {
-        Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => Some(failing.op),
-        Trouble::Way { .. } | Trouble::Nowhere => None,
-    };
-    let failing = failing.map_or_else(Strokes::default, |op| Strokes::only(program, op));
-    failing.and(Strokes::of(program))
+    match &case.unreachable.trouble {
+        Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => {
+            Strokes::only(program, failing.op)
+        }
+        Trouble::Way { .. } | Trouble::Nowhere => Strokes::default(),
+    }
 }
 
 /// The nearest of these places that carries out the whole program.
@@ -134,19 +133,24 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
         shifts.retain(|shift| shift.by.iter().filter(|part| **part != 0.0).count() <= 1);
         shifts = shifts.into_iter().step_by(3).collect();
     }
-    let strokes = strokes(case);
+    let (failing, others) = (failing(case), Strokes::of(case.unreachable.program.program()));
     let mut proofs = 0;
     let mut failed_at = 0.0;
     for batch in shifts.chunks(JUDGED) {
         let promising: Vec<bool> = batch
             .par_iter()
             .map(|shift| {
-                let score = judge.score(&shift.of(&now.frame).into());
-                score.reached().is_some_and(|margin| margin >= PROMISING)
-                    && strokes.are_followed(&Rig {
-                        work_in_root: shift.of(&now.frame).into(),
-                        ..rig.clone()
-                    })
+                let there = Rig {
+                    work_in_root: shift.of(&now.frame).into(),
+                    ..rig.clone()
+                };
+                // The motion that fails first: nearly always it says no, and it costs least.
+                failing.are_followed(&there)
+                    && judge
+                        .score(&there.work_in_root)
+                        .reached()
+                        .is_some_and(|margin| margin >= PROMISING)
+                    && others.are_followed(&there)
             })
             .collect();
         for (shift, _) in batch.iter().zip(promising).filter(|(_, promising)| *promising) {

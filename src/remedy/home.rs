@@ -1,10 +1,9 @@
 //! A home above the first cut.
 
 use super::{Case, Remedy, trial, wording};
-use crate::kinematics::pose::Pose;
-use crate::reach::legs::{Leg, Poses, legs};
+use crate::reach::legs::{Leg, Poses, Taught, legs};
 use crate::reach::rig::Rig;
-use glam::DVec3;
+use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::AxisValues;
 
 /// How far above the first pose of the program the blade is at home, in mm.
@@ -18,7 +17,6 @@ pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
         Leg::ByAxes(taught) => Some(taught),
         Leg::Along(_) | Leg::Still | Leg::Home => None,
     })?;
-    let blade_in_work = Poses::of(program).blade_in_work(first)?;
     let model = case.machine.model.clone();
     let rig = Rig::new(
         &model,
@@ -26,10 +24,11 @@ pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
         case.machine.base.value.frame,
     );
     for raised in RAISED {
-        let above = Pose {
-            position: blade_in_work.position + DVec3::Z * raised,
-            ..blade_in_work
+        let tip = Point3 {
+            z: first.tip.z + raised,
+            ..first.tip
         };
+        let above = Poses::of(program).blade_in_work(Taught { tip, ..first })?;
         for solution in rig.mechanism.all(&rig.flange_in_root(&above)).iter() {
             let within = model
                 .axes

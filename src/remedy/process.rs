@@ -10,7 +10,7 @@ use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::Angle;
 
 /// By how many degrees the swing is made smaller, one after the other.
-const SMALLER: [f64; 5] = [2.0, 5.0, 10.0, 15.0, 20.0];
+const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 
 /// The same cuts in another direction.
 pub(super) fn other_direction(case: &mut Case<'_>) -> Option<Remedy> {

@@ -24,7 +24,25 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
-    ("summary", &["plan", "sim"]),
+    ("summary", &["plan", "reach_summary", "sim"]),
+    ("reach_summary", &["plan", "reach"]),
+    ("picture", &[]),
+    (
+        "remedy",
+        &[
+            "diag", "job", "lower", "machine", "plan", "reach", "source", "verdict",
+        ],
+    ),
+    (
+        "reach_verdict",
+        &["diag", "job", "plan", "reach", "remedy", "source"],
+    ),
+    (
+        "placement",
+        &[
+            "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source", "verdict",
+        ],
+    ),
     (
         "verdict",
         &["diag", "geom", "job", "lower", "plan", "sim", "source"],
@@ -32,8 +50,20 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
-            "diag", "job", "machine", "plan", "reach", "registry", "sema", "sim", "source", "summary",
-            "syntax", "verdict",
+            "diag",
+            "job",
+            "machine",
+            "plan",
+            "reach",
+            "reach_summary",
+            "reach_verdict",
+            "registry",
+            "sema",
+            "sim",
+            "source",
+            "summary",
+            "syntax",
+            "verdict",
         ],
     ),
     (
@@ -43,7 +73,9 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "driver",
             "kinematics",
             "machine",
+            "placement",
             "plan",
+            "reach",
             "registry",
             "source",
         ],

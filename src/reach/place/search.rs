@@ -55,6 +55,16 @@ impl Bounds {
             .all(|(value, (least, most))| (least..=most).contains(&value))
     }
 
+    /// Whether a spot lies at an edge that leaves room to go on beyond it.
+    #[must_use]
+    pub fn touch(&self, spot: Spot) -> bool {
+        let ranges = self.least.parts().into_iter().zip(self.most.parts());
+        spot.parts()
+            .into_iter()
+            .zip(ranges)
+            .any(|(value, (least, most))| least < most && (value == least || value == most))
+    }
+
     /// The grid, in the order of x, then y, z and turn.
     fn grid(&self, effort: Effort) -> Vec<Spot> {
         let most = match effort {

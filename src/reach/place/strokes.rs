@@ -65,13 +65,6 @@ impl Strokes {
         }
     }
 
-    /// These and others.
-    #[must_use]
-    pub fn and(mut self, others: Self) -> Self {
-        self.courses.extend(others.courses);
-        self
-    }
-
     /// Whether there is a branch on which the axes follow all of them.
     #[must_use]
     pub fn are_followed(&self, rig: &Rig<'_>) -> bool {
