@@ -53,7 +53,7 @@ fn general(unreachable: &Unreachable) -> &'static str {
             }
         },
         Trouble::NoCommonBranch { .. } => {
-            "shift or turn the work with `base`, so that one way to stand carries all of these motions"
+            "let the blade come up between cuts with `direction = forward`, so that the arm can change there, or shift or turn the work with `base`"
         }
         Trouble::Way { .. } => "choose a `home` from which the blade comes to the work from above",
         Trouble::Nowhere => "bring the work and the machine together with `base`",

@@ -97,8 +97,11 @@ pub fn climb(ladder: &mut dyn Ladder) -> Result<Vec<usize>, Stuck> {
 /// The best way if every link that is not refuted holds; else the run that cannot be reached.
 fn best(ladder: &dyn Ladder, refuted: &BTreeSet<Link>) -> Result<Vec<usize>, usize> {
     let widest = widest(ladder, refuted)?;
-    cheapest(ladder, refuted, widest)
+    cheapest(ladder, refuted, widest - SAME_MARGIN)
 }
+
+/// Margins that differ by less count as equal: nobody changes the way to stand for rounding.
+const SAME_MARGIN: f64 = 1e-6;
 
 /// The largest smallest margin that any way has.
 fn widest(ladder: &dyn Ladder, refuted: &BTreeSet<Link>) -> Result<f64, usize> {

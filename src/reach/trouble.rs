@@ -132,10 +132,12 @@ fn no_common_branch(
     let Some(first) = least.first() else {
         return out_of_reach(station);
     };
-    let other = failing.iter().find_map(|(other, failures)| {
-        let carries = failures.iter().all(|failure| failure.op != first.op);
-        carries.then(|| failures.first().map(|failure| of(failure, *other)))?
-    });
+    let carrying = failing
+        .iter()
+        .filter(|(_, failures)| failures.iter().all(|failure| failure.op != first.op));
+    let other = carrying
+        .min_by_key(|(other, failures)| (failures.len(), *other))
+        .and_then(|(other, failures)| failures.first().map(|failure| of(failure, *other)));
     match other {
         Some(other) => Trouble::NoCommonBranch {
             failing: of(first, branch),

@@ -91,7 +91,7 @@ pub fn remedies(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         tries_left: MOST_TRIES,
     };
     let mut found = match &unreachable.trouble {
-        Trouble::Motion { failing, .. } => match failing.breach.what {
+        Trouble::Motion { failing, .. } => match failing.worst.what {
             Violation::Rate { .. } => slower(&mut case),
             Violation::OutOfReach | Violation::Limit { .. } | Violation::Singular(_) => elsewhere(&mut case),
         },

@@ -122,7 +122,7 @@ fn trouble(trouble: &Trouble, model: &Model, program: &Program) -> String {
 
 fn failure(failing: &Failing, model: &Model, program: &Program) -> String {
     let axis = |index: usize| model.axes.get(index).map_or("an axis", |axis| axis.name.as_str());
-    let what = match failing.breach.what {
+    let what = match failing.worst.what {
         Violation::OutOfReach => "the blade is out of reach".to_owned(),
         Violation::Limit { axis: index, .. } => format!("{} leaves its range", axis(index)),
         Violation::Rate { axis: index, .. } => format!("{} is too slow", axis(index)),

@@ -13,6 +13,11 @@ use vcutc::driver::Outcome;
 
 const JOB: &str = "job.vcut";
 
+/// Where the job lies, and what it uses.
+fn folder(path: &Path) -> &Path {
+    path.parent().unwrap()
+}
+
 struct Case {
     files: Files,
     text: String,
@@ -22,7 +27,7 @@ impl Case {
     fn read(path: &Path) -> Self {
         let text = fs::read_to_string(path).unwrap();
         Self {
-            files: Files::default().with(JOB, text.clone()),
+            files: Files::of(folder(path)).with(JOB, text.clone()),
             text,
         }
     }
@@ -44,7 +49,7 @@ impl Case {
         assert!(body.contains(from), "nothing reads {from}");
         let text = body.replace(from, to);
         Self {
-            files: Files::default().with(JOB, text.clone()),
+            files: self.files.clone().with(JOB, text.clone()),
             text,
         }
     }

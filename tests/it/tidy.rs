@@ -71,11 +71,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &[
             "diag",
             "driver",
+            "job",
             "kinematics",
             "machine",
             "placement",
             "plan",
             "reach",
+            "reach_summary",
             "registry",
             "source",
         ],
@@ -87,6 +89,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diag/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
+    ("rayon::", &["src/reach/"]),
     ("strsim::", &["src/diag/suggest.rs"]),
     (
         "glam::",
