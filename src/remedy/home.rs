@@ -7,7 +7,9 @@ use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::AxisValues;
 
 /// How far above the first pose of the program the blade is at home, in mm.
-const RAISED: [f64; 4] = [100.0, 200.0, 50.0, 0.0];
+const RAISED: [f64; 3] = [100.0, 300.0, 0.0];
+/// Most homes that are tried.
+const MOST_HOMES: usize = 6;
 
 /// A home from which the blade comes to the work from above, in whole degrees.
 pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
@@ -23,6 +25,7 @@ pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
         case.machine.tool.value.frame,
         case.machine.base.value.frame,
     );
+    let mut homes = 0;
     for raised in RAISED {
         let tip = Point3 {
             z: first.tip.z + raised,
@@ -38,9 +41,10 @@ pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
             if !within {
                 continue;
             }
-            if !case.may_try() {
+            if homes == MOST_HOMES || !case.may_try() {
                 return None;
             }
+            homes += 1;
             let home = wording::rounded_home(&model.axes, &AxisValues(solution.joints));
             let works = trial::with_machine(case.plan, |machine| {
                 if let Some(stated) = &mut machine.home {

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | a rate | the highest speeds that the axes follow (`speed`) |
 //! | reach, limits, singular poses, the branch | another direction or order of the cuts, a smaller swing (`process`), the base moved or turned by the least that helps (`base`) |
-//! | the way from home or to home | a home above the first cut (`home`), the base |
+//! | the way from home or to home | a home above the first cut (`home`), else the base |
 //!
 //! A rate that would need speeds far below those asked for is taken for a place the arm had better avoid: what mends the
 //! other kinds is tried then, too.
@@ -98,7 +98,7 @@ pub fn remedies(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         Trouble::NoCommonBranch { .. } => elsewhere(&mut case),
         Trouble::Way { .. } => {
             let home = home::raised(&mut case);
-            home.into_iter().chain(base::moved(&mut case)).collect()
+            home.or_else(|| base::moved(&mut case)).into_iter().collect()
         }
         Trouble::Nowhere => base::moved(&mut case).into_iter().collect(),
     };

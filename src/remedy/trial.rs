@@ -7,6 +7,8 @@ use crate::plan::PlannedJob;
 use crate::reach::demand::{Demand, axis_margin};
 use crate::reach::describe::{site_words, value_words};
 use crate::reach::path::Violation;
+use crate::reach::place::strokes::Strokes;
+use crate::reach::rig::Rig;
 use crate::reach::solve::{LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve};
 use crate::reach::trouble::{Failing, Trouble};
 use crate::source::SourceMap;
@@ -29,6 +31,12 @@ pub(super) fn whole(job: &CheckedJob, change: impl FnOnce(&mut CheckedJob)) -> O
     change(&mut changed);
     let (_, proven) = verdict::sound(&changed)?;
     let machine = changed.machine.as_ref()?;
+    // A program that fails as a whole is dear to refute, for every branch is proven from end to end. A few motions usually
+    // say as much.
+    let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
+    if !Strokes::of(proven.program.program()).are_followed(&rig) {
+        return None;
+    }
     solve(proven.program, &machine.model, &LEAST_CLEARANCE).ok()
 }
 

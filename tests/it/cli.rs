@@ -3,6 +3,7 @@
 mod gallery;
 mod jobs;
 mod machines;
+mod place;
 mod refusals;
 
 use std::fs;
