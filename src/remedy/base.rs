@@ -6,11 +6,11 @@
 use super::{Case, Remedy, trial, wording};
 use crate::plan::parameters::show;
 use crate::reach::place::score::{Effort, Judge};
+use crate::reach::place::search::ask_all;
 use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::reach::trouble::Trouble;
-use rayon::prelude::*;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
@@ -137,22 +137,19 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
     let mut proofs = 0;
     let mut failed_at = 0.0;
     for batch in shifts.chunks(JUDGED) {
-        let promising: Vec<bool> = batch
-            .par_iter()
-            .map(|shift| {
-                let there = Rig {
-                    work_in_root: shift.of(&now.frame).into(),
-                    ..rig.clone()
-                };
-                // The motion that fails first: nearly always it says no, and it costs least.
-                failing.are_followed(&there)
-                    && judge
-                        .score(&there.work_in_root)
-                        .reached()
-                        .is_some_and(|margin| margin >= PROMISING)
-                    && others.are_followed(&there)
-            })
-            .collect();
+        let promising = ask_all(batch, |shift| {
+            let there = Rig {
+                work_in_root: shift.of(&now.frame).into(),
+                ..rig.clone()
+            };
+            // The motion that fails first: nearly always it says no, and it costs least.
+            failing.are_followed(&there)
+                && judge
+                    .score(&there.work_in_root)
+                    .reached()
+                    .is_some_and(|margin| margin >= PROMISING)
+                && others.are_followed(&there)
+        });
         for (shift, _) in batch.iter().zip(promising).filter(|(_, promising)| *promising) {
             if shift.size() < failed_at * FURTHER {
                 continue;

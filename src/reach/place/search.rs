@@ -148,10 +148,7 @@ fn admitted(criteria: &Criteria<'_, '_>, grid: &[Placed]) -> Vec<Spot> {
     let mut spots = Vec::new();
     let reached = grid.iter().filter(|place| place.score.reached().is_some());
     for batch in reached.take(MOST_ASKED).collect::<Vec<_>>().chunks(BATCH) {
-        let admits: Vec<bool> = batch
-            .par_iter()
-            .map(|place| (criteria.admits)(place.spot))
-            .collect();
+        let admits = ask_all(batch, |place| (criteria.admits)(place.spot));
         let admitted = batch.iter().zip(admits).filter(|(_, admits)| *admits);
         spots.extend(admitted.map(|(place, _)| place.spot));
         if spots.len() >= CLIMBS {
@@ -160,6 +157,11 @@ fn admitted(criteria: &Criteria<'_, '_>, grid: &[Placed]) -> Vec<Spot> {
     }
     spots.truncate(CLIMBS);
     spots
+}
+
+/// Asks the same of all items, in parallel; the answers are in their order.
+pub fn ask_all<T: Sync>(items: &[T], ask: impl Fn(&T) -> bool + Sync + Send) -> Vec<bool> {
+    items.par_iter().map(ask).collect()
 }
 
 /// Judges spots, in parallel and in their order.
