@@ -148,7 +148,7 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
                     .score(&there.work_in_root)
                     .reached()
                     .is_some_and(|margin| margin >= PROMISING)
-                && others.are_followed(&there)
+                && others.are_each_followed(&there)
         });
         for (shift, _) in batch.iter().zip(promising).filter(|(_, promising)| *promising) {
             if shift.size() < failed_at * FURTHER {

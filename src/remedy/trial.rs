@@ -34,7 +34,7 @@ pub(super) fn whole(job: &CheckedJob, change: impl FnOnce(&mut CheckedJob)) -> O
     // A program that fails as a whole is dear to refute, for every branch is proven from end to end. A few motions usually
     // say as much.
     let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
-    if !Strokes::of(proven.program.program()).are_followed(&rig) {
+    if !Strokes::of(proven.program.program()).are_each_followed(&rig) {
         return None;
     }
     solve(proven.program, &machine.model, &LEAST_CLEARANCE).ok()

@@ -65,7 +65,16 @@ impl Strokes {
         }
     }
 
-    /// Whether there is a branch on which the axes follow all of them.
+    /// Whether each of them is followed on some branch, which no program can do without.
+    #[must_use]
+    pub fn are_each_followed(&self, rig: &Rig<'_>) -> bool {
+        self.courses.iter().all(|course| {
+            let begin = rig.mechanism.all(&rig.flange_in_root(&course.from));
+            begin.iter().any(|solution| follows(rig, course, solution.branch))
+        })
+    }
+
+    /// Whether there is one branch on which the axes follow all of them.
     #[must_use]
     pub fn are_followed(&self, rig: &Rig<'_>) -> bool {
         let Some(first) = self.courses.first() else {
