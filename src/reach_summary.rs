@@ -13,6 +13,8 @@ use vcutc_backend_api::motion::Stretch;
 pub struct ReachFigures {
     /// The branches, in order.
     pub branches: Vec<BranchFigure>,
+    /// How many travels through the air became moves of all axes, because no branch carries the program without.
+    pub changes: usize,
     /// The smallest share that anything has left; see `src/reach/demand.rs`.
     pub margin: f64,
     /// What has the smallest share: an axis or a kind of singular pose.
@@ -151,6 +153,7 @@ pub fn figures(reached: &Reached) -> ReachFigures {
         );
     ReachFigures {
         branches: branches(&reached.report.stretches, is_kuka),
+        changes: reached.report.changes.len(),
         margin: reached.report.margin,
         least,
         axes,
@@ -247,10 +250,10 @@ fn reach_line(figures: &ReachFigures) -> String {
     let status = first
         .kuka_status
         .map_or_else(String::new, |status| format!(" (KUKA status {status})"));
-    let changes = match figures.branches.len() - 1 {
+    let changes = match figures.changes {
         0 => String::new(),
-        1 => "; changed once in the air".to_owned(),
-        times => format!("; changed {times} times in the air"),
+        1 => "; all axes move at once in 1 travel through the air".to_owned(),
+        times => format!("; all axes move at once in {times} travels through the air"),
     };
     format!("{}{status}{changes}", first.words)
 }
@@ -356,6 +359,7 @@ mod tests {
     fn axes_without_a_known_rate_are_named() {
         let mut figures = ReachFigures {
             branches: Vec::new(),
+            changes: 0,
             margin: 0.8,
             least: Least {
                 of: "A1".to_owned(),

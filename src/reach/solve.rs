@@ -52,6 +52,8 @@ pub struct Reached {
 pub struct ReachReport {
     /// The branches, in order.
     pub stretches: Vec<Stretch>,
+    /// The travels in whose place all axes move at once, because no branch carries the program without.
+    pub changes: Vec<OpId>,
     /// The axes where the first motion to a pose ends.
     pub first: Joints,
     /// What all motions along courses ask together.
@@ -111,7 +113,10 @@ pub fn solve(program: VerifiedProgram, model: &Model, least: &Clearance) -> Resu
     };
     match solved {
         Ok(solved) => finish(program, &rig, solved),
-        Err(trouble) => Err(Unreached::Unreachable(Box::new(Unreachable { program, trouble }))),
+        Err(trouble) => Err(Unreached::Unreachable(Box::new(Unreachable {
+            program,
+            trouble: *trouble,
+        }))),
     }
 }
 
@@ -123,10 +128,10 @@ pub fn rig<'m>(model: &'m Model, cell: &Cell) -> Rig<'m> {
 
 /// Checks the motion and joins it to the program.
 fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Reached, Unreached> {
-    let program = if solved.changes.is_empty() {
+    let program = if solved.report.changes.is_empty() {
         program
     } else {
-        let changed = with_changes(program.program(), &solved.changes);
+        let changed = with_changes(program.program(), &solved.report.changes);
         verify(changed).map_err(Unreached::Rules)?
     };
     let motion = Motion {
@@ -157,7 +162,6 @@ fn with_changes(program: &Program, changes: &[OpId]) -> Program {
 /// The axes at the end of every op, before they are checked.
 struct Solved {
     ends: Vec<Joints>,
-    changes: Vec<OpId>,
     report: ReachReport,
 }
 
@@ -267,7 +271,7 @@ fn on_branch(survey: &Survey<'_>, stations: &[Station], branch: Branch) -> Optio
 }
 
 /// The best way with changes of the branch in the air.
-fn by_changes(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Result<Solved, Trouble> {
+fn by_changes(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Result<Solved, Box<Trouble>> {
     let stations = split(survey.legs, Split::AtDetours);
     let mut carried = Vec::with_capacity(stations.len());
     let mut failed: Vec<Vec<(Branch, Vec<Failure>)>> = Vec::with_capacity(stations.len());
@@ -291,8 +295,10 @@ fn by_changes(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Re
     let mut ways = Ways::new(survey, &stations, &carried, home);
     match climb(&mut ways) {
         Ok(way) => Ok(solved(survey, &stations, &ways, &way)),
-        Err(Stuck::At(station)) => Err(trouble::found(survey, &stations, &carried, &failed, station)),
-        Err(Stuck::Refuted(station)) => Err(trouble::on_the_way(&stations, ways.refused, station)),
+        Err(Stuck::At(station)) => Err(Box::new(trouble::found(
+            survey, &stations, &carried, &failed, station,
+        ))),
+        Err(Stuck::Refuted(station)) => Err(Box::new(trouble::on_the_way(&stations, ways.refused, station))),
     }
 }
 
@@ -346,9 +352,9 @@ fn solved(survey: &Survey<'_>, stations: &[Station], ways: &Ways<'_>, way: &[usi
     let margin = demand.margin(survey.rig.axes);
     Solved {
         ends,
-        changes,
         report: ReachReport {
             stretches,
+            changes,
             first,
             demand,
             margin,

@@ -48,6 +48,35 @@ fn examples_compile_and_say_what_was_planned() {
     }
 }
 
+/// The files of the examples with an ABB arm in place of the large KUKA.
+fn folder_with_abb() -> Files {
+    let files = files("examples", ".vcut").into_iter();
+    files.fold(folder(), |all, file| {
+        let text = file
+            .text
+            .replace("kuka/kr210_r3100_ultra", "abb/irb6700_155_285")
+            .replace(
+                "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
+                "joints(0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg)",
+            );
+        match file.path.strip_prefix("examples/") {
+            Some(name) if text != file.text && text.contains("irb6700") => all.with(name, text),
+            Some(_) | None => all,
+        }
+    })
+}
+
+#[test]
+fn examples_are_within_reach_of_an_abb_too() {
+    for (name, _) in jobs() {
+        if FAILING.iter().any(|(failing, _)| *failing == name) {
+            continue;
+        }
+        let outcome = compile(&name, &folder_with_abb());
+        assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name}");
+    }
+}
+
 #[test]
 fn examples_of_errors_fail_as_they_are_meant_to() {
     for &(name, codes) in FAILING {

@@ -25,6 +25,8 @@ mod pipeline;
 #[cfg(feature = "krl")]
 mod process_errors;
 mod published;
+#[cfg(feature = "krl")]
+mod reach;
 mod repository;
 mod schema;
 mod syntax;

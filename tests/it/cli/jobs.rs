@@ -305,7 +305,7 @@ fn for_programs_every_line_is_json_and_the_last_is_the_summary() {
         (&"summary".into(), &0.into())
     );
     assert_eq!(summary["files"].as_array().unwrap().len(), 2);
-    assert_eq!(summary["stages"].as_array().unwrap().len(), 4);
+    assert_eq!(summary["stages"].as_array().unwrap().len(), 5);
 
     let run = compile(shop.path(), "bad.vcut", &["--message-format", "json"]);
     let lines = json_lines(&run.stderr);
