@@ -1,11 +1,13 @@
 //! What keeps a machine from a program, in the words of the job: which cut, which axis, by how much, what to change.
 
+mod posture;
+
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
 use crate::plan::PlannedJob;
 use crate::plan::parameters::show;
 use crate::reach::describe::{branch_words, site_words, value_words};
-use crate::reach::legs::{Pace, Stroke, legs};
+use crate::reach::legs::{Leg, Pace, Stroke, legs};
 use crate::reach::path::{Singularity, Violation};
 use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
 use crate::reach::trouble::{Failing, Leads, Trouble};
@@ -25,6 +27,9 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         machine,
         program: unreachable.program.program(),
     };
+    if let Some(diagnostic) = scene.lacks_an_axis(&unreachable.trouble) {
+        return vec![diagnostic];
+    }
     let diagnostic = match &unreachable.trouble {
         Trouble::Motion { failing, other_cuts } => scene.motion(failing, *other_cuts),
         Trouble::NoCommonBranch { failing, other } => scene.no_common_branch(failing, other),
@@ -68,6 +73,24 @@ struct Scene<'s> {
 }
 
 impl Scene<'_> {
+    /// A posture that a five-axis machine cannot hold wherever the work is.
+    fn lacks_an_axis(&self, trouble: &Trouble) -> Option<Diagnostic> {
+        let failing = match trouble {
+            Trouble::Motion { failing, .. } => failing,
+            Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Nowhere => return None,
+        };
+        let taught = match legs(self.program).get(failing.op.0 as usize)? {
+            Leg::ByAxes(pose) => [None, Some(*pose)],
+            Leg::Along(stroke) => [Some(stroke.from), Some(stroke.to)],
+            Leg::Still | Leg::Home => return None,
+        };
+        let place = self.place(failing.op);
+        taught.into_iter().flatten().find_map(|pose| {
+            let held = self.program.orientations.get(pose.held.0 as usize)?;
+            posture::lacks_an_axis(self.machine, &place, pose.tip, *held)
+        })
+    }
+
     fn motion(&self, failing: &Failing, other_cuts: usize) -> Diagnostic {
         let place = self.place(failing.op);
         let (at, base) = (self.along(failing), self.base());

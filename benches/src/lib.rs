@@ -5,6 +5,7 @@
 //! * [`emission`] writes the same program text in other ways: with the standard library's formatting, and as bytes
 //!   that are already there.
 //! * [`contour`] finds the same machined contour by polygon clipping.
+//! * [`kinematics`] solves the inverse kinematics of the same poses, by us and by others.
 //!
 //! The criterion benchmarks under `benches/` and the program `measure` use the same functions, and each comparison
 //! first makes sure that both sides give the same answer.
@@ -12,4 +13,7 @@
 pub mod contour;
 pub mod emission;
 pub mod jobs;
+pub mod kinematics;
+#[path = "../../tests/it/opw_peer.rs"]
+pub mod opw_peer;
 pub mod stages;

@@ -23,6 +23,9 @@ const AT_LIMIT: f64 = 1e-9;
 /// Most sets of axis values of one way to stand that are listed. An arm with three axes of two turns each has 27 at most.
 const MOST_TURNS: usize = 64;
 
+/// How many turns either way from the first value of an axis others are looked for.
+const FARTHEST_TURN: f64 = 4.0;
+
 /// A machine with its frames.
 struct Cell {
     model: Model,
@@ -72,7 +75,7 @@ pub(super) fn inverse(cell: &CellArgs, pose: &str, quaternion: Option<&str>, con
     };
     let frame = match quaternion {
         Some(quaternion) => numbers::frame_with("--pose", pose, quaternion),
-        None => numbers::frame("--pose", pose),
+        None => numbers::frame("--pose", pose, "1500,0,1200,0,90,0"),
     };
     let frame = match frame {
         Ok(frame) => frame,
@@ -104,11 +107,13 @@ pub(super) fn inverse(cell: &CellArgs, pose: &str, quaternion: Option<&str>, con
 impl Cell {
     fn new(arguments: &CellArgs, console: &Console) -> Result<Self, Exit> {
         let model = machines::load(&arguments.machine, console)?;
-        let frame = |option: &str, text: &Option<String>| match text {
-            Some(text) => numbers::frame(option, text).map(Pose::from),
+        let frame = |option: &str, text: &Option<String>, example: &str| match text {
+            Some(text) => numbers::frame(option, text, example).map(Pose::from),
             None => Ok(Pose::IDENTITY),
         };
         let told = |failure: Failure| console.failure(&failure);
+        let blade_in_flange = frame("--tool", &arguments.tool, "0,0,310,0,0,0").map_err(told)?;
+        let work_in_root = frame("--base", &arguments.base, "1800,0,700,0,0,0").map_err(told)?;
         let what = match (&arguments.tool, model.kind()) {
             (Some(_), _) => "blade",
             (None, MachineKind::Robot) => "flange",
@@ -121,8 +126,8 @@ impl Cell {
         };
         Ok(Self {
             pose_of: format!("{what} in the {seen_from}"),
-            blade_in_flange: frame("--tool", &arguments.tool).map_err(told)?,
-            work_in_root: frame("--base", &arguments.base).map_err(told)?,
+            blade_in_flange,
+            work_in_root,
             model,
         })
     }
@@ -154,15 +159,18 @@ fn turns_of(axis: &Axis, value: f64) -> Vec<f64> {
     match axis.kind {
         AxisKind::Linear => vec![value],
         AxisKind::Rotary => {
-            let within = ((axis.min - AT_LIMIT - value) / TAU).ceil();
-            let count = ((axis.max + AT_LIMIT - value) / TAU).floor() - within;
+            // Limits may be far out or infinite; nobody needs the turns there.
+            let far = TAU * FARTHEST_TURN;
+            let (min, max) = (axis.min.max(value - far), axis.max.min(value + far));
+            let within = ((min - AT_LIMIT - value) / TAU).ceil();
+            let count = ((max + AT_LIMIT - value) / TAU).floor() - within;
             let first = value + TAU * within;
             if count >= 0.0 {
                 (0..MOST_TURNS)
                     .map(|turn| first + TAU * turn as f64)
-                    .take_while(|turned| *turned <= axis.max + AT_LIMIT)
+                    .take_while(|turned| *turned <= max + AT_LIMIT)
                     .collect()
-            } else if first - axis.max <= axis.min - (first - TAU) {
+            } else if first - max <= min - (first - TAU) {
                 vec![first]
             } else {
                 vec![first - TAU]
@@ -206,6 +214,8 @@ mod tests {
         assert_eq!(turns(-360.0, 360.0, 0.0), [-360, 0, 360]);
         assert_eq!(turns(-185.0, 185.0, 180.0), [-180, 180]);
         assert_eq!(turns(100.0, 200.0, -170.0), [190]);
+        assert_eq!(turns(700.0, 720.0, -10.0), [710]);
+        assert_eq!(turns(f64::NEG_INFINITY, f64::INFINITY, 0.0).len(), 9);
     }
 
     #[test]

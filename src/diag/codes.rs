@@ -152,6 +152,8 @@ codes! {
     NoCommonBranch = "VC0514", Error, "motions that no one way to stand carries";
     /// A move of all axes that leads through the stock.
     WayThroughStock = "VC0515", Error, "a way to or from home through the stock";
+    /// A posture for which the machine lacks an axis.
+    PostureNeedsAxis = "VC0516", Error, "a posture for which the machine lacks an axis";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";

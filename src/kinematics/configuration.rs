@@ -25,6 +25,33 @@ const ZERO_ANGLE: f64 = 1e-9;
 /// Distances (mm) up to this count as zero.
 const ZERO_DISTANCE: f64 = 1e-6;
 
+/// A branch in words: `wrist in front of axis 1, elbow folded forward, axis 5 positive`.
+#[must_use]
+pub fn branch_words(branch: Branch) -> String {
+    match branch {
+        Branch::Arm {
+            shoulder,
+            elbow,
+            wrist,
+        } => {
+            let shoulder = match shoulder {
+                Shoulder::Front => "wrist in front of axis 1",
+                Shoulder::Back => "wrist behind axis 1",
+            };
+            let elbow = match elbow {
+                Elbow::Forward => "forearm folded forward",
+                Elbow::Backward => "forearm folded back",
+            };
+            let wrist = match wrist {
+                Wrist::Positive => "axis 5 positive",
+                Wrist::Negative => "axis 5 negative",
+            };
+            format!("{shoulder}, {elbow}, {wrist}")
+        }
+        Branch::Numbered(number) => format!("solution {}", number.saturating_add(1)),
+    }
+}
+
 /// KUKA's status S; none for machines that are no such arms.
 #[must_use]
 pub const fn kuka_status(branch: Branch) -> Option<u8> {

@@ -20,12 +20,10 @@
 //!
 //! Positions follow from the angles: linear axes carry the nose to where it has to be.
 
-use super::jacobian::{Jacobian, Twist};
 use super::pose::Pose;
 use super::{Joints, Solution, Solutions};
 use core::f64::consts::TAU;
 use glam::{DMat3, DVec3};
-use vcutc_backend_api::ir::MOST_AXES;
 use vcutc_backend_api::motion::Branch;
 
 /// A direction along an axis of the machine frame.
@@ -291,36 +289,6 @@ impl FiveAxis {
         });
         let least = turned.into_iter().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
         least.is_finite().then_some(least)
-    }
-
-    /// What each axis does to the nose and to a point fixed to it, `point_in_nose` in mm, seen from the mount. Columns are in
-    /// mm/mm and 0 of linear axes, in mm/rad and rad/rad of rotary ones.
-    #[must_use]
-    pub fn jacobian(&self, joints: &Joints, point_in_nose: DVec3) -> Jacobian {
-        let frame_in_mount = self.mount_in_frame(joints).inverse();
-        let nose = self.forward(joints);
-        let point = nose.rotation * point_in_nose + nose.position;
-        let mut columns = [Twist::ZERO; MOST_AXES];
-        for (column, direction) in columns.iter_mut().zip([DVec3::X, DVec3::Y, DVec3::Z]) {
-            column.linear = frame_in_mount.rotation * direction;
-        }
-        let carriage = Pose {
-            rotation: DMat3::IDENTITY,
-            position: DVec3::new(joints[0], joints[1], joints[2]),
-        };
-        // Turning the work one way is turning the blade the other way.
-        let head = (self.head().collect::<Vec<_>>(), frame_in_mount * carriage, 1.0);
-        let table = (self.table().collect::<Vec<_>>(), frame_in_mount, -1.0);
-        for (axes, mut carrier, sense) in [head, table] {
-            for (rotary, place) in axes {
-                let angular = carrier.rotation * rotary.about.vector() * sense;
-                let centre = carrier.rotation * rotary.centre + carrier.position;
-                let linear = angular.cross(point - centre);
-                columns[place] = Twist { linear, angular };
-                carrier = carrier * rotary.turned(joints[place]);
-            }
-        }
-        Jacobian { columns }
     }
 
     /// The numbers of the branches.

@@ -2,12 +2,15 @@
 //!
 //! A column tells what one axis does alone at one unit of rate (1 rad/s, or 1 mm/s of a linear axis): the velocity of a
 //! point of the body and the angular velocity of the body, both along the axes of the **root**. With `J` the matrix of these
-//! columns, `twist = J rates`; the reverse, `rates = J^-1 twist`, is equation 16 of Ha 2019 (`docs/references.md`). It has
+//! columns, `twist = J rates`; the reverse, `rates = J^-1 twist`, is [Ha 2019] equation 16. It has
 //! no answer where the columns lose their independence: in singular poses.
 
 use super::Joints;
-use glam::DVec3;
-use nalgebra::{SMatrix, SVD, SVector};
+use super::five_axis::FiveAxis;
+use super::pose::Pose;
+use super::serial::JointAxis;
+use glam::{DMat3, DVec3};
+use nalgebra::{SMatrix, SVector};
 use vcutc_backend_api::ir::MOST_AXES;
 
 /// The velocity of a body: of one of its points, and of its turning. Along the axes of the root.
@@ -36,9 +39,12 @@ pub(super) type Column = SVector<f64, MOST_AXES>;
 /// a Jacobian is.
 const METRE: f64 = 1000.0;
 
-/// Smallest over largest singular value below which a Jacobian counts as singular: there the rates that come out have lost
-/// half of their digits.
+/// Smallest over largest diagonal entry of the triangle below which a Jacobian counts as singular: rates found there would
+/// have lost half of their digits.
 const SINGULAR: f64 = 1e-9;
+
+/// How much of a twist may be missing that axes which do not exist would have to give: rounding.
+const MISSED: f64 = 1e-9;
 
 /// Most sweeps of the singular value decomposition. It takes about ten.
 const MOST_SWEEPS: usize = 200;
@@ -71,28 +77,58 @@ impl Jacobian {
 
     /// The rates, in rad/s and mm/s, that give a twist. Axes that do not exist rest.
     ///
-    /// None where the pose is singular (see [`Jacobian::conditioning`]), and where a machine with fewer than six axes cannot
-    /// move that way.
+    /// None in singular poses, and where a machine with fewer than six axes cannot move that way.
     #[must_use]
     pub fn rates(&self, twist: &Twist) -> Option<Joints> {
-        let (svd, conditioning) = self.decomposed()?;
-        if conditioning <= SINGULAR {
+        let square = self.square(METRE);
+        let wanted = twist.column(METRE);
+        if !square.iter().chain(wanted.iter()).all(|entry| entry.is_finite()) {
             return None;
         }
-        let wanted = twist.column(METRE);
-        // Zero columns, of axes that do not exist, have singular values of zero and are left out by the threshold.
-        let threshold = svd.singular_values.max() * SINGULAR;
-        let rates = svd.solve(&wanted, threshold).ok()?;
-        let missed = (self.square(METRE) * rates - wanted).norm();
-        let given = missed <= 1e-6 * wanted.norm() && rates.iter().all(|rate| rate.is_finite());
+        // By orthogonal triangles, the columns of axes that do not exist last: what is left of the twist below the
+        // triangle of the others cannot be given.
+        let axes = self.axes();
+        let qr = square.col_piv_qr();
+        let triangle = qr.r();
+        let last = axes.checked_sub(1)?;
+        let (largest, least) = (triangle[(0, 0)].abs(), triangle[(last, last)].abs());
+        let mut rates = qr.q().transpose() * wanted;
+        let missed = rates.rows(axes, MOST_AXES - axes).norm();
+        if !(least > SINGULAR * largest && missed <= MISSED * wanted.norm()) {
+            return None;
+        }
+        rates.rows_mut(axes, MOST_AXES - axes).fill(0.0);
+        let solved = triangle
+            .view((0, 0), (axes, axes))
+            .solve_upper_triangular_mut(&mut rates.rows_mut(0, axes));
+        qr.p().inv_permute_rows(&mut rates);
+        let given = solved && rates.iter().all(|rate| rate.is_finite());
         given.then(|| rates.into())
+    }
+
+    /// The inverse of the matrix: for each axis by how much it moves for a mm a second of the point along x, y and z, and for
+    /// a rad a second about x, y and z.
+    ///
+    /// None where rounding leaves no inverse, as for machines with fewer than six axes.
+    #[must_use]
+    pub fn inverse(&self) -> Option<[[f64; MOST_AXES]; MOST_AXES]> {
+        let inverse = self.square(1.0).try_inverse()?;
+        let finite = inverse.iter().all(|entry| entry.is_finite());
+        finite.then(|| core::array::from_fn(|i| core::array::from_fn(|k| inverse[(i, k)])))
     }
 
     /// How far from singular the pose is: the smallest singular value over the largest, of the axes that exist, with lengths
     /// in metres. 0 in a singular pose, at most 1; 0 as well for a Jacobian with numbers that are not finite.
     #[must_use]
     pub fn conditioning(&self) -> f64 {
-        self.decomposed().map_or(0.0, |(_, conditioning)| conditioning)
+        let ratio = || {
+            let values = singular_values(&self.square(METRE))?;
+            // In falling order, so those of the axes that exist come first.
+            let least = values.get(self.axes().checked_sub(1)?)?;
+            let ratio = least / values.max();
+            ratio.is_finite().then_some(ratio)
+        };
+        ratio().unwrap_or(0.0)
     }
 
     /// The matrix, lengths in units of `length` mm.
@@ -100,26 +136,70 @@ impl Jacobian {
         Square::from_columns(&self.columns.map(|column| column.column(length)))
     }
 
-    fn decomposed(&self) -> Option<(SVD<f64, nalgebra::U6, nalgebra::U6>, f64)> {
-        let square = self.square(METRE);
-        if !square.iter().all(|entry| entry.is_finite()) {
-            return None;
-        }
-        let axes = self
-            .columns
+    /// How many axes exist.
+    fn axes(&self) -> usize {
+        self.columns
             .iter()
             .filter(|column| **column != Twist::ZERO)
-            .count();
-        // Singular values come in falling order, so those of the axes that exist come first.
-        let svd = square.try_svd(true, true, f64::EPSILON, MOST_SWEEPS)?;
-        let largest = svd.singular_values.max();
-        let smallest = *svd.singular_values.get(axes.checked_sub(1)?)?;
-        (largest > 0.0).then(|| (svd, smallest / largest))
+            .count()
     }
 }
 
-/// The distance of a matrix from the nearest singular one.
-pub(super) fn least_singular_value(square: &Square) -> Option<f64> {
-    let svd = square.try_svd(false, false, f64::EPSILON, MOST_SWEEPS)?;
-    Some(svd.singular_values.min())
+/// Whether every singular matrix is farther than this from a matrix: whether all its singular values are larger, that is,
+/// whether `M^T M - distance^2` is positive definite. That is far quicker to find out than the values.
+pub(super) fn keeps_from_singular(square: &Square, distance: f64) -> bool {
+    let rest = square.transpose() * square - Square::identity() * (distance * distance);
+    rest.cholesky().is_some()
 }
+
+/// In falling order.
+fn singular_values(square: &Square) -> Option<Column> {
+    if !square.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let svd = square.try_svd(false, false, f64::EPSILON, MOST_SWEEPS)?;
+    Some(svd.singular_values)
+}
+
+impl FiveAxis {
+    /// What each axis does to the spindle nose and to a point fixed to it, `point_in_nose` in mm, seen from the mount. A
+    /// table moves the work, and so all that is seen from it, the other way.
+    #[must_use]
+    pub fn jacobian(&self, joints: &Joints, point_in_nose: DVec3) -> Jacobian {
+        let mut lines: [Option<JointAxis>; MOST_AXES] = [None; MOST_AXES];
+        let mut here_in_mount = self.mount_at_zero().inverse();
+        for (rotary, place) in self.table().rev() {
+            let line = JointAxis {
+                point: rotary.centre,
+                direction: -rotary.about.vector(),
+            };
+            lines[place] = Some(line.moved(&here_in_mount));
+            here_in_mount = here_in_mount * rotary.turned(joints[place]).inverse();
+        }
+        let frame_in_mount = here_in_mount.rotation;
+        let [x, y, z, ..] = *joints;
+        here_in_mount = here_in_mount
+            * Pose {
+                rotation: DMat3::IDENTITY,
+                position: DVec3::new(x, y, z),
+            };
+        for (rotary, place) in self.head() {
+            let line = JointAxis {
+                point: rotary.centre,
+                direction: rotary.about.vector(),
+            };
+            lines[place] = Some(line.moved(&here_in_mount));
+            here_in_mount = here_in_mount * rotary.turned(joints[place]);
+        }
+        let nose_in_mount = here_in_mount * self.nose_at_zero();
+        let point = nose_in_mount.rotation * point_in_nose + nose_in_mount.position;
+        let mut columns = lines.map(|line| line.map_or(Twist::ZERO, |line| line.twist(point)));
+        for (column, direction) in columns.iter_mut().zip([DVec3::X, DVec3::Y, DVec3::Z]) {
+            column.linear = frame_in_mount * direction;
+        }
+        Jacobian { columns }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -4,16 +4,21 @@
 //! robot the flange in the frame of its foot, for a five-axis machine the spindle nose in the frame in which work is
 //! mounted. Lengths are in mm, angles in rad.
 
+pub mod batch;
+mod closed_form;
 pub mod configuration;
 pub mod five_axis;
 pub mod jacobian;
+mod lanes;
 pub mod mounted;
 pub mod newton;
 pub mod opw;
 pub mod pose;
+pub mod recognise;
 #[cfg(test)]
 pub(crate) mod samples;
 pub mod serial;
+pub mod trig;
 
 use five_axis::FiveAxis;
 use glam::DVec3;
@@ -33,12 +38,12 @@ pub type Joints = [f64; MOST_AXES];
 pub enum Mechanism {
     /// An arm with an ortho-parallel basis and a spherical wrist.
     OrthoParallel(Opw),
-    /// Three linear axes and two or three rotary ones.
-    FiveAxis(FiveAxis),
     /// The same between a foot and a flange that others have chosen.
     Mounted(Mounted),
     /// Any other arm of six revolute joints.
     Serial(SerialArm),
+    /// Three linear axes and two or three rotary ones.
+    FiveAxis(FiveAxis),
 }
 
 /// One way to reach a pose. Angles of rotary axes are within half a turn either way; other turns of the same axis are for
@@ -57,25 +62,31 @@ pub const MOST_BRANCHES: usize = 16;
 /// All ways to reach a pose, in the order of their branches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solutions {
-    found: [Option<Solution>; MOST_BRANCHES],
+    found: [Solution; MOST_BRANCHES],
+    count: usize,
 }
 
 impl Solutions {
     /// No way.
     pub const NONE: Self = Self {
-        found: [None; MOST_BRANCHES],
+        found: [Solution {
+            branch: Branch::Numbered(0),
+            joints: [0.0; MOST_AXES],
+        }; MOST_BRANCHES],
+        count: 0,
     };
 
     /// Adds a way; one beyond the last place is dropped.
     pub fn push(&mut self, solution: Solution) {
-        if let Some(place) = self.found.iter_mut().find(|place| place.is_none()) {
-            *place = Some(solution);
+        if let Some(place) = self.found.get_mut(self.count) {
+            *place = solution;
+            self.count += 1;
         }
     }
 
     /// The ways.
-    pub fn iter(&self) -> impl Iterator<Item = &Solution> {
-        self.found.iter().flatten()
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Solution> {
+        self.found.iter().take(self.count)
     }
 }
 
@@ -94,9 +105,9 @@ impl Mechanism {
     pub fn flange_in_root(&self, joints: &Joints) -> Pose {
         match self {
             Self::OrthoParallel(arm) => arm.forward(joints),
-            Self::FiveAxis(machine) => machine.forward(joints),
             Self::Mounted(arm) => arm.forward(joints),
             Self::Serial(arm) => arm.forward(joints),
+            Self::FiveAxis(machine) => machine.forward(joints),
         }
     }
 
@@ -106,9 +117,9 @@ impl Mechanism {
     pub fn all(&self, flange_in_root: &Pose) -> Solutions {
         match self {
             Self::OrthoParallel(arm) => arm.inverse(flange_in_root),
-            Self::FiveAxis(machine) => machine.inverse(flange_in_root),
             Self::Mounted(arm) => arm.inverse(flange_in_root),
             Self::Serial(arm) => newton::search(arm, flange_in_root),
+            Self::FiveAxis(machine) => machine.inverse(flange_in_root),
         }
     }
 
@@ -119,12 +130,12 @@ impl Mechanism {
     pub fn on_branch(&self, flange_in_root: &Pose, branch: Branch, near: &Joints) -> Option<Joints> {
         match self {
             Self::OrthoParallel(arm) => arm.on_branch(flange_in_root, branch, near),
-            Self::FiveAxis(machine) => machine.on_branch(flange_in_root, branch, near),
             Self::Mounted(arm) => arm.on_branch(flange_in_root, branch, near),
             Self::Serial(arm) => match branch {
                 Branch::Numbered(_) => newton::follow(arm, flange_in_root, near),
                 Branch::Arm { .. } => None,
             },
+            Self::FiveAxis(machine) => machine.on_branch(flange_in_root, branch, near),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Inverse kinematics by damped Newton-Raphson, for arms without a closed form.
 //!
-//! The equations `f(q, p) = 0` of Ha 2019 (equations 8 to 11) say that the flange is where it should be. They are six: the
+//! The equations `f(q, p) = 0` of [Ha 2019], 8 to 11, say that the flange is where it should be. They are six: the
 //! error is the twist that would carry the flange there in one unit of time, its linear part in units of the arm's
 //! [size](SerialArm::size), its angular part a rotation vector, so that 1 rad counts as much as the arm's size in mm.
 //! A step `d` solves `(J^T J + damping) d = J^T error` (Levenberg 1944, Marquardt 1963). Far away damping keeps steps short;
@@ -12,7 +12,7 @@
 //! that all solutions are found. [`search`] finds those that its starts lead to; [`follow`] goes there in small steps, and
 //! where it has no answer the branch may still have one that only a detour would reach.
 
-use super::jacobian::{Column, Square, Twist, least_singular_value};
+use super::jacobian::{Column, Square, Twist, keeps_from_singular};
 use super::pose::Pose;
 use super::serial::SerialArm;
 use super::{Joints, MOST_BRANCHES, Solution, Solutions};
@@ -184,8 +184,7 @@ fn is_safe_stride(arm: &SerialArm, joints: &Joints, next: &Joints) -> bool {
     let scaled = |joints| arm.jacobian(joints, DVec3::ZERO).square(arm.size());
     let before = scaled(joints);
     let changed = (scaled(next) - before).norm();
-    most_turn(next, joints) <= MOST_TURN
-        && least_singular_value(&before).is_some_and(|room| changed <= SAFE_CHANGE * room)
+    most_turn(next, joints) <= MOST_TURN && keeps_from_singular(&before, changed / SAFE_CHANGE)
 }
 
 fn on_the_way(from: &Pose, way: &Twist, part: f64) -> Pose {
@@ -256,7 +255,7 @@ fn same(a: &Joints, b: &Joints) -> bool {
 
 /// Start number `n` in the six-dimensional cube of all angles: the additive recurrence whose steps are powers of the root of
 /// `x^7 = x + 1`, which fills it evenly (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
-fn spread(n: u32) -> Joints {
+pub(super) fn spread(n: u32) -> Joints {
     const ROOT: f64 = 1.112_775_684_278_705_5;
     let mut share = 1.0;
     core::array::from_fn(|_| {

@@ -8,11 +8,29 @@
 //!
 //! and at `q = 0` the arm is stretched upwards. The controller's angles `J` give `q_i = sign_i J_i - offset_i`; on arms with
 //! a parallelogram J3 counts the inclination of the upper arm, and `J3 - J2` takes its place.
+//!
+//! # Branches
+//!
+//! A pose has up to eight solutions: the wrist centre in front of axis 1 or behind, the forearm folded forward or backward,
+//! the hand bent to one side or the other. Every answer has been checked: forward kinematics of the joints as they are
+//! returned gives the pose to 1e-6 mm and 1e-9 rad. (Away from where poses cease to be reachable it gives it to 1e-11 mm.)
+//!
+//! # Singular poses
+//!
+//! * **Arm stretched or folded:** both elbows are the same, and both are listed. Poses beyond reach by rounding, that is by
+//!   up to 1e-6 mm, count as reached.
+//! * **Hand stretched** (J5 at zero, axes 4 and 6 in line, to 1e-13 rad): both wrists are the same. J4 is free;
+//!   [`Opw::inverse`] sets its model angle to zero, [`Opw::on_branch`] keeps that of the joints nearby. J6 does the rest.
+//! * **Wrist centre on axis 1** (to 1e-12 mm, on arms without `b`): J1 is free, with the same choice. Shoulders in front and
+//!   behind then differ by half a turn of the arm, which reach different elbows.
+//!
+//! Near to these poses answers are as precise as elsewhere: axis 6 is found from the axis 4 that was chosen, not from the
+//! pose alone.
 
+use super::closed_form::{Arm, Sides};
+use super::lanes::{AllBranches, Forward, OneBranch};
 use super::pose::Pose;
 use super::{Joints, Solution, Solutions};
-use core::f64::consts::{PI, TAU};
-use glam::{DMat3, DVec3};
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 
 /// Lengths (mm), zero offsets (rad) and senses of an ortho-parallel arm with a spherical wrist.
@@ -32,7 +50,8 @@ pub struct Opw {
     pub c3: f64,
     /// From the wrist centre to the flange.
     pub c4: f64,
-    /// `offset_i`.
+    /// `offset_i`. The wrist's branch is the sign of J5 where that of axis 5 is zero, as on all arms known to us; otherwise the
+    /// sign of J5 counted from the stretched hand.
     pub offsets: Joints,
     /// `sign_i`, 1 or -1.
     pub signs: Joints,
@@ -49,132 +68,97 @@ pub enum Coupling {
     Parallelogram,
 }
 
-/// How far the flange may be from where an answer should bring it, in mm and as Frobenius norm.
-const RESIDUAL: (f64, f64) = (1e-6, 1e-9);
-
 impl Opw {
-    /// The flange in the root.
+    /// The flange in the root. Finite joints give a finite pose.
     #[must_use]
     pub fn forward(&self, joints: &Joints) -> Pose {
-        let q = self.model_angles(joints);
-        let upright = DMat3::from_rotation_z(q[0]);
-        let upper = upright * DMat3::from_rotation_y(q[1]);
-        let fore = upper * DMat3::from_rotation_y(q[2]);
-        let hand =
-            fore * DMat3::from_rotation_z(q[3]) * DMat3::from_rotation_y(q[4]) * DMat3::from_rotation_z(q[5]);
-        let position = DVec3::new(0.0, 0.0, self.c1)
-            + upright * DVec3::new(self.a1, self.b, 0.0)
-            + upper * DVec3::new(0.0, 0.0, self.c2)
-            + fore * DVec3::new(self.a2, 0.0, self.c3)
-            + hand * DVec3::new(0.0, 0.0, self.c4);
-        Pose {
-            rotation: hand,
-            position,
+        Forward {
+            arm: &Arm::new(self),
+            joints,
         }
+        .solve()
     }
 
-    /// All ways to bring the flange there.
+    /// All ways to bring the flange there, in the order of [`BRANCHES`].
     #[must_use]
     pub fn inverse(&self, flange_in_root: &Pose) -> Solutions {
+        let lanes = AllBranches {
+            arm: &Arm::new(self),
+            flange_in_root,
+        }
+        .solve();
         let mut solutions = Solutions::NONE;
-        for shoulder in [Shoulder::Front, Shoulder::Back] {
-            for elbow in [Elbow::Forward, Elbow::Backward] {
-                for wrist in [Wrist::Positive, Wrist::Negative] {
-                    if let Some(joints) = self.solve(flange_in_root, shoulder, elbow, wrist) {
-                        let branch = Branch::Arm {
-                            shoulder,
-                            elbow,
-                            wrist,
-                        };
-                        solutions.push(Solution { branch, joints });
-                    }
-                }
+        for (lane, branch) in BRANCHES.into_iter().enumerate() {
+            if let Some(joints) = lanes.get(lane) {
+                solutions.push(Solution { branch, joints });
             }
         }
         solutions
     }
 
-    /// The way on a branch, each angle within half a turn of `near`.
+    /// The way on a branch, each joint within half a turn of `near`. In a singular pose the joint that the pose leaves free
+    /// (J1 with the wrist centre on axis 1, J4 with a stretched hand) stays where `near` has it.
     #[must_use]
     pub fn on_branch(&self, flange_in_root: &Pose, branch: Branch, near: &Joints) -> Option<Joints> {
-        let Branch::Arm {
+        OneBranch {
+            arm: &Arm::new(self),
+            flange_in_root,
+            sides: sides(branch)?,
+            near,
+        }
+        .solve()
+    }
+}
+
+/// The branches of an ortho-parallel arm, in the order in which they are listed everywhere.
+pub const BRANCHES: [Branch; 8] = {
+    const fn branch(shoulder: Shoulder, elbow: Elbow, wrist: Wrist) -> Branch {
+        Branch::Arm {
             shoulder,
             elbow,
             wrist,
-        } = branch
-        else {
-            return None;
-        };
-        let mut joints = self.solve(flange_in_root, shoulder, elbow, wrist)?;
-        for (joint, near) in joints.iter_mut().zip(near) {
-            *joint += TAU * ((near - *joint) / TAU).round();
         }
-        Some(joints)
     }
+    use Elbow::{Backward, Forward};
+    use Shoulder::{Back, Front};
+    use Wrist::{Negative, Positive};
+    [
+        branch(Front, Forward, Positive),
+        branch(Front, Forward, Negative),
+        branch(Front, Backward, Positive),
+        branch(Front, Backward, Negative),
+        branch(Back, Forward, Positive),
+        branch(Back, Forward, Negative),
+        branch(Back, Backward, Positive),
+        branch(Back, Backward, Negative),
+    ]
+};
 
-    fn solve(&self, flange_in_root: &Pose, shoulder: Shoulder, elbow: Elbow, wrist: Wrist) -> Option<Joints> {
-        let rotation = flange_in_root.rotation;
-        let centre = flange_in_root.position - rotation.z_axis * self.c4;
-        // In the frame that turns with axis 1 the wrist centre lies at (x, b, z - c1).
-        let square = centre.x * centre.x + centre.y * centre.y - self.b * self.b;
-        let x = match shoulder {
-            Shoulder::Front => within(square)?,
-            Shoulder::Back => -within(square)?,
-        };
-        let q1 = libm::atan2(centre.y, centre.x) - libm::atan2(self.b, x);
-        let (along, up) = (x - self.a1, centre.z - self.c1);
-        let fore = libm::hypot(self.a2, self.c3);
-        let cosine = (along * along + up * up - self.c2 * self.c2 - fore * fore) / (2.0 * self.c2 * fore);
-        let sine = match elbow {
-            Elbow::Forward => within(1.0 - cosine * cosine)?,
-            Elbow::Backward => -within(1.0 - cosine * cosine)?,
-        };
-        let psi = libm::atan2(sine, cosine);
-        let q2 = libm::atan2(along, up) - libm::atan2(fore * sine, self.c2 + fore * cosine);
-        let q3 = psi - libm::atan2(self.a2, self.c3);
-        let forearm = DMat3::from_rotation_z(q1) * DMat3::from_rotation_y(q2 + q3);
-        let hand = forearm.transpose() * rotation;
-        let bent = libm::hypot(hand.z_axis.x, hand.z_axis.y);
-        // `wrist` is the sign of J5, the sense in which the controller counts.
-        let side = match wrist {
-            Wrist::Positive => self.signs[4],
-            Wrist::Negative => -self.signs[4],
-        };
-        let q5 = libm::atan2(side * bent, hand.z_axis.z);
-        let q4 = libm::atan2(side * hand.z_axis.y, side * hand.z_axis.x);
-        let q6 = libm::atan2(side * hand.y_axis.z, -side * hand.x_axis.z);
-        let joints = self.controller_angles([q1, q2, q3, q4, q5, q6]);
-        let (apart, turned) = self.forward(&joints).apart(flange_in_root);
-        (apart <= RESIDUAL.0 && turned <= RESIDUAL.1).then_some(joints)
-    }
-
-    fn model_angles(&self, joints: &Joints) -> Joints {
-        let [j1, j2, j3, j4, j5, j6] = *joints;
-        let elbow = match self.coupling {
-            Coupling::Serial => j3,
-            Coupling::Parallelogram => j3 - j2,
-        };
-        let j = [j1, j2, elbow, j4, j5, j6];
-        core::array::from_fn(|i| self.signs[i] * j[i] - self.offsets[i])
-    }
-
-    /// Within half a turn either way.
-    fn controller_angles(&self, q: Joints) -> Joints {
-        let mut j: Joints = core::array::from_fn(|i| wrapped((q[i] + self.offsets[i]) * self.signs[i]));
-        if self.coupling == Coupling::Parallelogram {
-            j[2] = wrapped(j[2] + j[1]);
-        }
-        j
-    }
+/// A branch in factors; none for a branch that such an arm does not have.
+pub(super) const fn sides(branch: Branch) -> Option<Sides> {
+    let (shoulder, elbow, wrist) = match branch {
+        Branch::Arm {
+            shoulder,
+            elbow,
+            wrist,
+        } => (shoulder, elbow, wrist),
+        Branch::Numbered(_) => return None,
+    };
+    Some(Sides {
+        shoulder: match shoulder {
+            Shoulder::Front => 1.0,
+            Shoulder::Back => -1.0,
+        },
+        elbow: match elbow {
+            Elbow::Forward => 1.0,
+            Elbow::Backward => -1.0,
+        },
+        wrist: match wrist {
+            Wrist::Positive => 1.0,
+            Wrist::Negative => -1.0,
+        },
+    })
 }
 
-/// The root of a number that may be a hair below zero by rounding.
-fn within(square: f64) -> Option<f64> {
-    (square >= 0.0).then(|| square.sqrt())
-}
-
-fn wrapped(angle: f64) -> f64 {
-    let turns = (angle / TAU).round();
-    let rest = angle - TAU * turns;
-    if rest <= -PI { rest + TAU } else { rest }
-}
+#[cfg(test)]
+mod tests;

@@ -1,11 +1,12 @@
 //! Arms for tests, by published numbers.
 
 use super::Joints;
+use super::mounted::Mounted;
 use super::opw::{Coupling, Opw};
 use super::pose::Pose;
 use super::serial::{JointAxis, SerialArm};
 use core::f64::consts::FRAC_PI_2;
-use glam::DVec3;
+use glam::{DMat3, DVec3, EulerRot};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// KUKA KR 210 R3100 ultra.
@@ -37,6 +38,21 @@ pub(crate) fn irb2400() -> Opw {
         offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, 0.0],
         signs: [1.0; 6],
         coupling: Coupling::Parallelogram,
+    }
+}
+
+/// The KUKA hung up at a slant, with a flange that is turned as well.
+pub(crate) fn mounted() -> Mounted {
+    Mounted {
+        foot_in_root: Pose {
+            rotation: DMat3::from_euler(EulerRot::ZYX, 0.3, -1.2, 2.0),
+            position: DVec3::new(120.0, -40.0, 900.0),
+        },
+        arm: kr210(),
+        flange_in_hand: Pose {
+            rotation: DMat3::from_euler(EulerRot::ZYX, -0.4, 0.9, 1.0),
+            position: DVec3::new(3.0, -5.0, 17.0),
+        },
     }
 }
 
@@ -81,7 +97,7 @@ pub(crate) fn pose(isometry: &Isometry3<f64>) -> Pose {
     let columns = isometry.rotation.to_rotation_matrix();
     let column = |i: usize| DVec3::from_slice(columns.matrix().column(i).as_slice());
     Pose {
-        rotation: glam::DMat3::from_cols(column(0), column(1), column(2)),
+        rotation: DMat3::from_cols(column(0), column(1), column(2)),
         position: DVec3::from_slice(isometry.translation.vector.as_slice()),
     }
 }

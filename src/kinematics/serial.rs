@@ -54,11 +54,20 @@ impl JointAxis {
         }
     }
 
-    /// The line where a motion of its body brings it.
-    fn moved(&self, motion: &Pose) -> Self {
+    /// The line where a motion of its body brings it; the line in an outer frame, for `inner_in_outer`.
+    #[must_use]
+    pub fn moved(&self, motion: &Pose) -> Self {
         Self {
             point: motion.rotation * self.point + motion.position,
             direction: motion.rotation * self.direction,
+        }
+    }
+
+    /// What turning about the line at 1 rad/s does to a body and to a point of it.
+    pub(super) fn twist(&self, point: DVec3) -> Twist {
+        Twist {
+            linear: self.direction.cross(point - self.point),
+            angular: self.direction,
         }
     }
 
@@ -132,10 +141,7 @@ impl SerialArm {
     pub(super) fn flange_and_jacobian(&self, joints: &Joints, point_in_flange: DVec3) -> (Pose, Jacobian) {
         let Posed { axes, flange_in_root } = self.posed(joints);
         let point = flange_in_root.rotation * point_in_flange + flange_in_root.position;
-        let mut columns = axes.map(|axis| Twist {
-            linear: axis.direction.cross(point - axis.point),
-            angular: axis.direction,
-        });
+        let mut columns = axes.map(|axis| axis.twist(point));
         match self.coupling {
             Coupling::Serial => {}
             Coupling::Parallelogram => {

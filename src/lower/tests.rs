@@ -138,6 +138,21 @@ fn cuts_run_the_way_that_is_asked_for_with_a_leading_edge() {
 }
 
 #[test]
+fn from_home_the_blade_comes_by_a_move_of_all_axes_and_then_never_again() {
+    for (.., program) in programs() {
+        let by_axes: Vec<usize> = (0..program.ops.len())
+            .filter(|&place| matches!(program.ops[place].action, Action::AxisTravel { .. }))
+            .collect();
+        let first = program
+            .ops
+            .iter()
+            .position(|op| !matches!(op.action, Action::Home))
+            .unwrap();
+        assert_eq!(by_axes, [first]);
+    }
+}
+
+#[test]
 fn no_turn_comes_near_half_a_revolution() {
     for (.., program) in programs() {
         for (_, before, after) in poses(&program) {

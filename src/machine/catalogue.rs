@@ -300,13 +300,12 @@ mod tests {
 
     #[test]
     fn parallelograms_are_those_with_rods() {
+        use crate::kinematics::Mechanism;
         use crate::kinematics::opw::Coupling;
         let coupled: Vec<_> = names()
-            .filter(|name| {
-                let mechanism = sheet(name).unwrap().mechanism;
-                mechanism
-                    .ortho_parallel()
-                    .is_some_and(|arm| arm.coupling == Coupling::Parallelogram)
+            .filter(|name| match sheet(name).unwrap().mechanism {
+                Mechanism::OrthoParallel(arm) => arm.coupling == Coupling::Parallelogram,
+                Mechanism::Mounted(_) | Mechanism::Serial(_) | Mechanism::FiveAxis(_) => false,
             })
             .collect();
         assert_eq!(coupled, ["abb/irb2400_16", "abb/irb6660_205_190"]);

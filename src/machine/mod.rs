@@ -8,6 +8,7 @@ pub mod flaw;
 mod robot;
 pub mod sheet;
 mod table;
+pub mod urdf;
 
 use crate::kinematics::Mechanism;
 use flaw::Flaw;
@@ -71,10 +72,20 @@ impl Origin {
 pub fn read(name: &str, kind: FileKind, text: &str) -> Result<Model, Vec<Flaw>> {
     match kind {
         FileKind::Sheet => sheet::parse(text).map(|sheet| sheet.machine(name)),
-        FileKind::Urdf => Err(vec![Flaw::new(
-            0..0,
-            "robots described by URDF cannot be read",
-            "not supported",
-        )]),
+        FileKind::Urdf => urdf::parse(name, text, urdf::Flange::ByConvention),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_with_the_ending_of_a_description_are_files() {
+        assert_eq!(Origin::of("kuka/kr210_r3100_ultra"), Origin::Catalogue);
+        assert_eq!(Origin::of("irb6700-200/2.60"), Origin::Catalogue);
+        assert_eq!(Origin::of("../shop/arm.v2.toml"), Origin::File(FileKind::Sheet));
+        assert_eq!(Origin::of("arm.urdf"), Origin::File(FileKind::Urdf));
+        assert_eq!(Origin::of(""), Origin::Catalogue);
     }
 }

@@ -90,7 +90,11 @@ impl<'t> Table<'t> {
         } else {
             format!("`{}`", self.title)
         };
-        let flaw = Flaw::new(span, format!("{holder} has no `{key}`"), "not a key of this form");
+        let flaw = Flaw::new(
+            span,
+            format!("{holder} has no `{}`", shown(key)),
+            "not a key of this form",
+        );
         let near: Vec<String> = nearest(key, known.iter().copied())
             .into_iter()
             .map(|name| format!("`{name}`"))
@@ -200,29 +204,22 @@ impl<'t> Table<'t> {
 
     /// The text under a key.
     pub(super) fn text(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<&'t str> {
-        let value = self.get(key)?;
-        match value.get_ref() {
-            DeValue::String(text) => Some(text),
-            other => {
-                flaws.push(wrong_kind(key, "a text in quotes", value.span(), other));
-                None
-            }
-        }
+        text(key, "a text in quotes", self.get(key)?, flaws)
     }
 
     /// The texts under a key: a list, or a single one.
     pub(super) fn texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<String> {
-        if let Some(DeValue::String(text)) = self.get(key).map(Spanned::get_ref) {
-            return vec![text.clone().into_owned()];
-        }
-        let mut texts = Vec::new();
-        for value in self.elements(key, "a list of texts", flaws) {
-            match value.get_ref() {
-                DeValue::String(text) => texts.push(text.clone().into_owned()),
-                other => flaws.push(wrong_kind(key, "texts in quotes", value.span(), other)),
-            }
-        }
-        texts
+        let single = self
+            .get(key)
+            .filter(|value| matches!(value.get_ref(), DeValue::String(_)));
+        let all = match single {
+            Some(single) => core::slice::from_ref(single),
+            None => self.elements(key, "a list of texts", flaws),
+        };
+        all.iter()
+            .filter_map(|value| text(key, "texts in quotes", value, flaws))
+            .map(str::to_owned)
+            .collect()
     }
 
     /// The names in a list under a key.
@@ -246,7 +243,7 @@ impl<'t> Table<'t> {
         let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
         let flaw = Flaw::new(
             self.span_of(key),
-            format!("`{key}` cannot be \"{given}\""),
+            format!("`{key}` cannot be \"{}\"", shown(given)),
             "not one of its words",
         );
         let near = nearest(given, known.iter().copied());
@@ -322,6 +319,40 @@ impl<'t> Table<'t> {
             }
         }
     }
+}
+
+/// A text that can be shown on a terminal: one that came in as `"\u001b[2J"` would clear it.
+fn text<'t>(
+    key: &str,
+    wanted: &str,
+    value: &'t Spanned<DeValue<'t>>,
+    flaws: &mut Vec<Flaw>,
+) -> Option<&'t str> {
+    let DeValue::String(text) = value.get_ref() else {
+        flaws.push(wrong_kind(key, wanted, value.span(), value.get_ref()));
+        return None;
+    };
+    let is_hidden = |letter: char| letter.is_control() && !letter.is_whitespace();
+    if text.contains(is_hidden) {
+        flaws.push(Flaw::new(
+            value.span(),
+            format!("the text of `{key}` has a character that cannot be shown"),
+            "a control character is in here",
+        ));
+        return None;
+    }
+    Some(text)
+}
+
+/// The beginning of a name that may be of any length, without what cannot be shown.
+fn shown(name: &str) -> String {
+    const MOST: usize = 40;
+    let mut letters = name.chars().filter(|letter| !letter.is_control());
+    let mut text: String = letters.by_ref().take(MOST).collect();
+    if letters.next().is_some() {
+        text.push_str("...");
+    }
+    text
 }
 
 /// A value of another kind than the key takes.

@@ -75,7 +75,8 @@ pub fn prove(
     };
     let (apart, turned) = rig.blade_in_work(start).apart(&course.from);
     let begins_there = apart <= SAME.0 && turned <= SAME.1;
-    if !begins_there || !(course.duration > 0.0 && course.duration.is_finite()) {
+    let takes_time = course.duration > 0.0 && course.duration.is_finite();
+    if !(begins_there && takes_time) {
         return Err(out_of_reach(0.0));
     }
     let end = machine

@@ -211,8 +211,8 @@ mod tests {
         let axis = Axis {
             name: "X".to_owned(),
             kind: AxisKind::Linear,
-            min: -1000.000_06,
-            max: 1234.567_89,
+            min: -1_000.000_06,
+            max: 1_234.567_89,
             rate: None,
             acceleration: None,
         };

@@ -4,7 +4,7 @@ use super::files::{not_loaded, text_of};
 use super::heads::MACHINES;
 use super::machine::Head;
 use super::names::did_you_mean;
-use super::report::Checked;
+use super::report::{Checked, Reports};
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
 use crate::machine::{self, FileKind, Model, Origin, catalogue};
@@ -15,10 +15,7 @@ use vcutc_backend_api::ir::MachineKind;
 /// The model, which is of the kind that the head says.
 pub(crate) fn resolve(head: &Head<'_>, session: &mut Session<'_>) -> Checked<Arc<Model>> {
     let model = match Origin::of(head.model.node) {
-        Origin::Catalogue => match catalogue::find(head.model.node) {
-            Some(model) => Arc::new(model),
-            None => return Err(session.reports.push(unknown(head.model))),
-        },
+        Origin::Catalogue => from_catalogue(head.model, session)?,
         Origin::File(kind) => from_file(kind, head.model, session)?,
     };
     if model.kind() == head.kind.node {
@@ -27,17 +24,43 @@ pub(crate) fn resolve(head: &Head<'_>, session: &mut Session<'_>) -> Checked<Arc
     Err(session.reports.push(wrong_kind(head, model.kind())))
 }
 
-fn unknown(model: Spanned<&str>) -> Diagnostic {
+/// The machine of that name. Each is read once, however many cells have one.
+fn from_catalogue(model: Spanned<&str>, session: &mut Session<'_>) -> Checked<Arc<Model>> {
+    if let Some(known) = session.machines.get(model.node) {
+        return known.clone();
+    }
+    match catalogue::find(model.node) {
+        Some(machine) => {
+            let machine = Arc::new(machine);
+            session
+                .machines
+                .insert(model.node.to_owned(), Ok(Arc::clone(&machine)));
+            Ok(machine)
+        }
+        // Not kept: every place that names it is to be told.
+        None => {
+            let diagnostic = unknown(model, &session.reports);
+            Err(session.reports.push(diagnostic))
+        }
+    }
+}
+
+fn unknown(model: Spanned<&str>, reports: &Reports) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::UnknownMachine,
         format!("there is no machine `{}` in the catalogue", model.node),
         model.span,
         "not in the catalogue",
     );
-    let names: Vec<String> = catalogue::near(model.node)
-        .iter()
-        .map(|name| format!("\"{name}\""))
-        .collect();
+    // Comparing with all names takes time, and nobody reads on.
+    let names: Vec<String> = if reports.are_many() {
+        Vec::new()
+    } else {
+        catalogue::near(model.node)
+            .iter()
+            .map(|name| format!("\"{name}\""))
+            .collect()
+    };
     let near: Vec<&str> = names.iter().map(String::as_str).collect();
     did_you_mean(diagnostic, model.span, &near).help(
         "`vcutc machines` lists them; a machine of your own is described in a file such as `\"arm.toml\"`",

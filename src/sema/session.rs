@@ -16,7 +16,7 @@ pub(crate) struct Session<'a> {
     pub(crate) reports: Reports,
     /// Files of which a part could not be read. What seems to be missing there may be in the unreadable part.
     damaged: BTreeMap<FileId, Reported>,
-    /// Machines described by files, by path: a shop may put one arm into several cells.
+    /// Machines read so far, by name of the catalogue or path of the file: a shop may put one arm into several cells.
     pub(crate) machines: BTreeMap<String, Checked<Arc<Model>>>,
     /// Set when definitions may be missing because a file could not be had or read in full.
     incomplete: Option<Reported>,

@@ -2,6 +2,7 @@
 
 mod gallery;
 mod jobs;
+mod kinematics;
 mod machines;
 mod place;
 mod refusals;

@@ -2,9 +2,9 @@
 //! the writer.
 
 #[path = "../../backends/krl/tests/support/expected.rs"]
-mod expected;
+pub(crate) mod expected;
 #[path = "../../backends/krl/tests/support/reader.rs"]
-mod reader;
+pub(crate) mod reader;
 
 use expected::{Rounding, compare, poses_agree, steps};
 use reader::{Event, Pose, Setting};
@@ -49,7 +49,7 @@ pub(crate) fn check(outcome: &Outcome, bundle: &Bundle) {
 /// `S` from the axes alone, by its definition: where the wrist centre is, seen from axis 1 and from the line through axes
 /// 2 and 3, and the sign of axis 5.
 #[expect(clippy::disallowed_methods, reason = "another sine than the compiler's")]
-fn status(arm: &Opw, axes: &AxisValues) -> u32 {
+pub(crate) fn status(arm: &Opw, axes: &AxisValues) -> u32 {
     let [_, a2, a3, _, a5, _] = axes.0;
     // Both lean forward from upright; A2 is counted from the upper arm lying forward.
     let upper = a2 + std::f64::consts::FRAC_PI_2;

@@ -14,11 +14,14 @@ mod codes;
 #[cfg(feature = "krl")]
 mod examples;
 #[cfg(feature = "krl")]
+mod five_axis;
 mod hostile;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;
+mod kinematics;
 #[cfg(feature = "krl")]
 mod krl_text;
+mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]
 mod pipeline;
@@ -29,6 +32,7 @@ mod published;
 mod reach;
 mod repository;
 mod schema;
+mod status;
 mod syntax;
 mod third_party;
 mod tidy;

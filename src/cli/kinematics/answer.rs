@@ -2,13 +2,13 @@
 
 use super::{AT_LIMIT, margin};
 use crate::cli::machines::{SCHEMA, axis_unit};
-use crate::kinematics::configuration::{Border, abb_confdata, borders, kuka_status, kuka_turn};
+use crate::kinematics::configuration::{Border, abb_confdata, borders, branch_words, kuka_status, kuka_turn};
 use crate::kinematics::{Joints, Mechanism};
 use crate::machine::Model;
 use serde_json::{Map, Value, json};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
-use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
+use vcutc_backend_api::motion::Branch;
 
 /// Where axis values bring a machine.
 pub(super) struct Reached<'m> {
@@ -179,31 +179,6 @@ fn turns(model: &Model, branch: Branch, joints: &Joints) -> Option<String> {
         Maker::Abb => abb_confdata(joints, branch, arm.coupling)
             .map(|[cf1, cf4, cf6, cfx]| format!("confdata [{cf1},{cf4},{cf6},{cfx}]")),
         Maker::Other => None,
-    }
-}
-
-fn branch_words(branch: Branch) -> String {
-    match branch {
-        Branch::Arm {
-            shoulder,
-            elbow,
-            wrist,
-        } => {
-            let shoulder = match shoulder {
-                Shoulder::Front => "wrist in front of axis 1",
-                Shoulder::Back => "wrist behind axis 1",
-            };
-            let elbow = match elbow {
-                Elbow::Forward => "forearm folded forward",
-                Elbow::Backward => "forearm folded back",
-            };
-            let wrist = match wrist {
-                Wrist::Positive => "axis 5 positive",
-                Wrist::Negative => "axis 5 negative",
-            };
-            format!("{shoulder}, {elbow}, {wrist}")
-        }
-        Branch::Numbered(number) => format!("way {}", u32::from(number) + 1),
     }
 }
 

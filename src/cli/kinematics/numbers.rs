@@ -13,7 +13,6 @@ const LENGTH_TOLERANCE: f64 = 1e-3;
 
 /// Poses are written so.
 const POSE: &[&str] = &["mm", "mm", "mm", "deg", "deg", "deg"];
-const EXAMPLE_POSE: &str = "1500,0,1200,0,90,0";
 
 /// Numbers with commas between them, each with or without its unit.
 fn numbers(option: &str, text: &str, units: &[&str], example: &str) -> Result<Vec<f64>, Failure> {
@@ -32,16 +31,14 @@ fn numbers(option: &str, text: &str, units: &[&str], example: &str) -> Result<Ve
 }
 
 fn number(option: &str, part: &str, unit: &str) -> Result<f64, Failure> {
+    let refused = |why: String| Err(Failure::new(format!("{option}: {why}")));
     let digits = part.strip_suffix(unit).unwrap_or(part).trim_end();
-    let number: f64 = digits
-        .parse()
-        .map_err(|_| Failure::new(format!("{option}: `{part}` is no number{}", in_unit(unit))))?;
-    if number.abs() <= LARGEST {
-        Ok(number)
-    } else {
-        Err(Failure::new(format!(
-            "{option}: `{part}` is not between -{LARGEST} and {LARGEST}"
-        )))
+    match digits.parse::<f64>() {
+        Ok(number) if number.abs() <= LARGEST => Ok(number),
+        Ok(number) if number.is_finite() => refused(format!("`{part}` is larger than {LARGEST}")),
+        Ok(_) => refused(format!("`{part}` is not a finite number")),
+        Err(_) if part.is_empty() => refused("a number is missing beside a comma".to_owned()),
+        Err(_) => refused(format!("`{part}` is no number{}", in_unit(unit))),
     }
 }
 
@@ -62,15 +59,13 @@ pub(super) fn axis_values(option: &str, text: &str, axes: &[Axis]) -> Result<Vec
             AxisKind::Rotary => "deg",
         })
         .collect();
-    let names: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
+    let pairs = axes.iter().zip(&units);
+    let names: Vec<String> = pairs
+        .map(|(axis, unit)| format!("{} in {unit}", axis.name))
+        .collect();
     let example = vec!["0"; axes.len()].join(",");
-    let values = numbers(option, text, &units, &example).map_err(|failure| {
-        failure.help(format!(
-            "the axes are {} ({})",
-            names.join(", "),
-            units.join(", ")
-        ))
-    })?;
+    let values = numbers(option, text, &units, &example)
+        .map_err(|failure| failure.help(format!("they are {}", names.join(", "))))?;
     let in_rad = values.iter().zip(axes).map(|(value, axis)| match axis.kind {
         AxisKind::Linear => *value,
         AxisKind::Rotary => value.to_radians(),
@@ -78,9 +73,9 @@ pub(super) fn axis_values(option: &str, text: &str, axes: &[Axis]) -> Result<Vec
     Ok(in_rad.collect())
 }
 
-/// A frame with angles.
-pub(super) fn frame(option: &str, text: &str) -> Result<Frame, Failure> {
-    let numbers = numbers(option, text, POSE, EXAMPLE_POSE)?;
+/// A frame with angles. `example` is one that fits the option.
+pub(super) fn frame(option: &str, text: &str, example: &str) -> Result<Frame, Failure> {
+    let numbers = numbers(option, text, POSE, example)?;
     let &[x, y, z, a, b, c] = numbers.as_slice() else {
         return Err(Failure::new(format!("{option} takes 6 numbers")));
     };

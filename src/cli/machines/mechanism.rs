@@ -4,15 +4,18 @@ use super::DEGREES;
 use super::text::row;
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
+use crate::kinematics::mounted::Mounted;
 use crate::kinematics::opw::{Coupling, Opw};
+use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
 use serde_json::{Value, json};
+use vcutc_backend_api::geometry::Frame;
 
 /// A few indented lines.
 pub(super) fn text(mechanism: &Mechanism) -> String {
     match mechanism {
         Mechanism::OrthoParallel(arm) => arm_text(arm),
-        Mechanism::Mounted(mounted) => arm_text(&mounted.arm),
+        Mechanism::Mounted(mounted) => mounted_text(mounted),
         Mechanism::Serial(arm) => serial_text(arm),
         Mechanism::FiveAxis(machine) => five_axis_text(machine),
     }
@@ -22,7 +25,7 @@ pub(super) fn text(mechanism: &Mechanism) -> String {
 pub(super) fn in_json(mechanism: &Mechanism) -> Value {
     match mechanism {
         Mechanism::OrthoParallel(arm) => arm_in_json(arm),
-        Mechanism::Mounted(mounted) => arm_in_json(&mounted.arm),
+        Mechanism::Mounted(mounted) => mounted_in_json(mounted),
         Mechanism::Serial(arm) => serial_in_json(arm),
         Mechanism::FiveAxis(machine) => five_axis_in_json(machine),
     }
@@ -76,17 +79,32 @@ fn arm_in_json(arm: &Opw) -> Value {
     })
 }
 
+fn mounted_text(mounted: &Mounted) -> String {
+    arm_text(&mounted.arm)
+        + &format!(
+            "    foot in root    {}\n    flange in hand  {}\n",
+            pose_text(&mounted.foot_in_root),
+            pose_text(&mounted.flange_in_hand)
+        )
+}
+
+fn mounted_in_json(mounted: &Mounted) -> Value {
+    let mut object = arm_in_json(&mounted.arm);
+    object["foot_in_root"] = pose_in_json(&mounted.foot_in_root);
+    object["flange_in_hand"] = pose_in_json(&mounted.flange_in_hand);
+    object
+}
+
 fn serial_text(arm: &SerialArm) -> String {
-    let mut text =
-        "  serial arm; each axis with all others at zero, as a point (mm) and a direction\n".to_owned();
+    let mut text = String::from("  serial arm, its axes with all joints at zero, from the foot outwards\n");
     for axis in arm.axes() {
         text += &format!(
-            "    {}   {}\n",
-            row(&axis.point.to_array()),
-            row(&axis.direction.to_array())
+            "    through {} mm about {}\n",
+            row(&rounded(axis.point.to_array())),
+            row(&rounded(axis.direction.to_array()))
         );
     }
-    text
+    text + &format!("    flange at zero  {}\n", pose_text(arm.flange_at_zero()))
 }
 
 fn serial_in_json(arm: &SerialArm) -> Value {
@@ -96,7 +114,30 @@ fn serial_in_json(arm: &SerialArm) -> Value {
             "direction": axis.direction.to_array(),
         })
     });
-    json!({ "form": "serial", "axes": axes })
+    json!({
+        "form": "serial",
+        "axes": axes,
+        "flange_at_zero": pose_in_json(arm.flange_at_zero()),
+    })
+}
+
+fn pose_text(pose: &Pose) -> String {
+    let [w, x, y, z] = Frame::from(*pose).orientation.quaternion();
+    let (position, quaternion) = (rounded(pose.position.to_array()), rounded([w, x, y, z]));
+    format!("{} mm, quaternion {}", row(&position), row(&quaternion))
+}
+
+/// To nine decimals, more than descriptions have: what lies beyond is rounding of their right angles.
+fn rounded<const N: usize>(numbers: [f64; N]) -> [f64; N] {
+    // Adding 0 makes a positive zero of a negative one.
+    numbers.map(|number| (number * 1e9).round() / 1e9 + 0.0)
+}
+
+fn pose_in_json(pose: &Pose) -> Value {
+    json!({
+        "position_mm": pose.position.to_array(),
+        "quaternion_wxyz": Frame::from(*pose).orientation.quaternion(),
+    })
 }
 
 /// The rotary axes in the order of the machine's axes, each with what it turns.

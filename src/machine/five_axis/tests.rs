@@ -200,3 +200,13 @@ fn every_axis_has_a_table_with_its_range() {
         ("\"X\"", "`about` cannot be \"X\"")
     );
 }
+
+#[test]
+fn the_sheet_of_the_manual_is_a_machine() {
+    let manual = include_str!("../../../docs/machines_five_axis.md");
+    let (_, rest) = manual.split_once("```toml\n").unwrap();
+    let (text, _) = rest.split_once("```").unwrap();
+    let sheet = parse(text).unwrap();
+    let names: Vec<_> = sheet.axes.iter().map(|axis| axis.name.as_str()).collect();
+    assert_eq!(names, ["X", "Y", "Z", "B", "A"]);
+}

@@ -195,6 +195,19 @@ fn a_known_pose_that_is_missed_is_told_with_the_distance() {
 }
 
 #[test]
+fn texts_can_be_shown() {
+    let (place, message) = flaw("Shop arm", "Shop \\u001b[2J arm");
+    assert!(place.contains("u001b"), "{place}");
+    assert_eq!(
+        message,
+        "the text of `model` has a character that cannot be shown"
+    );
+    let key = "k".repeat(1000);
+    let (_, message) = flaw("model", &format!("{key} = 1\nmodel"));
+    assert_eq!(message, format!("a sheet has no `{}...`", "k".repeat(40)));
+}
+
+#[test]
 fn words_are_known_words() {
     let (place, message) = flaw("model", "confidence = \"hihg\"\nmodel");
     assert_eq!(

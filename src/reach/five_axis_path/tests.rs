@@ -157,8 +157,8 @@ proptest! {
             // Mean rates of short pieces: never above the highest, and below it by how much it changes in half a piece.
             prop_assert!(proof.rate[axis] >= rate - 1e-5 && proof.rate[axis] <= rate * 1.01 + 5.0);
         }
-        for axis in 3..6 {
-            prop_assert_eq!(proof.low[axis], start[axis].min(proof.end[axis]));
+        for (low, (from, to)) in proof.low.iter().zip(start.iter().zip(&proof.end)).skip(3) {
+            prop_assert_eq!(*low, from.min(*to));
         }
         prop_assert!(rig.blade_in_work(&proof.end).apart(&course.to).0 < 1e-6);
     }

@@ -14,16 +14,16 @@ pub(super) type Point = [Along; 3];
 /// A machine as lines about which its axes turn a point, one after the other.
 #[derive(Clone, Debug)]
 pub(super) enum Chain<'m> {
-    Serial(SerialArm),
+    Serial(Box<SerialArm>),
     FiveAxis(&'m FiveAxis),
 }
 
 impl<'m> Chain<'m> {
     pub(super) fn of(mechanism: &'m Mechanism) -> Self {
         match mechanism {
-            Mechanism::OrthoParallel(arm) => Self::Serial(SerialArm::from(arm)),
-            Mechanism::Mounted(arm) => Self::Serial(SerialArm::from(arm)),
-            Mechanism::Serial(arm) => Self::Serial(arm.clone()),
+            Mechanism::OrthoParallel(arm) => Self::Serial(Box::new(SerialArm::from(arm))),
+            Mechanism::Mounted(arm) => Self::Serial(Box::new(SerialArm::from(arm))),
+            Mechanism::Serial(arm) => Self::Serial(Box::new(arm.clone())),
             Mechanism::FiveAxis(machine) => Self::FiveAxis(machine),
         }
     }

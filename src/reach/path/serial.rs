@@ -10,6 +10,9 @@
 //! `q + D [0, length]` and its rates in `D` (the first step of Lohner's method for differential equations; Moore, Kearfott,
 //! Cloud 2009, chapter 10).
 //!
+//! **To the second order.** The twist is constant, so `J q'' = -J' q'`, which the same argument encloses. Then rates lie in
+//! `q'(begin) + q'' [0, length]`, and values correspondingly, both with an excess that fades with the square of the length.
+//!
 //! **The end.** Newton's method improves the end, and the same contraction, on the box that is known to have the true end
 //! and the improved one, tells that they are the same but for rounding: the pose, as position of the tip and as the vector
 //! `w` of the skew part of `R_end^T R(q)`, has a derivative by `q` that differs from `J` in its angular rows by a factor
@@ -24,7 +27,6 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Joints, newton};
 use glam::DVec3;
-use nalgebra::SMatrix;
 use vcutc_backend_api::ir::MOST_AXES;
 
 /// How far found axis values may be from the true ones, in rad.
@@ -35,7 +37,7 @@ const LARGEST_DEFECT: f64 = 0.6;
 type Box6 = [Interval; MOST_AXES];
 type Vector = [Interval; 3];
 type Matrix = [Vector; 3];
-type Square = SMatrix<f64, MOST_AXES, MOST_AXES>;
+type Square = [[f64; MOST_AXES]; MOST_AXES];
 
 /// What the axes do on a span that they enter at `begin`, proven.
 pub(super) fn stretch(
@@ -84,18 +86,34 @@ fn span_of(arm: &SerialArm, flight: &Flight, span: Span, begin: &Joints) -> Opti
     if !(0..MOST_AXES).all(|i| value[i].within(guess[i].low, guess[i].high)) {
         return None;
     }
-    // Once more in the smaller box.
+    // Once more in the smaller box, and then to the second order.
     let rates = contraction.rates(&value, &course_tip, &twist)?;
     let value = moved(&rates);
-    let by_length = |rates: &Box6| -> Box6 { core::array::from_fn(|i| begin_box[i] + rates[i] * length) };
-    let end = contraction.improved(&by_length(&rates), &flight.flange_at(span.middle + span.half))?;
+    let first_rates = contraction.rates(&begin_box, &course_tip, &twist)?;
+    let bends = contraction.bends(&value, &course_tip, &rates, linear)?;
+    let (whole, half_square) = (
+        Interval {
+            low: 0.0,
+            high: length,
+        },
+        Interval {
+            low: 0.0,
+            high: 0.5 * length * length,
+        },
+    );
+    let by_bends = |time: Interval, square: Interval| -> Box6 {
+        core::array::from_fn(|i| begin_box[i] + first_rates[i] * time + bends[i] * square)
+    };
+    let at_end = by_bends(Interval::exactly(whole.high), Interval::exactly(half_square.high));
+    let tighter = by_bends(whole, half_square);
+    let end = contraction.improved(&at_end, &flight.flange_at(span.middle + span.half))?;
     Some(Stretch {
         begin: begin_box,
-        value,
+        value: core::array::from_fn(|i| value[i].and(tighter[i])),
         end: end.map(|value| Interval::around(value, UNCERTAIN)),
-        rate: rates,
-        excess: rates.map(|rate| rate.width() * length),
-        rate_excess: rates.map(Interval::width),
+        rate: core::array::from_fn(|i| rates[i].and(first_rates[i] + bends[i] * whole)),
+        excess: bends.map(|bend| bend.width() * half_square.high),
+        rate_excess: bends.map(|bend| bend.width() * length),
         clearance: Clearance::UNLIMITED,
     })
 }
@@ -112,27 +130,40 @@ impl Contraction<'_> {
     fn rates(&self, joints: &Box6, tip: &Vector, twist: &Joints) -> Option<Box6> {
         let lines = Lines::of(self.arm, joints, self.tip_in_flange);
         let tip = core::array::from_fn(|i| lines.tip[i].and(tip[i]));
-        let defect = self.defect(&lines.jacobian(self.arm, &tip));
+        self.solved(&lines, &tip, &twist.map(Interval::exactly))
+    }
+
+    /// All second derivatives of axes that move in a box at rates in another, by the course; `velocity` is the tip's.
+    fn bends(&self, joints: &Box6, tip: &Vector, rates: &Box6, velocity: DVec3) -> Option<Box6> {
+        let lines = Lines::of(self.arm, joints, self.tip_in_flange);
+        let tip = core::array::from_fn(|i| lines.tip[i].and(tip[i]));
+        // Of (J q')' = 0, since the twist is constant: J q'' = -J' q'.
+        let turns = self.arm.turns_of(*rates, |third, second| third - second);
+        let bias = lines.bias(&turns, &tip, &exactly(velocity));
+        self.solved(&lines, &tip, &bias.map(|part| -part))
+    }
+
+    /// All solutions `x` of `J x = wanted` for the Jacobians of the lines.
+    fn solved(&self, lines: &Lines, tip: &Vector, wanted: &Box6) -> Option<Box6> {
+        let defect = self.defect(&lines.jacobian(self.arm, tip));
         let largest = row_sum(&defect);
-        if !(largest <= LARGEST_DEFECT) {
+        if largest.is_nan() || largest > LARGEST_DEFECT {
             return None;
         }
         let straight: Box6 = core::array::from_fn(|i| {
-            (0..MOST_AXES).fold(Interval::ZERO, |sum, k| {
-                sum + Interval::exactly(self.near_inverse[(i, k)]) * twist[k]
-            })
+            (0..MOST_AXES).fold(Interval::ZERO, |sum, k| sum + wanted[k] * self.near_inverse[i][k])
         });
-        let fastest = straight
+        let most = straight
             .iter()
-            .fold(0.0, |most: f64, rate| most.max(rate.magnitude()));
-        let mut rates = [Interval::around(0.0, fastest / (1.0 - largest)); MOST_AXES];
+            .fold(0.0, |most: f64, part| most.max(part.magnitude()));
+        let mut solution = [Interval::around(0.0, most / (1.0 - largest)); MOST_AXES];
         for _ in 0..3 {
-            rates = core::array::from_fn(|i| {
-                let more = (0..MOST_AXES).fold(Interval::ZERO, |sum, j| sum + defect[i][j] * rates[j]);
-                (straight[i] + more).and(rates[i])
+            solution = core::array::from_fn(|i| {
+                let more = (0..MOST_AXES).fold(Interval::ZERO, |sum, j| sum + defect[i][j] * solution[j]);
+                (straight[i] + more).and(solution[i])
             });
         }
-        Some(rates)
+        Some(solution)
     }
 
     /// The axis values at a pose, to the last digits, when they are known to be in a box.
@@ -155,7 +186,7 @@ impl Contraction<'_> {
         core::array::from_fn(|i| {
             core::array::from_fn(|j| {
                 let one = Interval::exactly(f64::from(u8::from(i == j)));
-                (0..MOST_AXES).fold(one, |sum, k| sum - jacobian[k][j] * self.near_inverse[(i, k)])
+                (0..MOST_AXES).fold(one, |sum, k| sum - jacobian[k][j] * self.near_inverse[i][k])
             })
         })
     }
@@ -164,7 +195,7 @@ impl Contraction<'_> {
     fn sensitivity(&self) -> (f64, f64) {
         let most = |columns: [usize; 3]| {
             (0..MOST_AXES)
-                .map(|i| columns.iter().map(|k| self.near_inverse[(i, *k)].abs()).sum())
+                .map(|i| columns.iter().map(|k| self.near_inverse[i][*k].abs()).sum())
                 .fold(0.0, f64::max)
         };
         (most([0, 1, 2]), most([3, 4, 5]))
@@ -204,6 +235,30 @@ impl Lines {
         lines
     }
 
+    /// `J' q'`: what the twist changes by while the joints turn at constant rates and the tip has the given velocity.
+    fn bias(&self, turns: &Box6, tip: &Vector, velocity: &Vector) -> Box6 {
+        let (mut linear, mut angular) = ([Interval::ZERO; 3], [Interval::ZERO; 3]);
+        for (i, turn) in turns.iter().enumerate() {
+            let (direction, point) = (&self.directions[i], &self.points[i]);
+            let (mut spin, mut drift) = ([Interval::ZERO; 3], [Interval::ZERO; 3]);
+            for (k, carried_by) in turns.iter().enumerate().take(i) {
+                let about = scaled(&self.directions[k], *carried_by);
+                spin = plus(&spin, &about);
+                drift = plus(&drift, &cross(&about, &minus(point, &self.points[k])));
+            }
+            let tilts = cross(&spin, direction);
+            let sweep = plus(
+                &cross(&tilts, &minus(tip, point)),
+                &cross(direction, &minus(velocity, &drift)),
+            );
+            linear = plus(&linear, &scaled(&sweep, *turn));
+            angular = plus(&angular, &scaled(&tilts, *turn));
+        }
+        [
+            linear[0], linear[1], linear[2], angular[0], angular[1], angular[2],
+        ]
+    }
+
     /// Rows of linear velocity of the tip above rows of angular velocity; a column for each of the controller's joints.
     fn jacobian(&self, arm: &SerialArm, tip: &Vector) -> [Box6; MOST_AXES] {
         let by_turn: [Box6; MOST_AXES] = core::array::from_fn(|i| {
@@ -229,21 +284,13 @@ impl Lines {
 
 /// The inverse of the Jacobian at axis values, as far as floating point gives it.
 fn inverse_at(arm: &SerialArm, joints: &Joints, tip_in_flange: DVec3) -> Option<Square> {
-    let columns = arm.jacobian(joints, tip_in_flange).columns;
-    let matrix = Square::from_fn(|row, j| {
-        let column = &columns[j];
-        if row < 3 {
-            column.linear[row]
-        } else {
-            column.angular[row - 3]
-        }
-    });
-    let inverse = matrix.try_inverse()?;
-    inverse.iter().all(|entry| entry.abs() < 1e9).then_some(inverse)
+    let inverse = arm.jacobian(joints, tip_in_flange).inverse()?;
+    let is_moderate = inverse.iter().flatten().all(|entry| entry.abs() < 1e9);
+    is_moderate.then_some(inverse)
 }
 
 fn times(matrix: &Square, vector: &Joints) -> Joints {
-    core::array::from_fn(|i| (0..MOST_AXES).map(|k| matrix[(i, k)] * vector[k]).sum())
+    core::array::from_fn(|i| (0..MOST_AXES).map(|k| matrix[i][k] * vector[k]).sum())
 }
 
 fn row_sum(matrix: &[Box6; MOST_AXES]) -> f64 {
@@ -263,6 +310,10 @@ fn plus(a: &Vector, b: &Vector) -> Vector {
 
 fn minus(a: &Vector, b: &Vector) -> Vector {
     core::array::from_fn(|i| a[i] - b[i])
+}
+
+fn scaled(a: &Vector, by: Interval) -> Vector {
+    a.map(|part| part * by)
 }
 
 fn cross(a: &Vector, b: &Vector) -> Vector {

@@ -122,6 +122,14 @@ fn made_up(arm: Opw, limits: [(f64, f64); 6]) -> Model {
     }
 }
 
+/// A model whose axes have no end and no highest rate.
+fn unbound(mut model: Model) -> Model {
+    for axis in &mut model.axes {
+        (axis.min, axis.max, axis.rate) = (-100.0, 100.0, None);
+    }
+    model
+}
+
 fn arm_of(model: &Model) -> Opw {
     *model.mechanism.ortho_parallel().expect("a closed-form arm")
 }
@@ -180,7 +188,7 @@ fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
     let nearest = solutions
         .iter()
         .min_by(|a, b| apart(&a.joints).total_cmp(&apart(&b.joints)));
-    nearest.unwrap().branch
+    nearest.map_or(Branch::Numbered(0), |solution| solution.branch)
 }
 
 /// The interpolation by another formula than the proof's.
@@ -220,10 +228,10 @@ fn sample(rig: &Rig<'_>, arm: &Opw, course: &Course, branch: Branch, start: &Joi
         let joints = rig
             .mechanism
             .on_branch(&rig.flange_in_root(&blade), branch, &found.end)?;
-        for i in 0..6 {
-            found.low[i] = found.low[i].min(joints[i]);
-            found.high[i] = found.high[i].max(joints[i]);
-            let rate = (joints[i] - found.end[i]).abs() * steps / course.duration;
+        for (i, joint) in joints.into_iter().enumerate() {
+            found.low[i] = found.low[i].min(joint);
+            found.high[i] = found.high[i].max(joint);
+            let rate = (joint - found.end[i]).abs() * steps / course.duration;
             found.rate[i] = found.rate[i].max(rate);
         }
         found.clearance = found.clearance.least(&clearance_at(arm, &joints));

@@ -1,6 +1,7 @@
 //! `vcutc machines`: the catalogue, one machine, a file of one's own, and what is neither.
 
 use super::{folder, json_lines, vcutc};
+use crate::repository::read;
 use insta::assert_snapshot;
 use std::fs;
 
@@ -101,6 +102,23 @@ fn a_file_of_ones_own_is_shown_or_refused_with_its_places() {
         │
         = help: write `[-60.0, 80.0]`
     ");
+}
+
+#[test]
+fn the_sheet_of_the_manual_is_a_machine() {
+    let manual = read("docs/machines.md");
+    let sheet = manual
+        .split("```toml\n")
+        .nth(1)
+        .unwrap()
+        .split("```")
+        .next()
+        .unwrap();
+    let folder = folder();
+    fs::write(folder.path().join("arm.toml"), sheet).unwrap();
+    let run = vcutc(folder.path(), &["machines", "arm.toml"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert!(run.stdout.contains("controller: ABB"), "{}", run.stdout);
 }
 
 #[test]

@@ -56,7 +56,7 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
 }
 
 /// `T` from axis values: a bit for each angle that reads as negative with nine decimals.
-fn turn(axes: &AxisValues) -> u32 {
+pub(crate) fn turn(axes: &AxisValues) -> u32 {
     let is_negative = |angle: f64| {
         let text = format!("{:.9}", angle.to_degrees());
         text.starts_with('-') && text.contains(|c: char| ('1'..='9').contains(&c))

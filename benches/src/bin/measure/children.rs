@@ -4,14 +4,19 @@ use crate::Figures;
 use crate::clock::{medians, time};
 use crate::machine::peak_memory;
 use std::path::PathBuf;
+use vcutc::kinematics::batch::{Answers, BranchAnswers};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_benches::contour::{self, Axes, Height, Polygons};
 use vcutc_benches::emission::{self, Folder, Lines};
 use vcutc_benches::jobs;
+use vcutc_benches::kinematics::Task;
 use vcutc_benches::stages::{self, Discard};
 
 /// Runs one of them.
 pub(crate) fn run(what: &str, cuts: u32) -> Figures {
+    if what == "kinematics" {
+        return named(kinematics(cuts as usize));
+    }
     let text = jobs::text(cuts);
     let figures = match what {
         "stages" => stages(&text),
@@ -24,6 +29,10 @@ pub(crate) fn run(what: &str, cuts: u32) -> Figures {
         }
         _ => panic!("nothing is called {what}"),
     };
+    named(figures)
+}
+
+fn named(figures: Vec<(&'static str, f64)>) -> Figures {
     figures
         .into_iter()
         .map(|(name, value)| (name.to_owned(), value))
@@ -191,6 +200,49 @@ fn contour(text: &str) -> Vec<(&'static str, f64)> {
     ];
     let cuts = ("cuts", stages::cuts(&planned) as f64);
     names.into_iter().zip(times).chain([cuts]).collect()
+}
+
+/// Time of inverse kinematics of so many poses in ns, and the worst residuals in m.
+///
+/// A round must be short: on a machine with other work, one that outlasts the scheduler's slice is timed with that work.
+fn kinematics(poses: usize) -> Vec<(&'static str, f64)> {
+    let task = Task::new(poses);
+    let (mut answers, mut branch_answers) = (Answers::default(), BranchAnswers::default());
+    #[cfg(feature = "ik-geo")]
+    let geo = vcutc_benches::kinematics::geo::GeoTask::new(&task);
+    let times = medians(|| {
+        [
+            time(|| task.all()).0,
+            time(|| task.batches(&mut answers)).0,
+            time(|| task.on_branch()).0,
+            time(|| task.branch_batches(&mut branch_answers)).0,
+            time(|| task.forward()).0,
+            time(|| task.peer_all()).0,
+            time(|| task.peer_continuing()).0,
+            #[cfg(feature = "ik-geo")]
+            time(|| geo.all()).0,
+        ]
+    });
+    let names = [
+        "all",
+        "batches",
+        "on_branch",
+        "branch_batches",
+        "forward",
+        "peer_all",
+        "peer_continuing",
+        #[cfg(feature = "ik-geo")]
+        "geo",
+    ];
+    let [worst, peer_worst] = Task::new(100_000).worst();
+    let rest = [
+        ("poses", task.count() as f64),
+        ("worst", worst),
+        ("peer_worst", peer_worst),
+        #[cfg(feature = "ik-geo")]
+        ("geo_worst", geo.worst()),
+    ];
+    names.into_iter().zip(times).chain(rest).collect()
 }
 
 /// The one of two inputs that takes less time.

@@ -21,6 +21,9 @@ const PEER_SIZES: [u32; 2] = [10_000, 100_000];
 /// Size at which ways of writing are compared.
 const EMISSION_SIZE: u32 = 100_000;
 
+/// Poses in a round of inverse kinematics: few, so that a round is over before the system gives the core to others.
+const POSES: u32 = 512;
+
 /// What a child measured: a name and a value for each.
 type Figures = BTreeMap<String, f64>;
 
@@ -34,7 +37,9 @@ fn main() {
                 println!("{name} {value}");
             }
         }
-        _ => eprintln!("usage: measure [stages|memory|emission|contour|instructions <cuts>]"),
+        _ => eprintln!(
+            "usage: measure [stages|memory|emission|contour|instructions <cuts>], or kinematics <poses>"
+        ),
     }
 }
 

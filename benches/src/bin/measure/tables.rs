@@ -1,6 +1,6 @@
 //! The whole run as Markdown.
 
-use crate::{EMISSION_SIZE, Figures, PEER_SIZES, SIZES, child, machine};
+use crate::{EMISSION_SIZE, Figures, PEER_SIZES, POSES, SIZES, child, machine};
 
 /// A goal: what is measured, the value, and whether it is met.
 struct Goal {
@@ -17,6 +17,7 @@ pub(crate) fn print() {
     let memory = SIZES.map(|cuts| child("memory", cuts));
     let emission = child("emission", EMISSION_SIZE);
     let contour = PEER_SIZES.map(|cuts| child("contour", cuts));
+    let kinematics = child("kinematics", POSES);
 
     println!("Measured on:\n");
     for line in machine {
@@ -24,6 +25,7 @@ pub(crate) fn print() {
     }
     println!("\n### Goals\n");
     print_goals(&goals(&stages, &memory, &emission, &contour));
+    print_goal_rows(&kinematic_goals(&kinematics));
     println!("\n### Stages, ns per cut\n");
     print_stages(&stages);
     println!("\n### Peak memory\n");
@@ -32,6 +34,8 @@ pub(crate) fn print() {
     print_emission(&emission);
     println!("\n### Machined contour, ns per cut\n");
     print_contour(&contour);
+    println!("\n### Inverse kinematics, ns per pose\n");
+    print_kinematics(&kinematics);
 }
 
 /// Names of the timed stages, with what they are called in the table.
@@ -139,9 +143,47 @@ fn goals(
     ]
 }
 
+fn kinematic_goals(figures: &Figures) -> Vec<Goal> {
+    let faster = |what: &str, wanted: f64, ours: &str, theirs: &str| {
+        let got = figures[theirs] / figures[ours];
+        Goal {
+            what: what.to_owned(),
+            wanted: format!("at least {wanted}x"),
+            got: format!("{got:.1}x"),
+            met: got >= wanted,
+        }
+    };
+    let worst = figures["worst"];
+    vec![
+        faster(
+            "all solutions of a pose, each checked, faster than rs-opw-kinematics",
+            4.0,
+            "all",
+            "peer_all",
+        ),
+        faster("the same in batches", 20.0, "batches", "peer_all"),
+        faster(
+            "a pose on a known branch faster than its `inverse_continuing`",
+            15.0,
+            "on_branch",
+            "peer_continuing",
+        ),
+        Goal {
+            what: "worst residual of 10^5 poses".to_owned(),
+            wanted: "below 1e-12 m".to_owned(),
+            got: format!("{worst:.1e} m"),
+            met: worst < 1e-12,
+        },
+    ]
+}
+
 fn print_goals(goals: &[Goal]) {
     println!("| | goal | measured | |");
     println!("|---|---|---|---|");
+    print_goal_rows(goals);
+}
+
+fn print_goal_rows(goals: &[Goal]) {
     for Goal {
         what,
         wanted,
@@ -253,6 +295,57 @@ fn print_contour(contour: &[Figures; 2]) {
             )
         };
         print_row(title, contour.iter().map(cell));
+    }
+}
+
+fn print_kinematics(figures: &Figures) {
+    println!("| way | ns | rs-opw-kinematics takes | worst residual, m |");
+    println!("|---|---|---|---|");
+    let rows = [
+        ("all", "peer_all", "worst", "all solutions, checked"),
+        (
+            "batches",
+            "peer_all",
+            "worst",
+            "all solutions, checked, batches of 256",
+        ),
+        ("on_branch", "peer_continuing", "worst", "one branch, checked"),
+        (
+            "branch_batches",
+            "peer_continuing",
+            "worst",
+            "one branch, checked, batches of 256",
+        ),
+        ("forward", "", "", "forward kinematics"),
+        (
+            "peer_all",
+            "peer_all",
+            "peer_worst",
+            "rs-opw-kinematics, `inverse`",
+        ),
+        (
+            "peer_continuing",
+            "peer_continuing",
+            "peer_worst",
+            "rs-opw-kinematics, `inverse_continuing`",
+        ),
+        (
+            "geo",
+            "peer_all",
+            "geo_worst",
+            "ik-geo, all solutions, not checked",
+        ),
+    ];
+    for (name, peer, worst, title) in rows {
+        let Some(time) = figures.get(name) else { continue };
+        let ratio = figures.get(peer).map(|peer| format!("{:.1}x", peer / time));
+        let worst = figures.get(worst).map(|worst| format!("{worst:.1e}"));
+        println!(
+            "| {title} | {:.0} | {} | {} |",
+            time / figures["poses"],
+            ratio.unwrap_or_default(),
+            worst.unwrap_or_default()
+        );
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::kinematics::mounted::Mounted;
+use crate::kinematics::samples;
 use crate::kinematics::serial::SerialArm;
 
 const ONLY: Branch = Branch::Numbered(0);
@@ -20,8 +21,8 @@ fn both_methods_prove_the_same() {
             shoulder: 100.0,
         };
         let (mut both, mut closed_only) = (0, 0);
-        for _ in 0..150 {
-            let (course, branch, start) = random_move(&mut dice, &closed_rig, &model.axes, 200.0, 0.4);
+        for _ in 0..30 {
+            let (course, branch, start) = random_move(&mut dice, &closed_rig, &model.axes, 100.0, 0.3);
             let closed = prove(&closed_rig, &course, branch, &start, &least);
             let general = prove(&general_rig, &course, ONLY, &start, &least);
             match (closed, general) {
@@ -33,12 +34,62 @@ fn both_methods_prove_the_same() {
                 // It knows nothing of clearances.
                 (Err(breach), Ok(_)) => assert!(matches!(breach.what, Violation::Singular(_)), "{breach:?}"),
                 (Err(one), Err(other)) => {
-                    assert!(other.at < one.at + 1e-6, "{one:?} {other:?}");
+                    let same = (one.at - other.at).abs() < 1e-4;
+                    let before = matches!(one.what, Violation::Singular(_)) && one.at < other.at;
+                    assert!(same || before, "{one:?} {other:?}");
                 }
             }
         }
-        assert!(both > 30 && closed_only == 0, "{both} and {closed_only}");
+        assert!(both > 5 && closed_only == 0, "{both} and {closed_only}");
     }
+}
+
+#[test]
+fn an_arm_without_a_spherical_wrist_agrees_with_sampling() {
+    let mut model = unbound(kuka());
+    model.mechanism = Mechanism::Serial(samples::ur10e());
+    for axis in &mut model.axes {
+        axis.rate = Some(2.0);
+    }
+    let ranges = vec![
+        Axis {
+            min: -3.0,
+            max: 3.0,
+            ..model.axes[0].clone()
+        };
+        6
+    ];
+    let blade = Frame::from(Pose {
+        rotation: DMat3::from_rotation_y(0.4),
+        position: DVec3::new(20.0, 0.0, 150.0),
+    });
+    let rig = Rig::new(&model, blade, Frame::from(Pose::IDENTITY));
+    let mut dice = Dice(33);
+    let mut proven = 0;
+    for number in 0..40 {
+        let (mut course, _, start) = random_move(&mut dice, &rig, &ranges, 60.0, 0.4);
+        course.duration *= 3.0;
+        let Ok(proof) = prove(&rig, &course, ONLY, &start, &LEAST) else {
+            continue;
+        };
+        proven += 1;
+        let mut last = start;
+        for k in 1..=300 {
+            let flange = rig.flange_in_root(&blade_at(&course, f64::from(k) / 300.0));
+            let joints = rig.mechanism.on_branch(&flange, ONLY, &last).unwrap();
+            for i in 0..6 {
+                assert!(
+                    proof.low[i] <= joints[i] && joints[i] <= proof.high[i],
+                    "{number}, axis {i}"
+                );
+                let rate = (joints[i] - last[i]).abs() * 300.0 / course.duration;
+                assert!(rate <= proof.rate[i] + 1e-6, "{number}, axis {i}");
+            }
+            last = joints;
+        }
+        assert!((0..6).all(|i| (proof.end[i] - last[i]).abs() < 1e-8), "{number}");
+    }
+    assert!(proven >= 20, "{proven}");
 }
 
 /// Both proofs are of the same motion, so that their ranges overlap and the wider is not much wider.
@@ -56,8 +107,11 @@ fn agree(closed: &Proof, general: &Proof) {
             (closed.high[i] - general.high[i]).abs() < 0.01,
             "{closed:?} {general:?}"
         );
-        let rate = (closed.rate[i] - general.rate[i]).abs();
-        assert!(rate < 0.05 + 0.02 * closed.rate[i], "{closed:?} {general:?}");
+        let more = general.rate[i] - closed.rate[i];
+        assert!(
+            -0.05 < more && more < 0.05 + 0.02 * closed.rate[i],
+            "{closed:?} {general:?}"
+        );
     }
 }
 

@@ -18,14 +18,6 @@ fn trace(rig: &Rig<'_>, course: &Course, branch: Branch, start: &Joints) -> Opti
         .collect()
 }
 
-/// A model whose axes have no end and no highest rate.
-fn unbound(mut model: Model) -> Model {
-    for axis in &mut model.axes {
-        (axis.min, axis.max, axis.rate) = (-100.0, 100.0, None);
-    }
-    model
-}
-
 /// The place of the largest number that is not within 1 mm of either end.
 fn inner_peak(numbers: &[f64]) -> Option<usize> {
     let place = (0..numbers.len()).max_by(|a, b| numbers[*a].total_cmp(&numbers[*b]))?;

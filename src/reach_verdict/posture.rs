@@ -1,0 +1,67 @@
+//! A posture that the two rotary axes of a five-axis machine cannot hold, in words: by how much the blade plane stays turned,
+//! and which axis is missing.
+
+use crate::diag::{Code, Diagnostic};
+use crate::job::Machine;
+use crate::kinematics::Mechanism;
+use crate::kinematics::five_axis::FiveAxis;
+use crate::kinematics::pose::Pose;
+use crate::plan::parameters::show;
+use crate::reach::rig::Rig;
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
+
+/// What is told of a pose of the blade in the work that rotary axes without limits do not reach. None for other machines, and
+/// for poses that they do. `place` says which pose it is, such as `layer 7, cut 12`.
+pub(super) fn lacks_an_axis(
+    machine: &Machine,
+    place: &str,
+    tip: Point3,
+    held: Orientation,
+) -> Option<Diagnostic> {
+    let five_axis = match &machine.model.mechanism {
+        Mechanism::FiveAxis(five_axis) => five_axis,
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => return None,
+    };
+    let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
+    let blade_in_work = Pose::from(Frame {
+        origin: tip,
+        orientation: held,
+    });
+    let turned = five_axis.blade_turned(&rig.flange_in_root(&blade_in_work))?;
+    Some(diagnostic(machine, five_axis, place, turned))
+}
+
+fn diagnostic(machine: &Machine, five_axis: &FiveAxis, place: &str, turned: f64) -> Diagnostic {
+    let name = &machine.model.name;
+    let angle = show(turned.abs().to_degrees());
+    let headline =
+        format!("`{name}` cannot hold the blade for {place}: its plane would stay turned by {angle} deg");
+    let tool = machine.tool.span.unwrap_or(machine.head_span);
+    let base = machine.base.span.unwrap_or(machine.head_span);
+    if five_axis.swings_then_rakes() {
+        return Diagnostic::new(
+            Code::PostureNeedsAxis,
+            headline,
+            tool,
+            "with the blade mounted like this",
+        )
+        .and(base, "and the work like this")
+        .note("B swings the blade and A rakes it, as long as the blade stands upright at zero angles and cuts along Y of the machine")
+        .help(
+            "turn the blade about itself in `tool` (`a = -90 deg` sets it along Y), or the work in `base`, until the cuts run along Y of the machine; \
+             or take a machine with an orientable spindle",
+        );
+    }
+    Diagnostic::new(
+        Code::PostureNeedsAxis,
+        headline,
+        machine.model_span,
+        "lacks a rotary axis that turns the blade about itself: an orientable spindle (C' or S)",
+    )
+    .and(tool, "the blade is mounted here")
+    .note("its two rotary axes point the blade in the right direction; what is left is a turn about the blade itself")
+    .help(
+        "take a machine with an orientable spindle, such as \"generic/head_head_ac_spindle\", or add `spindle = \"s\"` and `[axis.s]` to the sheet if it has one",
+    )
+    .help("or take one whose rotary axes swing and rake the blade: a head with B carrying A, a head with A over a table with B, or a table with A carrying B")
+}

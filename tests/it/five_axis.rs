@@ -1,0 +1,60 @@
+//! A job on every arrangement of five-axis machines: those that hold its postures carry it out, the others say what they lack.
+
+use crate::pipeline::{Files, compile, numbers};
+use crate::repository::read;
+
+/// The job of an example, which asks for `generic/head_head_ac`, on another machine.
+fn on(machine: &str) -> Vec<String> {
+    let job = read("tests/process/err/VC0516_no_spindle.vcut")
+        .replace("generic/head_head_ac", machine)
+        // C under an upright blade turns much farther than the blade.
+        .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
+    let files = Files::default().with("job.vcut", job);
+    let outcome = compile("job.vcut", &files);
+    assert_eq!(outcome.compiled.is_some(), outcome.diagnostics.is_empty());
+    numbers(&outcome.diagnostics)
+        .into_iter()
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn arrangements_that_swing_and_rake_carry_out_a_job() {
+    for machine in [
+        "head_head_ba",
+        "head_table_ab",
+        "table_table_ab",
+        "head_head_ac_spindle",
+    ] {
+        assert!(on(&format!("generic/{machine}")).is_empty(), "{machine}");
+    }
+}
+
+#[test]
+fn the_others_say_that_they_lack_a_spindle() {
+    for machine in ["head_head_ac", "head_head_bc", "table_table_ac"] {
+        assert_eq!(on(&format!("generic/{machine}")), ["VC0516"], "{machine}");
+    }
+}
+
+/// On a head that swings and rakes, a blade that is mounted turned is told of as such.
+#[test]
+fn a_blade_that_is_mounted_turned_is_told_of() {
+    let job = read("tests/process/err/VC0516_no_spindle.vcut")
+        .replace("head_head_ac", "head_head_ba")
+        .replace("a = -90 deg", "a = -80 deg");
+    let files = Files::default().with("job.vcut", job.clone());
+    let outcome = compile("job.vcut", &files);
+    let [diagnostic] = outcome.diagnostics.as_slice() else {
+        panic!("{:#?}", outcome.diagnostics);
+    };
+    assert_eq!(diagnostic.code.number(), "VC0516");
+    assert!(
+        diagnostic
+            .message
+            .ends_with("its plane would stay turned by 10 deg"),
+        "{}",
+        diagnostic.message
+    );
+    assert!(outcome.sources.slice(diagnostic.primary.span).contains("-80 deg"));
+}
