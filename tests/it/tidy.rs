@@ -35,7 +35,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ),
     (
         "reach_verdict",
-        &["diag", "job", "plan", "reach", "remedy", "source"],
+        &["diag", "job", "kinematics", "plan", "reach", "remedy", "source"],
     ),
     (
         "placement",
