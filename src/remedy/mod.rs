@@ -41,6 +41,8 @@ pub struct Remedy {
 const MOST_OFFERED: usize = 3;
 /// Most times that a job is taken through the whole pipeline for one message.
 const MOST_TRIES: u32 = 20;
+/// Most cuts that are tried in all for one message, beyond two tries.
+const MOST_CUTS_TRIED: usize = 100_000;
 /// Most cuts of a job that is planned again. Beyond it only the machine's side is changed, which leaves the cuts as they are.
 const MOST_CUTS_PLANNED_AGAIN: usize = 20_000;
 
@@ -67,13 +69,24 @@ impl Case<'_> {
 
     /// Whether planning the cuts again is affordable.
     fn may_plan_again(&self) -> bool {
-        let cuts = self
-            .plan
-            .operations
-            .iter()
-            .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len());
-        cuts.sum::<usize>() <= MOST_CUTS_PLANNED_AGAIN
+        cuts(self.plan) <= MOST_CUTS_PLANNED_AGAIN
     }
+}
+
+fn cuts(plan: &PlannedJob) -> usize {
+    let cuts = plan
+        .operations
+        .iter()
+        .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len());
+    cuts.sum()
+}
+
+/// How often a job may be tried: less often the larger it is, for a try takes as long as its cuts are many.
+fn tries(plan: &PlannedJob) -> u32 {
+    let affordable = MOST_CUTS_TRIED / cuts(plan).max(1);
+    u32::try_from(affordable)
+        .unwrap_or(MOST_TRIES)
+        .clamp(2, MOST_TRIES)
 }
 
 /// Changes that let the machine carry the job out, at most [`MOST_OFFERED`]: those of the program first, then the base, the
@@ -88,7 +101,7 @@ pub fn remedies(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         plan,
         machine,
         unreachable,
-        tries_left: MOST_TRIES,
+        tries_left: tries(plan),
     };
     let mut found = match &unreachable.trouble {
         Trouble::Motion { failing, .. } => match failing.worst.what {
