@@ -12,7 +12,7 @@ use crate::reach::demand::{FULL, axis_margin};
 use crate::reach::path::Clearance;
 use core::cmp::Ordering;
 use core::f64::consts::TAU;
-use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
+use vcutc_backend_api::ir::{Axis, AxisKind};
 use vcutc_backend_api::motion::Branch;
 
 /// How good a base is. More is better.
@@ -177,14 +177,14 @@ impl Tally {
     fn add(&mut self, axes: &[Axis], joints: &Joints, singular: f64) {
         self.reached += 1;
         self.singular = self.singular.min(singular);
-        for index in 0..MOST_AXES {
-            let (low, high) = (self.low[index], self.high[index]);
+        let sweeps = self.low.iter_mut().zip(&mut self.high).zip(joints);
+        for (index, ((low, high), &value)) in sweeps.enumerate() {
             let turned = match axes.get(index).map(|axis| axis.kind) {
-                Some(AxisKind::Rotary) => near(joints[index], (low + high) / 2.0),
-                Some(AxisKind::Linear) | None => joints[index],
+                Some(AxisKind::Rotary) => near(value, f64::midpoint(*low, *high)),
+                Some(AxisKind::Linear) | None => value,
             };
-            self.low[index] = low.min(turned);
-            self.high[index] = high.max(turned);
+            *low = low.min(turned);
+            *high = high.max(turned);
         }
     }
 
