@@ -4,6 +4,7 @@ mod posture;
 
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
+use crate::plan::PlannedJob;
 use crate::plan::parameters::show;
 use crate::reach::describe::{branch_words, site_words, value_words};
 use crate::reach::legs::{Leg, Pace, Stroke, legs};
@@ -11,12 +12,13 @@ use crate::reach::path::{Singularity, Violation};
 use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
 use crate::reach::trouble::{Failing, Leads, Trouble};
 use crate::reach::way::Obstacle;
+use crate::remedy;
 use crate::source::Span;
 use vcutc_backend_api::ir::{Action, Axis, OpId, OrientationId, Program, Site};
 
 /// Puts into words why a program is not carried out.
 #[must_use]
-pub fn diagnose(job: &CheckedJob, unreachable: &Unreachable) -> Vec<Diagnostic> {
+pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) -> Vec<Diagnostic> {
     let Some(machine) = &job.machine else {
         return Vec::new();
     };
@@ -34,17 +36,13 @@ pub fn diagnose(job: &CheckedJob, unreachable: &Unreachable) -> Vec<Diagnostic> 
         Trouble::Way { op, leads, obstacle } => scene.way(*op, *leads, obstacle),
         Trouble::Nowhere => return Vec::new(),
     };
-    vec![
-        remedies(job, unreachable)
-            .into_iter()
-            .fold(diagnostic, Diagnostic::help),
-    ]
+    let remedies = remedy::remedies(job, plan, unreachable);
+    vec![remedy::offer(diagnostic, &remedies, general(unreachable))]
 }
 
-/// Changes of the job that let the machine carry it out, each in a sentence.
-fn remedies(job: &CheckedJob, unreachable: &Unreachable) -> Vec<String> {
-    let _ = job;
-    let general = match &unreachable.trouble {
+/// What to do where no single change was found.
+fn general(unreachable: &Unreachable) -> &'static str {
+    match &unreachable.trouble {
         Trouble::Motion { failing, .. } => match failing.breach.what {
             Violation::OutOfReach => {
                 "move the work nearer to the machine with `base`, or choose a machine of longer reach"
@@ -63,9 +61,8 @@ fn remedies(job: &CheckedJob, unreachable: &Unreachable) -> Vec<String> {
             "let the blade come up between cuts with `direction = forward`, so that the arm can change there, or shift or turn the work with `base`"
         }
         Trouble::Way { .. } => "choose a `home` from which the blade comes to the work from above",
-        Trouble::Nowhere => return Vec::new(),
-    };
-    vec![general.to_owned()]
+        Trouble::Nowhere => "bring the work and the machine together with `base`",
+    }
 }
 
 /// A job, its machine and the program made of it.

@@ -273,10 +273,20 @@ fn attempt(
     let mut changed = job.clone();
     let Operation::RoughVcut(asked) = changed.operations.get_mut(usize::from(operation.0))?;
     change(asked);
-    let (plan, diagnostics) = plan::choose(&changed);
+    planned_and_proven(&changed)
+}
+
+fn planned_and_proven(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
+    let (plan, diagnostics) = plan::choose(job);
     let plan = plan.filter(|_| diagnostics.is_empty())?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
     (proven.findings == Findings::default()).then_some((plan, proven))
+}
+
+/// The plan and proof of a job that has nothing wrong with its cuts.
+#[must_use]
+pub fn sound(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
+    planned_and_proven(job).filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
 }
 
 /// Whether the job plans and proves with a change of one operation.

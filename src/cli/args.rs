@@ -98,6 +98,11 @@ pub(super) enum Command {
         /// The code, such as VC0203 (203 will do); without it, the list of all codes
         code: Option<String>,
     },
+    /// Search the base frame that leaves the machine the most room
+    ///
+    /// Looks for the place of the work (and its turn about z) where the smallest margin of the whole job is largest, proves
+    /// the whole program there, and prints the frame to paste. The job file is not changed.
+    Place(PlaceArgs),
     /// List the machines of the catalogue, or show one
     ///
     /// Shown are lengths, limits and speeds, where the numbers come from, where sources differ, and how far they can be
@@ -204,6 +209,37 @@ pub(super) struct CheckArgs {
     /// The job files (.vcut), or - to read one from standard input
     #[arg(required = true, value_name = "JOB")]
     pub(super) jobs: Vec<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct PlaceArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// Where x of the base may be, in the machine's root [default: 500 mm either way from now]
+    ///
+    /// A range such as 1000..2500 (in mm), 1 m..2.5 m, or one value that must be kept.
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
+    pub(super) x: Option<String>,
+
+    /// Where y of the base may be [default: 500 mm either way from now]
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
+    pub(super) y: Option<String>,
+
+    /// Where z of the base may be [default: 300 mm either way from now]
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
+    pub(super) z: Option<String>,
+
+    /// By how much the work may be turned about the root's z against now [default: -90..90 deg]
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
+    pub(super) yaw: Option<String>,
+
+    /// Draw a map of the margin over x and y into this file
+    #[arg(short, long, value_name = "FILE.svg")]
+    pub(super) output: Option<String>,
 
     #[command(flatten)]
     pub(super) overrides: Overrides,

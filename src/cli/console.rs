@@ -139,6 +139,14 @@ impl Console {
         }
     }
 
+    /// Prints what was asked for to standard output, as text or as one JSON object.
+    pub(super) fn answer<T: Serialize>(&self, kind: &'static str, text: &str, body: T) -> Exit {
+        match self.format {
+            MessageFormat::Human => self.document(text),
+            MessageFormat::Json => self.document(&format!("{}\n", line(kind, body))),
+        }
+    }
+
     /// Prints diagnostics.
     pub(super) fn diagnostics(&self, diagnostics: &[Diagnostic], sources: &SourceMap) {
         if diagnostics.is_empty() {
@@ -216,15 +224,7 @@ impl Console {
     }
 
     fn json_line<T: Serialize>(&self, kind: &'static str, body: T) {
-        let line = Line {
-            kind,
-            schema: SCHEMA,
-            body,
-        };
-        // Strings, counts and finite times: nothing in these bodies can fail to serialize.
-        if let Ok(text) = serde_json::to_string(&line) {
-            self.stderr(&format!("{text}\n"));
-        }
+        self.stderr(&format!("{}\n", line(kind, body)));
     }
 
     fn painted(&self, word: &str) -> String {
@@ -242,6 +242,17 @@ impl Console {
         // Nobody is left to tell when standard error itself is gone.
         let _ = stderr.write_all(text.as_bytes());
     }
+}
+
+/// A JSON object in a line.
+fn line<T: Serialize>(kind: &'static str, body: T) -> String {
+    let line = Line {
+        kind,
+        schema: SCHEMA,
+        body,
+    };
+    // Strings, counts and finite numbers: nothing in these bodies can fail to serialize.
+    serde_json::to_string(&line).unwrap_or_default()
 }
 
 fn choose_color(color: Color) -> render::ColorChoice {

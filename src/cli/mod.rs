@@ -38,6 +38,7 @@ mod joints;
 mod kinematics;
 mod machines;
 mod output;
+mod place;
 mod progress;
 mod targets;
 
@@ -81,6 +82,7 @@ pub fn run(targets: &Targets) -> ExitCode {
     let exit = match &arguments.command {
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
+        Some(Command::Place(place)) => place::place(place, targets, &console),
         Some(Command::Fk { cell, joints }) => kinematics::forward(cell, joints, &console),
         Some(Command::Ik {
             cell,

@@ -120,6 +120,7 @@ const fn name(stage: Stage) -> &'static str {
         Stage::Planning => "planning",
         Stage::Proving => "proving",
         Stage::Reaching => "reaching",
+        Stage::Placing => "placing",
         Stage::Emitting => "emitting",
     }
 }
@@ -130,6 +131,7 @@ const fn words(stage: Stage) -> &'static str {
         Stage::Planning => "choosing the cuts",
         Stage::Proving => "proving that every chip comes free and no cut enters the part",
         Stage::Reaching => "proving that the machine reaches every pose at speed",
+        Stage::Placing => "searching for the best place of the work",
         Stage::Emitting => "writing the program",
     }
 }

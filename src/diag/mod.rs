@@ -126,6 +126,23 @@ impl Diagnostic {
         self
     }
 
+    /// Offers a change of several places; its title is shown as a help line too.
+    #[must_use]
+    pub fn fix_all(mut self, title: impl Into<String>, edits: &[(Span, String)]) -> Self {
+        let edits = edits
+            .iter()
+            .map(|(span, replacement)| Edit {
+                span: *span,
+                replacement: replacement.clone(),
+            })
+            .collect();
+        self.fixes.push(Fix {
+            title: title.into(),
+            edits,
+        });
+        self
+    }
+
     /// How bad it is; a property of its code.
     #[must_use]
     pub const fn severity(&self) -> Severity {

@@ -47,6 +47,8 @@ pub enum Stage {
     Proving,
     /// Proving that the machine can carry it out.
     Reaching,
+    /// Searching for the best place of the work.
+    Placing,
     /// Writing the program.
     Emitting,
 }
@@ -128,7 +130,7 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
         Ok(proven) => {
             outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
             if !has_errors(&outcome.diagnostics) {
-                match reach(job, proven.program, progress) {
+                match reach(job, &plan, proven.program, progress) {
                     Ok((program, reach)) => {
                         let figures = reach.as_ref().map(reach_summary::figures);
                         let summary = summary(&plan, &proven.report, figures.as_ref());
@@ -152,6 +154,7 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
 /// Finds how the job's machine carries out its program; a job without a machine has nothing to find.
 fn reach(
     job: &CheckedJob,
+    plan: &PlannedJob,
     program: VerifiedProgram,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<(VerifiedProgram, Option<Reached>), Vec<Diagnostic>> {
@@ -161,14 +164,14 @@ fn reach(
     progress(Stage::Reaching);
     match solve(program, &machine.model, &LEAST_CLEARANCE) {
         Ok(reached) => Ok((reached.program.verified().clone(), Some(reached))),
-        Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, &unreachable)),
+        Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, plan, &unreachable)),
         Err(Unreached::Rules(faults)) => Err(vec![internal(job, &rules_broken(&faults))]),
         Err(Unreached::Motion(faults)) => Err(vec![internal(job, &motions_broken(&faults))]),
     }
 }
 
 /// A program that breaks a rule of its own form is the compiler's fault, whatever the job says.
-fn internal(job: &CheckedJob, faults: &[(Option<OpId>, String)]) -> Diagnostic {
+pub(crate) fn internal(job: &CheckedJob, faults: &[(Option<OpId>, String)]) -> Diagnostic {
     let mut diagnostic = Diagnostic::new(
         Code::Internal,
         "the program made from this job breaks a rule, which is a fault of the compiler",
@@ -182,7 +185,8 @@ fn internal(job: &CheckedJob, faults: &[(Option<OpId>, String)]) -> Diagnostic {
     diagnostic.help("nothing was written; please report the job together with this message")
 }
 
-fn rules_broken(faults: &[Fault]) -> Vec<(Option<OpId>, String)> {
+/// Broken rules of a program, as [`internal`] takes them.
+pub(crate) fn rules_broken(faults: &[Fault]) -> Vec<(Option<OpId>, String)> {
     let words = |fault: &Fault| (fault.op, fault.rule.to_string());
     faults.iter().map(words).collect()
 }

@@ -57,7 +57,7 @@ pub struct Stroke {
 }
 
 /// What decides how long a motion takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Pace {
     /// The tip's speed.
     Feed(FeedId),

@@ -10,6 +10,7 @@ pub mod five_axis_path;
 pub mod ladder;
 pub mod legs;
 pub mod path;
+pub mod place;
 pub mod rig;
 mod runs;
 pub mod solve;

@@ -33,7 +33,7 @@ mod report;
 mod rough_vcut;
 mod session;
 mod stock;
-mod units;
+pub(crate) mod units;
 
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@ mod gallery;
 mod jobs;
 mod kinematics;
 mod machines;
+mod place;
 mod refusals;
 
 use std::fs;

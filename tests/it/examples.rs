@@ -1,13 +1,14 @@
 //! The examples that people start from.
 
 use crate::krl_text;
-use crate::pipeline::{Files, all_diagnostics, compile, emit, numbers, told};
+use crate::pipeline::{Files, all_diagnostics, compile, emit, fixed, numbers, told};
 use crate::repository::{files, root};
 use std::collections::BTreeSet;
 
 /// The examples that are meant to fail, with the codes they show.
 const FAILING: &[(&str, &[&str])] = &[
     ("broken.vcut", &["VC0102", "VC0201", "VC0203", "VC0205", "VC0209"]),
+    ("out_of_reach.vcut", &["VC0510"]),
     ("too_deep.vcut", &["VC0401"]),
 ];
 
@@ -83,5 +84,22 @@ fn examples_of_errors_fail_as_they_are_meant_to() {
         let found: BTreeSet<_> = numbers(&outcome.diagnostics).into_iter().collect();
         assert_eq!(found.into_iter().collect::<Vec<_>>(), codes, "{name}");
         assert!(outcome.compiled.is_none());
+    }
+}
+
+#[test]
+fn each_fix_of_the_example_out_of_reach_makes_it_compile() {
+    let outcome = compile("out_of_reach.vcut", &folder());
+    let fixes: Vec<_> = outcome
+        .diagnostics
+        .iter()
+        .flat_map(|found| &found.fixes)
+        .collect();
+    assert!(fixes.len() >= 2, "{fixes:?}");
+    for fix in fixes {
+        let mended = fixed(&folder(), &outcome, fix);
+        let after = compile("out_of_reach.vcut", &mended);
+        assert_eq!(told(&all_diagnostics(&after), &after), "", "{}", fix.title);
+        krl_text::check(&after, &emit(&after).unwrap());
     }
 }

@@ -26,7 +26,23 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("lower", &["geom", "job", "plan", "posture", "source"]),
     ("summary", &["plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
-    ("reach_verdict", &["diag", "job", "plan", "reach", "source"]),
+    ("picture", &[]),
+    (
+        "remedy",
+        &[
+            "diag", "job", "lower", "machine", "plan", "reach", "source", "verdict",
+        ],
+    ),
+    (
+        "reach_verdict",
+        &["diag", "job", "kinematics", "plan", "reach", "remedy", "source"],
+    ),
+    (
+        "placement",
+        &[
+            "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source", "verdict",
+        ],
+    ),
     (
         "verdict",
         &["diag", "geom", "job", "lower", "plan", "sim", "source"],
@@ -58,6 +74,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "job",
             "kinematics",
             "machine",
+            "placement",
             "plan",
             "reach",
             "reach_summary",

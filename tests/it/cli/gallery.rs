@@ -8,7 +8,12 @@ use std::fs;
 fn the_readme_shows_what_the_compiler_prints() {
     let run = vcutc(
         root(),
-        &["check", "examples/broken.vcut", "examples/too_deep.vcut"],
+        &[
+            "check",
+            "examples/broken.vcut",
+            "examples/too_deep.vcut",
+            "examples/out_of_reach.vcut",
+        ],
     );
     assert_eq!(run.code, Some(1));
     let readme = fs::read_to_string(root().join("README.md")).unwrap();

@@ -1,0 +1,77 @@
+//! `vcutc place JOB`: the base frame that leaves the machine the most room.
+
+use super::args::PlaceArgs;
+use super::console::{Console, Failure};
+use super::files::Disk;
+use super::output::{Destination, Output};
+use super::progress::Progress;
+use super::{Exit, Targets};
+use crate::driver::Request;
+use crate::placement::{self, Asked, Placement, Refusal, report};
+use std::path::{Path, PathBuf};
+use vcutc_backend_api::bundle::Sink;
+
+/// Places one job.
+pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> Exit {
+    let disk = Disk::around(&args.job);
+    let mut progress = Progress::start(console.shows_progress());
+    let request = Request {
+        path: disk.job(),
+        loader: &disk,
+        overrides: &args.overrides.set,
+        targets,
+    };
+    let asked = Asked {
+        x: args.x.as_deref(),
+        y: args.y.as_deref(),
+        z: args.z.as_deref(),
+        yaw: args.yaw.as_deref(),
+    };
+    let placed = placement::place(request, &asked, &mut |stage| progress.enter(stage));
+    progress.finish();
+    match placed {
+        Ok(placement) => tell(&placement, args.output.as_deref(), console),
+        Err(Refusal::Unreadable(reason)) => console.failure(&Failure::new(format!(
+            "cannot read the job {}: {reason}",
+            args.job
+        ))),
+        Err(Refusal::BadBounds(bad)) => console.failure(&Failure::new(bad.to_string())),
+        Err(Refusal::Diagnostics(diagnostics, sources)) => {
+            console.diagnostics(&diagnostics, &sources);
+            Exit::JobHasErrors
+        }
+    }
+}
+
+fn tell(placement: &Placement, map: Option<&str>, console: &Console) -> Exit {
+    let written = match map.map(|path| write_map(placement, Path::new(path))).transpose() {
+        Ok(files) => files.unwrap_or_default(),
+        Err(reason) => return console.failure(&Failure::new(reason)),
+    };
+    let mut text = report::text(placement);
+    for file in &written {
+        text += &format!("\nwrote {file}\n");
+    }
+    match console.answer("placement", &text, report::body(placement)) {
+        Exit::Success if placement.best.is_none() && placement.now.room.is_err() => Exit::JobHasErrors,
+        exit => exit,
+    }
+}
+
+/// Writes the map whole or not at all.
+fn write_map(placement: &Placement, path: &Path) -> Result<Vec<String>, String> {
+    let name = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent.to_owned(),
+        Some(_) | None => PathBuf::from("."),
+    };
+    let mut output = Output::to(&Destination::Folder(folder));
+    output.file(name).map_err(|error| error.to_string())?;
+    output
+        .write(placement.svg().as_bytes())
+        .map_err(|error| error.to_string())?;
+    output.publish()
+}

@@ -1,0 +1,145 @@
+//! The little of SVG that pictures here need.
+
+use core::fmt::Write;
+
+/// An SVG text under construction. Coordinates are written with two decimals, so that they are the same everywhere.
+pub(super) struct Svg {
+    text: String,
+}
+
+/// Where a text stands against its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    /// It begins there.
+    Start,
+    /// Its middle is there.
+    Middle,
+    /// It ends there.
+    End,
+}
+
+impl Svg {
+    /// A picture of this size, with what it shows in words for those who do not see it, on a ground of its own: viewers
+    /// with a dark page show it as it is.
+    pub(super) fn new(width: f64, height: f64, title: &str, description: &str) -> Self {
+        let mut svg = Self { text: String::new() };
+        let (width, height) = (number(width), number(height));
+        svg.line(&format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
+             height=\"{height}\" role=\"img\" aria-labelledby=\"title description\" font-family=\"sans-serif\" \
+             font-size=\"13\">"
+        ));
+        svg.line(&format!("  <title id=\"title\">{}</title>", escaped(title)));
+        svg.line(&format!(
+            "  <desc id=\"description\">{}</desc>",
+            escaped(description)
+        ));
+        svg.line(&format!(
+            "  <rect width=\"{width}\" height=\"{height}\" rx=\"8\" fill=\"#fbfaf7\"/>"
+        ));
+        svg
+    }
+
+    /// A line of markup as it is.
+    pub(super) fn line(&mut self, markup: &str) {
+        self.text.push_str(markup);
+        self.text.push('\n');
+    }
+
+    /// A rectangle; `paint` holds its attributes.
+    pub(super) fn rect(&mut self, [x, y, width, height]: [f64; 4], paint: &str) {
+        let [x, y, width, height] = [x, y, width, height].map(number);
+        self.line(&format!(
+            "  <rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {paint}/>"
+        ));
+    }
+
+    /// A path of rectangles: many of one paint are one element.
+    pub(super) fn rects(&mut self, rects: &[[f64; 4]], paint: &str) {
+        let mut path = String::new();
+        for rect in rects {
+            let [x, y, width, height] = rect.map(number);
+            // Writing to a string cannot fail.
+            let _ = write!(path, "M{x} {y}h{width}v{height}h-{width}z");
+        }
+        self.path(&path, paint);
+    }
+
+    /// A path.
+    pub(super) fn path(&mut self, path: &str, paint: &str) {
+        self.line(&format!("  <path d=\"{path}\" {paint}/>"));
+    }
+
+    /// A text; `style` holds further attributes.
+    pub(super) fn text(&mut self, (x, y): (f64, f64), anchor: Anchor, style: &str, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let space = if style.is_empty() { "" } else { " " };
+        self.line(&format!(
+            "  <text x=\"{}\" y=\"{}\"{anchor} fill=\"#2b2a27\"{space}{style}>{}</text>",
+            number(x),
+            number(y),
+            escaped(text)
+        ));
+    }
+
+    /// The whole text.
+    pub(super) fn finish(mut self) -> String {
+        self.line("</svg>");
+        self.text
+    }
+}
+
+/// Two decimals, without those that are zero, and never `-0`.
+pub(super) fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" {
+        "0".to_owned()
+    } else {
+        short.to_owned()
+    }
+}
+
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            // XML has no way to say these.
+            letter if letter.is_control() => escaped.push(' '),
+            letter => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_never_minus_zero() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.001, "0"),
+            (12.0, "12"),
+            (1.5, "1.5"),
+            (-0.126, "-0.13"),
+            (100.0, "100"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn names_cannot_break_the_markup() {
+        assert_eq!(escaped("a<b> & \"c\"\u{0}"), "a&lt;b&gt; &amp; &quot;c&quot; ");
+    }
+}

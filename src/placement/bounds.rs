@@ -1,0 +1,213 @@
+//! Where the base may stand, as people write it: `1000..2500`, `-0.5 m .. 0.5 m`, `650 mm`.
+
+use crate::reach::place::Spot;
+use crate::reach::place::search::Bounds;
+use crate::sema::units;
+use core::f64::consts::PI;
+use core::fmt;
+use vcutc_backend_api::geometry::Frame;
+
+/// What the user asks for; what is left out is a box around where the base is now.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Asked<'a> {
+    /// x of the base in the machine's root.
+    pub x: Option<&'a str>,
+    /// y of it.
+    pub y: Option<&'a str>,
+    /// z of it.
+    pub z: Option<&'a str>,
+    /// Turn about z against now.
+    pub yaw: Option<&'a str>,
+}
+
+/// How far from now the base may go where the user sets no bounds: mm in x, y and z.
+pub const AROUND: [i32; 3] = [500, 500, 300];
+/// How far it may turn, in degrees.
+pub const TURN_AROUND: i32 = 90;
+/// Farthest from the machine's root that a base can be asked for, in mm.
+const FARTHEST: i32 = 100_000;
+
+/// Bounds that cannot be understood.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadBounds {
+    /// The option, such as `--x`.
+    pub option: &'static str,
+    /// Its text.
+    pub given: String,
+    /// What is wrong with it, and what would be right.
+    pub why: String,
+}
+
+impl fmt::Display for BadBounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{} {}`: {}", self.option, self.given, self.why)
+    }
+}
+
+/// What the numbers of an option are.
+#[derive(Clone, Copy)]
+enum Kind {
+    /// Lengths, in whole mm.
+    Length,
+    /// Angles, in tenths of a degree.
+    Angle,
+}
+
+impl Asked<'_> {
+    /// The bounds, around where the base is now.
+    ///
+    /// # Errors
+    /// The first option that cannot be understood.
+    pub fn bounds(&self, base: &Frame) -> Result<Bounds, BadBounds> {
+        let now = Spot::near(base);
+        let around = |value: i32, by: i32| (value.saturating_sub(by), value.saturating_add(by));
+        let [dx, dy, dz] = AROUND;
+        let x = read("--x", self.x, Kind::Length)?.unwrap_or(around(now.x, dx));
+        let y = read("--y", self.y, Kind::Length)?.unwrap_or(around(now.y, dy));
+        let z = read("--z", self.z, Kind::Length)?.unwrap_or(around(now.z, dz));
+        let yaw = read("--yaw", self.yaw, Kind::Angle)?.unwrap_or(around(0, TURN_AROUND * 10));
+        Ok(Bounds {
+            least: Spot {
+                x: x.0,
+                y: y.0,
+                z: z.0,
+                yaw: yaw.0,
+            },
+            most: Spot {
+                x: x.1,
+                y: y.1,
+                z: z.1,
+                yaw: yaw.1,
+            },
+        })
+    }
+}
+
+fn read(option: &'static str, given: Option<&str>, kind: Kind) -> Result<Option<(i32, i32)>, BadBounds> {
+    let Some(text) = given else { return Ok(None) };
+    range(text, kind).map(Some).map_err(|why| BadBounds {
+        option,
+        given: text.to_owned(),
+        why,
+    })
+}
+
+/// A range, both ends included, in the kind's steps. A unit behind the second number holds for both.
+fn range(text: &str, kind: Kind) -> Result<(i32, i32), String> {
+    let (first, second) = text.split_once("..").unwrap_or((text, text));
+    let ((first, own), (second, unit)) = (split(first), split(second));
+    let unit = if unit.is_empty() { own } else { unit };
+    let own = if own.is_empty() { unit } else { own };
+    let (least, most) = (steps(first, own, kind)?, steps(second, unit, kind)?);
+    // Products such as 0.3 m are a hair off the millimetre.
+    let (low, high) = ((least - 1e-6).ceil(), (most + 1e-6).floor());
+    if least > most {
+        return Err("the first number is above the second".to_owned());
+    }
+    if low > high {
+        return Err(match kind {
+            Kind::Length => "there is no whole millimetre in between".to_owned(),
+            Kind::Angle => "there is no whole tenth of a degree in between".to_owned(),
+        });
+    }
+    let (reach, words) = match kind {
+        Kind::Length => (f64::from(FARTHEST), "100 m at most"),
+        Kind::Angle => (3600.0, "360 deg at most"),
+    };
+    if low < -reach || high > reach {
+        return Err(format!("it goes too far ({words})"));
+    }
+    Ok((low as i32, high as i32))
+}
+
+/// A number and what stands behind it.
+fn split(text: &str) -> (&str, &str) {
+    let text = text.trim();
+    let end = text
+        .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-')))
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    (number.trim(), unit.trim())
+}
+
+fn steps(number: &str, unit: &str, kind: Kind) -> Result<f64, String> {
+    let (usual, example, step) = match kind {
+        Kind::Length => ("mm", "1000..2500", 1.0),
+        Kind::Angle => ("deg", "-30..30", PI / 1800.0),
+    };
+    let unit = if unit.is_empty() { usual } else { unit };
+    let wrong = || format!("write a range such as `{example}`; without a unit it is in {usual}");
+    let number: f64 = number.parse().map_err(|_| wrong())?;
+    let quantity = units::quantity(number, unit).ok_or_else(wrong)?;
+    let one = units::quantity(1.0, usual).ok_or_else(wrong)?;
+    if quantity.dimension == one.dimension && quantity.value.is_finite() {
+        Ok(quantity.value / step)
+    } else {
+        Err(wrong())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vcutc_backend_api::geometry::{Orientation, Point3};
+
+    #[test]
+    fn ranges_are_read_with_units_or_without() {
+        let lengths = [
+            ("1000..2500", (1000, 2500)),
+            ("-500..500 mm", (-500, 500)),
+            ("1..2.5m", (1000, 2500)),
+            ("100mm .. 0.3m", (100, 300)),
+            ("650", (650, 650)),
+            (" 0.5..1.5 ", (1, 1)),
+        ];
+        for (text, expected) in lengths {
+            assert_eq!(range(text, Kind::Length), Ok(expected), "{text}");
+        }
+        assert_eq!(range("-30..30", Kind::Angle), Ok((-300, 300)));
+        assert_eq!(range("0..0.5rad", Kind::Angle), Ok((0, 286)));
+    }
+
+    #[test]
+    fn what_is_no_range_is_refused_with_one_that_is() {
+        for text in [
+            "", "..", "a..b", "1..2..3", "1..2 deg", "2..1", "0.2..0.8", "0..1e9", "0..200 m", "NaN..1",
+        ] {
+            assert!(range(text, Kind::Length).is_err(), "{text}");
+        }
+        assert!(range("0..10 mm", Kind::Angle).is_err());
+        assert!(range("x", Kind::Length).unwrap_err().contains("1000..2500"));
+    }
+
+    #[test]
+    fn without_bounds_it_is_a_box_around_now() {
+        let base = Frame {
+            origin: Point3::new(1700.4, -600.0, 650.0),
+            orientation: Orientation::IDENTITY,
+        };
+        let asked = Asked {
+            z: Some("600..700"),
+            ..Asked::default()
+        };
+        let bounds = asked.bounds(&base).unwrap();
+        assert_eq!(
+            bounds.least,
+            Spot {
+                x: 1200,
+                y: -1100,
+                z: 600,
+                yaw: -900
+            }
+        );
+        assert_eq!(
+            bounds.most,
+            Spot {
+                x: 2200,
+                y: -100,
+                z: 700,
+                yaw: 900
+            }
+        );
+    }
+}

@@ -1,0 +1,64 @@
+//! Margins over x and y, at one height and one turn of the work.
+
+use crate::picture::heat_map::{HeatMap, draw};
+use crate::plan::parameters::show;
+use crate::reach::place::Spot;
+use crate::reach::place::score::Judge;
+use crate::reach::place::search::{Bounds, evenly, judge};
+use vcutc_backend_api::geometry::Frame;
+
+/// Margins by the taught poses, over the bounds of x and y.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// x of the places, in mm.
+    pub xs: Vec<i32>,
+    /// y of the places, in mm.
+    pub ys: Vec<i32>,
+    /// The height and turn at which the map is drawn; x and y say nothing.
+    pub at: Spot,
+    /// Margins row by row from the least y; none where something is out of reach.
+    pub margins: Vec<Option<f64>>,
+}
+
+/// Cells along the longer side.
+const CELLS: i32 = 40;
+
+impl Map {
+    /// Judges all places of the map.
+    #[must_use]
+    pub fn draw(by: &Judge<'_>, base: &Frame, bounds: &Bounds, at: Spot) -> Self {
+        let widths = [bounds.most.x - bounds.least.x, bounds.most.y - bounds.least.y];
+        let longest = widths.into_iter().max().unwrap_or_default().max(1);
+        let cells = |width: i32| (f64::from(CELLS) * f64::from(width) / f64::from(longest)).round() as i32;
+        let xs = evenly(bounds.least.x, bounds.most.x, cells(widths[0]));
+        let ys = evenly(bounds.least.y, bounds.most.y, cells(widths[1]));
+        let spots = ys
+            .iter()
+            .flat_map(|&y| xs.iter().map(move |&x| Spot { x, y, ..at }))
+            .collect();
+        let margins = judge(by, base, spots)
+            .into_iter()
+            .map(|placed| placed.score.reached())
+            .collect();
+        Self { xs, ys, at, margins }
+    }
+
+    /// The map as SVG.
+    #[must_use]
+    pub fn svg(&self, title: &str, now: &Frame, best: Option<Spot>) -> String {
+        let subtitle = format!(
+            "z {} mm, work turned by {} deg against now; by the taught poses",
+            self.at.z,
+            show(self.at.turn().to_deg())
+        );
+        draw(&HeatMap {
+            title,
+            subtitle: &subtitle,
+            xs: &self.xs,
+            ys: &self.ys,
+            margins: &self.margins,
+            now: [now.origin.x, now.origin.y],
+            best: best.map(|spot| [f64::from(spot.x), f64::from(spot.y)]),
+        })
+    }
+}

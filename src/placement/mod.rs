@@ -1,0 +1,270 @@
+//! `vcutc place`: the base frame that leaves the machine the most room, from a job's text.
+//!
+//! The job is planned and proven as for a compilation, for the cuts do not depend on where the work stands. Then
+//! [`crate::reach::place`] looks for places by the taught poses, and the best of them are put to the whole proof, one by one,
+//! until one passes. The job itself is not changed: what people get is the frame to paste.
+
+mod bounds;
+mod map;
+pub mod report;
+
+pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
+pub use map::Map;
+
+use crate::diag::{Code, Diagnostic, has_errors};
+use crate::driver::{Request, Stage, internal, rules_broken};
+use crate::job::{CheckedJob, Machine};
+use crate::plan::{self, PlannedJob};
+use crate::reach::place::Spot;
+use crate::reach::place::score::Judge;
+use crate::reach::place::search::{Bounds, Criteria, Placed, search};
+use crate::reach::place::strokes::Strokes;
+use crate::reach::place::taught::TaughtPoses;
+use crate::reach::rig::Rig;
+use crate::remedy::trial::{self, Room};
+use crate::remedy::wording;
+use crate::sema;
+use crate::source::SourceMap;
+use crate::verdict;
+use vcutc_backend_api::ir::PlacedFrame;
+
+/// Where the work stands best.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    /// The job's name.
+    pub job: String,
+    /// The machine's name in the job.
+    pub machine: String,
+    /// Its model.
+    pub model: String,
+    /// Where the base might have stood.
+    pub bounds: Bounds,
+    /// Where it stands now.
+    pub now: Standing,
+    /// The best place that was proven.
+    pub best: Option<Best>,
+    /// Why better places by the taught poses did not pass, the first of them first.
+    pub refused: Vec<String>,
+    /// Margins over x and y.
+    pub map: Map,
+}
+
+impl Placement {
+    /// The map as SVG.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let title = format!("{}: places for the base of {}", self.job, self.machine);
+        let best = self.best.as_ref().map(|best| best.spot);
+        self.map.svg(&title, &self.now.base.frame, best)
+    }
+}
+
+/// A base and what the machine makes of it.
+#[derive(Clone, Debug)]
+pub struct Standing {
+    /// The base.
+    pub base: PlacedFrame,
+    /// What room the whole program leaves there; why it is not carried out otherwise.
+    pub room: Result<Room, String>,
+}
+
+/// A place that was proven.
+#[derive(Clone, Debug)]
+pub struct Best {
+    /// Where.
+    pub spot: Spot,
+    /// The frame to paste.
+    pub base: PlacedFrame,
+    /// What room the whole program leaves there.
+    pub room: Room,
+}
+
+/// Why nothing is placed.
+#[derive(Debug)]
+pub enum Refusal {
+    /// The job file cannot be read.
+    Unreadable(String),
+    /// The job has errors, or no machine.
+    Diagnostics(Vec<Diagnostic>, SourceMap),
+    /// The bounds cannot be understood.
+    BadBounds(BadBounds),
+}
+
+/// Poses beside the outermost ones, for each orientation, that the grid and the climbs are judged by.
+const SPREAD: (usize, usize) = (4, 40);
+/// Most places that are put to the whole proof.
+const MOST_PROOFS: usize = 8;
+
+/// Places the work of a job.
+///
+/// # Errors
+/// When there is nothing to place.
+pub fn place(
+    request: Request<'_>,
+    asked: &Asked<'_>,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Placement, Refusal> {
+    let mut sources = SourceMap::default();
+    match prepare(request, &mut sources, progress) {
+        Err(Failed::Unreadable(reason)) => Err(Refusal::Unreadable(reason)),
+        Err(Failed::Diagnostics(diagnostics)) => Err(Refusal::Diagnostics(diagnostics, sources)),
+        Ok(ready) => {
+            let base = ready.machine.base.value.frame;
+            let bounds = asked.bounds(&base).map_err(Refusal::BadBounds)?;
+            progress(Stage::Placing);
+            Ok(placed(&ready, bounds))
+        }
+    }
+}
+
+/// A job whose cuts are proven.
+struct Ready {
+    job: CheckedJob,
+    machine: Machine,
+    plan: PlannedJob,
+    proven: verdict::Proven,
+}
+
+enum Failed {
+    Unreadable(String),
+    Diagnostics(Vec<Diagnostic>),
+}
+
+fn prepare(
+    request: Request<'_>,
+    sources: &mut SourceMap,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Ready, Failed> {
+    progress(Stage::Reading);
+    let mut diagnostics = Vec::new();
+    let (_, job) = sema::check(
+        request.path,
+        request.loader,
+        request.overrides,
+        sources,
+        &mut diagnostics,
+    )
+    .map_err(|error| Failed::Unreadable(error.to_string()))?;
+    let Some(job) = job.filter(|_| !has_errors(&diagnostics)) else {
+        return Err(Failed::Diagnostics(diagnostics));
+    };
+    let Some(machine) = job.machine.clone() else {
+        return Err(Failed::Diagnostics(vec![without_machine(&job)]));
+    };
+    progress(Stage::Planning);
+    let (plan, found) = plan::choose(&job);
+    diagnostics.extend(found);
+    let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
+        return Err(Failed::Diagnostics(diagnostics));
+    };
+    progress(Stage::Proving);
+    match verdict::prove(&plan, sources) {
+        Ok(proven) => {
+            diagnostics.extend(verdict::diagnose(&job, &plan, &proven));
+            if has_errors(&diagnostics) {
+                return Err(Failed::Diagnostics(diagnostics));
+            }
+            Ok(Ready {
+                job,
+                machine,
+                plan,
+                proven,
+            })
+        }
+        Err(faults) => Err(Failed::Diagnostics(vec![internal(&job, &rules_broken(&faults))])),
+    }
+}
+
+fn without_machine(job: &CheckedJob) -> Diagnostic {
+    Diagnostic::new(
+        Code::MissingMachine,
+        "a base is placed on a machine, and this job has none",
+        job.name_span,
+        "this job",
+    )
+    .help(
+        "add a block `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
+    )
+}
+
+fn placed(ready: &Ready, bounds: Bounds) -> Placement {
+    let Ready {
+        job,
+        machine,
+        plan,
+        proven,
+    } = ready;
+    let base = machine.base.value;
+    let poses = TaughtPoses::of(&proven.program);
+    let rig = Rig::new(&machine.model, machine.tool.value.frame, base.frame);
+    let strokes = Strokes::of(proven.program.program());
+    let judge = |spread| {
+        Judge::new(
+            rig.mechanism,
+            rig.axes,
+            &rig.flange_in_blade,
+            poses.telling(spread),
+        )
+    };
+    let (rough, fine) = (judge(SPREAD.0), judge(SPREAD.1));
+    let now = Standing {
+        base,
+        room: tried(plan, machine, base),
+    };
+    let mut refused = Vec::new();
+    let criteria = Criteria {
+        rough: &rough,
+        fine: &fine,
+        admits: &|spot: Spot| {
+            strokes.are_followed(&Rig {
+                work_in_root: spot.work_in_root(&base.frame),
+                ..rig.clone()
+            })
+        },
+    };
+    let best = search(&criteria, &base.frame, &bounds)
+        .into_iter()
+        .filter(|place| place.score.reached().is_some())
+        .take(MOST_PROOFS)
+        .find_map(|place| prove(plan, machine, place, &mut refused));
+    let shown = best.as_ref().map_or(Spot::near(&base.frame), |best| best.spot);
+    Placement {
+        job: job.name.clone(),
+        machine: machine.name.clone(),
+        model: machine.model.name.clone(),
+        bounds,
+        map: Map::draw(&fine, &base.frame, &bounds, shown),
+        now,
+        best,
+        refused,
+    }
+}
+
+/// Puts a place to the whole proof.
+fn prove(plan: &PlannedJob, machine: &Machine, place: Placed, refused: &mut Vec<String>) -> Option<Best> {
+    let now = machine.base.value;
+    let base = PlacedFrame {
+        frame: wording::rounded(&place.spot.frame(&now.frame)),
+        ..now
+    };
+    match tried(plan, machine, base) {
+        Ok(room) => Some(Best {
+            spot: place.spot,
+            base,
+            room,
+        }),
+        Err(reason) => {
+            refused.push(format!("{}: {reason}", report::spot(place.spot)));
+            None
+        }
+    }
+}
+
+/// What room the whole program leaves with the base there; in words, why it is not carried out.
+fn tried(plan: &PlannedJob, machine: &Machine, base: PlacedFrame) -> Result<Room, String> {
+    match trial::with_base(plan, base) {
+        Some(Ok(reached)) => Ok(trial::room(&reached, &machine.model)),
+        Some(Err(unreached)) => Err(trial::words(&unreached, &machine.model)),
+        None => Err("the job has no machine".to_owned()),
+    }
+}

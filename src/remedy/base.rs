@@ -1,0 +1,172 @@
+//! The base moved or turned by the least that helps.
+//!
+//! Places around the present one are judged by the taught poses and a few telling motions, the nearest first; the first that promise
+//! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
+
+use super::{Case, Remedy, trial, wording};
+use crate::plan::parameters::show;
+use crate::reach::place::score::{Effort, Judge};
+use crate::reach::place::search::ask_all;
+use crate::reach::place::strokes::Strokes;
+use crate::reach::place::taught::TaughtPoses;
+use crate::reach::rig::Rig;
+use crate::reach::trouble::Trouble;
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
+use vcutc_backend_api::ir::PlacedFrame;
+use vcutc_backend_api::units::Angle;
+
+/// How far the base is moved along a direction, in mm.
+const DISTANCES: [f64; 14] = [
+    10.0, 20.0, 40.0, 60.0, 80.0, 100.0, 150.0, 200.0, 250.0, 300.0, 400.0, 500.0, 700.0, 1000.0,
+];
+/// By how much the work is turned, in degrees.
+const TURNS: [f64; 12] = [
+    5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0,
+];
+/// Least margin at the taught poses that makes a place worth proving.
+const PROMISING: f64 = 0.01;
+/// Most places that are proven for one remedy.
+const MOST_PROOFS: usize = 5;
+/// How much further the next place to be proven is.
+const FURTHER: f64 = 1.2;
+/// Places that are judged at once.
+const JUDGED: usize = 52;
+/// Poses beside the outermost ones, for each orientation.
+const SPREAD: usize = 4;
+
+/// A change of the base: by these mm along the root's axes, and turned by these degrees about its z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shift {
+    by: [f64; 3],
+    turn: f64,
+}
+
+impl Shift {
+    /// How far it is, in mm or deg: shifts of one kind are compared only.
+    fn size(&self) -> f64 {
+        let [x, y, z] = self.by;
+        (x * x + y * y + z * z).sqrt() + self.turn.abs()
+    }
+
+    fn of(&self, base: &Frame) -> Frame {
+        let [x, y, z] = self.by;
+        let now = base.orientation.to_zyx();
+        wording::rounded(&Frame {
+            origin: Point3::new(base.origin.x + x, base.origin.y + y, base.origin.z + z),
+            orientation: Orientation::from_zyx(Zyx {
+                a: now.a + Angle::deg(self.turn),
+                ..now
+            }),
+        })
+    }
+}
+
+/// The base moved by the least, along one axis or several.
+pub(super) fn moved(case: &mut Case<'_>) -> Option<Remedy> {
+    let ways = || [-1.0, 0.0, 1.0].into_iter();
+    let directions = ways().flat_map(|x| ways().flat_map(move |y| ways().map(move |z| [x, y, z])));
+    let shifts = directions
+        .filter(|direction| *direction != [0.0; 3])
+        .flat_map(|direction| DISTANCES.map(|distance| direction.map(|part| part * distance)))
+        .map(|by| Shift { by, turn: 0.0 });
+    let (shift, base) = nearest(case, shifts.collect())?;
+    let parts = ["x", "y", "z"]
+        .into_iter()
+        .zip(shift.by)
+        .filter(|(_, part)| *part != 0.0);
+    let parts: Vec<String> = parts
+        .map(|(axis, part)| {
+            let sign = if part > 0.0 { "+" } else { "" };
+            format!("{axis} {sign}{} mm", show(part))
+        })
+        .collect();
+    Some(remedy(
+        case,
+        &base,
+        &format!("move the base by {}", parts.join(", ")),
+    ))
+}
+
+/// The base turned about the root's z by the least.
+pub(super) fn turned(case: &mut Case<'_>) -> Option<Remedy> {
+    let turns = TURNS.into_iter().flat_map(|turn| [turn, -turn]);
+    let shifts = turns.map(|turn| Shift { by: [0.0; 3], turn });
+    let (shift, base) = nearest(case, shifts.collect())?;
+    let turn = show(shift.turn);
+    Some(remedy(
+        case,
+        &base,
+        &format!("turn the base by {turn} deg about z"),
+    ))
+}
+
+fn remedy(case: &Case<'_>, base: &PlacedFrame, what: &str) -> Remedy {
+    let text = wording::frame_text(base);
+    Remedy::replace(format!("{what}: `base = {text}`"), case.machine.base.span, text)
+}
+
+/// The motion that fails.
+fn failing(case: &Case<'_>) -> Strokes {
+    let program = case.unreachable.program.program();
+    match &case.unreachable.trouble {
+        Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => {
+            Strokes::only(program, failing.op)
+        }
+        Trouble::Way { .. } | Trouble::Nowhere => Strokes::default(),
+    }
+}
+
+/// The nearest of these places that carries out the whole program.
+fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, PlacedFrame)> {
+    // Stable, so that of equally near ones the first stays first.
+    shifts.sort_by(|a, b| a.size().total_cmp(&b.size()));
+    let now = case.machine.base.value;
+    let rig = Rig::new(&case.machine.model, case.machine.tool.value.frame, now.frame);
+    let poses = TaughtPoses::of(&case.unreachable.program);
+    let judge = Judge::new(
+        rig.mechanism,
+        rig.axes,
+        &rig.flange_in_blade,
+        poses.telling(SPREAD),
+    );
+    if judge.effort() == Effort::Sparing {
+        shifts.retain(|shift| shift.by.iter().filter(|part| **part != 0.0).count() <= 1);
+        shifts = shifts.into_iter().step_by(3).collect();
+    }
+    let (failing, others) = (failing(case), Strokes::of(case.unreachable.program.program()));
+    let mut proofs = 0;
+    let mut failed_at = 0.0;
+    for batch in shifts.chunks(JUDGED) {
+        let promising = ask_all(batch, |shift| {
+            let there = Rig {
+                work_in_root: shift.of(&now.frame).into(),
+                ..rig.clone()
+            };
+            // The motion that fails first: nearly always it says no, and it costs least.
+            failing.are_followed(&there)
+                && judge
+                    .score(&there.work_in_root)
+                    .reached()
+                    .is_some_and(|margin| margin >= PROMISING)
+                && others.are_each_followed(&there)
+        });
+        for (shift, _) in batch.iter().zip(promising).filter(|(_, promising)| *promising) {
+            if shift.size() < failed_at * FURTHER {
+                continue;
+            }
+            if proofs == MOST_PROOFS || !case.may_try() {
+                return None;
+            }
+            proofs += 1;
+            let base = PlacedFrame {
+                frame: shift.of(&now.frame),
+                ..now
+            };
+            if let Some(Ok(_)) = trial::with_base(case.plan, base) {
+                return Some((*shift, base));
+            }
+            failed_at = shift.size();
+        }
+    }
+    None
+}

@@ -1,0 +1,183 @@
+//! Changes that make an unreachable job reachable, each of them tried.
+//!
+//! Nothing is offered that has not been through the whole pipeline: planned again where the change concerns the cuts, proven,
+//! and carried out by the machine from home to home. That is dear for a job of many cuts, so places for the base are sorted
+//! out by the taught poses before, and all tries together are bounded ([`MOST_TRIES`]).
+//!
+//! | What breaks | What is tried |
+//! | --- | --- |
+//! | a rate | the highest speeds that the axes follow (`speed`) |
+//! | reach, limits, singular poses, the branch | another direction or order of the cuts, a smaller swing (`process`), the base moved or turned by the least that helps (`base`) |
+//! | the way from home or to home | a home above the first cut (`home`), else the base |
+//!
+//! A rate that would need speeds far below those asked for is taken for a place the arm had better avoid: what mends the
+//! other kinds is tried then, too.
+
+mod base;
+mod home;
+mod process;
+mod speed;
+pub mod trial;
+pub mod wording;
+
+use crate::diag::Diagnostic;
+use crate::job::{CheckedJob, Machine};
+use crate::plan::{PlannedJob, PlannedOperation};
+use crate::reach::path::Violation;
+use crate::reach::solve::Unreachable;
+use crate::reach::trouble::Trouble;
+use crate::source::Span;
+
+/// A change that was tried and makes the job compile.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Remedy {
+    /// What to do, in the imperative, with the value.
+    pub advice: String,
+    /// What to write where, when the value stands in a file.
+    pub edits: Vec<(Span, String)>,
+}
+
+/// Most remedies that are offered.
+const MOST_OFFERED: usize = 3;
+/// Most times that a job is taken through the whole pipeline for one message.
+const MOST_TRIES: u32 = 20;
+/// Most cuts that are tried in all for one message, beyond two tries.
+const MOST_CUTS_TRIED: usize = 100_000;
+/// Most cuts of a job that is planned again. Beyond it only the machine's side is changed, which leaves the cuts as they are.
+const MOST_CUTS_PLANNED_AGAIN: usize = 20_000;
+
+/// What remedies are sought for.
+struct Case<'c> {
+    job: &'c CheckedJob,
+    plan: &'c PlannedJob,
+    machine: &'c Machine,
+    unreachable: &'c Unreachable,
+    tries_left: u32,
+}
+
+impl Case<'_> {
+    /// Takes a try from those that are left.
+    fn may_try(&mut self) -> bool {
+        match self.tries_left.checked_sub(1) {
+            Some(left) => {
+                self.tries_left = left;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Whether planning the cuts again is affordable.
+    fn may_plan_again(&self) -> bool {
+        cuts(self.plan) <= MOST_CUTS_PLANNED_AGAIN
+    }
+}
+
+fn cuts(plan: &PlannedJob) -> usize {
+    let cuts = plan
+        .operations
+        .iter()
+        .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len());
+    cuts.sum()
+}
+
+/// How often a job may be tried: less often the larger it is, for a try takes as long as its cuts are many.
+fn tries(plan: &PlannedJob) -> u32 {
+    let affordable = MOST_CUTS_TRIED / cuts(plan).max(1);
+    u32::try_from(affordable)
+        .unwrap_or(MOST_TRIES)
+        .clamp(2, MOST_TRIES)
+}
+
+/// Changes that let the machine carry the job out, at most [`MOST_OFFERED`]: those of the program first, then the base, the
+/// nearest first.
+#[must_use]
+pub fn remedies(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) -> Vec<Remedy> {
+    let Some(machine) = &job.machine else {
+        return Vec::new();
+    };
+    let mut case = Case {
+        job,
+        plan,
+        machine,
+        unreachable,
+        tries_left: tries(plan),
+    };
+    let mut found = match &unreachable.trouble {
+        Trouble::Motion { failing, .. } => match failing.worst.what {
+            Violation::Rate { .. } => slower(&mut case),
+            Violation::OutOfReach | Violation::Limit { .. } | Violation::Singular(_) => elsewhere(&mut case),
+        },
+        Trouble::NoCommonBranch { .. } => elsewhere(&mut case),
+        Trouble::Way { .. } => {
+            let home = home::raised(&mut case);
+            home.or_else(|| base::moved(&mut case)).into_iter().collect()
+        }
+        Trouble::Nowhere => base::moved(&mut case).into_iter().collect(),
+    };
+    found.truncate(MOST_OFFERED);
+    found
+}
+
+/// Lower speeds, and where they would be far lower, another posture before them.
+fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
+    match speed::lowered(case) {
+        Some((remedy, speed::Loss::Bearable)) => {
+            let base = base::moved(case);
+            core::iter::once(remedy).chain(base).collect()
+        }
+        Some((remedy, speed::Loss::Severe)) => {
+            let mut found = elsewhere(case);
+            found.truncate(MOST_OFFERED - 1);
+            found.push(remedy);
+            found
+        }
+        None => elsewhere(case),
+    }
+}
+
+/// The same cuts in another way, cuts that ask less of the arm, or the work in another place: one of each kind.
+fn elsewhere(case: &mut Case<'_>) -> Vec<Remedy> {
+    let way = process::other_direction(case).or_else(|| process::other_order(case));
+    let swing = process::smaller_swing(case);
+    let base = base::moved(case).or_else(|| base::turned(case));
+    [way, swing, base].into_iter().flatten().collect()
+}
+
+impl Remedy {
+    /// Advice without a place in a file to change.
+    fn advice(advice: String) -> Self {
+        Self {
+            advice,
+            edits: Vec::new(),
+        }
+    }
+
+    /// Replaces the text of a field where it is written, says what to write where it is not.
+    fn replace(advice: String, span: Option<Span>, text: String) -> Self {
+        Self {
+            advice,
+            edits: span.map(|span| (span, text)).into_iter().collect(),
+        }
+    }
+}
+
+/// Adds remedies to a diagnostic; says where to look on when there are none.
+#[must_use]
+pub fn offer(diagnostic: Diagnostic, remedies: &[Remedy], general: &str) -> Diagnostic {
+    if remedies.is_empty() {
+        return diagnostic
+            .help(general)
+            .note(
+                "no single change of speeds, direction, order, swing, home or base that was tried is enough",
+            )
+            .help("run `vcutc place` on this job: it searches the whole cell for a place that works");
+    }
+    remedies.iter().fold(diagnostic, |diagnostic, remedy| {
+        if remedy.edits.is_empty() {
+            diagnostic.help(remedy.advice.clone())
+        } else {
+            diagnostic.fix_all(remedy.advice.clone(), &remedy.edits)
+        }
+    })
+}

@@ -1,0 +1,104 @@
+//! Cuts that ask less of the arm: in another direction or order, or with a smaller swing.
+
+use super::{Case, Remedy, trial};
+use crate::job::{Auto, CheckedJob, Direction, Operation, Order, RoughVcut};
+use crate::plan::PlannedOperation;
+use crate::plan::parameters::show;
+use crate::reach::trouble::Trouble;
+use crate::source::Span;
+use vcutc_backend_api::ir::{OpId, OperationId};
+use vcutc_backend_api::units::Angle;
+
+/// By how many degrees the swing is made smaller, one after the other.
+const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
+
+/// The same cuts in another direction.
+pub(super) fn other_direction(case: &mut Case<'_>) -> Option<Remedy> {
+    let (operation, asked) = asked(case)?;
+    [Direction::Forward, Direction::Backward, Direction::Alternate]
+        .into_iter()
+        .filter(|direction| *direction != asked.direction.value)
+        .find(|&direction| works(case, operation, |asked| asked.direction.value = direction))
+        .map(|direction| {
+            let word = match direction {
+                Direction::Alternate => "alternate",
+                Direction::Forward => "forward",
+                Direction::Backward => "backward",
+            };
+            stated(asked, "direction", asked.direction.span, word)
+        })
+}
+
+/// The same cuts in the other order.
+pub(super) fn other_order(case: &mut Case<'_>) -> Option<Remedy> {
+    let (operation, asked) = asked(case)?;
+    let (order, word) = match asked.order.value {
+        Order::Point => (Order::Layer, "layer"),
+        Order::Layer => (Order::Point, "point"),
+    };
+    works(case, operation, |asked| asked.order.value = order)
+        .then(|| stated(asked, "order", asked.order.span, word))
+}
+
+/// The largest of a few smaller swings that works, in whole degrees.
+pub(super) fn smaller_swing(case: &mut Case<'_>) -> Option<Remedy> {
+    let (operation, asked) = asked(case)?;
+    let planned = case.plan.operations.get(usize::from(operation.0))?;
+    let PlannedOperation::RoughVcut(vcut) = planned;
+    let now = vcut.parameters.swing.to_deg().ceil();
+    SMALLER
+        .into_iter()
+        .map(|less| now - less)
+        .filter(|&swing| swing > 0.0)
+        .find(|&swing| {
+            works(case, operation, |asked| {
+                asked.swing.value = Auto::Given(Angle::deg(swing));
+            })
+        })
+        .map(|swing| {
+            let text = format!("{} deg", show(swing));
+            Remedy::replace(format!("use a `swing` of {text}"), asked.swing.span, text)
+        })
+}
+
+/// A field with a word in place of the one it has, or added behind another where it is left out.
+fn stated(asked: &RoughVcut, field: &str, span: Option<Span>, word: &str) -> Remedy {
+    let behind_rake = asked.rake.span.map(|rake| Span {
+        start: rake.end,
+        ..rake
+    });
+    let edit = match (span, behind_rake) {
+        (Some(span), _) => Some((span, word.to_owned())),
+        (None, Some(end)) => Some((end, format!("\n  {field} = {word}"))),
+        (None, None) => None,
+    };
+    Remedy {
+        advice: format!("cut with `{field} = {word}`"),
+        edits: edit.into_iter().collect(),
+    }
+}
+
+fn works(case: &mut Case<'_>, operation: OperationId, change: impl FnOnce(&mut RoughVcut)) -> bool {
+    if !case.may_plan_again() || !case.may_try() {
+        return false;
+    }
+    let changed = |job: &mut CheckedJob| {
+        if let Some(Operation::RoughVcut(asked)) = job.operations.get_mut(usize::from(operation.0)) {
+            change(asked);
+        }
+    };
+    trial::whole(case.job, changed).is_some()
+}
+
+/// The operation in which the trouble is.
+fn asked<'c>(case: &Case<'c>) -> Option<(OperationId, &'c RoughVcut)> {
+    let op: OpId = match &case.unreachable.trouble {
+        Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => failing.op,
+        Trouble::Way { op, .. } => *op,
+        Trouble::Nowhere => return None,
+    };
+    let program = case.unreachable.program.program();
+    let operation = program.ops.get(op.0 as usize)?.site.operation()?;
+    let Operation::RoughVcut(asked) = case.job.operations.get(usize::from(operation.0))?;
+    Some((operation, asked))
+}

@@ -1,0 +1,186 @@
+//! The highest speeds that the axes follow.
+//!
+//! With the rates of the axes left out, the machine's own report says how fast each axis would have to move, and at which op
+//! most. Rates grow in proportion to the speed that paces an op (`docs/process.md`, "Robot moves": the course is the same,
+//! only the time is not), so that one division gives the speed at which that op is just followed. Other ops may be paced by
+//! other speeds: this goes on until no axis is too slow, and then the job is tried with its rates.
+
+use super::{Case, Remedy, trial};
+use crate::job::{Operation, RoughVcut};
+use crate::machine::Model;
+use crate::plan::parameters::show;
+use crate::reach::demand::Demand;
+use crate::reach::legs::{Leg, Pace, legs};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use vcutc_backend_api::ir::{Action, MOST_AXES, OpId, Program};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
+
+/// What a lower speed costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loss {
+    /// Some time.
+    Bearable,
+    /// A speed falls below a quarter of what was asked for.
+    Severe,
+}
+
+/// A speed of an operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Field {
+    Cut,
+    Travel,
+    Reorient,
+}
+
+/// Speeds by operation and field, in mm/s and deg/s.
+type Speeds = BTreeMap<(u16, Field), f64>;
+
+/// Most speeds that are lowered, one after the other.
+const MOST_STEPS: u32 = 6;
+/// Below this share of what was asked for a loss is severe.
+const SEVERE: f64 = 0.25;
+
+/// The highest speeds with which the job compiles.
+pub(super) fn lowered(case: &mut Case<'_>) -> Option<(Remedy, Loss)> {
+    if !case.may_plan_again() {
+        return None;
+    }
+    let patient = without_rates(&case.machine.model);
+    let mut speeds = Speeds::new();
+    for _ in 0..MOST_STEPS {
+        if !case.may_try() {
+            return None;
+        }
+        let (job, model) = (case.job, patient.clone());
+        let reached = trial::whole(job, |job| {
+            set(&mut job.operations, &speeds);
+            if let Some(machine) = &mut job.machine {
+                machine.model = model;
+            }
+        })?;
+        let program = reached.program.program();
+        let Some((op, share)) = slowest(&reached.report.demand, &case.machine.model) else {
+            break;
+        };
+        let field = pacing(program, op)?;
+        let operation = program.ops.get(op.0 as usize)?.site.operation()?;
+        let asked = asked(&case.job.operations, operation.0)?;
+        let now = speeds
+            .get(&(operation.0, field))
+            .copied()
+            .unwrap_or(value(asked, field));
+        speeds.insert((operation.0, field), lower(now / share)?);
+    }
+    if speeds.is_empty() || !case.may_try() {
+        return None;
+    }
+    trial::whole(case.job, |job| set(&mut job.operations, &speeds))?;
+    remedy(&case.job.operations, &speeds)
+}
+
+/// The same machine with axes of any rate.
+fn without_rates(model: &Model) -> Arc<Model> {
+    let mut patient = model.clone();
+    for axis in &mut patient.axes {
+        axis.rate = None;
+    }
+    Arc::new(patient)
+}
+
+/// The op at which an axis is slowest for what is asked of it, and how many times too slow; nothing if none is too slow.
+fn slowest(demand: &Demand, model: &Model) -> Option<(OpId, f64)> {
+    let shares = model
+        .axes
+        .iter()
+        .take(MOST_AXES)
+        .enumerate()
+        .filter_map(|(index, axis)| {
+            let fastest = demand.rate.get(index)?;
+            Some((fastest.op, fastest.value / axis.rate?))
+        });
+    shares
+        .filter(|(_, share)| *share > 1.0)
+        .max_by(|(_, a), (_, b)| a.total_cmp(b))
+}
+
+/// The field that says how fast an op goes.
+fn pacing(program: &Program, op: OpId) -> Option<Field> {
+    let index = op.0 as usize;
+    let legs = legs(program);
+    let Leg::Along(stroke) = legs.get(index)? else {
+        return None;
+    };
+    Some(match (stroke.pace, program.ops.get(index)?.action) {
+        (Pace::Rate(_), _) => Field::Reorient,
+        (Pace::Feed(_), Action::Cut { .. }) => Field::Cut,
+        (Pace::Feed(_), _) => Field::Travel,
+    })
+}
+
+fn asked(operations: &[Operation], operation: u16) -> Option<&RoughVcut> {
+    operations
+        .get(usize::from(operation))
+        .map(|Operation::RoughVcut(asked)| asked)
+}
+
+fn value(asked: &RoughVcut, field: Field) -> f64 {
+    match field {
+        Field::Cut => asked.cut_feed.value.to_mm_per_s(),
+        Field::Travel => asked.travel_feed.value.to_mm_per_s(),
+        Field::Reorient => asked.reorient_rate.value.to_rad_per_s().to_degrees(),
+    }
+}
+
+/// A value below another that people like to write: whole numbers from ten on, else tenths.
+fn lower(value: f64) -> Option<f64> {
+    let scale = if value >= 10.0 { 1.0 } else { 10.0 };
+    let rounded = (value * scale * (1.0 - 1e-6)).floor() / scale;
+    (rounded > 0.0).then_some(rounded)
+}
+
+fn set(operations: &mut [Operation], speeds: &Speeds) {
+    for (&(operation, field), &speed) in speeds {
+        let Some(Operation::RoughVcut(asked)) = operations.get_mut(usize::from(operation)) else {
+            continue;
+        };
+        match field {
+            Field::Cut => asked.cut_feed.value = Speed::mm_per_s(speed),
+            Field::Travel => asked.travel_feed.value = Speed::mm_per_s(speed),
+            Field::Reorient => {
+                asked.reorient_rate.value = AngularSpeed::rad_per_s(Angle::deg(speed).to_rad());
+            }
+        }
+    }
+}
+
+fn remedy(operations: &[Operation], speeds: &Speeds) -> Option<(Remedy, Loss)> {
+    let mut words = Vec::new();
+    let mut edits = Vec::new();
+    let mut loss = Loss::Bearable;
+    for (&(operation, field), &speed) in speeds {
+        let asked = asked(operations, operation)?;
+        if speed < SEVERE * value(asked, field) {
+            loss = Loss::Severe;
+        }
+        let (name, unit, span) = match field {
+            Field::Cut => ("cut", "mm/s", asked.cut_feed.span),
+            Field::Travel => ("travel", "mm/s", asked.travel_feed.span),
+            Field::Reorient => ("reorient", "deg/s", asked.reorient_rate.span),
+        };
+        let text = format!("{} {unit}", show(speed));
+        let word = format!("`{name} = {text}`");
+        // Two operations may ask for the same.
+        if !words.contains(&word) {
+            words.push(word);
+        }
+        edits.extend(span.map(|span| (span, text)));
+    }
+    let advice = format!("use {}, which the axes just follow", words.join(" with "));
+    let remedy = if edits.len() == speeds.len() {
+        Remedy { advice, edits }
+    } else {
+        Remedy::advice(advice)
+    };
+    Some((remedy, loss))
+}

@@ -1,0 +1,140 @@
+//! Trials: a changed job through the whole pipeline.
+
+use crate::job::{CheckedJob, Machine};
+use crate::lower;
+use crate::machine::Model;
+use crate::plan::PlannedJob;
+use crate::reach::demand::{Demand, axis_margin};
+use crate::reach::describe::{site_words, value_words};
+use crate::reach::path::Violation;
+use crate::reach::place::strokes::Strokes;
+use crate::reach::rig::Rig;
+use crate::reach::solve::{LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve};
+use crate::reach::trouble::{Failing, Trouble};
+use crate::source::SourceMap;
+use crate::verdict;
+use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
+use vcutc_backend_api::verify::verify;
+
+/// What room a program leaves its machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Room {
+    /// The smallest margin, from 0 to 1.
+    pub margin: f64,
+    /// What it is the margin of, and where: `A5 at layer 3, cut 14`.
+    pub least: String,
+}
+
+/// A changed job through the whole pipeline; nothing where it does not come out at its end.
+pub(super) fn whole(job: &CheckedJob, change: impl FnOnce(&mut CheckedJob)) -> Option<Reached> {
+    let mut changed = job.clone();
+    change(&mut changed);
+    let (_, proven) = verdict::sound(&changed)?;
+    let machine = changed.machine.as_ref()?;
+    // A program that fails as a whole is dear to refute, for every branch is proven from end to end. A few motions usually
+    // say as much.
+    let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
+    if !Strokes::of(proven.program.program()).are_each_followed(&rig) {
+        return None;
+    }
+    solve(proven.program, &machine.model, &LEAST_CLEARANCE).ok()
+}
+
+/// The plan on its machine with the base elsewhere.
+///
+/// # Errors
+/// Why the machine cannot carry it out there. A plan without a machine is carried out by none.
+pub fn with_base(plan: &PlannedJob, base: PlacedFrame) -> Option<Result<Reached, Unreached>> {
+    with_machine(plan, |machine| machine.base.value = base)
+}
+
+/// The plan on its machine with a change of the machine. The cuts do not depend on the machine, so they stay proven.
+pub fn with_machine(
+    plan: &PlannedJob,
+    change: impl FnOnce(&mut Machine),
+) -> Option<Result<Reached, Unreached>> {
+    let mut changed = plan.clone();
+    let machine = changed.machine.as_mut()?;
+    change(machine);
+    let model = machine.model.clone();
+    let program = match verify(lower::lower(&changed, &SourceMap::default())) {
+        Ok(program) => program,
+        Err(faults) => return Some(Err(Unreached::Rules(faults))),
+    };
+    Some(solve(program, &model, &LEAST_CLEARANCE))
+}
+
+/// What room a program leaves.
+#[must_use]
+pub fn room(reached: &Reached, model: &Model) -> Room {
+    let ReachReport { demand, margin, .. } = &reached.report;
+    Room {
+        margin: *margin,
+        least: least(demand, model, reached.program.program()),
+    }
+}
+
+/// What has the smallest margin, and where.
+fn least(demand: &Demand, model: &Model, program: &Program) -> String {
+    let axes = model.axes.iter().enumerate().map(|(index, axis)| {
+        let (low, high) = (demand.low[index], demand.high[index]);
+        let nearer = if low.value - axis.min < axis.max - high.value {
+            low
+        } else {
+            high
+        };
+        let value = value_words(axis, nearer.value);
+        let words = format!("{} at {value}", axis.name);
+        (axis_margin(axis, low.value, high.value), words, nearer.op)
+    });
+    let singular = demand
+        .singular_shares()
+        .into_iter()
+        .zip(demand.clearance)
+        .zip(["the stretched wrist", "the stretched elbow", "axis 1"])
+        .map(|((share, nearest), kind)| (share, format!("distance from {kind}"), nearest.op));
+    axes.chain(singular)
+        .min_by(|(a, ..), (b, ..)| a.total_cmp(b))
+        .map_or(String::new(), |(_, words, op)| {
+            format!("{words}, {}", place(program, op))
+        })
+}
+
+/// `layer 7, cut 12`, or what else an op belongs to.
+fn place(program: &Program, op: OpId) -> String {
+    let site = program.ops.get(op.0 as usize).map_or(Site::Program, |op| op.site);
+    site_words(site)
+}
+
+/// Why a program is not carried out, in a few words.
+#[must_use]
+pub fn words(unreached: &Unreached, model: &Model) -> String {
+    match unreached {
+        Unreached::Unreachable(unreachable) => {
+            trouble(&unreachable.trouble, model, unreachable.program.program())
+        }
+        Unreached::Rules(_) | Unreached::Motion(_) => "the compiler fails on it".to_owned(),
+    }
+}
+
+fn trouble(trouble: &Trouble, model: &Model, program: &Program) -> String {
+    match trouble {
+        Trouble::Motion { failing, .. } => failure(failing, model, program),
+        Trouble::NoCommonBranch { failing, .. } => {
+            format!("no branch carries all cuts: {}", failure(failing, model, program))
+        }
+        Trouble::Way { op, .. } => format!("the way {} leads through the stock", place(program, *op)),
+        Trouble::Nowhere => "the machine reaches nothing of it".to_owned(),
+    }
+}
+
+fn failure(failing: &Failing, model: &Model, program: &Program) -> String {
+    let axis = |index: usize| model.axes.get(index).map_or("an axis", |axis| axis.name.as_str());
+    let what = match failing.worst.what {
+        Violation::OutOfReach => "the blade is out of reach".to_owned(),
+        Violation::Limit { axis: index, .. } => format!("{} leaves its range", axis(index)),
+        Violation::Rate { axis: index, .. } => format!("{} is too slow", axis(index)),
+        Violation::Singular(_) => "the arm comes too near to a singular pose".to_owned(),
+    };
+    format!("{what}, {}", place(program, failing.op))
+}

@@ -1,0 +1,110 @@
+//! `vcutc place`: what it prints, what it writes, and what it refuses.
+
+use super::{folder, names, vcutc};
+use crate::repository::{read, root};
+use serde_json::Value;
+use std::fs;
+
+const EXAMPLE: &str = "examples/out_of_reach.vcut";
+/// Bounds that hold the example's picture, from `docs/place.md`.
+const BOUNDS: [&str; 8] = [
+    "--x",
+    "1500..3000",
+    "--y",
+    "-1400..600",
+    "--z",
+    "400..800",
+    "--yaw",
+    "0..30",
+];
+
+/// The base that `vcutc place` prints makes the job compile, and the picture is the one in the documentation.
+#[test]
+fn the_base_that_is_printed_makes_the_job_compile() {
+    let out = folder();
+    let map = out.path().join("map.svg");
+    let job = read(EXAMPLE);
+    let arguments = [&["place", EXAMPLE][..], &BOUNDS, &["-o", map.to_str().unwrap()]].concat();
+    let run = vcutc(root(), &arguments);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(job, read(EXAMPLE), "the job stays as it is");
+    let base = run
+        .stdout
+        .lines()
+        .find_map(|line| line.strip_prefix("  base = "))
+        .unwrap_or_else(|| panic!("{}", run.stdout));
+
+    let start = job.find("frame(x = 2900 mm").unwrap();
+    let end = start + job[start..].find(')').unwrap() + 1;
+    let moved = format!("{}{base}{}", &job[..start], &job[end..]);
+    for folder in ["shop", "airfoils"] {
+        copy(&root().join("examples").join(folder), &out.path().join(folder));
+    }
+    fs::write(out.path().join("moved.vcut"), moved).unwrap();
+    let run = vcutc(out.path(), &["check", "moved.vcut"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+
+    let drawn = fs::read_to_string(map).unwrap();
+    assert_eq!(
+        drawn,
+        read("docs/pictures/out_of_reach.svg"),
+        "write it anew with the command in docs/place.md"
+    );
+}
+
+fn copy(from: &std::path::Path, to: &std::path::Path) {
+    fs::create_dir(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+    }
+}
+
+#[test]
+fn a_machine_that_reaches_nothing_gets_an_answer_too() {
+    let arguments = [
+        "place",
+        EXAMPLE,
+        "--x",
+        "5000",
+        "--y",
+        "0",
+        "--z",
+        "0",
+        "--yaw",
+        "0",
+        "--message-format",
+        "json",
+    ];
+    let run = vcutc(root(), &arguments);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(
+        (&answer["kind"], &answer["best"]),
+        (&"placement".into(), &Value::Null)
+    );
+    assert!(answer["now"]["trouble"].is_string());
+    assert_eq!(answer["map"]["margins"], serde_json::json!([[null]]));
+}
+
+#[test]
+fn a_job_without_a_machine_has_nothing_to_place() {
+    let run = vcutc(root(), &["place", "tests/jobs/no_machine/job.vcut"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("this job has none"), "{}", run.stderr);
+}
+
+#[test]
+fn bounds_and_files_that_cannot_be_are_refused() {
+    let run = vcutc(root(), &["place", EXAMPLE, "--x", "2000..1000"]);
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr.contains("the first number is above the second"),
+        "{}",
+        run.stderr
+    );
+    let out = folder();
+    let run = vcutc(out.path(), &["place", "none.vcut", "-o", "map.svg"]);
+    assert_eq!(run.code, Some(2));
+    assert!(names(out.path()).is_empty());
+}
