@@ -15,6 +15,8 @@ const RATE_SLACK: f64 = 1e-9;
 const TIGHT: (f64, f64) = (0.1 * PI / 180.0, 0.1);
 /// By how much rates may be too wide, in parts of the axis' highest, where an axis is as fast as it can be.
 const TIGHT_RATE: f64 = 0.01;
+/// Rates below this (rad/s, mm/s) are slow for an axis whose highest is not known.
+const UNKNOWN_RATE: f64 = 1.0;
 /// By what part of the room to its limit or to a singular pose, or of the rate that is left to it, a bound may be worse than the true one.
 const ROOM: (f64, f64) = (0.02, 0.1);
 
@@ -118,11 +120,12 @@ impl Bounds<'_> {
             };
             let room = (value.low - axis.min).min(axis.max - value.high).min(to_singular);
             let of_range = tight.max(room * ROOM.0) / found.excess[i].max(NO_EXCESS);
-            let of_rate = axis.rate.map_or(f64::INFINITY, |most| {
-                let left = most - found.rate[i].magnitude() / self.duration;
-                let excess = found.rate_excess[i] / self.duration;
-                (TIGHT_RATE * most).max(left * ROOM.1) / excess.max(NO_EXCESS)
-            });
+            let rate = found.rate[i].magnitude() / self.duration;
+            let may_exceed = match axis.rate {
+                Some(most) => (TIGHT_RATE * most).max((most - rate) * ROOM.1),
+                None => TIGHT_RATE * rate.max(UNKNOWN_RATE),
+            };
+            let of_rate = may_exceed / (found.rate_excess[i] / self.duration).max(NO_EXCESS);
             of_range.min(of_rate)
         });
         qualities.fold(f64::INFINITY, f64::min)
