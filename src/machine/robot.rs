@@ -1,7 +1,6 @@
 //! The part of a sheet that describes a robot: an ortho-parallel arm with a spherical wrist, and the limits of its axes.
 //!
-//! Angles are the controller's own. Lengths follow Brandstötter, Angerer, Hofbaur 2014 as in
-//! [`Opw`](crate::kinematics::opw::Opw).
+//! Angles are the controller's own. Lengths follow Brandstötter, Angerer, Hofbaur 2014 as in [`Opw`].
 
 use super::facts::Sources;
 use super::flaw::Flaw;

@@ -67,7 +67,7 @@ fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64)
 /// the room to the limits.
 fn holds(axes: &[Axis], proof: &Proof, found: &Sampled, name: &str) {
     const ROUNDING: f64 = 1e-9;
-    for i in 0..6 {
+    for (i, axis) in axes.iter().enumerate() {
         assert!(proof.low[i] <= found.low[i] + ROUNDING, "{name}, axis {i}");
         assert!(proof.high[i] >= found.high[i] - ROUNDING, "{name}, axis {i}");
         assert!(
@@ -81,7 +81,7 @@ fn holds(axes: &[Axis], proof: &Proof, found: &Sampled, name: &str) {
             "{name}, axis {i}"
         );
         let wide = (proof.high[i] - proof.low[i]) - (found.high[i] - found.low[i]);
-        let room = [proof.low[i] - axes[i].min, axes[i].max - proof.high[i]];
+        let room = [proof.low[i] - axis.min, axis.max - proof.high[i]];
         let may_be = room.map(|room| 2.0 * (0.02 * room).max(0.1_f64.to_radians()));
         assert!(wide <= may_be[0] + may_be[1], "{name}, axis {i}: {wide}");
     }
