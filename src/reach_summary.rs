@@ -32,6 +32,8 @@ pub struct ReachFigures {
 pub struct BranchFigure {
     /// The op that ends on it first.
     pub op: u32,
+    /// How many ops end on it before the next begins.
+    pub ops: u32,
     /// What it is.
     pub words: String,
     /// KUKA's status bits, for KUKA robots.
@@ -152,7 +154,7 @@ pub fn figures(reached: &Reached) -> ReachFigures {
             |(_, of, at)| Least { of, at: at.clone() },
         );
     ReachFigures {
-        branches: branches(&reached.report.stretches, is_kuka),
+        branches: branches(&reached.report.stretches, program.ops.len(), is_kuka),
         changes: reached.report.changes.len(),
         margin: reached.report.margin,
         least,
@@ -162,11 +164,15 @@ pub fn figures(reached: &Reached) -> ReachFigures {
     }
 }
 
-fn branches(stretches: &[Stretch], is_kuka: bool) -> Vec<BranchFigure> {
+fn branches(stretches: &[Stretch], ops: usize, is_kuka: bool) -> Vec<BranchFigure> {
+    let end = u32::try_from(ops).unwrap_or(u32::MAX);
+    let ends = stretches.iter().skip(1).map(|next| next.from.0);
     stretches
         .iter()
-        .map(|stretch| BranchFigure {
+        .zip(ends.chain(core::iter::once(end)))
+        .map(|(stretch, end)| BranchFigure {
             op: stretch.from.0,
+            ops: end.saturating_sub(stretch.from.0),
             words: branch_words(stretch.branch),
             kuka_status: kuka_status(stretch.branch).filter(|_| is_kuka),
         })
@@ -244,18 +250,31 @@ pub fn lines(figures: &ReachFigures) -> Vec<(&'static str, String)> {
 }
 
 fn reach_line(figures: &ReachFigures) -> String {
-    let Some(first) = figures.branches.first() else {
-        return "nothing moves".to_owned();
+    // The branch that most ops end on first.
+    let mut ops: Vec<(&BranchFigure, u32)> = Vec::new();
+    for branch in &figures.branches {
+        match ops.iter_mut().find(|(known, _)| known.words == branch.words) {
+            Some((_, count)) => *count = count.saturating_add(branch.ops),
+            None => ops.push((branch, branch.ops)),
+        }
+    }
+    ops.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
+    let named = |branch: &BranchFigure| {
+        let status = branch
+            .kuka_status
+            .map_or_else(String::new, |status| format!(" (KUKA status {status})"));
+        format!("{}{status}", branch.words)
     };
-    let status = first
-        .kuka_status
-        .map_or_else(String::new, |status| format!(" (KUKA status {status})"));
+    let words: Vec<String> = ops.iter().map(|(branch, _)| named(branch)).collect();
     let changes = match figures.changes {
         0 => String::new(),
-        1 => "; all axes move at once in 1 travel through the air".to_owned(),
-        times => format!("; all axes move at once in {times} travels through the air"),
+        1 => "; all axes move at once in 1 travel through the air, which is not timed".to_owned(),
+        times => format!("; all axes move at once in {times} travels through the air, which are not timed"),
     };
-    format!("{}{status}{changes}", first.words)
+    if words.is_empty() {
+        return "nothing moves".to_owned();
+    }
+    format!("{}{changes}", words.join("; for less of it "))
 }
 
 fn margins_line(figures: &ReachFigures) -> String {
@@ -305,7 +324,7 @@ fn rates_line(figures: &ReachFigures) -> Option<String> {
 #[must_use]
 pub fn table(figures: &ReachFigures) -> Vec<String> {
     let heading = format!(
-        "{:<5} {:>9} {:>9}   {:>9} {:>9} {:>8}  {:>9} {:>9}  nearest to its limit",
+        "{:<5} {:>9} {:>9}   {:>9} {:>9} {:>8}  {:>9} {:>9}  nearest to its limit, moves of all axes aside",
         "axis", "low", "high", "min", "max", "margin", "rate", "of"
     );
     let rows = figures.axes.iter().map(|axis| {

@@ -31,7 +31,11 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         return vec![diagnostic];
     }
     let diagnostic = match &unreachable.trouble {
-        Trouble::Motion { failing, other_cuts } => scene.motion(failing, *other_cuts),
+        Trouble::Motion {
+            failing,
+            other_cuts,
+            hardest,
+        } => scene.motion(failing, *other_cuts, hardest.as_ref()),
         Trouble::NoCommonBranch { failing, other } => scene.no_common_branch(failing, other),
         Trouble::Way { op, leads, obstacle } => scene.way(*op, *leads, obstacle),
         Trouble::Nowhere => return Vec::new(),
@@ -91,7 +95,7 @@ impl Scene<'_> {
         })
     }
 
-    fn motion(&self, failing: &Failing, other_cuts: usize) -> Diagnostic {
+    fn motion(&self, failing: &Failing, other_cuts: usize, hardest: Option<&Failing>) -> Diagnostic {
         let place = self.place(failing.op);
         let (at, base) = (self.along(failing), self.base());
         let diagnostic = match failing.worst.what {
@@ -114,10 +118,40 @@ impl Scene<'_> {
             Some(branch) => diagnostic.note(format!("tried with {}", branch_words(branch))),
             None => diagnostic,
         };
+        let diagnostic = match hardest {
+            Some(hardest) => diagnostic.note(self.hardest(hardest)),
+            None => diagnostic,
+        };
         match other_cuts {
             0 => diagnostic,
             1 => diagnostic.note("one more cut is affected"),
             others => diagnostic.note(format!("{others} more cuts are affected")),
+        }
+    }
+
+    /// What lacks most, so that nobody takes a first motion that lacks little for all there is.
+    fn hardest(&self, failing: &Failing) -> String {
+        let place = self.place(failing.op);
+        let named = |axis: usize| self.axis(axis);
+        match failing.worst.what {
+            Violation::OutOfReach => format!("{place} is out of reach altogether"),
+            Violation::Limit { axis, value } => match named(axis) {
+                Some(axis) => format!(
+                    "most is lacking at {place}: {} to {}",
+                    axis.name,
+                    value_words(axis, value)
+                ),
+                None => format!("most is lacking at {place}"),
+            },
+            Violation::Rate { axis, rate } => match named(axis) {
+                Some(axis) => format!(
+                    "most is lacking at {place}: {} at {}/s",
+                    axis.name,
+                    value_words(axis, rate)
+                ),
+                None => format!("most is lacking at {place}"),
+            },
+            Violation::Singular(_) => format!("{place} comes nearest to a singular pose"),
         }
     }
 

@@ -43,7 +43,7 @@ fn row(op: &Op, sample: &Sample, axes: &[Axis], out: &mut dyn Write) -> io::Resu
             cut,
         } => write!(out, "{},{layer},{cut}", u32::from(operation.0) + 1)?,
     }
-    write!(out, ",{},{:.4}", motion(op.action), sample.done)?;
+    write!(out, ",{},{:.6}", motion(op.action), sample.done)?;
     for (axis, value) in axes.iter().zip(sample.joints) {
         let shown = match axis.kind {
             AxisKind::Rotary => value.to_degrees(),

@@ -8,11 +8,12 @@ mod target;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::plan::{self, PlannedJob};
-use crate::reach::solve::{LEAST_CLEARANCE, Reached, Unreached, solve};
+use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
 use crate::sema;
 use crate::sim::report::Report;
+use crate::sim::timing::timing;
 use crate::source::{Loader, SourceMap};
 use crate::summary::summary;
 use crate::syntax::ast::Ast;
@@ -133,12 +134,15 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
                 match reach(job, &plan, proven.program, progress) {
                     Ok((program, reach)) => {
                         let figures = reach.as_ref().map(reach_summary::figures);
-                        let summary = summary(&plan, &proven.report, figures.as_ref());
+                        let mut report = proven.report;
+                        // Travels that became moves of all axes take another time.
+                        report.timing = timing(&program);
+                        let summary = summary(&plan, &report, figures.as_ref());
                         outcome.compiled = Some(Compiled {
                             program,
                             reach,
                             figures,
-                            report: proven.report,
+                            report,
                             summary,
                         });
                     }
@@ -162,7 +166,7 @@ fn reach(
         return Ok((program, None));
     };
     progress(Stage::Reaching);
-    match solve(program, &machine.model, &LEAST_CLEARANCE) {
+    match solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir) {
         Ok(reached) => Ok((reached.program.verified().clone(), Some(reached))),
         Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, plan, &unreachable)),
         Err(Unreached::Rules(faults)) => Err(vec![internal(job, &rules_broken(&faults))]),

@@ -97,23 +97,20 @@ pub fn prove(
     })
 }
 
-/// The axes at a place of a course, from 0 to 1, with those of its start within half a turn of `near`. `machine` is the rig's
-/// mechanism.
+/// The axes at a place of a course, from 0 to 1, that leads from the axes at its start to those at its end. `machine` is the
+/// rig's mechanism.
 #[must_use]
-pub fn joints_on(
+pub fn joints_between(
     machine: &FiveAxis,
     rig: &Rig<'_>,
     course: &Course,
-    branch: Branch,
+    [start, end]: [&Joints; 2],
     place: f64,
-    near: &Joints,
-) -> Option<Joints> {
-    let start = machine.on_branch(&rig.flange_in_root(&course.from), branch, near)?;
-    let end = machine.on_branch(&rig.flange_in_root(&course.to), branch, &start)?;
-    let [x, y, z] = Run::new(machine, rig, course, &start, &end).at(place).xyz;
+) -> Joints {
+    let [x, y, z] = Run::new(machine, rig, course, start, end).at(place).xyz;
     let mut joints = core::array::from_fn(|axis| start[axis] + (end[axis] - start[axis]) * place);
     [joints[0], joints[1], joints[2]] = [x, y, z];
-    Some(joints)
+    joints
 }
 
 /// A point at a moment of the course, and how it moves (mm a course).

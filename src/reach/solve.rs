@@ -4,7 +4,10 @@
 //! margin ([`super::demand`]). Taught poses alone say for each branch what its margin is at most, cheaply; branches are then
 //! proven in the order of these bounds, until a proven margin is no smaller than the bounds of all that are left.
 //!
-//! Where no branch carries the program, it is taken apart wherever all axes could move at once in the air above the stock,
+//! A program that a branch carries but for the rates of axes, by a factor of two at most, is refused: its speeds are the
+//! user's to choose, and moves of all axes in the place of its travels would only hide that they are too high.
+//!
+//! Where no branch carries the program otherwise, it is taken apart wherever all axes could move at once in the air above the stock,
 //! every branch is proven on every part, and the [`super::ladder`] says where to change. A `Travel` at which the branch
 //! changes becomes an `AxisTravel`.
 //!
@@ -82,11 +85,26 @@ pub struct Unreachable {
     pub trouble: Trouble,
 }
 
+/// Whether the branch may change on the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Changes {
+    /// In the air, where no branch carries the whole program.
+    InTheAir,
+    /// Nowhere: what needs a change is refused. That is told much sooner, and enough for who asks whether another place or
+    /// speed is better.
+    Never,
+}
+
 /// Finds how a machine carries out a program, nowhere nearer to singular poses than `least`.
 ///
 /// # Errors
 /// Where and why it cannot.
-pub fn solve(program: VerifiedProgram, model: &Model, least: &Clearance) -> Result<Reached, Unreached> {
+pub fn solve(
+    program: VerifiedProgram,
+    model: &Model,
+    least: &Clearance,
+    changes: Changes,
+) -> Result<Reached, Unreached> {
     let Some(cell) = &program.program().cell else {
         let what = MotionRule::Machine;
         return Err(Unreached::Motion(vec![MotionFault { op: None, what }]));
@@ -109,7 +127,13 @@ pub fn solve(program: VerifiedProgram, model: &Model, least: &Clearance) -> Resu
     let bounds = screen(&survey);
     let solved = match on_one_branch(&survey, &bounds, home) {
         Some(solved) => Ok(solved),
-        None => by_changes(&survey, &bounds, home),
+        None => match trouble::too_fast(&survey, &bounds) {
+            Some(trouble) => Err(Box::new(trouble)),
+            None => match changes {
+                Changes::InTheAir => by_changes(&survey, &bounds, home),
+                Changes::Never => Err(Box::new(trouble::first(&survey, &bounds))),
+            },
+        },
     };
     match solved {
         Ok(solved) => finish(program, &rig, solved),

@@ -53,12 +53,22 @@ pub(super) struct Failure {
 pub(super) enum Extent {
     /// Up to a motion that is not carried.
     FirstFailure,
+    /// Up to a motion that is not carried for another reason than the rates of axes.
+    OtherThanRates,
     /// All of it.
     Whole,
 }
 
-/// Courses that are proven before they are joined: enough to keep processors busy, few enough to be held at once.
-const BATCH: usize = 4096;
+impl Extent {
+    /// Courses that are proven before they are joined: enough to keep processors busy, few enough to be held at once, and not
+    /// many more than are needed to find a failure.
+    const fn batch(self) -> usize {
+        match self {
+            Self::FirstFailure | Self::OtherThanRates => 512,
+            Self::Whole => 4096,
+        }
+    }
+}
 
 /// The axes with the limits of those that can make a full turn moved out by a turn either way, which no single motion uses up.
 pub(super) fn opened(axes: &[Axis]) -> Vec<Axis> {
@@ -161,8 +171,15 @@ impl Survey<'_> {
             .skip(1)
             .map(|(op, leg)| (OpId(op.0.saturating_add(entry.0)), leg))
             .collect();
-        for batch in after_entry.chunks(BATCH) {
-            if extent == Extent::FirstFailure && !failures.is_empty() {
+        for batch in after_entry.chunks(extent.batch()) {
+            let is_enough = match extent {
+                Extent::FirstFailure => !failures.is_empty(),
+                Extent::OtherThanRates => failures
+                    .iter()
+                    .any(|failure| !matches!(failure.breach.what, Violation::Rate { .. })),
+                Extent::Whole => false,
+            };
+            if is_enough {
                 break;
             }
             let proofs: Vec<Option<Result<Proof, Breach>>> = batch

@@ -54,7 +54,7 @@ pub fn trajectory<E>(
                 }
             }
             (Leg::Along(stroke), Some(start)) => {
-                along(reached, rig, op, stroke, &start, &mut take)?;
+                along(reached, rig, op, stroke, [&start, &end], &mut take)?;
             }
             (Leg::Home | Leg::ByAxes(_) | Leg::Along(_), None) => {}
         }
@@ -74,16 +74,16 @@ fn along<E>(
     rig: &Rig<'_>,
     op: OpId,
     stroke: &Stroke,
-    start: &Joints,
+    ends: [&Joints; 2],
     take: &mut impl FnMut(Sample) -> Result<(), E>,
 ) -> Result<(), E> {
     let program = reached.program();
     let (Some(course), Some(branch)) = (Poses::of(program).course(stroke), reached.branch_after(op)) else {
         return Ok(());
     };
-    let mut near = *start;
+    let mut near = *ends[0];
     for done in fractions(course_steps(program, stroke)) {
-        if let Some(joints) = joints_on(rig, &course, branch, done, &near) {
+        if let Some(joints) = joints_on(rig, &course, branch, ends, done, &near) {
             take(Sample { op, done, joints })?;
             near = joints;
         }

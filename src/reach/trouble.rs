@@ -5,8 +5,8 @@
 
 use super::legs::{Leg, Poses};
 use super::path::{Breach, Violation, prove, worst};
-use super::runs::{Station, StationKind};
-use super::survey::{Failure, Survey, moved};
+use super::runs::{Split, Station, StationKind, split};
+use super::survey::{Extent, Failure, Survey, moved};
 use super::way::Obstacle;
 use super::ways::{OnBranch, Refused, axis_without_turn};
 use crate::kinematics::Joints;
@@ -23,6 +23,8 @@ pub enum Trouble {
         failing: Failing,
         /// How many other cuts hold motions that no branch carries.
         other_cuts: usize,
+        /// The motion that lacks most on the same branch, if it is another one.
+        hardest: Option<Failing>,
     },
     /// Motions that must be made on one branch, each of which one carries, but none carries all.
     NoCommonBranch {
@@ -70,12 +72,18 @@ pub enum Leads {
 pub(super) fn found(
     survey: &Survey<'_>,
     stations: &[Station],
-    carried: &[Vec<OnBranch>],
+    all_carried: &[Vec<OnBranch>],
     failed: &[Vec<(Branch, Vec<Failure>)>],
     stuck: usize,
 ) -> Trouble {
+    // A run that some branch carries is in nobody's way.
+    let all = failed
+        .iter()
+        .zip(all_carried)
+        .filter(|(_, carried)| carried.is_empty())
+        .flat_map(|(failing, _)| common(failing));
     let (Some(station), Some(carried), Some(failing)) =
-        (stations.get(stuck), carried.get(stuck), failed.get(stuck))
+        (stations.get(stuck), all_carried.get(stuck), failed.get(stuck))
     else {
         return Trouble::Nowhere;
     };
@@ -86,6 +94,7 @@ pub(super) fn found(
         return Trouble::Motion {
             failing,
             other_cuts: 0,
+            hardest: None,
         };
     }
     let Some((branch, least)) = failing.iter().min_by_key(|(branch, failures)| {
@@ -99,9 +108,108 @@ pub(super) fn found(
     match least.iter().find(|failure| by_no_branch.contains(&failure.op)) {
         Some(failure) => Trouble::Motion {
             failing: of(failure, *branch),
-            other_cuts: other_cuts(survey, failed, failure.op),
+            other_cuts: other_cuts(survey, all, failure.op),
+            hardest: hardest(survey, least, *branch, failure),
         },
         None => no_common_branch(station, failing, *branch, least, of),
+    }
+}
+
+/// How many failures are looked at for the hardest of them.
+const MOST_WEIGHED: usize = 256;
+
+/// Of the failures of a branch, the motion that lacks most, if it lacks notably more than the one that is told of.
+fn hardest(survey: &Survey<'_>, failures: &[Failure], branch: Branch, told: &Failure) -> Option<Failing> {
+    let notably = 1.05 * lack(survey, &failing_on(survey, told, branch));
+    let every = failures.len() / MOST_WEIGHED + 1;
+    let weighed = failures
+        .iter()
+        .step_by(every)
+        .map(|failure| failing_on(survey, failure, branch));
+    weighed
+        .max_by(|a, b| lack(survey, a).total_cmp(&lack(survey, b)))
+        .filter(|failing| failing.op != told.op && lack(survey, failing) > notably)
+}
+
+/// How much is missing, so that failures can be compared: by the range, the rate or the distance that is had.
+fn lack(survey: &Survey<'_>, failing: &Failing) -> f64 {
+    let axis = |axis: usize| survey.rig.axes.get(axis);
+    match failing.worst.what {
+        Violation::OutOfReach => f64::INFINITY,
+        Violation::Singular(_) => 1.0,
+        Violation::Limit { axis: index, value } => axis(index).map_or(0.0, |axis| {
+            (axis.min - value).max(value - axis.max) / (axis.max - axis.min).max(1e-9)
+        }),
+        Violation::Rate { axis: index, rate } => {
+            let fastest = axis(index).and_then(|axis| axis.rate);
+            fastest.map_or(0.0, |fastest| rate / fastest - 1.0)
+        }
+    }
+}
+
+/// By how many times the speeds of a program may be too high for it to be told that they are.
+const TOO_FAST: f64 = 2.0;
+
+/// Says which motion is too fast, if a branch carries the program but for that.
+pub(super) fn too_fast(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Option<Trouble> {
+    let stations = split(survey.legs, Split::AtAxisMoves);
+    let all_too_fast = |branch: Branch| {
+        let mut failures = Vec::new();
+        for station in &stations {
+            if station.kind == StationKind::Home {
+                continue;
+            }
+            match survey.run(station, branch, Extent::OtherThanRates) {
+                Ok(_) => {}
+                Err(more) => failures.extend(more),
+            }
+            let is_rate = |failure: &Failure| matches!(failure.breach.what, Violation::Rate { .. });
+            if !failures.iter().all(is_rate) {
+                return None;
+            }
+        }
+        let hardest = failures
+            .iter()
+            .step_by(failures.len() / MOST_WEIGHED + 1)
+            .map(|failure| lack(survey, &failing_on(survey, failure, branch)))
+            .fold(0.0, f64::max);
+        (hardest <= TOO_FAST - 1.0).then_some((branch, failures))
+    };
+    let (branch, failures) = bounds
+        .iter()
+        .filter(|(_, bound)| bound.is_some())
+        .filter_map(|&(branch, _)| all_too_fast(branch))
+        .filter(|(_, failures)| !failures.is_empty())
+        .min_by_key(|(branch, failures)| (failures.len(), *branch))?;
+    let first = failures.first()?;
+    Some(Trouble::Motion {
+        failing: failing_on(survey, first, branch),
+        other_cuts: other_cuts(survey, failures.iter().map(|failure| failure.op), first.op),
+        hardest: hardest(survey, &failures, branch, first),
+    })
+}
+
+/// Says what the branch that gets farthest does not carry, without a look at what comes behind.
+pub(super) fn first(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Trouble {
+    let stations = split(survey.legs, Split::AtAxisMoves);
+    let first_of = |branch: Branch| {
+        let failures = stations
+            .iter()
+            .filter(|station| station.kind != StationKind::Home)
+            .find_map(|station| survey.run(station, branch, Extent::FirstFailure).err())?;
+        failures.first().map(|failure| (branch, *failure))
+    };
+    let farthest = bounds
+        .iter()
+        .filter_map(|&(branch, _)| first_of(branch))
+        .max_by_key(|(branch, failure)| (failure.op, core::cmp::Reverse(*branch)));
+    match farthest {
+        Some((branch, failure)) => Trouble::Motion {
+            failing: failing_on(survey, &failure, branch),
+            other_cuts: 0,
+            hardest: None,
+        },
+        None => Trouble::Nowhere,
     }
 }
 
@@ -146,6 +254,7 @@ fn no_common_branch(
         None => Trouble::Motion {
             failing: of(first, branch),
             other_cuts: 0,
+            hardest: None,
         },
     }
 }
@@ -163,6 +272,7 @@ fn out_of_reach(station: &Station) -> Trouble {
             worst: breach,
         },
         other_cuts: 0,
+        hardest: None,
     }
 }
 
@@ -188,13 +298,11 @@ fn common(failing: &[(Branch, Vec<Failure>)]) -> BTreeSet<OpId> {
     counts.into_keys().collect()
 }
 
-/// How many cuts besides that of `op` hold motions that no branch carries.
-fn other_cuts(survey: &Survey<'_>, failed: &[Vec<(Branch, Vec<Failure>)>], op: OpId) -> usize {
+/// How many cuts besides that of `op` some failing ops belong to.
+fn other_cuts(survey: &Survey<'_>, failing: impl Iterator<Item = OpId>, op: OpId) -> usize {
     let site = |op: OpId| survey.program.ops.get(op.0 as usize).map(|op| op.site);
     let own = site(op);
-    let cuts: BTreeSet<(u16, u32, u32)> = failed
-        .iter()
-        .flat_map(|failing| common(failing))
+    let cuts: BTreeSet<(u16, u32, u32)> = failing
         .filter_map(|op| match site(op) {
             here @ Some(Site::Cut {
                 operation,

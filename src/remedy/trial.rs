@@ -9,7 +9,7 @@ use crate::reach::describe::{site_words, value_words};
 use crate::reach::path::Violation;
 use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
-use crate::reach::solve::{LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve};
+use crate::reach::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve};
 use crate::reach::trouble::{Failing, Trouble};
 use crate::source::SourceMap;
 use crate::verdict;
@@ -37,7 +37,7 @@ pub(super) fn whole(job: &CheckedJob, change: impl FnOnce(&mut CheckedJob)) -> O
     if !Strokes::of(proven.program.program()).are_each_followed(&rig) {
         return None;
     }
-    solve(proven.program, &machine.model, &LEAST_CLEARANCE).ok()
+    solve(proven.program, &machine.model, &LEAST_CLEARANCE, Changes::Never).ok()
 }
 
 /// The plan on its machine with the base elsewhere.
@@ -61,7 +61,7 @@ pub fn with_machine(
         Ok(program) => program,
         Err(faults) => return Some(Err(Unreached::Rules(faults))),
     };
-    Some(solve(program, &model, &LEAST_CLEARANCE))
+    Some(solve(program, &model, &LEAST_CLEARANCE, Changes::Never))
 }
 
 /// What room a program leaves.

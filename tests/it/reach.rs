@@ -12,7 +12,7 @@ use vcutc::reach::demand::Demand;
 use vcutc::reach::legs::{Leg, Poses, legs};
 use vcutc::reach::path::prove;
 use vcutc::reach::rig::Rig;
-use vcutc::reach::solve::{LEAST_CLEARANCE, Reached, rig, solve};
+use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, Reached, rig, solve};
 use vcutc::source::SourceMap;
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::motion::Branch;
@@ -172,7 +172,7 @@ fn threads_change_nothing() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| solve(program(job), model, &LEAST_CLEARANCE))
+        pool.install(|| solve(program(job), model, &LEAST_CLEARANCE, Changes::InTheAir))
             .unwrap()
     };
     let alone = solve_on(1);

@@ -118,7 +118,13 @@ impl Bounds<'_> {
                 AxisKind::Rotary => TIGHT.0,
                 AxisKind::Linear => TIGHT.1,
             };
-            let room = (value.low - axis.min).min(axis.max - value.high).min(to_singular);
+            let room = (value.low - axis.min).min(axis.max - value.high);
+            let room = match axis.kind {
+                // Which turn of such an axis is used may be settled later, and with it the room.
+                AxisKind::Rotary if axis.max - axis.min >= TAU => 0.0,
+                AxisKind::Rotary => room.min(to_singular),
+                AxisKind::Linear => room,
+            };
             let of_range = tight.max(room * ROOM.0) / found.excess[i].max(NO_EXCESS);
             let rate = found.rate[i].magnitude() / self.duration;
             let may_exceed = match axis.rate {

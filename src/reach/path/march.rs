@@ -44,7 +44,9 @@ pub(super) fn march<V>(mut attempt: impl FnMut(Span, Effort) -> Tried<V>) -> Res
         match attempt(span(at, length), effort) {
             Tried::Proven(quality) => {
                 at += length;
-                length = if grows { scaled(length, quality) } else { length };
+                // Bounds that were bare are no reason to go on in ever shorter spans.
+                let next = scaled(length, quality).max(length.min(FINE));
+                length = if grows { next } else { length };
                 grows = true;
             }
             Tried::Refused(why) if length == 1 || tries >= MOST_TRIES => {

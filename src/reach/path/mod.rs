@@ -224,17 +224,19 @@ pub fn prove(
     Ok(progress.done(end, tries + 2))
 }
 
-/// The axes on a branch at a place of a course, from 0 to 1, within half a turn of `near`.
+/// The axes on a branch at a place, from 0 to 1, of a course that leads from the axes at its start to those at its end; those
+/// of an arm within half a turn of `near`.
 #[must_use]
 pub fn joints_on(
     rig: &Rig<'_>,
     course: &Course,
     branch: Branch,
+    ends: [&Joints; 2],
     place: f64,
     near: &Joints,
 ) -> Option<Joints> {
     if let Mechanism::FiveAxis(machine) = rig.mechanism {
-        return five_axis_path::joints_on(machine, rig, course, branch, place, near);
+        return Some(five_axis_path::joints_between(machine, rig, course, ends, place));
     }
     Way::new(rig, course, branch)?.joints_at(place, near)
 }

@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 use vcutc::job::CheckedJob;
-use vcutc::reach::solve::{LEAST_CLEARANCE, solve};
+use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, solve};
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_benches::stages;
 
@@ -40,7 +40,7 @@ fn timed(job: &CheckedJob, program: &VerifiedProgram, threads: usize) -> f64 {
         .expect("threads can be had");
     let program = program.clone();
     let begun = Instant::now();
-    let reached = pool.install(|| solve(program, &machine.model, &LEAST_CLEARANCE));
+    let reached = pool.install(|| solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir));
     let seconds = begun.elapsed().as_secs_f64();
     assert!(reached.is_ok(), "the job is within reach");
     seconds
