@@ -10,7 +10,7 @@ use crate::reach::describe::{branch_words, site_words, value_words};
 use crate::reach::legs::{Leg, Pace, Stroke, legs};
 use crate::reach::path::{Singularity, Violation};
 use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
-use crate::reach::trouble::{Failing, Leads, Trouble};
+use crate::reach::trouble::{Count, Failing, Leads, Trouble};
 use crate::reach::way::Obstacle;
 use crate::remedy;
 use crate::source::Span;
@@ -95,7 +95,7 @@ impl Scene<'_> {
         })
     }
 
-    fn motion(&self, failing: &Failing, other_cuts: usize, hardest: Option<&Failing>) -> Diagnostic {
+    fn motion(&self, failing: &Failing, other_cuts: Count, hardest: Option<&Failing>) -> Diagnostic {
         let place = self.place(failing.op);
         let (at, base) = (self.along(failing), self.base());
         let diagnostic = match failing.worst.what {
@@ -123,9 +123,10 @@ impl Scene<'_> {
             None => diagnostic,
         };
         match other_cuts {
-            0 => diagnostic,
-            1 => diagnostic.note("one more cut is affected"),
-            others => diagnostic.note(format!("{others} more cuts are affected")),
+            Count::Exactly(0) => diagnostic,
+            Count::Exactly(1) => diagnostic.note("one more cut is affected"),
+            Count::Exactly(others) => diagnostic.note(format!("{others} more cuts are affected")),
+            Count::AtLeast(others) => diagnostic.note(format!("at least {others} more cuts are affected")),
         }
     }
 

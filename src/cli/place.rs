@@ -27,6 +27,13 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
         z: args.z.as_deref(),
         yaw: args.yaw.as_deref(),
     };
+    if let Some(path) = args.output.as_deref()
+        && !path.to_ascii_lowercase().ends_with(".svg")
+    {
+        return console.failure(&Failure::new(format!(
+            "the map is a picture in SVG: give `-o` the name of a file that ends in .svg, not {path}"
+        )));
+    }
     let placed = placement::place(request, &asked, &mut |stage| progress.enter(stage));
     progress.finish();
     match placed {

@@ -202,6 +202,9 @@ fn fk_checks(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Vec<FkCheck> {
     tables.iter().filter_map(|check| fk_check(check, flaws)).collect()
 }
 
+/// How far the length of a rotation's quaternion may be from 1: figures are printed with some decimals only.
+const UNIT_WITHIN: f64 = 1e-3;
+
 fn fk_check(check: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<FkCheck> {
     check.require(
         &[
@@ -212,7 +215,18 @@ fn fk_check(check: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<FkCheck> {
     );
     let joints = check.numbers("joints_deg", ANGLE, flaws);
     let xyz = check.numbers("xyz_mm", LENGTH, flaws);
-    let quaternion = check.numbers("quat_wxyz", SHARE, flaws);
+    let quaternion: Option<[f64; 4]> = check.numbers("quat_wxyz", SHARE, flaws);
+    if let Some(parts) = quaternion {
+        let length = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+        if (length - 1.0).abs() > UNIT_WITHIN {
+            flaws.push(Flaw::new(
+                check.span(),
+                format!("`quat_wxyz` has the length {length:.3}, a rotation has 1"),
+                "not a rotation",
+            ));
+            return None;
+        }
+    }
     let mut text = |key| check.text(key, flaws).map(str::to_owned);
     let (source, independence, note) = (text("source"), text("independence"), text("note"));
     let mut tolerance = |key| check.number(key, TOLERANCE, flaws).unwrap_or(USUAL_TOLERANCE);

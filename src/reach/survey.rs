@@ -53,11 +53,15 @@ pub(super) struct Failure {
 pub(super) enum Extent {
     /// Up to a motion that is not carried.
     FirstFailure,
-    /// Up to a motion that is not carried for another reason than the rates of axes.
+    /// Up to a motion that is not carried for another reason than the rates of axes, or [`ENOUGH_TOO_FAST`] that are not for
+    /// this one.
     OtherThanRates,
     /// All of it.
     Whole,
 }
+
+/// How many motions that are too fast say that speeds are too high: to find more of them in a long program only takes time.
+pub(super) const ENOUGH_TOO_FAST: usize = 2000;
 
 impl Extent {
     /// Courses that are proven before they are joined: enough to keep processors busy, few enough to be held at once, and not
@@ -174,9 +178,12 @@ impl Survey<'_> {
         for batch in after_entry.chunks(extent.batch()) {
             let is_enough = match extent {
                 Extent::FirstFailure => !failures.is_empty(),
-                Extent::OtherThanRates => failures
-                    .iter()
-                    .any(|failure| !matches!(failure.breach.what, Violation::Rate { .. })),
+                Extent::OtherThanRates => {
+                    failures.len() >= ENOUGH_TOO_FAST
+                        || failures
+                            .iter()
+                            .any(|failure| !matches!(failure.breach.what, Violation::Rate { .. }))
+                }
                 Extent::Whole => false,
             };
             if is_enough {

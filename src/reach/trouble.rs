@@ -6,7 +6,7 @@
 use super::legs::{Leg, Poses};
 use super::path::{Breach, Violation, prove, worst};
 use super::runs::{Split, Station, StationKind, split};
-use super::survey::{Extent, Failure, Survey, moved};
+use super::survey::{ENOUGH_TOO_FAST, Extent, Failure, Survey, moved};
 use super::way::Obstacle;
 use super::ways::{OnBranch, Refused, axis_without_turn};
 use crate::kinematics::Joints;
@@ -22,7 +22,7 @@ pub enum Trouble {
         /// How the branch fails that fails least.
         failing: Failing,
         /// How many other cuts hold motions that no branch carries.
-        other_cuts: usize,
+        other_cuts: Count,
         /// The motion that lacks most on the same branch, if it is another one.
         hardest: Option<Failing>,
     },
@@ -44,6 +44,15 @@ pub enum Trouble {
     },
     /// A machine that is nowhere: without a motion to any pose that it can take.
     Nowhere,
+}
+
+/// A number of cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {
+    /// All of them.
+    Exactly(usize),
+    /// So many were found before the search was ended.
+    AtLeast(usize),
 }
 
 /// A motion that a branch does not carry.
@@ -93,7 +102,7 @@ pub(super) fn found(
     {
         return Trouble::Motion {
             failing,
-            other_cuts: 0,
+            other_cuts: Count::Exactly(0),
             hardest: None,
         };
     }
@@ -108,7 +117,7 @@ pub(super) fn found(
     match least.iter().find(|failure| by_no_branch.contains(&failure.op)) {
         Some(failure) => Trouble::Motion {
             failing: of(failure, *branch),
-            other_cuts: other_cuts(survey, all, failure.op),
+            other_cuts: Count::Exactly(other_cuts(survey, all, failure.op)),
             hardest: hardest(survey, least, *branch, failure),
         },
         None => no_common_branch(station, failing, *branch, least, of),
@@ -175,16 +184,27 @@ pub(super) fn too_fast(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) ->
             .fold(0.0, f64::max);
         (hardest <= TOO_FAST - 1.0).then_some((branch, failures))
     };
-    let (branch, failures) = bounds
+    // The branch that leaves the most room at taught poses is the first to be asked, and mostly the only one: proving a long
+    // program takes its time.
+    let mut by_room: Vec<(Branch, f64)> = bounds
         .iter()
-        .filter(|(_, bound)| bound.is_some())
-        .filter_map(|&(branch, _)| all_too_fast(branch))
-        .filter(|(_, failures)| !failures.is_empty())
-        .min_by_key(|(branch, failures)| (failures.len(), *branch))?;
+        .filter_map(|&(branch, bound)| Some((branch, bound?)))
+        .collect();
+    by_room.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    let (branch, failures) = by_room
+        .into_iter()
+        .find_map(|(branch, _)| all_too_fast(branch))
+        .filter(|(_, failures)| !failures.is_empty())?;
     let first = failures.first()?;
+    let others = other_cuts(survey, failures.iter().map(|failure| failure.op), first.op);
+    let other_cuts = if failures.len() < ENOUGH_TOO_FAST {
+        Count::Exactly(others)
+    } else {
+        Count::AtLeast(others)
+    };
     Some(Trouble::Motion {
         failing: failing_on(survey, first, branch),
-        other_cuts: other_cuts(survey, failures.iter().map(|failure| failure.op), first.op),
+        other_cuts,
         hardest: hardest(survey, &failures, branch, first),
     })
 }
@@ -206,7 +226,7 @@ pub(super) fn first(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Tr
     match farthest {
         Some((branch, failure)) => Trouble::Motion {
             failing: failing_on(survey, &failure, branch),
-            other_cuts: 0,
+            other_cuts: Count::Exactly(0),
             hardest: None,
         },
         None => Trouble::Nowhere,
@@ -253,7 +273,7 @@ fn no_common_branch(
         },
         None => Trouble::Motion {
             failing: of(first, branch),
-            other_cuts: 0,
+            other_cuts: Count::Exactly(0),
             hardest: None,
         },
     }
@@ -271,7 +291,7 @@ fn out_of_reach(station: &Station) -> Trouble {
             breach,
             worst: breach,
         },
-        other_cuts: 0,
+        other_cuts: Count::Exactly(0),
         hardest: None,
     }
 }

@@ -171,7 +171,7 @@ pub fn offer(diagnostic: Diagnostic, remedies: &[Remedy], general: &str) -> Diag
             .note(
                 "no single change of speeds, direction, order, swing, home or base that was tried is enough",
             )
-            .help("run `vcutc place` on this job: it searches the whole cell for a place that works");
+            .help("run `vcutc place` on this job: it searches around the base, or as far as `--x`, `--y`, `--z` and `--yaw` say, for a place that works");
     }
     remedies.iter().fold(diagnostic, |diagnostic, remedy| {
         if remedy.edits.is_empty() {
