@@ -96,9 +96,10 @@ fn cuts(rig: &Rig<'_>) -> Vec<Cut> {
             start: solution.joints,
         });
         let first = ways.next();
-        let proven = first.into_iter().chain(ways).find(|cut| {
-            prove(rig, &cut.course, cut.branch, &cut.start, &LEAST).is_ok()
-        });
+        let proven = first
+            .into_iter()
+            .chain(ways)
+            .find(|cut| prove(rig, &cut.course, cut.branch, &cut.start, &LEAST).is_ok());
         cuts.extend(proven);
     }
     cuts
@@ -109,9 +110,16 @@ fn sample(rig: &Rig<'_>, cut: &Cut) {
     for k in 0..=1000 {
         let blade = Pose {
             rotation: cut.course.from.rotation,
-            position: cut.course.from.position.lerp(cut.course.to.position, f64::from(k) / 1000.0),
+            position: cut
+                .course
+                .from
+                .position
+                .lerp(cut.course.to.position, f64::from(k) / 1000.0),
         };
-        if let Some(joints) = rig.mechanism.on_branch(&rig.flange_in_root(&blade), cut.branch, &near) {
+        if let Some(joints) = rig
+            .mechanism
+            .on_branch(&rig.flange_in_root(&blade), cut.branch, &near)
+        {
             near = black_box(joints);
         }
     }
