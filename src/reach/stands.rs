@@ -176,3 +176,8 @@ const fn arrival(leg: &Leg) -> Option<Taught> {
         Leg::Still | Leg::Home => None,
     }
 }
+
+/// Angles of revolute joints, each brought within half a turn of another.
+pub(super) fn nearest_turns(joints: &Joints, of: &Joints) -> Joints {
+    core::array::from_fn(|i| joints[i] + TAU * ((of[i] - joints[i]) / TAU).round())
+}
