@@ -14,6 +14,7 @@ pub mod place;
 pub mod rig;
 mod runs;
 pub mod solve;
+mod stands;
 mod survey;
 pub mod trajectory;
 pub mod trouble;

@@ -19,6 +19,7 @@ use super::legs::{Leg, Taught, legs};
 use super::path::{Clearance, Proof};
 use super::rig::Rig;
 use super::runs::{Split, Station, StationKind, split};
+use super::stands::Stands;
 use super::survey::{Extent, Failure, Survey, middles, moved, opened};
 use super::trouble::{self, Trouble};
 use super::ways::{OnBranch, Ways};
@@ -112,6 +113,7 @@ pub fn solve(
     let legs = legs(program.program());
     let rig = rig(model, cell);
     let open = opened(&model.axes);
+    let middle = middles(&model.axes);
     let survey = Survey {
         program: program.program(),
         legs: &legs,
@@ -120,7 +122,8 @@ pub fn solve(
             ..rig.clone()
         },
         rig: rig.clone(),
-        middle: middles(&model.axes),
+        followed: Stands::of(&rig, program.program(), &legs, &middle),
+        middle,
         least: *least,
     };
     let home = cell.home.map(|home| home.0);
@@ -234,7 +237,7 @@ fn screen(survey: &Survey<'_>) -> Vec<Bound> {
 const SCREENED: usize = 1024;
 
 /// The margin at axis values, each axis on its best turn: the one nearest to the middle of its range.
-fn best_margin(axes: &[Axis], joints: &Joints) -> f64 {
+pub(super) fn best_margin(axes: &[Axis], joints: &Joints) -> f64 {
     let margins = axes.iter().zip(joints).map(|(axis, &value)| {
         let from_middle = value - f64::midpoint(axis.min, axis.max);
         let by = match axis.kind {

@@ -11,6 +11,7 @@ use super::legs::{Leg, Poses, Stroke, Taught, numbered};
 use super::path::{Breach, Clearance, Proof, Violation, prove};
 use super::rig::Rig;
 use super::runs::Station;
+use super::stands::Stands;
 use crate::kinematics::{Joints, Solutions};
 use core::f64::consts::TAU;
 use rayon::prelude::*;
@@ -27,6 +28,8 @@ pub(super) struct Survey<'s> {
     pub(super) open: Rig<'s>,
     /// The middle of each axis' range.
     pub(super) middle: Joints,
+    /// Where the branches stand, if they mean nothing but what they are followed from.
+    pub(super) followed: Option<Stands>,
     pub(super) least: Clearance,
 }
 
@@ -116,6 +119,9 @@ pub(super) fn travel(axes: &[Axis], from: &Joints, to: &Joints) -> f64 {
 impl Survey<'_> {
     /// The axes on a branch at a taught pose, each within half a turn of the middle of its range.
     pub(super) fn stand(&self, taught: Taught, branch: Branch) -> Option<Joints> {
+        if let Some(followed) = &self.followed {
+            return followed.on(taught, branch);
+        }
         let blade_in_work = Poses::of(self.program).blade_in_work(taught)?;
         let flange_in_root = self.rig.flange_in_root(&blade_in_work);
         self.rig
@@ -125,6 +131,9 @@ impl Survey<'_> {
 
     /// All ways to stand at a taught pose.
     pub(super) fn stands(&self, taught: Taught) -> Solutions {
+        if let Some(followed) = &self.followed {
+            return followed.at(taught);
+        }
         match Poses::of(self.program).blade_in_work(taught) {
             Some(pose) => self.rig.mechanism.all(&self.rig.flange_in_root(&pose)),
             None => Solutions::NONE,

@@ -32,6 +32,8 @@ mod published;
 mod reach;
 mod repository;
 mod schema;
+#[cfg(feature = "krl")]
+mod serial_arm;
 mod status;
 mod syntax;
 mod third_party;

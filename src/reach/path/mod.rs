@@ -50,7 +50,8 @@
 //! range may be worse by a fiftieth of the room that is left, and the rate by a tenth. A cut of 1 m takes about 12 spans,
 //! where sampling every millimetre would solve a thousand poses and prove nothing about the places between.
 //!
-//! Arms without a closed form are proven by way of their Jacobian; [`mod@serial`] has the theorem. Five-axis machines are
+//! Arms without a closed form are proven by way of their Jacobian; [`mod@serial`] has the theorem. Of their distance from
+//! singular poses nothing is measured: a proof says that they meet none, and the least clearance asked for is not checked. Five-axis machines are
 //! interpolated in another way and have a check of their own, [`five_axis_path`].
 //!
 //! # What is assumed
@@ -195,13 +196,7 @@ pub fn prove(
         return five_axis_path::prove(machine, rig, course, branch, start);
     }
     let way = Way::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
-    // Where kinematics finds no axis values, or others than the given ones, there is nothing to continue.
-    if !way
-        .joints_at(0.0, start)
-        .is_some_and(|begun| is_same(&begun, start))
-    {
-        return Err(begins_with(Violation::OutOfReach));
-    }
+    let start = &way.begun(start).ok_or(begins_with(Violation::OutOfReach))?;
     let bounds = Bounds {
         axes: rig.axes,
         least: *least,
@@ -311,6 +306,16 @@ impl<'m> Way<'m> {
         match self.machine {
             Machine::Arm(arm, branch) => arm.on_branch(&flange, branch.into(), near),
             Machine::Serial(arm) => newton::follow(arm, &flange, near),
+        }
+    }
+
+    /// The start to go on from. Where kinematics finds no axis values, or others than the given ones, there is none.
+    fn begun(&self, start: &Joints) -> Option<Joints> {
+        let begun = self.joints_at(0.0, start).filter(|begun| is_same(begun, start))?;
+        match self.machine {
+            Machine::Arm(..) => Some(*start),
+            // Its spans are proven from what the axes are before.
+            Machine::Serial(arm) => serial::verified(arm, &self.flight, 0.0, &begun),
         }
     }
 

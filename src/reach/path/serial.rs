@@ -18,6 +18,12 @@
 //! `w` of the skew part of `R_end^T R(q)`, has a derivative by `q` that differs from `J` in its angular rows by a factor
 //! that is no further from `I` than the angle through which the box can turn the blade. Where that still contracts, the pose
 //! is reached once in the box only.
+//!
+//! **The start** is verified in the same way, so that the axes truly begin within 1e-8 rad of where they are said to.
+//!
+//! **Singular poses.** On a proven span the Jacobian is regular, so that no singular pose is met. How near one is is not
+//! measured: the clearance told is unlimited, and the least one that was asked for is not checked. What keeps these arms away
+//! from singular poses is the rates of their axes.
 
 use super::bounds::Stretch;
 use super::course::{Flight, Span};
@@ -38,6 +44,18 @@ type Box6 = [Interval; MOST_AXES];
 type Vector = [Interval; 3];
 type Matrix = [Vector; 3];
 type Square = [[f64; MOST_AXES]; MOST_AXES];
+
+/// Axis values that bring the flange to a place of the course, to the last digits, if those given do so nearly.
+pub(super) fn verified(arm: &SerialArm, flight: &Flight, place: f64, given: &Joints) -> Option<Joints> {
+    let tip_in_flange = flight.tip_in_flange();
+    let contraction = Contraction {
+        arm,
+        near_inverse: inverse_at(arm, given, tip_in_flange)?,
+        tip_in_flange,
+    };
+    let known = given.map(|value| Interval::around(value, UNCERTAIN));
+    contraction.improved(&known, &flight.flange_at(place))
+}
 
 /// What the axes do on a span that they enter at `begin`, proven.
 pub(super) fn stretch(

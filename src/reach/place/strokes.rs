@@ -5,15 +5,16 @@
 //! proven there: those between the same two ways to hold the blade, at the same speed, with their ends farthest out.
 
 use super::taught::outermost;
+use crate::kinematics::{Mechanism, Solution};
 use crate::reach::legs::{Leg, Pace, Poses, Stroke, legs};
 use crate::reach::path::{Course, prove};
 use crate::reach::rig::Rig;
 use crate::reach::solve::LEAST_CLEARANCE;
+use crate::reach::stands::nearest_turns;
 use crate::reach::survey::middles;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, OrientationId, Program};
-use vcutc_backend_api::motion::Branch;
 
 /// Telling motions of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,7 +71,7 @@ impl Strokes {
     pub fn are_each_followed(&self, rig: &Rig<'_>) -> bool {
         self.courses.iter().all(|course| {
             let begin = rig.mechanism.all(&rig.flange_in_root(&course.from));
-            begin.iter().any(|solution| follows(rig, course, solution.branch))
+            begin.iter().any(|solution| follows(rig, course, solution))
         })
     }
 
@@ -81,18 +82,22 @@ impl Strokes {
             return true;
         };
         let begin = rig.mechanism.all(&rig.flange_in_root(&first.from));
-        begin.iter().any(|solution| {
-            self.courses
-                .iter()
-                .all(|course| follows(rig, course, solution.branch))
-        })
+        begin
+            .iter()
+            .any(|solution| self.courses.iter().all(|course| follows(rig, course, solution)))
     }
 }
 
-/// Whether the axes follow a course, begun with each of them nearest to the middle of its range.
-fn follows(rig: &Rig<'_>, course: &Course, branch: Branch) -> bool {
+/// Whether the axes follow a course on the branch of a solution, begun with each of them nearest to the middle of its range.
+fn follows(rig: &Rig<'_>, course: &Course, solution: &Solution) -> bool {
     let flange_in_root = rig.flange_in_root(&course.from);
+    let middles = middles(rig.axes);
+    let near = match rig.mechanism {
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::FiveAxis(_) => middles,
+        // Its branches are those of the axes that it is followed from.
+        Mechanism::Serial(_) => nearest_turns(&solution.joints, &middles),
+    };
     rig.mechanism
-        .on_branch(&flange_in_root, branch, &middles(rig.axes))
-        .is_some_and(|start| prove(rig, course, branch, &start, &LEAST_CLEARANCE).is_ok())
+        .on_branch(&flange_in_root, solution.branch, &near)
+        .is_some_and(|start| prove(rig, course, solution.branch, &start, &LEAST_CLEARANCE).is_ok())
 }

@@ -1,0 +1,183 @@
+//! The branches of an arm that has only numbers for them, at all poses that a program teaches.
+//!
+//! The solutions that [`newton::search`] finds are numbered pose by pose, and the numbers of one pose mean nothing at another.
+//! Here branch `n` means solution `n` at the **first** pose of the program and whatever it becomes when it is followed from
+//! there, pose by pose, as the program goes. So strokes that share a pose begin and end with the same axes, and join.
+//!
+//! Nothing is proven here: [`super::path`] proves every stroke, beginning with what stands here.
+
+use super::legs::{Leg, Poses, Taught};
+use super::path::joints_on;
+use super::rig::Rig;
+use super::solve::best_margin;
+use crate::kinematics::serial::SerialArm;
+use crate::kinematics::{Joints, Mechanism, Solution, Solutions, newton};
+use core::f64::consts::TAU;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use vcutc_backend_api::ir::{OrientationId, Program};
+use vcutc_backend_api::motion::Branch;
+
+/// The axes on every branch at every taught pose to which the branch could be followed.
+#[derive(Clone, Debug)]
+pub(super) struct Stands {
+    branches: Vec<(Branch, BTreeMap<Key, Joints>)>,
+}
+
+/// A taught pose, to the last digit.
+type Key = ([u64; 3], OrientationId);
+
+fn key(taught: Taught) -> Key {
+    // Adding zero makes the negative zero positive.
+    let bits = [taught.tip.x, taught.tip.y, taught.tip.z].map(|part| (part + 0.0).to_bits());
+    (bits, taught.held)
+}
+
+/// A branch that so many poses could not be followed to is followed no more: each such pose costs as much as a hundred others.
+const MOST_MISSED: u32 = 8;
+/// Most that the blade turns in one step while it is followed along a course, in rad: [`newton::follow`] leads the flange
+/// straight from step to step, which keeps the tip near its own straight line.
+const LONGEST_TURN: f64 = 0.2;
+/// More steps than half a turn takes.
+const MOST_STEPS: u32 = 32;
+/// A branch that is farther than this from where a course begins, in mm, is not at its beginning.
+const JOINED: f64 = 1e-3;
+
+impl Stands {
+    /// Follows the branches of a machine whose branches are solutions of one pose only; none for any other machine.
+    pub(super) fn of(rig: &Rig<'_>, program: &Program, legs: &[Leg], middle: &Joints) -> Option<Self> {
+        let arm = match rig.mechanism {
+            Mechanism::Serial(arm) => arm,
+            // The numbers of a five-axis machine's branches mean the same at all poses.
+            Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::FiveAxis(_) => return None,
+        };
+        let walk = Walk {
+            rig,
+            arm,
+            program,
+            legs,
+            middle,
+        };
+        let branches = walk
+            .beginnings()
+            .par_iter()
+            .map(|begin| (begin.branch, walk.followed(begin)))
+            .collect();
+        Some(Self { branches })
+    }
+
+    /// The axes on a branch at a taught pose, each within half a turn of the middle of its range.
+    pub(super) fn on(&self, taught: Taught, branch: Branch) -> Option<Joints> {
+        let (_, stands) = self.branches.iter().find(|(other, _)| *other == branch)?;
+        stands.get(&key(taught)).copied()
+    }
+
+    /// The axes on all branches that come to a taught pose.
+    pub(super) fn at(&self, taught: Taught) -> Solutions {
+        let mut all = Solutions::NONE;
+        for (branch, stands) in &self.branches {
+            if let Some(&joints) = stands.get(&key(taught)) {
+                all.push(Solution {
+                    branch: *branch,
+                    joints,
+                });
+            }
+        }
+        all
+    }
+}
+
+/// A program that an arm is led through.
+struct Walk<'w> {
+    rig: &'w Rig<'w>,
+    arm: &'w SerialArm,
+    program: &'w Program,
+    legs: &'w [Leg],
+    middle: &'w Joints,
+}
+
+impl Walk<'_> {
+    /// The solutions at the first taught pose: those within the ranges of the axes or, so that it can be told which axis
+    /// leaves its own, all if there are none.
+    fn beginnings(&self) -> Vec<Solution> {
+        let first = self.legs.iter().find_map(arrival);
+        let Some(pose) = first.and_then(|taught| Poses::of(self.program).blade_in_work(taught)) else {
+            return Vec::new();
+        };
+        let found = newton::search(self.arm, &self.rig.flange_in_root(&pose));
+        let within = |solution: &&Solution| best_margin(self.rig.axes, &solution.joints) >= 0.0;
+        let inside: Vec<Solution> = found.iter().filter(within).copied().collect();
+        if inside.is_empty() {
+            found.iter().copied().collect()
+        } else {
+            inside
+        }
+    }
+
+    /// Where a branch stands at the poses of the program.
+    fn followed(&self, begin: &Solution) -> BTreeMap<Key, Joints> {
+        let mut stands: BTreeMap<Key, Joints> = BTreeMap::new();
+        let mut at = begin.joints;
+        let mut missed = 0;
+        for leg in self.legs {
+            let Some(taught) = arrival(leg) else { continue };
+            if let Some(known) = stands.get(&key(taught)) {
+                at = *known;
+                continue;
+            }
+            match self
+                .along(leg, begin.branch, &at)
+                .or_else(|| self.straight(taught, &at))
+            {
+                Some(joints) => {
+                    at = core::array::from_fn(|i| {
+                        joints[i] + TAU * ((self.middle[i] - joints[i]) / TAU).round()
+                    });
+                    stands.insert(key(taught), at);
+                }
+                None => missed += 1,
+            }
+            if missed >= MOST_MISSED {
+                break;
+            }
+        }
+        stands
+    }
+
+    /// Follows a course that turns the blade. One that does not is as straight for the flange as it is for the tip, and where
+    /// the course does not begin at `at`, since the branch missed poses, there is nothing to follow.
+    fn along(&self, leg: &Leg, branch: Branch, at: &Joints) -> Option<Joints> {
+        let stroke = leg.stroke().filter(|stroke| stroke.from.held != stroke.to.held)?;
+        let course = Poses::of(self.program).course(stroke)?;
+        let (apart, _) = self.rig.blade_in_work(at).apart(&course.from);
+        if apart > JOINED {
+            return None;
+        }
+        let held = |taught: Taught| self.program.orientations.get(taught.held.0 as usize);
+        let turn = held(stroke.from)?.angle_to(*held(stroke.to)?).to_rad();
+        let steps = (1..MOST_STEPS).find(|steps| turn <= LONGEST_TURN * f64::from(*steps))?;
+        (1..=steps).try_fold(*at, |near, step| {
+            let place = f64::from(step) / f64::from(steps);
+            joints_on(self.rig, &course, branch, place, &near)
+        })
+    }
+
+    fn straight(&self, taught: Taught, at: &Joints) -> Option<Joints> {
+        let pose = Poses::of(self.program).blade_in_work(taught)?;
+        newton::follow(self.arm, &self.rig.flange_in_root(&pose), at)
+    }
+}
+
+/// The pose that a leg leads to.
+const fn arrival(leg: &Leg) -> Option<Taught> {
+    match leg {
+        Leg::ByAxes(taught) => Some(*taught),
+        Leg::Along(stroke) => Some(stroke.to),
+        Leg::Still | Leg::Home => None,
+    }
+}
+
+/// Angles of revolute joints, each brought within half a turn of another.
+pub(super) fn nearest_turns(joints: &Joints, of: &Joints) -> Joints {
+    core::array::from_fn(|i| joints[i] + TAU * ((of[i] - joints[i]) / TAU).round())
+}
