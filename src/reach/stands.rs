@@ -158,7 +158,8 @@ impl Walk<'_> {
         let steps = (1..MOST_STEPS).find(|steps| turn <= LONGEST_TURN * f64::from(*steps))?;
         (1..=steps).try_fold(*at, |near, step| {
             let place = f64::from(step) / f64::from(steps);
-            joints_on(self.rig, &course, branch, place, &near)
+            // Only five-axis machines are led between given ends; an arm is followed.
+            joints_on(self.rig, &course, branch, [&near, &near], place, &near)
         })
     }
 

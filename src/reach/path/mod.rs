@@ -47,7 +47,7 @@
 //!
 //! Spans are also made shorter, down to 1/256 of the course, until their bounds are near the truth, since people read margins
 //! from them: near its limit an axis' range is within 0.1 deg and its rate within a hundredth of the highest; far from it the
-//! range may be worse by a fiftieth of the room that is left, and the rate by a tenth. A cut of 1 m takes about 12 spans,
+//! range may be worse by a fiftieth of the room that is left, and the rate by a tenth. A cut of 1 m takes about 17 spans,
 //! where sampling every millimetre would solve a thousand poses and prove nothing about the places between.
 //!
 //! Arms without a closed form are proven by way of their Jacobian; [`mod@serial`] has the theorem. Of their distance from
