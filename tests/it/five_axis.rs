@@ -2,6 +2,8 @@
 
 use crate::pipeline::{Files, compile, numbers};
 use crate::repository::read;
+use vcutc::reach::solve::rig;
+use vcutc::reach::trajectory::trajectory;
 
 /// The job of an example, which asks for `generic/head_head_ac`, on another machine.
 fn on(machine: &str) -> Vec<String> {
@@ -57,4 +59,58 @@ fn a_blade_that_is_mounted_turned_is_told_of() {
         diagnostic.message
     );
     assert!(outcome.sources.slice(diagnostic.primary.span).contains("-80 deg"));
+}
+
+/// The axes that are shown all along a program are those that were proven: within their limits, without a jump, and at the
+/// end of every op where the program says.
+#[test]
+fn the_axes_shown_go_on_without_a_jump() {
+    let job = read("tests/process/err/VC0516_no_spindle.vcut")
+        .replace("generic/head_head_ac", "generic/head_head_ac_spindle")
+        .replace("reorient = 60 deg/s", "reorient = 25 deg/s");
+    let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
+    let job = outcome.job.expect("the job has a meaning");
+    let machine = job.machine.expect("it has a machine");
+    let reached = outcome
+        .compiled
+        .and_then(|compiled| compiled.reach)
+        .expect("it is reached");
+    let cell = reached
+        .program
+        .program()
+        .cell
+        .clone()
+        .expect("the program has it too");
+    let rig = rig(&machine.model, &cell);
+    let mut last: Option<[f64; 6]> = None;
+    let mut rows = 0;
+    trajectory(&reached.program, &rig, |sample| {
+        rows += 1;
+        for (axis, value) in rig.axes.iter().zip(sample.joints) {
+            assert!(
+                (axis.min - 1e-6..=axis.max + 1e-6).contains(&value),
+                "{:?}: {} at {value}",
+                sample.op,
+                axis.name
+            );
+        }
+        if let Some(last) = last {
+            // The first three slide.
+            for turning in 3..6 {
+                let step = (sample.joints[turning] - last[turning]).abs();
+                assert!(step < 0.5, "{:?}, axis {turning}: {step} rad at once", sample.op);
+            }
+        }
+        if (sample.done - 1.0).abs() < 1e-9 {
+            let end = reached
+                .program
+                .axes_after(sample.op)
+                .expect("every op has an end");
+            assert_eq!(end.0, sample.joints);
+        }
+        last = Some(sample.joints);
+        Ok::<(), ()>(())
+    })
+    .expect("nothing ends it");
+    assert!(rows > 100, "{rows}");
 }

@@ -195,6 +195,16 @@ fn a_known_pose_that_is_missed_is_told_with_the_distance() {
 }
 
 #[test]
+fn a_known_pose_is_a_rotation() {
+    let check = "[[fk_check]]\njoints_deg = [0, 0, 0, 0, 0, 0]\nxyz_mm = [1450.0, 0.0, 1700.0]\n";
+    for (quaternion, length) in [("[0, 0, 0, 0]", "0.000"), ("[0.9, 0, 0.7071, 0]", "1.145")] {
+        let found = parse(&format!("{SMALL}{check}quat_wxyz = {quaternion}\n")).unwrap_err();
+        let message = format!("`quat_wxyz` has the length {length}, a rotation has 1");
+        assert_eq!(found[0].message, message);
+    }
+}
+
+#[test]
 fn texts_can_be_shown() {
     let (place, message) = flaw("Shop arm", "Shop \\u001b[2J arm");
     assert!(place.contains("u001b"), "{place}");

@@ -108,3 +108,12 @@ fn bounds_and_files_that_cannot_be_are_refused() {
     assert_eq!(run.code, Some(2));
     assert!(names(out.path()).is_empty());
 }
+
+#[test]
+fn a_map_is_a_picture_in_svg() {
+    for name in ["map.png", "-"] {
+        let run = vcutc(root(), &["place", EXAMPLE, "-o", name]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains("ends in .svg"), "{}", run.stderr);
+    }
+}
