@@ -96,9 +96,9 @@ fn the_axes_shown_go_on_without_a_jump() {
         }
         if let Some(last) = last {
             // The first three slide.
-            for turning in 3..6 {
-                let step = (sample.joints[turning] - last[turning]).abs();
-                assert!(step < 0.5, "{:?}, axis {turning}: {step} rad at once", sample.op);
+            for (now, before) in sample.joints.iter().zip(last).skip(3) {
+                let step = (now - before).abs();
+                assert!(step < 0.5, "{:?}: {step} rad at once", sample.op);
             }
         }
         if (sample.done - 1.0).abs() < 1e-9 {
