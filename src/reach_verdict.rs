@@ -38,7 +38,12 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         } => scene.motion(failing, *other_cuts, hardest.as_ref()),
         Trouble::NoCommonBranch { failing, other } => scene.no_common_branch(failing, other),
         Trouble::Way { op, leads, obstacle } => scene.way(*op, *leads, obstacle),
-        Trouble::Nowhere => return Vec::new(),
+        Trouble::Nowhere => Diagnostic::new(
+            Code::OutOfReach,
+            "the machine reaches no pose of this job",
+            scene.base(),
+            "with the work in this place",
+        ),
     };
     let remedies = remedy::remedies(job, plan, unreachable);
     vec![remedy::offer(diagnostic, &remedies, general(unreachable))]

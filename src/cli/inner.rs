@@ -32,14 +32,14 @@ pub(super) fn write(
         },
         InnerForm::Ir => match &outcome.compiled {
             Some(compiled) => {
-                let motion = compiled.reach.as_ref().map(|reached| reached.program.motion());
-                let form = Exchange::of(compiled.program.program(), motion);
+                let motion = compiled.program.reached().map(|reached| reached.program.motion());
+                let form = Exchange::of(compiled.program.verified().program(), motion);
                 file(sink, &name, |out| write_json(&form, out))
             }
             None => Ok(Progressed::NotSoFar),
         },
         InnerForm::Joints => match (&outcome.job, &outcome.compiled) {
-            (Some(job), Some(compiled)) => match &compiled.reach {
+            (Some(job), Some(compiled)) => match compiled.program.reached() {
                 Some(reached) => file(sink, &name, |out| joints::write(job, reached, out)),
                 None => Ok(Progressed::WithoutMachine),
             },

@@ -71,13 +71,40 @@ pub struct Outcome {
     pub compiled: Option<Compiled>,
 }
 
+/// A program as far as its job takes it.
+#[derive(Debug)]
+pub enum Finished {
+    /// Of a job without a machine: nothing moves it.
+    WithoutMachine(Box<VerifiedProgram>),
+    /// With the motion of the job's machine.
+    Reached(Box<Reached>),
+}
+
+impl Finished {
+    /// The program.
+    #[must_use]
+    pub const fn verified(&self) -> &VerifiedProgram {
+        match self {
+            Self::WithoutMachine(program) => program,
+            Self::Reached(reached) => reached.program.verified(),
+        }
+    }
+
+    /// How the machine carries it out.
+    #[must_use]
+    pub const fn reached(&self) -> Option<&Reached> {
+        match self {
+            Self::WithoutMachine(_) => None,
+            Self::Reached(reached) => Some(reached),
+        }
+    }
+}
+
 /// A job that can be emitted.
 #[derive(Debug)]
 pub struct Compiled {
     /// The program.
-    pub program: VerifiedProgram,
-    /// How the machine carries it out, when the job has one.
-    pub reach: Option<Reached>,
+    pub program: Finished,
     /// What it asks of the machine.
     pub figures: Option<ReachFigures>,
     /// Its figures.
@@ -132,15 +159,14 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
             outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
             if !has_errors(&outcome.diagnostics) {
                 match reach(job, &plan, proven.program, progress) {
-                    Ok((program, reach)) => {
-                        let figures = reach.as_ref().map(reach_summary::figures);
+                    Ok(program) => {
+                        let figures = program.reached().map(reach_summary::figures);
                         let mut report = proven.report;
                         // Travels that became moves of all axes take another time.
-                        report.timing = timing(&program);
+                        report.timing = timing(program.verified());
                         let summary = summary(&plan, &report, figures.as_ref());
                         outcome.compiled = Some(Compiled {
                             program,
-                            reach,
                             figures,
                             report,
                             summary,
@@ -161,13 +187,13 @@ fn reach(
     plan: &PlannedJob,
     program: VerifiedProgram,
     progress: &mut dyn FnMut(Stage),
-) -> Result<(VerifiedProgram, Option<Reached>), Vec<Diagnostic>> {
+) -> Result<Finished, Vec<Diagnostic>> {
     let Some(machine) = &job.machine else {
-        return Ok((program, None));
+        return Ok(Finished::WithoutMachine(Box::new(program)));
     };
     progress(Stage::Reaching);
     match solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir) {
-        Ok(reached) => Ok((reached.program.verified().clone(), Some(reached))),
+        Ok(reached) => Ok(Finished::Reached(Box::new(reached))),
         Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, plan, &unreachable)),
         Err(Unreached::Rules(faults)) => Err(vec![internal(job, &rules_broken(&faults))]),
         Err(Unreached::Motion(faults)) => Err(vec![internal(job, &motions_broken(&faults))]),
@@ -209,16 +235,16 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
         return Ok(());
     };
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
-    let Some(reached) = &compiled.reach else {
+    let Some(reached) = compiled.program.reached() else {
         return Err(EmitFailure::Diagnostics(vec![target::without_machine(
             job, backend,
         )]));
     };
     let refused = |issues: &[BackendIssue]| {
-        let program = compiled.program.program();
+        let program = reached.program.program();
         EmitFailure::Diagnostics(target::diagnose(job, backend, program, issues))
     };
-    let missing = target::missing(backend, &compiled.program);
+    let missing = target::missing(backend, reached.program.verified());
     if !missing.is_empty() {
         return Err(refused(&missing));
     }

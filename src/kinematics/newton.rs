@@ -15,6 +15,7 @@
 use super::jacobian::{Column, Square, Twist, keeps_from_singular};
 use super::pose::Pose;
 use super::serial::SerialArm;
+use super::trig;
 use super::{Joints, MOST_BRANCHES, Solution, Solutions};
 use core::f64::consts::{PI, TAU};
 use glam::{DMat3, DQuat, DVec3};
@@ -199,8 +200,10 @@ fn most_turn(a: &Joints, b: &Joints) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-fn within_half_a_turn(joints: &Joints, of: &Joints) -> Joints {
-    core::array::from_fn(|i| joints[i] + TAU * ((of[i] - joints[i]) / TAU).round())
+/// Angles of revolute joints, each within half a turn of another.
+#[must_use]
+pub fn within_half_a_turn(joints: &Joints, of: &Joints) -> Joints {
+    core::array::from_fn(|i| trig::nearest(joints[i], of[i]))
 }
 
 /// Most starts of a search.

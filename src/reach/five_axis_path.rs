@@ -50,12 +50,6 @@ const TIGHT_RATE: f64 = 1e-2;
 const FINEST: f64 = 1e-7;
 /// Most places of a course that are looked at.
 const MOST_LOOKS: u32 = 1 << 16;
-/// A machine without singular poses on its courses: rotary axes move evenly whatever the blade points along.
-const NEVER_SINGULAR: Clearance = Clearance {
-    wrist: f64::INFINITY,
-    elbow: f64::INFINITY,
-    shoulder: f64::INFINITY,
-};
 
 /// Proves that the axes follow a course on a branch, beginning at `start` (which must bring the blade to `course.from`),
 /// within the limits and rates of the rig's axes. `machine` is the rig's mechanism.
@@ -92,7 +86,8 @@ pub fn prove(
         low: search.low,
         high: search.high,
         rate: search.rate,
-        clearance: NEVER_SINGULAR,
+        // Rotary axes move evenly whatever the blade points along: no course has a singular pose.
+        clearance: Clearance::UNLIMITED,
         solves: search.looks + 1,
     })
 }

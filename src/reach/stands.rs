@@ -12,7 +12,6 @@ use super::rig::Rig;
 use super::solve::best_margin;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Joints, Mechanism, Solution, Solutions, newton};
-use core::f64::consts::TAU;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OrientationId, Program};
@@ -130,9 +129,7 @@ impl Walk<'_> {
                 .or_else(|| self.straight(taught, &at))
             {
                 Some(joints) => {
-                    at = core::array::from_fn(|i| {
-                        joints[i] + TAU * ((self.middle[i] - joints[i]) / TAU).round()
-                    });
+                    at = newton::within_half_a_turn(&joints, self.middle);
                     stands.insert(key(taught), at);
                 }
                 None => missed += 1,
@@ -176,9 +173,4 @@ const fn arrival(leg: &Leg) -> Option<Taught> {
         Leg::Along(stroke) => Some(stroke.to),
         Leg::Still | Leg::Home => None,
     }
-}
-
-/// Angles of revolute joints, each brought within half a turn of another.
-pub(super) fn nearest_turns(joints: &Joints, of: &Joints) -> Joints {
-    core::array::from_fn(|i| joints[i] + TAU * ((of[i] - joints[i]) / TAU).round())
 }

@@ -71,10 +71,8 @@ fn the_axes_shown_go_on_without_a_jump() {
     let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
     let job = outcome.job.expect("the job has a meaning");
     let machine = job.machine.expect("it has a machine");
-    let reached = outcome
-        .compiled
-        .and_then(|compiled| compiled.reach)
-        .expect("it is reached");
+    let compiled = outcome.compiled.expect("it compiles");
+    let reached = compiled.program.reached().expect("it is reached");
     let cell = reached
         .program
         .program()

@@ -173,8 +173,13 @@ fn intermediate_programs_come_back_from_json() {
         let text = fs::read_to_string(folder.join("ir.json")).unwrap();
         let form: Exchange<'_> = serde_json::from_str(&text).unwrap();
         let compiled = compiled(&folder).compiled.unwrap();
-        assert_eq!(&*form.program, compiled.program.program(), "{}", folder.display());
-        let motion = compiled.reach.as_ref().map(|reached| reached.program.motion());
+        assert_eq!(
+            &*form.program,
+            compiled.program.verified().program(),
+            "{}",
+            folder.display()
+        );
+        let motion = compiled.program.reached().map(|reached| reached.program.motion());
         assert_eq!(form.motion.as_deref(), motion, "{}", folder.display());
     }
 }

@@ -18,7 +18,14 @@ use vcutc_backend_api::ir::{AxisValues, PlacedFrame};
 /// Asserts that the text of a job's program does what its ops say, within rounding, in the frames of its machine and on the
 /// branch that its axes are on.
 pub(crate) fn check(outcome: &Outcome, bundle: &Bundle) {
-    let program = &outcome.compiled.as_ref().unwrap().reach.as_ref().unwrap().program;
+    let program = &outcome
+        .compiled
+        .as_ref()
+        .unwrap()
+        .program
+        .reached()
+        .unwrap()
+        .program;
     let model = &outcome.job.as_ref().unwrap().machine.as_ref().unwrap().model;
     #[allow(irrefutable_let_patterns, reason = "KRL drives no other mechanism")]
     let Mechanism::OrthoParallel(arm) = &model.mechanism else {

@@ -69,7 +69,7 @@ fn program(job: &CheckedJob) -> VerifiedProgram {
 fn solved(outcome: &Outcome) -> &Reached {
     let messages = told(&outcome.diagnostics, outcome);
     let compiled = outcome.compiled.as_ref().unwrap_or_else(|| panic!("{messages}"));
-    compiled.reach.as_ref().unwrap()
+    compiled.program.reached().unwrap()
 }
 
 /// Every branch and every turn of every axis, proven from one end of the program to the other with the limits as they are.

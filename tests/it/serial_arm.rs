@@ -71,7 +71,7 @@ fn urdf() -> String {
 fn reached(outcome: &Outcome) -> &Reached {
     let messages = told(&outcome.diagnostics, outcome);
     let compiled = outcome.compiled.as_ref().unwrap_or_else(|| panic!("{messages}"));
-    compiled.reach.as_ref().unwrap()
+    compiled.program.reached().unwrap()
 }
 
 #[test]

@@ -96,7 +96,15 @@ fn its_options_are_those_of_its_block() {
     assert_eq!(outcome.diagnostics, []);
     let mut bundle = Bundle::default();
     emit(&outcome, &ABLE, &mut bundle).unwrap();
-    let ops = outcome.compiled.as_ref().unwrap().program.program().ops.len();
+    let ops = outcome
+        .compiled
+        .as_ref()
+        .unwrap()
+        .program
+        .verified()
+        .program()
+        .ops
+        .len();
     assert_eq!(bundle.get("count.txt"), Some(ops.to_string().as_bytes()));
     assert_eq!(refusal(&compiled("base = 60"), &ABLE), [Code::BadOption]);
     assert_eq!(refusal(&compiled("bass = 8"), &ABLE), [Code::UnknownOption]);

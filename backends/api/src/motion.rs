@@ -262,7 +262,8 @@ fn faults(
 }
 
 /// Where the tip is, and how the blade is held, after an action.
-pub(crate) const fn pose_after(
+#[must_use]
+pub const fn pose_after(
     at: Option<(Point3, OrientationId)>,
     action: &Action,
 ) -> Option<(Point3, OrientationId)> {

@@ -4,6 +4,7 @@
 
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, OrientationId, Stock, Switch};
+use vcutc_backend_api::motion::pose_after;
 
 /// Where the robot stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,29 +68,18 @@ impl State {
 }
 
 impl Place {
-    /// After an action.
+    /// After an action. One that moves nothing leaves the robot where it is.
     pub(crate) const fn after(self, action: &Action) -> Self {
-        match (*action, self) {
-            (Action::Home, _) => Self::Home,
-            (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
-                Self::Tip(to, orientation)
-            }
-            (
-                Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. },
-                Self::Tip(_, held),
-            ) => Self::Tip(to, held),
-            (Action::Turn { to, .. }, Self::Tip(tip, _)) => Self::Tip(tip, to),
-            (
-                Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. }
-                | Action::Ultrasonic { .. }
-                | Action::AwaitReady
-                | Action::Dwell { .. }
-                | Action::ToolChange { .. },
-                place,
-            ) => place,
+        if matches!(action, Action::Home) {
+            return Self::Home;
+        }
+        let pose = match self {
+            Self::Tip(tip, held) => Some((tip, held)),
+            Self::Unknown | Self::Home => None,
+        };
+        match pose_after(pose, action) {
+            Some((tip, held)) => Self::Tip(tip, held),
+            None => self,
         }
     }
 

@@ -11,15 +11,9 @@ pub(super) fn clearance(mechanism: &Mechanism, joints: &Joints) -> Clearance {
         Mechanism::OrthoParallel(arm) => arm_clearance(arm, joints),
         Mechanism::Mounted(mounted) => arm_clearance(&mounted.arm, joints),
         // A five-axis machine has no such poses; of a general arm the proof alone says.
-        Mechanism::FiveAxis(_) | Mechanism::Serial(_) => NOWHERE_NEAR,
+        Mechanism::FiveAxis(_) | Mechanism::Serial(_) => Clearance::UNLIMITED,
     }
 }
-
-const NOWHERE_NEAR: Clearance = Clearance {
-    wrist: f64::INFINITY,
-    elbow: f64::INFINITY,
-    shoulder: f64::INFINITY,
-};
 
 fn arm_clearance(arm: &Opw, joints: &Joints) -> Clearance {
     let elbow_joint = match arm.coupling {

@@ -7,11 +7,10 @@
 
 use super::clearance::clearance;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, MOST_BRANCHES, Mechanism, Solution, Solutions};
+use crate::kinematics::{Joints, MOST_BRANCHES, Mechanism, Solution, Solutions, trig};
 use crate::reach::demand::{FULL, axis_margin};
 use crate::reach::path::Clearance;
 use core::cmp::Ordering;
-use core::f64::consts::TAU;
 use vcutc_backend_api::ir::{Axis, AxisKind};
 use vcutc_backend_api::motion::Branch;
 
@@ -180,7 +179,7 @@ impl Tally {
         let sweeps = self.low.iter_mut().zip(&mut self.high).zip(joints);
         for (index, ((low, high), &value)) in sweeps.enumerate() {
             let turned = match axes.get(index).map(|axis| axis.kind) {
-                Some(AxisKind::Rotary) => near(value, f64::midpoint(*low, *high)),
+                Some(AxisKind::Rotary) => trig::nearest(value, f64::midpoint(*low, *high)),
                 Some(AxisKind::Linear) | None => value,
             };
             *low = low.min(turned);
@@ -206,16 +205,11 @@ fn best_turn(axis: &Axis, low: f64, high: f64) -> f64 {
         // On the turn whose middle is nearest to the middle of the range, most is left at the nearer end.
         AxisKind::Rotary => {
             let middle = (low + high) / 2.0;
-            near(middle, (axis.min + axis.max) / 2.0) - middle
+            trig::nearest(middle, (axis.min + axis.max) / 2.0) - middle
         }
         AxisKind::Linear => 0.0,
     };
     axis_margin(axis, low + turn, high + turn)
-}
-
-/// The angle within half a turn of another.
-fn near(angle: f64, other: f64) -> f64 {
-    angle + TAU * ((other - angle) / TAU).round()
 }
 
 /// The smallest distance from a singular pose, as a share of [`FULL`].

@@ -5,12 +5,11 @@
 //! proven there: those between the same two ways to hold the blade, at the same speed, with their ends farthest out.
 
 use super::taught::outermost;
-use crate::kinematics::{Mechanism, Solution};
+use crate::kinematics::{Mechanism, Solution, newton};
 use crate::reach::legs::{Leg, Pace, Poses, Stroke, legs};
 use crate::reach::path::{Course, prove};
 use crate::reach::rig::Rig;
 use crate::reach::solve::LEAST_CLEARANCE;
-use crate::reach::stands::nearest_turns;
 use crate::reach::survey::middles;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -95,7 +94,7 @@ fn follows(rig: &Rig<'_>, course: &Course, solution: &Solution) -> bool {
     let near = match rig.mechanism {
         Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::FiveAxis(_) => middles,
         // Its branches are those of the axes that it is followed from.
-        Mechanism::Serial(_) => nearest_turns(&solution.joints, &middles),
+        Mechanism::Serial(_) => newton::within_half_a_turn(&solution.joints, &middles),
     };
     rig.mechanism
         .on_branch(&flange_in_root, solution.branch, &near)
