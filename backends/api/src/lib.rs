@@ -43,6 +43,7 @@ pub mod ir;
 pub mod motion;
 pub mod namer;
 pub mod number;
+pub mod script;
 #[cfg(feature = "testkit")]
 pub mod testkit;
 pub mod units;

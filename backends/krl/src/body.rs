@@ -3,11 +3,7 @@
 use crate::attitude::Attitudes;
 use crate::configuration::Configuration;
 use crate::keywords::HOME;
-use crate::listing::{Layer, Lead, Modal};
 use crate::options::Settings;
-use crate::split::Part;
-use crate::state::{Generator, Place, State, may_round};
-use crate::text::{Text, Written};
 use core::num::NonZeroU32;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
@@ -15,6 +11,9 @@ use vcutc_backend_api::ir::{
     Action, Cell, FeedId, Op, OpId, OperationId, OperationKind, OrientationId, Program, RateId, Ready, Switch,
 };
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::script::{
+    Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, may_round,
+};
 use vcutc_backend_api::units::Duration;
 
 /// How a move ends.

@@ -35,7 +35,7 @@
 //! # Long programs
 //!
 //! The pendant's editor becomes unusable with some thousands of lines, so a long program is a main module that calls
-//! parts `NAME_p001( )`, `NAME_p002( )`, ... one after the other (the module `split` has the rule). Each part sets everything up
+//! parts `NAME_p001( )`, `NAME_p002( )`, ... one after the other ([`vcutc_backend_api::script::split`] has the rule). Each part sets everything up
 //! again, and repeats the pose and the state of the generator that the part before it ended with. The pose is repeated by
 //! `PTP` with status and turn: called from the main module it leads nowhere, and a part that is started alone gets there
 //! on the branch that its straight moves are proven on, which a `LIN` from wherever the arm stands would not.
@@ -59,24 +59,30 @@ mod body;
 mod configuration;
 mod keywords;
 mod limits;
-mod listing;
 mod module;
 mod options;
-mod split;
-mod state;
-mod text;
 
 use crate::attitude::Attitudes;
 use crate::body::Source;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{LINES_PER_PART, OPTIONS, Settings};
-use crate::split::Part;
-use crate::text::Text;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::script::{Layout, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
+
+/// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
+/// below 132 characters, which every release reads. Behind a `;` the pendant reads `;%` as the start of its own marks.
+const LAYOUT: Layout = Layout {
+    line_end: b"\r\n",
+    longest_comment: 110,
+    kept_out_of_comments: b"%",
+};
+
+/// The speeds of swivelling and of twisting are set apart.
+const LINES_OF_A_RATE: u64 = 2;
 
 /// The KRL backend.
 #[derive(Clone, Copy, Debug, Default)]
@@ -111,7 +117,9 @@ impl Backend for Krl {
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         let settings = Settings::read(options);
-        let parts = split::split(&program.program().ops, settings.lines_per_part);
+        let parts = split(&program.program().ops, settings.lines_per_part, |lead| {
+            lead.lines(LINES_OF_A_RATE)
+        });
         let cell = limits::check(program, &parts)?;
         if parts.len() > MOST_PARTS {
             return Err(vec![too_many_parts(parts.len())]);
@@ -152,6 +160,6 @@ impl Emission for KrlEmission<'_> {
             attitudes: &attitudes,
         };
         let name = main_name(&program.name);
-        module::write(source, &name, &self.parts, &mut Text::new(sink))
+        module::write(source, &name, &self.parts, &mut Text::new(sink, LAYOUT))
     }
 }

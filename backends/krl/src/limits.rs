@@ -5,8 +5,6 @@
 //! would otherwise be told a million times.
 
 use crate::configuration::status;
-use crate::split::Part;
-use crate::text::trimmed_text;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::geometry::Point3;
@@ -15,6 +13,7 @@ use vcutc_backend_api::ir::{
     PlacedFrame, Program, RateId, Ready, Registered,
 };
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::script::{Part, trimmed_text};
 use vcutc_backend_api::units::Duration;
 
 /// Largest coordinate, in mm. KRL's `REAL` has seven digits, so beyond this a hundredth of a millimetre is lost; no

@@ -3,13 +3,11 @@
 use crate::body::{self, Source};
 use crate::keywords::{HOME, part_name};
 use crate::options::PartNames;
-use crate::split::Part;
-use crate::state::Place;
-use crate::text::{Text, Written, push_trimmed};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Load, Op, PlacedFrame, Registered, Site};
 use vcutc_backend_api::number::NotFinite;
+use vcutc_backend_api::script::{Part, Place, Text, Written, push_trimmed};
 
 /// Writes all modules of a program.
 pub(crate) fn write(source: Source<'_>, name: &str, parts: &[Part], text: &mut Text<'_>) -> Written {
@@ -102,7 +100,7 @@ fn first_of(op: &Op) -> String {
 
 /// The head of a `.src`.
 fn begin(source: Source<'_>, name: &str, text: &mut Text<'_>) -> Written {
-    text.file(name, "src")?;
+    text.file(&format!("{name}.src"))?;
     marks(source, text)?;
     Ok(text.line(&format!("DEF {name}( )"))?)
 }
@@ -208,7 +206,7 @@ fn needs_home(source: Source<'_>, part: &Part) -> Home {
 
 /// The `.dat` of a module. Declarations live here only: one behind an instruction of a `.src` does not compile [K-QG].
 fn data(source: Source<'_>, name: &str, home: Home, text: &mut Text<'_>) -> Written {
-    text.file(name, "dat")?;
+    text.file(&format!("{name}.dat"))?;
     marks(source, text)?;
     text.line(&format!("DEFDAT {name}"))?;
     text.line("EXT BAS (BAS_COMMAND :IN,REAL :IN )")?;

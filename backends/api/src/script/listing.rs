@@ -2,21 +2,21 @@
 //!
 //! The same answer serves the writer, which writes it, and the splitter, which counts it.
 
+use crate::ir::{Action, FeedId, Op, OperationId, RateId, Site};
 use core::num::NonZeroU32;
-use vcutc_backend_api::ir::{Action, FeedId, Op, OperationId, RateId, Site};
 
 /// A layer of the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Layer {
+pub struct Layer {
     /// The operation it belongs to.
-    pub(crate) operation: OperationId,
+    pub operation: OperationId,
     /// Its number within the operation.
-    pub(crate) number: NonZeroU32,
+    pub number: NonZeroU32,
 }
 
 /// What a reader at a line of the program knows: headings seen and speeds set so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Modal {
+pub struct Modal {
     operation: Option<OperationId>,
     layer: Option<Layer>,
     cut: Option<NonZeroU32>,
@@ -26,24 +26,24 @@ pub(crate) struct Modal {
 
 /// What an op needs before its line, in the order of writing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Lead {
+pub struct Lead {
     /// The fold of this layer ends.
-    pub(crate) close: Option<Layer>,
+    pub close: Option<Layer>,
     /// This operation begins.
-    pub(crate) operation: Option<OperationId>,
+    pub operation: Option<OperationId>,
     /// The fold of this layer begins.
-    pub(crate) open: Option<Layer>,
+    pub open: Option<Layer>,
     /// This cut of the layer begins.
-    pub(crate) cut: Option<(Layer, NonZeroU32)>,
+    pub cut: Option<(Layer, NonZeroU32)>,
     /// The tip speed changes to this.
-    pub(crate) feed: Option<FeedId>,
+    pub feed: Option<FeedId>,
     /// The reorientation rate changes to this.
-    pub(crate) rate: Option<RateId>,
+    pub rate: Option<RateId>,
 }
 
 impl Modal {
     /// What the op needs, given what was said before; then it is said.
-    pub(crate) fn lead(&mut self, op: &Op) -> Lead {
+    pub fn lead(&mut self, op: &Op) -> Lead {
         let (layer, cut) = place(op.site);
         let (feed, rate) = speeds(&op.action);
         let mut lead = Lead::default();
@@ -65,7 +65,7 @@ impl Modal {
     }
 
     /// The speeds that these ops run at first, as far as they have not been said; then they are said.
-    pub(crate) fn first_speeds(&mut self, ops: &[Op]) -> (Option<FeedId>, Option<RateId>) {
+    pub fn first_speeds(&mut self, ops: &[Op]) -> (Option<FeedId>, Option<RateId>) {
         let feed = ops.iter().find_map(|op| speeds(&op.action).0);
         let rate = ops.iter().find_map(|op| speeds(&op.action).1);
         (
@@ -75,17 +75,19 @@ impl Modal {
     }
 
     /// The fold that is still open.
-    pub(crate) const fn open_layer(self) -> Option<Layer> {
+    #[must_use]
+    pub const fn open_layer(self) -> Option<Layer> {
         self.layer
     }
 }
 
 impl Lead {
-    /// How many lines it takes. The end of a fold is counted where the fold begins, so that a part's count is right
+    /// How many lines it takes, a line for each but a layer and a rate. The end of a fold is counted where the fold begins, so that a part's count is right
     /// wherever it stops.
-    pub(crate) const fn lines(self) -> u64 {
+    #[must_use]
+    pub const fn lines(self, lines_of_a_rate: u64) -> u64 {
         let fold = if self.open.is_some() { 2 } else { 0 };
-        let rate = if self.rate.is_some() { 2 } else { 0 };
+        let rate = if self.rate.is_some() { lines_of_a_rate } else { 0 };
         fold + rate + self.operation.is_some() as u64 + self.cut.is_some() as u64 + self.feed.is_some() as u64
     }
 }

@@ -5,26 +5,29 @@
 //! the other. A part takes as many of these stretches as fit into the limit; a stretch longer than the limit is a part of
 //! its own.
 
-use crate::listing::Modal;
-use crate::state::State;
+use super::listing::{Lead, Modal};
+use super::state::State;
+use crate::ir::{Action, Op};
 use core::num::NonZeroU32;
 use core::ops::Range;
-use vcutc_backend_api::ir::{Action, Op};
 
 /// A run of ops that makes one module.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Part {
+pub struct Part {
     /// Places in the program's list.
-    pub(crate) ops: Range<usize>,
+    pub ops: Range<usize>,
     /// State in which it begins.
-    pub(crate) start: State,
+    pub start: State,
 }
 
 /// The parts of a program, at least one, with at most `limit` lines in the body of each where that can be had.
-pub(crate) fn split(ops: &[Op], limit: Option<NonZeroU32>) -> Vec<Part> {
+///
+/// `lines` tells how many lines a dialect makes of what stands before an op; every op has one more of its own.
+#[must_use]
+pub fn split(ops: &[Op], limit: Option<NonZeroU32>, lines: fn(Lead) -> u64) -> Vec<Part> {
     let limit = limit.map_or(u64::MAX, |limit| u64::from(limit.get()));
     let mut parts = Vec::new();
-    let mut part = Tally::start(0, State::START);
+    let mut part = Tally::start(0, State::START, lines);
     // The last place within the part where the next one could begin.
     let mut border: Option<(usize, State)> = None;
     let mut at = 0;
@@ -32,11 +35,11 @@ pub(crate) fn split(ops: &[Op], limit: Option<NonZeroU32>) -> Vec<Part> {
         if at > part.first && may_begin(ops, at) {
             border = Some((at, part.state));
         }
-        let lines = part.take(op);
+        let taken = part.take(op);
         match border {
-            Some((next, state)) if lines > limit => {
+            Some((next, state)) if taken > limit => {
                 parts.push(part.until(next));
-                part = Tally::start(next, state);
+                part = Tally::start(next, state, lines);
                 border = None;
                 at = next;
             }
@@ -69,16 +72,18 @@ struct Tally {
     start: State,
     state: State,
     modal: Modal,
+    lines_of: fn(Lead) -> u64,
     lines: u64,
 }
 
 impl Tally {
-    fn start(first: usize, state: State) -> Self {
+    fn start(first: usize, state: State, lines_of: fn(Lead) -> u64) -> Self {
         Self {
             first,
             start: state,
             state,
             modal: Modal::default(),
+            lines_of,
             lines: 0,
         }
     }
@@ -86,7 +91,7 @@ impl Tally {
     /// Adds an op; the lines so far.
     fn take(&mut self, op: &Op) -> u64 {
         let own_line = 1;
-        self.lines += self.modal.lead(op).lines() + own_line;
+        self.lines += (self.lines_of)(self.modal.lead(op)) + own_line;
         self.state = self.state.after(&op.action);
         self.lines
     }
@@ -100,14 +105,17 @@ impl Tally {
 }
 
 #[cfg(test)]
+#[cfg(feature = "testkit")]
 mod tests {
     use super::*;
+    use crate::ir::Edges;
+    use crate::testkit::{Passes, Recipe};
     use proptest::prelude::*;
-    use vcutc_backend_api::ir::Edges;
-    use vcutc_backend_api::testkit::{Passes, Recipe};
+
+    const LINES: fn(Lead) -> u64 = |lead| lead.lines(2);
 
     fn lines_of(ops: &[Op]) -> u64 {
-        let mut tally = Tally::start(0, State::START);
+        let mut tally = Tally::start(0, State::START, LINES);
         ops.iter().map(|op| tally.take(op)).last().unwrap_or_default()
     }
 
@@ -128,7 +136,7 @@ mod tests {
             }
             .program()
             .ops;
-            let parts = split(&ops, NonZeroU32::new(limit));
+            let parts = split(&ops, NonZeroU32::new(limit), LINES);
             let mut state = State::START;
             let mut end = 0;
             for part in &parts {

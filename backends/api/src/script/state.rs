@@ -2,13 +2,13 @@
 //!
 //! A part of a split program repeats this at its start, so that it can be understood, and continued, alone.
 
-use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, OrientationId, Stock, Switch};
-use vcutc_backend_api::motion::pose_after;
+use crate::geometry::Point3;
+use crate::ir::{Action, OrientationId, Stock, Switch};
+use crate::motion::pose_after;
 
 /// Where the robot stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Place {
+pub enum Place {
     /// Nowhere in particular: nothing has moved yet.
     Unknown,
     /// At the home angles.
@@ -19,7 +19,7 @@ pub(crate) enum Place {
 
 /// How far the ultrasonic generator is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Generator {
+pub enum Generator {
     /// Off.
     Off,
     /// Switched on.
@@ -30,23 +30,23 @@ pub(crate) enum Generator {
 
 /// The state between two ops.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct State {
+pub struct State {
     /// Where the robot stands.
-    pub(crate) place: Place,
+    pub place: Place,
     /// Whether the blade vibrates.
-    pub(crate) generator: Generator,
+    pub generator: Generator,
 }
 
 impl State {
     /// Before the first op.
-    pub(crate) const START: Self = Self {
+    pub const START: Self = Self {
         place: Place::Unknown,
         generator: Generator::Off,
     };
 
     /// After an action.
     #[must_use]
-    pub(crate) const fn after(self, action: &Action) -> Self {
+    pub const fn after(self, action: &Action) -> Self {
         Self {
             place: self.place.after(action),
             generator: match action {
@@ -69,7 +69,8 @@ impl State {
 
 impl Place {
     /// After an action. One that moves nothing leaves the robot where it is.
-    pub(crate) const fn after(self, action: &Action) -> Self {
+    #[must_use]
+    pub const fn after(self, action: &Action) -> Self {
         if matches!(action, Action::Home) {
             return Self::Home;
         }
@@ -84,7 +85,8 @@ impl Place {
     }
 
     /// The tip, if its place is known.
-    pub(crate) const fn tip(self) -> Option<Point3> {
+    #[must_use]
+    pub const fn tip(self) -> Option<Point3> {
         match self {
             Self::Tip(tip, _) => Some(tip),
             Self::Unknown | Self::Home => None,
@@ -98,7 +100,7 @@ impl Place {
 /// the first move up to `$APO.CDIS` before its end and joins the second as far behind it, inside the triangle of the
 /// three tips. That triangle must be clear of the stock: all three tips on one outer side of the box, which is convex.
 /// (The two moves alone are checked by the verifier, each on a side of its own; the chord between them is not.)
-pub(crate) fn may_round(stock: Stock, before: Place, first: &Action, second: Option<&Action>) -> bool {
+pub fn may_round(stock: Stock, before: Place, first: &Action, second: Option<&Action>) -> bool {
     let from = before.tip();
     let corner = match first {
         Action::Travel { to, .. } | Action::Retract { to, .. } => *to,
@@ -140,8 +142,8 @@ fn beside_stock(stock: Stock, tips: [Point3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vcutc_backend_api::ir::{FeedId, RateId};
-    use vcutc_backend_api::units::Length;
+    use crate::ir::{FeedId, RateId};
+    use crate::units::Length;
 
     const STOCK: Stock = Stock {
         width: Length::mm(85.0),
@@ -207,7 +209,7 @@ mod tests {
     fn moves_that_must_end_exactly_are_not() {
         let here = at(-5.0, 60.0);
         let cut = Action::Cut {
-            flank: vcutc_backend_api::ir::Flank::Left,
+            flank: crate::ir::Flank::Left,
             to: Point3::new(10.0, 60.0, 10.0),
             feed: FeedId(0),
         };

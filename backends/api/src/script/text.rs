@@ -3,9 +3,9 @@
 //! A program of a million cuts is hundreds of megabytes, so bytes are gathered in one buffer of [`CHUNK`] bytes and
 //! handed over as it fills. Nothing on the way of an op allocates.
 
-use vcutc_backend_api::backend::EmitError;
-use vcutc_backend_api::bundle::{Sink, SinkError};
-use vcutc_backend_api::number::{FixedDecimal, NotFinite};
+use crate::backend::EmitError;
+use crate::bundle::{Sink, SinkError};
+use crate::number::{FixedDecimal, NotFinite};
 
 /// Size at which the buffer is handed over.
 const CHUNK: usize = 64 * 1024;
@@ -13,38 +13,52 @@ const CHUNK: usize = 64 * 1024;
 /// Room for the line that overruns the chunk.
 const SLACK: usize = 512;
 
-/// Lines end as those that the controller's own editor writes (it runs on Windows).
-const LINE_END: &[u8] = b"\r\n";
-
-/// Longest comment: with `;FOLD` and indentation a line stays below 132 characters, which every release reads.
-const LONGEST_COMMENT: usize = 110;
+/// How a dialect's lines and comments look.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    /// What ends a line.
+    pub line_end: &'static [u8],
+    /// Most characters that a comment takes of what people wrote.
+    pub longest_comment: usize,
+    /// Printable ASCII that must not stand in a comment, because it would end it or mean something else.
+    pub kept_out_of_comments: &'static [u8],
+}
 
 /// Speeds, times and masses are printed with at most so many decimals.
 const FINE: FixedDecimal = FixedDecimal::new(6);
 
 /// Writes lines of the file at hand.
-pub(crate) struct Text<'s> {
+pub struct Text<'s> {
     sink: &'s mut dyn Sink,
+    layout: Layout,
     buffer: Vec<u8>,
 }
 
 impl<'s> Text<'s> {
     /// Nothing written yet.
-    pub(crate) fn new(sink: &'s mut dyn Sink) -> Self {
+    #[must_use]
+    pub fn new(sink: &'s mut dyn Sink, layout: Layout) -> Self {
         Self {
             sink,
+            layout,
             buffer: Vec::with_capacity(CHUNK + SLACK),
         }
     }
 
     /// Ends the file at hand and starts another.
-    pub(crate) fn file(&mut self, name: &str, extension: &str) -> Result<(), SinkError> {
+    ///
+    /// # Errors
+    /// When the sink does not take it.
+    pub fn file(&mut self, name: &str) -> Result<(), SinkError> {
         self.flush()?;
-        self.sink.file(&format!("{name}.{extension}"))
+        self.sink.file(name)
     }
 
     /// Hands over what is gathered.
-    pub(crate) fn flush(&mut self) -> Result<(), SinkError> {
+    ///
+    /// # Errors
+    /// When the sink does not take them.
+    pub fn flush(&mut self) -> Result<(), SinkError> {
         if !self.buffer.is_empty() {
             self.sink.write(&self.buffer)?;
             self.buffer.clear();
@@ -53,35 +67,50 @@ impl<'s> Text<'s> {
     }
 
     /// A whole line.
-    pub(crate) fn line(&mut self, line: &str) -> Result<(), SinkError> {
+    ///
+    /// # Errors
+    /// When the sink does not take it.
+    pub fn line(&mut self, line: &str) -> Result<(), SinkError> {
         self.put(line.as_bytes());
         self.end_line()
     }
 
     /// A line made of a fixed start and text that people wrote.
-    pub(crate) fn comment(&mut self, start: &str, words: &str) -> Result<(), SinkError> {
+    ///
+    /// # Errors
+    /// When the sink does not take it.
+    pub fn comment(&mut self, start: &str, words: &str) -> Result<(), SinkError> {
         self.put(start.as_bytes());
-        self.buffer.extend(plain(words));
+        self.buffer.extend(plain(words, self.layout));
         self.end_line()
     }
 
     /// Bytes within a line.
-    pub(crate) fn put(&mut self, bytes: &[u8]) {
+    #[inline]
+    pub fn put(&mut self, bytes: &[u8]) {
         self.buffer.extend_from_slice(bytes);
     }
 
     /// A number within a line, with all decimals of its format.
-    pub(crate) fn fixed(&mut self, format: FixedDecimal, value: f64) -> Result<(), NotFinite> {
+    ///
+    /// # Errors
+    /// When it is not finite.
+    #[inline]
+    pub fn fixed(&mut self, format: FixedDecimal, value: f64) -> Result<(), NotFinite> {
         format.push(&mut self.buffer, value)
     }
 
     /// A number within a line, up to six decimals, without trailing zeros but the first.
-    pub(crate) fn trimmed(&mut self, value: f64) -> Result<(), NotFinite> {
+    ///
+    /// # Errors
+    /// When it is not finite.
+    pub fn trimmed(&mut self, value: f64) -> Result<(), NotFinite> {
         push_trimmed(&mut self.buffer, value)
     }
 
     /// A whole number within a line.
-    pub(crate) fn whole(&mut self, value: u32) {
+    #[inline]
+    pub fn whole(&mut self, value: u32) {
         let mut digits = [0; 10];
         let mut at = digits.len();
         let mut rest = value;
@@ -99,8 +128,12 @@ impl<'s> Text<'s> {
     }
 
     /// Ends a line.
-    pub(crate) fn end_line(&mut self) -> Result<(), SinkError> {
-        self.put(LINE_END);
+    ///
+    /// # Errors
+    /// When the sink does not take what is gathered.
+    #[inline]
+    pub fn end_line(&mut self) -> Result<(), SinkError> {
+        self.put(self.layout.line_end);
         if self.buffer.len() >= CHUNK {
             self.flush()?;
         }
@@ -109,7 +142,10 @@ impl<'s> Text<'s> {
 }
 
 /// Appends a number with up to six decimals, at least one, and no further trailing zeros.
-pub(crate) fn push_trimmed(out: &mut Vec<u8>, value: f64) -> Result<(), NotFinite> {
+///
+/// # Errors
+/// When it is not finite.
+pub fn push_trimmed(out: &mut Vec<u8>, value: f64) -> Result<(), NotFinite> {
     FINE.push(out, value)?;
     while out.ends_with(b"0") && !out.ends_with(b".0") {
         out.pop();
@@ -118,7 +154,8 @@ pub(crate) fn push_trimmed(out: &mut Vec<u8>, value: f64) -> Result<(), NotFinit
 }
 
 /// Such a number as text; what is no number becomes its name, for messages.
-pub(crate) fn trimmed_text(value: f64) -> String {
+#[must_use]
+pub fn trimmed_text(value: f64) -> String {
     let mut digits = Vec::new();
     match push_trimmed(&mut digits, value) {
         Ok(()) => String::from_utf8_lossy(&digits).into_owned(),
@@ -126,29 +163,36 @@ pub(crate) fn trimmed_text(value: f64) -> String {
     }
 }
 
-/// Text as a comment can hold it: printable ASCII on one line, everything else as `?`. `%` is left out because behind
-/// a `;` the pendant reads `;%` as the start of its own marks.
-fn plain(words: &str) -> impl Iterator<Item = u8> {
-    words.chars().take(LONGEST_COMMENT).map(|c| match c {
-        '%' => b'?',
-        ' '..='~' => c as u8,
-        _ => b'?',
-    })
+/// Text as a comment can hold it: printable ASCII on one line, everything else as `?`.
+fn plain(words: &str, layout: Layout) -> impl Iterator<Item = u8> {
+    words
+        .chars()
+        .take(layout.longest_comment)
+        .map(move |c| match u8::try_from(c) {
+            Ok(byte @ b' '..=b'~') if !layout.kept_out_of_comments.contains(&byte) => byte,
+            Ok(_) | Err(_) => b'?',
+        })
 }
 
 /// What writing comes to: lines in the sink, or why not.
-pub(crate) type Written = Result<(), EmitError>;
+pub type Written = Result<(), EmitError>;
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bundle::Bundle;
     use proptest::prelude::*;
-    use vcutc_backend_api::bundle::Bundle;
+
+    const LAYOUT: Layout = Layout {
+        line_end: b"\r\n",
+        longest_comment: 110,
+        kept_out_of_comments: b"%",
+    };
 
     fn one_line(write: impl FnOnce(&mut Text<'_>)) -> String {
         let mut bundle = Bundle::default();
-        let mut text = Text::new(&mut bundle);
-        text.file("a", "src").unwrap();
+        let mut text = Text::new(&mut bundle, LAYOUT);
+        text.file("a.src").unwrap();
         write(&mut text);
         text.flush().unwrap();
         String::from_utf8(bundle.get("a.src").unwrap().to_vec()).unwrap()
