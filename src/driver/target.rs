@@ -197,6 +197,12 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
                 "this option",
             )
         }
+        BackendIssue::Profile { key, why } => Diagnostic::new(
+            Code::BadOption,
+            format!("target `{target}` cannot do what the profile's `{key}` asks: {why}"),
+            option_span(job.machine.as_ref(), target, "profile").unwrap_or(machine),
+            "this profile",
+        ),
         BackendIssue::Unsupported { op, what } => Diagnostic::new(
             Code::Unsupported,
             format!("target `{target}` cannot say this: {what}"),

@@ -164,6 +164,7 @@ fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Rea
     let motion = Motion {
         ends: solved.ends.into_iter().map(AxisValues).collect(),
         stretches: solved.report.stretches.clone(),
+        waypoints: Vec::new(),
     };
     let blade_in_work = |values: &AxisValues| Frame::from(rig.blade_in_work(&values.0));
     let program = ReachableProgram::assemble(program, motion, &blade_in_work).map_err(Unreached::Motion)?;

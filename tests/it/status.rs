@@ -111,6 +111,7 @@ fn program(model: &Model, solution: &Solution) -> ReachableProgram {
             from: OpId(1),
             branch: solution.branch,
         }],
+        waypoints: Vec::new(),
     };
     ReachableProgram::assemble(verify(program).unwrap(), motion, &blade_in_work).unwrap()
 }

@@ -8,6 +8,7 @@ use vcutc_backend_api::backend::{
 };
 use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Writes how many ops a program has, if it can say what the program needs.
@@ -45,6 +46,10 @@ impl Backend for Counter {
         }];
         OPTIONS
     }
+    fn reader(&self) -> Option<&dyn Reader> {
+        None
+    }
+
     fn check<'p>(
         &self,
         program: &'p ReachableProgram,

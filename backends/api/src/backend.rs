@@ -9,6 +9,8 @@ use crate::bundle::{Sink, SinkError};
 use crate::ir::OpId;
 use crate::motion::ReachableProgram;
 use crate::number::NotFinite;
+use crate::profile::Profile;
+use crate::readback::Reader;
 use crate::units::Length;
 use crate::verify::Capabilities;
 use std::collections::BTreeMap;
@@ -26,6 +28,9 @@ pub trait Backend: Sync {
 
     /// The options it takes.
     fn options(&self) -> &'static [OptionSpec];
+
+    /// Who reads its programs back; none when nobody can, and then nothing checks what was written.
+    fn reader(&self) -> Option<&dyn Reader>;
 
     /// Whether the dialect can say this program with these options, and the writer if it can.
     ///
@@ -88,6 +93,13 @@ pub enum BackendIssue {
     /// Two options, or an option and the program, do not go together.
     OptionConflict {
         /// The option.
+        key: &'static str,
+        /// Why not.
+        why: String,
+    },
+    /// The profile asks for something that the dialect does not have, or cannot take.
+    Profile {
+        /// The key of the profile.
         key: &'static str,
         /// Why not.
         why: String,
@@ -181,6 +193,7 @@ pub enum OptionValue {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     values: BTreeMap<&'static str, OptionValue>,
+    profile: Profile,
 }
 
 impl Options {
@@ -195,7 +208,25 @@ impl Options {
         };
         Self {
             values: specs.iter().map(|spec| (spec.key, default(spec.kind))).collect(),
+            profile: Profile::default(),
         }
+    }
+
+    /// With the habits of a machine.
+    #[must_use]
+    pub fn with_profile(self, profile: Profile) -> Self {
+        Self { profile, ..self }
+    }
+
+    /// The habits of the machine; all of them open when the job names none.
+    #[must_use]
+    pub const fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// What is set, in the order of the keys.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &OptionValue)> {
+        self.values.iter().map(|(key, value)| (*key, value))
     }
 
     /// Sets an option to a value that fits its kind.

@@ -190,6 +190,25 @@ impl Orientation {
         [self.w, self.x, self.y, self.z]
     }
 
+    /// The orientation on the shortest way to `other` when so much of it is done, from 0 to 1: turned about one fixed axis.
+    #[must_use]
+    pub fn towards(self, other: Self, done: f64) -> Self {
+        let [a, b] = [self, other].map(Self::quaternion);
+        let along: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+        // The nearer of the two quaternions of the rotation.
+        let b = b.map(|part| if along < 0.0 { -part } else { part });
+        let half = self.angle_to(other).to_rad() / 2.0;
+        let (to_go, gone) = match libm::sin(half) {
+            sine if sine > 1e-12 => (
+                libm::sin(half * (1.0 - done)) / sine,
+                libm::sin(half * done) / sine,
+            ),
+            _ => (1.0 - done, done),
+        };
+        let [w, x, y, z] = core::array::from_fn(|part| a[part] * to_go + b[part] * gone);
+        Self::from_quaternion(w, x, y, z).unwrap_or(self)
+    }
+
     /// The angle of the one rotation that leads from `self` to `other`; 0 to 180 degrees.
     #[must_use]
     pub fn angle_to(self, other: Self) -> Angle {

@@ -33,7 +33,8 @@
 //! Only a [`motion::ReachableProgram`] can reach a backend: it joins a [`verify::VerifiedProgram`], which only
 //! [`verify::verify`] makes, and a motion, which [`motion::ReachableProgram::assemble`] checks against it. A
 //! [`backend::Backend`] first checks whether its dialect can say the program (data, no text) and then writes
-//! bytes into a [`bundle::Sink`]; it does no kinematics, reads nothing and invents no defaults.
+//! bytes into a [`bundle::Sink`]; it does no kinematics and invents no defaults. What it wrote is read again by the reader of
+//! its dialect ([`readback`]) and compared with the program, op by op, before anything reaches a disk.
 
 pub mod backend;
 pub mod bundle;
@@ -43,7 +44,10 @@ pub mod ir;
 pub mod motion;
 pub mod namer;
 pub mod number;
+pub mod profile;
+pub mod readback;
 pub mod script;
+pub mod stroke;
 #[cfg(feature = "testkit")]
 pub mod testkit;
 pub mod units;

@@ -11,6 +11,7 @@ mod tests;
 
 use crate::geometry::{Frame, Point3};
 use crate::ir::{Action, AxisValues, Cell, OpId, OrientationId, Program};
+use crate::stroke::Stroke;
 use crate::verify::VerifiedProgram;
 use core::fmt;
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,24 @@ pub struct Motion {
     pub ends: Vec<AxisValues>,
     /// The branches, in order of the ops; the first begins with the first motion to a pose.
     pub stretches: Vec<Stretch>,
+    /// Where the axes are on the way of ops in which one of the last three axes of an arm turns far, in order of ops and of the
+    /// way. Controllers that choose the way to stand anew at every point (ABB's) are given these points as well.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waypoints: Vec<Waypoint>,
+}
+
+/// Where a machine is on the way of an op.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Waypoint {
+    /// The op, a straight motion or a turn.
+    pub op: OpId,
+    /// How much of the way is done, above 0 and below 1.
+    pub done: f64,
+    /// The blade frame T there, seen from the workpiece frame W.
+    pub frame: Frame,
+    /// The axes there.
+    pub axes: AxisValues,
 }
 
 /// A stretch of ops on one branch. It lasts until the next one begins.
@@ -122,6 +141,9 @@ pub enum MotionRule {
     Stretches,
     /// An op that moves nothing leaves the axes where they are.
     Still,
+    /// Waypoints come in order and lie on the way of an op that moves the blade; the axes hold the blade there within their
+    /// limits.
+    Waypoints,
 }
 
 impl fmt::Display for MotionRule {
@@ -133,6 +155,7 @@ impl fmt::Display for MotionRule {
             Self::Pose => "the axis values do not give the op's pose",
             Self::Stretches => "the branch is not known, or changes without a move of all axes",
             Self::Still => "the axes move in an op that moves nothing",
+            Self::Waypoints => "a waypoint does not lie on the way of its op",
         })
     }
 }
@@ -243,10 +266,11 @@ fn faults(
             ) => {
                 let held = program.orientations.get(held.0 as usize).copied();
                 let is = blade_in_work(&values);
-                let same_place = is.origin.distance(tip).to_mm() <= SAME_PLACE;
-                let same_attitude =
-                    held.is_some_and(|held| is.orientation.angle_to(held).to_rad() <= SAME_ATTITUDE);
-                if !(same_place && same_attitude) {
+                let should = held.map(|orientation| Frame {
+                    origin: tip,
+                    orientation,
+                });
+                if !should.is_some_and(|should| is_there(&is, &should)) {
                     fault(MotionRule::Pose);
                 }
                 true
@@ -258,7 +282,55 @@ fn faults(
         }
         before = Some(values);
     }
+    faults.extend(waypoint_faults(program, motion, blade_in_work));
     faults
+}
+
+fn waypoint_faults(
+    program: &Program,
+    motion: &Motion,
+    blade_in_work: &dyn Fn(&AxisValues) -> Frame,
+) -> Vec<MotionFault> {
+    let Some(cell) = &program.cell else {
+        return Vec::new();
+    };
+    let mut faults = Vec::new();
+    let mut waypoints = motion.waypoints.iter().peekable();
+    let mut at = None;
+    for (id, op) in (0..).map(OpId).zip(&program.ops) {
+        let stroke = at.and_then(|from| Stroke::of(program, from, &op.action));
+        let mut done = 0.0;
+        while let Some(waypoint) = waypoints.next_if(|waypoint| waypoint.op == id) {
+            let in_order = done < waypoint.done && waypoint.done < 1.0;
+            done = waypoint.done;
+            let on_the_way = stroke
+                .and_then(|stroke| stroke.frame_at(program, waypoint.done))
+                .is_some_and(|should| is_there(&waypoint.frame, &should));
+            let held = waypoint.axes.0.iter().all(|value| value.is_finite())
+                && within_limits(cell, &waypoint.axes)
+                && is_there(&blade_in_work(&waypoint.axes), &waypoint.frame);
+            if !(in_order && on_the_way && held) {
+                faults.push(MotionFault {
+                    op: Some(id),
+                    what: MotionRule::Waypoints,
+                });
+            }
+        }
+        at = pose_after(at, &op.action);
+    }
+    if waypoints.next().is_some() {
+        faults.push(MotionFault {
+            op: None,
+            what: MotionRule::Waypoints,
+        });
+    }
+    faults
+}
+
+/// Whether the blade is where it should be.
+fn is_there(is: &Frame, should: &Frame) -> bool {
+    is.origin.distance(should.origin).to_mm() <= SAME_PLACE
+        && is.orientation.angle_to(should.orientation).to_rad() <= SAME_ATTITUDE
 }
 
 /// Where the tip is, and how the blade is held, after an action.

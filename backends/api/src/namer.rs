@@ -30,6 +30,12 @@ impl Namer {
         }
     }
 
+    /// Keeps names from being given, whatever their case.
+    pub fn avoid(&mut self, names: &[String]) {
+        self.taken
+            .extend(names.iter().map(|name| name.to_ascii_uppercase()));
+    }
+
     /// A name like `wanted`: ASCII letters, digits and `_`, not reserved, short enough, and new.
     pub fn name(&mut self, wanted: &str) -> String {
         let plain = self.sanitise(wanted);

@@ -198,3 +198,16 @@ impl Div<AngularSpeed> for Angle {
         Duration(self.0 / rate.0)
     }
 }
+impl Div<Duration> for Length {
+    type Output = Speed;
+    fn div(self, time: Duration) -> Speed {
+        Speed(self.0 / time.0)
+    }
+}
+
+impl Div<Duration> for Angle {
+    type Output = AngularSpeed;
+    fn div(self, time: Duration) -> AngularSpeed {
+        AngularSpeed(self.0 / time.0)
+    }
+}

@@ -70,6 +70,7 @@ use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, Opt
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::script::{Layout, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
@@ -109,6 +110,10 @@ impl Backend for Krl {
 
     fn options(&self) -> &'static [OptionSpec] {
         OPTIONS
+    }
+
+    fn reader(&self) -> Option<&dyn Reader> {
+        None
     }
 
     fn check<'p>(

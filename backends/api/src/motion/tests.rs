@@ -51,6 +51,7 @@ fn a_program_without_a_machine() {
     let motion = Motion {
         ends: Vec::new(),
         stretches: Vec::new(),
+        waypoints: Vec::new(),
     };
     let faults = ReachableProgram::assemble(verify(plain).unwrap(), motion, &blade_in_work).unwrap_err();
     let fault = MotionFault {
@@ -91,6 +92,7 @@ fn values_of_axes_that_the_machine_has_not() {
         let motion = Motion {
             ends: vec![values],
             stretches: Vec::new(),
+            waypoints: Vec::new(),
         };
         ReachableProgram::assemble(verify(smaller).unwrap(), motion, &blade_in_work).is_ok()
     };

@@ -1,10 +1,11 @@
 //! What every backend promises.
 
-use super::{reachable, samples};
+use super::reachable;
 use crate::backend::{Backend, BackendIssue, EmitError, OptionKind, OptionSpec, Options};
 use crate::bundle::{Bundle, Sink, SinkError};
 use crate::ir::{Action, Op, Site};
 use crate::motion::ReachableProgram;
+use crate::readback::{Judge, Retrace, Sources, program_files};
 use crate::verify::{Capability, verify};
 use std::collections::BTreeSet;
 
@@ -13,14 +14,20 @@ use std::collections::BTreeSet;
 /// * options have unique keys and sound defaults;
 /// * an op that needs a capability the backend lacks is refused, not written;
 /// * the same program gives the same files, in plain ASCII, under plain names that differ in more than case;
-/// * a sink that fails is reported.
+/// * a sink that fails is reported;
+/// * what was written is read back as the program, op by op, where the backend has a reader.
+///
+/// `samples` are for a machine that the dialect drives ([`super::samples_for`]).
 ///
 /// # Errors
 /// The first promise that is broken, in words.
-pub fn conformance(backend: &dyn Backend) -> Result<(), String> {
+pub fn conformance(
+    backend: &dyn Backend,
+    samples: &[(&'static str, ReachableProgram)],
+) -> Result<(), String> {
     options(backend.options())?;
-    for (name, program) in samples()? {
-        sample(backend, &program).map_err(|problem| format!("{}, sample {name}: {problem}", backend.id()))?;
+    for (name, program) in samples {
+        sample(backend, program).map_err(|problem| format!("{}, sample {name}: {problem}", backend.id()))?;
     }
     Ok(())
 }
@@ -58,6 +65,7 @@ fn sample(backend: &dyn Backend, program: &ReachableProgram) -> Result<(), Strin
     if emitted(backend, program, &options)? != bundle {
         return Err("two runs gave different bytes".to_owned());
     }
+    read_back(backend, program, &options, &bundle)?;
     beyond_capabilities(backend, program, &options)?;
     full_disk(backend, program, &options)
 }
@@ -70,6 +78,46 @@ fn emitted(backend: &dyn Backend, program: &ReachableProgram, options: &Options)
         .write(&mut bundle)
         .map_err(|error| format!("not written: {error:?}"))?;
     Ok(bundle)
+}
+
+fn read_back(
+    backend: &dyn Backend,
+    program: &ReachableProgram,
+    options: &Options,
+    bundle: &Bundle,
+) -> Result<(), String> {
+    let Some(reader) = backend.reader() else {
+        return Ok(());
+    };
+    let cell = program
+        .program()
+        .cell
+        .as_ref()
+        .ok_or("a sample without a machine")?;
+    let files = program_files(bundle);
+    if let Some(file) = files.iter().find(|file| !reader.recognises(&file.name)) {
+        return Err(format!("{} is not recognised by its reader", file.name));
+    }
+    let sources = Sources {
+        files: &files,
+        cell,
+        options,
+    };
+    let mut retrace = Retrace::new(
+        Judge::new(program, reader, reader.grain(options)),
+        reader.frames(),
+    );
+    reader.read(sources, &mut |statement| retrace.heed(&statement));
+    match retrace.finish() {
+        Ok(_) => Ok(()),
+        Err(departure) => {
+            let text = departure.place.and_then(|place| {
+                let file = files.get(place.file as usize)?;
+                file.text.get(place.start as usize..place.end as usize)
+            });
+            Err(format!("read back as another program: {departure:?} at {text:?}"))
+        }
+    }
 }
 
 fn files(bundle: &Bundle) -> Result<(), String> {

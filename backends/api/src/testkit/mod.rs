@@ -13,17 +13,32 @@ pub use pretend::{axes, blade_in_work, reachable};
 pub use recipe::{CellRecipe, Crossing, Passes, Recipe};
 
 use crate::geometry::{Frame, Orientation, Point3};
-use crate::ir::{AxisValues, Edges, PlacedFrame, Ready, Registered};
+use crate::ir::{AxisValues, Edges, Maker, PlacedFrame, Ready, Registered};
 use crate::motion::ReachableProgram;
 use crate::units::Duration;
 use crate::verify::verify;
 
-/// Sample programs with a name each: from an empty one to one with several operations.
+/// Sample programs with a name each, for a KUKA robot: from an empty one to one with several operations.
 ///
 /// # Errors
 /// The name of a recipe that gave a program with faults (a fault of this module).
 pub fn samples() -> Result<Vec<(&'static str, ReachableProgram)>, String> {
-    let plain = Recipe::default();
+    samples_for(Maker::Kuka)
+}
+
+/// The same for a robot of this maker.
+///
+/// # Errors
+/// The name of a recipe that gave a program with faults (a fault of this module).
+pub fn samples_for(maker: Maker) -> Result<Vec<(&'static str, ReachableProgram)>, String> {
+    let cell = CellRecipe {
+        maker,
+        ..CellRecipe::default()
+    };
+    let plain = Recipe {
+        cell: cell.clone(),
+        ..Recipe::default()
+    };
     let recipes = [
         (
             "empty",
@@ -76,7 +91,7 @@ pub fn samples() -> Result<Vec<(&'static str, ReachableProgram)>, String> {
             Recipe {
                 cell: CellRecipe {
                     home: AxisValues([0.0, -90.0, 90.0, -340.0, 45.0, -340.0].map(f64::to_radians)),
-                    ..CellRecipe::default()
+                    ..cell.clone()
                 },
                 ..plain.clone()
             },
@@ -89,7 +104,7 @@ pub fn samples() -> Result<Vec<(&'static str, ReachableProgram)>, String> {
                     base: numbered(2),
                     load: Some(Registered::Number(1)),
                     ready: Ready::Input(7),
-                    ..CellRecipe::default()
+                    ..cell.clone()
                 },
                 ..plain
             },

@@ -57,6 +57,7 @@ fn motion(program: &Program) -> Motion {
     let mut motion = Motion {
         ends: Vec::with_capacity(program.ops.len()),
         stretches: Vec::new(),
+        waypoints: Vec::new(),
     };
     let mut at = None;
     let mut axes = home.unwrap_or(AxisValues([0.0; 6]));

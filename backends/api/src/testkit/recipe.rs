@@ -72,6 +72,8 @@ pub struct Recipe {
 /// The machine of a [`Recipe`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellRecipe {
+    /// Who made the controller.
+    pub maker: Maker,
     /// Blade frame seen from the flange.
     pub tool: PlacedFrame,
     /// Workpiece frame seen from the world.
@@ -97,6 +99,7 @@ impl Default for CellRecipe {
             }),
         };
         Self {
+            maker: Maker::Kuka,
             tool: PlacedFrame {
                 frame: frame(0.0, 0.0, 310.0, 0.0),
                 number: None,
@@ -185,6 +188,7 @@ impl Recipe {
 
     fn cell(&self) -> Cell {
         let CellRecipe {
+            maker,
             tool,
             base,
             load,
@@ -195,7 +199,7 @@ impl Recipe {
         Cell {
             name: "cell".to_owned(),
             kind: MachineKind::Robot,
-            maker: Maker::Kuka,
+            maker,
             model: "pretend".to_owned(),
             axes: pretend::axes(),
             tool,

@@ -6,7 +6,7 @@ use crate::support::{emit, lines, reachable, status};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::{Action, AxisValues, Edges, Ready, Stock};
-use vcutc_backend_api::testkit::{CellRecipe, Crossing, Passes, Recipe, conformance};
+use vcutc_backend_api::testkit::{CellRecipe, Crossing, Passes, Recipe, conformance, samples};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_krl::Krl;
 
@@ -36,7 +36,7 @@ fn tips(events: &[Event]) -> Vec<[f64; 3]> {
 
 #[test]
 fn the_backend_keeps_the_promises_of_all_backends() {
-    assert_eq!(conformance(&Krl), Ok(()));
+    assert_eq!(conformance(&Krl, &samples().unwrap()), Ok(()));
 }
 
 #[test]

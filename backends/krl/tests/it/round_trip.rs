@@ -46,6 +46,7 @@ fn cell() -> impl Strategy<Value = CellRecipe> {
         ],
     )
         .prop_map(|(tool, base, load, home, ultrasonic, ready)| CellRecipe {
+            maker: vcutc_backend_api::ir::Maker::Kuka,
             tool,
             base,
             load,

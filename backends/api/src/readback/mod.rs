@@ -1,0 +1,255 @@
+//! Programs read back from their text.
+//!
+//! What was written is read again by a reader of the same dialect, which knows nothing of what should be there, and compared
+//! with the program that it was made from. The same serves for files that people may have edited: the reader tells
+//! statement by statement, in the order in which the controller carries them out, what the machine will do.
+//!
+//! * A [`Reader`] turns text into [`Statement`]s. It is tolerant of layout and strict about meaning: what it does not know is
+//!   [`Says::Unknown`], what it cannot read [`Says::Unreadable`]; it never guesses and never stops.
+//! * [`Judge`] says what is different between one op and one deed, with numbers.
+//! * [`Retrace`] takes a whole program's statements and finds the first that is not the next op, or a restatement of what holds
+//!   already at the beginning of a part.
+//! * [`essence`] is a statement without its layout: two texts of the same essence do the same.
+
+mod essence;
+mod judge;
+mod retrace;
+
+pub use essence::essence;
+pub use judge::{Judge, Mismatch, Moment, rotary_way};
+pub use retrace::{Departure, DepartureKind, Retrace, Retraced};
+
+use crate::backend::Options;
+use crate::bundle::Bundle;
+use crate::geometry::{Frame, Orientation, Point3};
+use crate::ir::{AxisValues, Cell, Switch};
+use crate::motion::Branch;
+use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
+
+/// A file of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProgramFile {
+    /// Its name, without folders.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// The files of a bundle. Bytes that are no UTF-8 are taken for Latin-1, which is what controllers write.
+#[must_use]
+pub fn program_files(bundle: &Bundle) -> Vec<ProgramFile> {
+    let files = bundle.files().iter();
+    files
+        .map(|(name, bytes)| ProgramFile {
+            name: name.clone(),
+            text: decoded(bytes),
+        })
+        .collect()
+}
+
+/// Text of a file of a controller: UTF-8, or else Latin-1.
+#[must_use]
+pub fn decoded(bytes: &[u8]) -> String {
+    match core::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
+    }
+}
+
+/// What a program is read from, and for whom.
+#[derive(Clone, Copy)]
+pub struct Sources<'a> {
+    /// All files of the program.
+    pub files: &'a [ProgramFile],
+    /// The machine that it is for.
+    pub cell: &'a Cell,
+    /// The options of its backend.
+    pub options: &'a Options,
+}
+
+/// A stretch of bytes in a file of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Place {
+    /// Place of the file in [`Sources::files`].
+    pub file: u32,
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+/// A statement of a program, comments apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statement {
+    /// Where it stands.
+    pub place: Place,
+    /// What it says.
+    pub says: Says,
+}
+
+/// What a statement says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Says {
+    /// The machine does something.
+    Deed(Deed),
+    /// A frame is set, which holds for all that follows.
+    Frame(FrameRole, FrameSetting),
+    /// Something that is known and does nothing by itself, or that other statements have taken into account: a declaration, a
+    /// speed, a mode.
+    Setting,
+    /// A part begins that could be started alone. It sets up everything again, and may restate the machine's state.
+    PartBegins,
+    /// Nobody knows what.
+    Unknown,
+    /// It is no statement of the dialect; what would be one stands in the text.
+    Unreadable {
+        /// What was expected, such as `a number behind X`.
+        expected: String,
+    },
+}
+
+/// Which frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameRole {
+    /// The blade seen from the flange ([`Cell::tool`]).
+    Tool,
+    /// The workpiece seen from the machine's root ([`Cell::base`]).
+    Base,
+}
+
+/// What a frame is set to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrameSetting {
+    /// By value.
+    Value(Frame),
+    /// By the number under which the controller keeps it.
+    Number(u32),
+}
+
+/// What the machine does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Deed {
+    /// All axes go to these values, arriving together.
+    Axes(AxisValues),
+    /// All axes go to the values at a pose, arriving together.
+    AxesToPose(Target),
+    /// The tip goes straight to a pose (or stays where it is, while the blade turns).
+    Straight {
+        /// Where it ends.
+        to: Target,
+        /// How fast.
+        pace: Pace,
+        /// How it ends.
+        end: End,
+    },
+    /// A digital output is switched.
+    Switch {
+        /// Its number.
+        output: u32,
+        /// To what.
+        state: Switch,
+    },
+    /// Waits until a digital input is high.
+    AwaitInput(u32),
+    /// Waits.
+    Wait(Duration),
+}
+
+/// A pose as dialects say it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Where the tip is, in W.
+    pub tip: Point3,
+    /// How the blade is held.
+    pub held: Held,
+}
+
+/// How the blade is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Held {
+    /// By the orientation of T in W, and the way to stand where that is said.
+    Orientation(Orientation, Option<Stance>),
+    /// By the positions of the machine's rotary axes, at their places among its axes; linear axes hold 0.
+    Rotary(AxisValues),
+}
+
+/// A way to stand in the numbers of a dialect: KRL's status and turn, RAPID's confdata. What they mean is the dialect's
+/// affair; equal numbers are the same way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stance(pub [i32; 4]);
+
+/// How fast a motion goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// Speed of the tip and rate of turning, whichever takes longer.
+    Speeds {
+        /// Of the tip.
+        tip: Option<Speed>,
+        /// Of the blade.
+        turn: Option<AngularSpeed>,
+    },
+    /// Speed of the tip alone decides.
+    Tip(Speed),
+    /// The motion takes a minute divided by this.
+    PerMinute(f64),
+    /// Rate of the rotary axes, as the root of the sum of their squares.
+    Rotary(AngularSpeed),
+}
+
+/// How a motion ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At a standstill on the point.
+    Exact,
+    /// Somewhere near it, on the way to the next.
+    Rounded,
+}
+
+/// How far what a dialect prints may be from what it was given: half a unit of the last place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grain {
+    /// Of each coordinate and of each linear axis.
+    pub length: Length,
+    /// Of an orientation: the largest angle by which it can be turned.
+    pub attitude: Angle,
+    /// Of each rotary axis.
+    pub axis: Angle,
+    /// Of speeds of the tip.
+    pub speed: Speed,
+    /// Of rates of turning.
+    pub rate: AngularSpeed,
+    /// Of inverse times, in 1/min.
+    pub per_minute: f64,
+    /// Of waits.
+    pub time: Duration,
+}
+
+/// Whether a dialect's programs set a frame or leave it to who sets up the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frames {
+    /// Every part sets tool and base before its first motion.
+    InProgram,
+    /// The operator does.
+    OnMachine,
+}
+
+/// Reads a dialect.
+pub trait Reader: Sync {
+    /// Whether a file of this name looks like one of the dialect's, by its extension.
+    fn recognises(&self, file: &str) -> bool;
+
+    /// How finely programs with these options are printed.
+    fn grain(&self, options: &Options) -> Grain;
+
+    /// Who sets tool and base.
+    fn frames(&self) -> Frames;
+
+    /// How the dialect says the way to stand on a branch with the axes there; none where it does not say it.
+    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance>;
+
+    /// Tells the statements of a program in the order in which they are carried out. A statement that is carried out never
+    /// is told as [`Says::Setting`] or [`Says::Unknown`] where it stands.
+    ///
+    /// Bounded in time and memory on any text.
+    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement));
+}
