@@ -170,6 +170,21 @@ codes! {
     /// A machine that the target does not drive.
     WrongMachine = "VC0607", Error, "a machine that the target does not drive";
 
+    /// An operation of a program that is not the job's.
+    ChangedOperation = "VC0701", Error, "an operation that a program does in another way";
+    /// An operation that a program lacks.
+    MissingOperation = "VC0702", Error, "an operation that is missing from a program";
+    /// Something that a program does beside its job.
+    AddedOperation = "VC0703", Error, "something in a program that its job does not ask for";
+    /// Statements in another order.
+    OtherOrder = "VC0704", Error, "statements of a program in another order";
+    /// A setting that is not the one that was written.
+    OtherSetting = "VC0705", Error, "a setting of a program that differs";
+    /// A statement whose effect is not known.
+    UnknownStatement = "VC0706", Error, "a statement that is not understood";
+    /// Text that is no statement.
+    UnreadableStatement = "VC0707", Error, "text in a program that is no statement";
+
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";
 }
