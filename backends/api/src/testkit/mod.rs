@@ -9,7 +9,7 @@ mod pretend;
 mod recipe;
 
 pub use conformance::conformance;
-pub use pretend::{axes, blade_in_work, reachable};
+pub use pretend::{axes, axes_at, blade_in_work, reachable};
 pub use recipe::{CellRecipe, Crossing, Passes, Recipe};
 
 use crate::geometry::{Frame, Orientation, Point3};
