@@ -185,6 +185,15 @@ codes! {
     /// Text that is no statement.
     UnreadableStatement = "VC0707", Error, "text in a program that is no statement";
 
+    /// A program that breaks a rule of the process.
+    ProgramRule = "VC0708", Error, "a program that moves the blade as it must not";
+    /// A program whose cuts are wrong.
+    ProgramCuts = "VC0709", Error, "a program that cuts into the part or leaves chips";
+    /// A program that its machine does not carry out.
+    ProgramReach = "VC0710", Error, "a program that its machine cannot carry out as written";
+    /// A program that was not checked further.
+    ChecksLeftOut = "VC0711", Warning, "checks of a program that were left out";
+
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";
 }

@@ -201,7 +201,11 @@ impl Aligner<'_> {
                 continue;
             }
             let ahead = (1..=LOOKAHEAD).find_map(|by| {
-                let later = [(first + by, second + by), (first + by, second), (first, second + by)];
+                let later = [
+                    (first + by, second + by),
+                    (first + by, second),
+                    (first, second + by),
+                ];
                 later.into_iter().find(|&place| self.goes_on(stretch, place))
             });
             (first, second) = ahead.unwrap_or((first + 1, second + 1));

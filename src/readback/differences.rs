@@ -9,7 +9,7 @@ use crate::job::{CheckedJob, Machine, Operation};
 use crate::source::{FileId, Span};
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::readback::{FrameRole, Judge, Mismatch, Moment, Place, Says};
+use vcutc_backend_api::readback::{FrameRole, Grain, Judge, Mismatch, Moment, Place, Says};
 use vcutc_backend_api::stroke::Pose;
 
 /// So many differences are told one by one.
@@ -22,6 +22,7 @@ const LONGEST_QUOTE: usize = 120;
 pub(super) struct Scene<'s> {
     pub(super) job: &'s CheckedJob,
     pub(super) judge: Judge<'s>,
+    pub(super) grain: Grain,
     pub(super) fresh: &'s Told<'s>,
     /// For every fresh statement the op that it says.
     pub(super) owners: &'s [Option<OpId>],
@@ -87,9 +88,13 @@ struct Teller<'s> {
     after_effects: AfterEffects,
 }
 
-/// Statements that read the same and do something else, because of the difference told last.
+/// Statements that read the same and do something else, because of a difference before them: the setting that was told
+/// last, or when none was, whatever was told last.
 #[derive(Default)]
 struct AfterEffects {
+    /// The diagnostic of the cause, as far as it is told in full.
+    cause: Option<usize>,
+    is_setting: bool,
     count: usize,
     first: Option<String>,
 }
@@ -118,12 +123,21 @@ impl Teller<'_> {
     }
 
     fn tell(&mut self, diagnostic: Diagnostic) {
-        self.settle();
+        let is_setting = diagnostic.code == Code::OtherSetting;
         match self.counts.iter_mut().find(|(code, _)| *code == diagnostic.code) {
             Some((_, count)) => *count += 1,
             None => self.counts.push((diagnostic.code, 1)),
         }
-        if self.told() <= MOST_IN_FULL {
+        let is_shown = self.told() <= MOST_IN_FULL;
+        if is_setting || !self.after_effects.is_setting {
+            self.settle();
+            self.after_effects = AfterEffects {
+                cause: is_shown.then_some(self.diagnostics.len()),
+                is_setting,
+                ..AfterEffects::default()
+            };
+        }
+        if is_shown {
             self.diagnostics.push(diagnostic);
         }
     }
@@ -132,21 +146,21 @@ impl Teller<'_> {
         self.counts.iter().map(|(_, count)| count).sum()
     }
 
-    /// Adds what the difference told last brings about.
+    /// Adds to a difference what it brings about.
     fn settle(&mut self) {
-        let AfterEffects { count, first } = core::mem::take(&mut self.after_effects);
-        let Some(first) = first.filter(|_| self.told() <= MOST_IN_FULL) else {
+        let effects = core::mem::take(&mut self.after_effects);
+        let cause = effects.cause.and_then(|cause| self.diagnostics.get_mut(cause));
+        let (Some(cause), Some(first)) = (cause, effects.first) else {
             return;
         };
-        if let Some(last) = self.diagnostics.last_mut() {
-            let others = match count {
-                1 => String::new(),
-                2 => ", and one more line".to_owned(),
-                _ => format!(", and {} more lines", count - 1),
-            };
-            last.notes
-                .push(format!("this changes what follows: {first}{others}"));
-        }
+        let others = match effects.count {
+            1 => String::new(),
+            2 => ", and one more line is affected".to_owned(),
+            count => format!(", and {} more lines are affected", count - 1),
+        };
+        cause
+            .notes
+            .push(format!("this changes what follows: {first}{others}"));
     }
 
     fn same(&mut self, fresh: usize, given: usize) {
@@ -193,8 +207,8 @@ impl Teller<'_> {
             (_, _, None) => None,
         };
         match what {
-            Some(what) => format!("in {words} {what}"),
-            None => format!("{words} is another"),
+            Some(what) => format!("{words}: {what}"),
+            None => format!("{words} is not the same any more"),
         }
     }
 
@@ -257,7 +271,7 @@ impl Teller<'_> {
         };
         let diagnostic = diagnostic.note(format!("the compiler writes `{text}`"));
         diagnostic.fix(
-            format!("restore `{text}`, or change the job so that it asks for this"),
+            "put back what the compiler writes, or change the job so that it asks for this",
             span,
             self.scene.fresh.text(fresh),
         )

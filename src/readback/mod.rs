@@ -10,7 +10,9 @@
 //! essence is always told, also where a number differs by less than its rounding.
 
 mod align;
+mod checks;
 mod differences;
+mod rebuild;
 mod steps;
 mod told;
 mod wording;
@@ -21,9 +23,11 @@ pub use written::{Astray, Written};
 use crate::diag::Diagnostic;
 use crate::job::CheckedJob;
 use crate::plan::PlannedJob;
-use crate::reach::solve::Reached;
+use crate::reach::solve::{Reached, rig};
 use crate::source::SourceMap;
+use checks::{Bench, left_out};
 use differences::{Scene, differences};
+use rebuild::rebuild;
 use steps::steps;
 use told::Told;
 use vcutc_backend_api::ir::Cell;
@@ -112,6 +116,7 @@ pub fn verify(fresh: Fresh<'_>, given: &[ProgramFile], shown: &[String], sources
     let scene = Scene {
         job: fresh.job,
         judge: Judge::new(fresh.program, fresh.reader, fresh.reader.grain(options)),
+        grain: fresh.reader.grain(options),
         fresh: &should,
         owners: &owners,
         given: &is,
@@ -129,10 +134,31 @@ pub fn verify(fresh: Fresh<'_>, given: &[ProgramFile], shown: &[String], sources
         1 => "1 difference".to_owned(),
         count => format!("{count} differences"),
     });
-    Verdict {
-        diagnostics: found.diagnostics,
-        lines,
+    let count = found.count();
+    let mut diagnostics = found.diagnostics;
+    if let (Some(machine), 1..) = (&fresh.job.machine, count) {
+        let bench = Bench {
+            scene: &scene,
+            plan: fresh.plan,
+            model: &machine.model,
+            reader: fresh.reader,
+        };
+        let rig = rig(&machine.model, fresh.cell);
+        match rebuild(&scene, &steps, &rig) {
+            Ok(rebuilt) => {
+                let found = bench.findings(rebuilt);
+                if found.is_empty() {
+                    lines.push(
+                        "as it is, the program cuts every chip free, stays out of the part, and is within reach"
+                            .to_owned(),
+                    );
+                }
+                diagnostics.extend(found);
+            }
+            Err(obstacle) => diagnostics.push(left_out(&scene, obstacle)),
+        }
     }
+    Verdict { diagnostics, lines }
 }
 
 fn is_byte_for_byte(fresh: &[ProgramFile], given: &[ProgramFile]) -> bool {

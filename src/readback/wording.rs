@@ -100,7 +100,7 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
         },
         Mismatch::Feed { is, should } => format!(
             "the tip goes at {}, the job says {} mm/s",
-            is.map_or("no speed".to_owned(), |is| format!(
+            is.map_or("no stated speed".to_owned(), |is| format!(
                 "{} mm/s",
                 fine(is.to_mm_per_s())
             )),
@@ -110,7 +110,7 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             let words = |rate: f64| fine(rate.to_degrees());
             format!(
                 "the blade turns at {}, the job says {} deg/s",
-                is.map_or("no rate".to_owned(), |is| format!(
+                is.map_or("no one rate".to_owned(), |is| format!(
                     "{} deg/s",
                     words(is.to_rad_per_s())
                 )),

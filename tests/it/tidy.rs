@@ -37,7 +37,20 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "reach_verdict",
         &["diag", "job", "kinematics", "plan", "reach", "remedy", "source"],
     ),
-    ("readback", &["diag", "job", "plan", "reach", "source"]),
+    (
+        "readback",
+        &[
+            "diag",
+            "job",
+            "machine",
+            "plan",
+            "reach",
+            "reach_verdict",
+            "sim",
+            "source",
+            "verdict",
+        ],
+    ),
     (
         "placement",
         &[
