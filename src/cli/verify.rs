@@ -7,7 +7,7 @@ use super::progress::Progress;
 use super::{Exit, Targets, compile, targets};
 use crate::diag::has_errors;
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage};
-use crate::readback::{self, Fresh, Verdict};
+use crate::readback::{Fresh, Reference, Verdict};
 use std::path::Path;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
@@ -95,7 +95,7 @@ fn compared(
         reader,
     );
     let fresh = fresh.ok_or_else(|| Failure::new("the job has no program to compare with"))?;
-    Ok(readback::verify(fresh, files, shown, &mut outcome.sources))
+    Ok(Reference::new(fresh).verify(files, shown, &mut outcome.sources))
 }
 
 /// The files of the program.

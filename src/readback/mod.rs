@@ -2,7 +2,7 @@
 //!
 //! * [`Written`] is a program as its backend wrote it. It is read again at once and followed op by op; what comes out
 //!   differently is never handed on.
-//! * [`verify`] holds the files of a program against the one that its job compiles to now. Both are read by the same reader
+//! * [`Reference::verify`] holds the files of a program against the one that its job compiles to now. Both are read by the same reader
 //!   and their statements aligned; every difference that is not one of layout or comments is told at its place in the
 //!   files, with the place in the job that asks for something else.
 //!
@@ -24,13 +24,13 @@ use crate::diag::Diagnostic;
 use crate::job::CheckedJob;
 use crate::plan::PlannedJob;
 use crate::reach::solve::{Reached, rig};
-use crate::source::SourceMap;
+use crate::source::{FileId, SourceMap};
 use checks::{Bench, left_out};
 use differences::{Scene, differences};
 use rebuild::rebuild;
-use steps::steps;
+use steps::{Step, steps};
 use told::Told;
-use vcutc_backend_api::ir::Cell;
+use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
 
@@ -90,75 +90,130 @@ pub struct Verdict {
 const STATEMENTS_TIMES: usize = 4;
 const STATEMENTS_MORE: usize = 100_000;
 
-/// Holds the files of a program against the one that its job compiles to. `shown` are the names of the files as people
-/// see them; the files are added to `sources`, so that diagnostics can point into them.
-#[must_use]
-pub fn verify(fresh: Fresh<'_>, given: &[ProgramFile], shown: &[String], sources: &mut SourceMap) -> Verdict {
-    let ids: Vec<_> = given
-        .iter()
-        .enumerate()
-        .map(|(index, file)| sources.add(shown.get(index).unwrap_or(&file.name), file.text.clone()))
-        .collect();
-    let options = &fresh.written.options;
-    let read = |files, most| {
-        let sources = Sources {
-            files,
-            cell: fresh.cell,
-            options,
-        };
-        Told::read(fresh.reader, sources, most)
-    };
-    let should = read(&fresh.written.files, usize::MAX);
-    let most = should.statements.len() * STATEMENTS_TIMES + STATEMENTS_MORE;
-    let is = read(given, most);
-    let owners = should.owners(fresh.places, fresh.program.program());
-    let steps = steps(&should, &is);
-    let scene = Scene {
-        job: fresh.job,
-        judge: Judge::new(fresh.program, fresh.reader, fresh.reader.grain(options)),
-        grain: fresh.reader.grain(options),
-        fresh: &should,
-        owners: &owners,
-        given: &is,
-        sources: &ids,
-    };
-    let found = differences(&scene, &steps);
-    let mut lines = vec![format!(
-        "{} statements read, {} as compiled",
-        is.statements.len() + is.beyond,
-        should.statements.len()
-    )];
-    lines.push(match found.count() {
-        0 if is_byte_for_byte(&fresh.written.files, given) => "the same program, byte for byte".to_owned(),
-        0 => "the same program; layout or comments differ".to_owned(),
-        1 => "1 difference".to_owned(),
-        count => format!("{count} differences"),
-    });
-    let count = found.count();
-    let mut diagnostics = found.diagnostics;
-    if let (Some(machine), 1..) = (&fresh.job.machine, count) {
-        let bench = Bench {
-            scene: &scene,
-            plan: fresh.plan,
-            model: &machine.model,
-            reader: fresh.reader,
-        };
-        let rig = rig(&machine.model, fresh.cell);
-        match rebuild(&scene, &steps, &rig) {
-            Ok(rebuilt) => {
-                let found = bench.findings(rebuilt);
-                if found.is_empty() {
-                    lines.push(
-                        "as it is, the program cuts every chip free, stays out of the part, and is within reach"
-                            .to_owned(),
-                    );
-                }
-                diagnostics.extend(found);
+/// A fresh program, read and ready to be compared with others.
+pub struct Reference<'a> {
+    fresh: Fresh<'a>,
+    told: Told<'a>,
+    /// For every statement the op that it says.
+    owners: Vec<Option<OpId>>,
+}
+
+impl<'a> Reference<'a> {
+    /// Reads the fresh program.
+    #[must_use]
+    pub fn new(fresh: Fresh<'a>) -> Self {
+        let told = read(fresh, &fresh.written.files, usize::MAX);
+        let owners = told.owners(fresh.places, fresh.program.program());
+        Self { fresh, told, owners }
+    }
+
+    /// Holds the files of a program against the fresh one. `shown` are the names of the files as people see them; the files
+    /// are added to `sources`, so that diagnostics can point into them.
+    #[must_use]
+    pub fn verify(&self, given: &[ProgramFile], shown: &[String], sources: &mut SourceMap) -> Verdict {
+        let named = given.iter().enumerate();
+        let ids: Vec<_> = named
+            .map(|(index, file)| sources.add(shown.get(index).unwrap_or(&file.name), file.text.clone()))
+            .collect();
+        let is = self.read(given);
+        let scene = self.scene(&is, &ids);
+        let steps = steps(&self.told, &is);
+        let found = differences(&scene, &steps);
+        let count = found.count();
+        let mut lines = self.lines(&is, count, given);
+        let mut diagnostics = found.diagnostics;
+        if count > 0 {
+            let wrong = self.checked(&scene, &steps);
+            if wrong.is_empty() {
+                lines.push(SOUND.to_owned());
             }
-            Err(obstacle) => diagnostics.push(left_out(&scene, obstacle)),
+            diagnostics.extend(wrong);
+        }
+        Verdict { diagnostics, lines }
+    }
+
+    /// How many differences [`Self::verify`] tells of, without the checks of what they do.
+    #[must_use]
+    pub fn differences(&self, given: &[ProgramFile]) -> usize {
+        let is = self.read(given);
+        differences(&self.scene(&is, &[]), &steps(&self.told, &is)).count()
+    }
+
+    fn read<'f>(&self, files: &'f [ProgramFile]) -> Told<'f>
+    where
+        'a: 'f,
+    {
+        let most = self.told.statements.len() * STATEMENTS_TIMES + STATEMENTS_MORE;
+        read(self.fresh, files, most)
+    }
+
+    fn scene<'s>(&'s self, given: &'s Told<'s>, sources: &'s [FileId]) -> Scene<'s> {
+        let Fresh {
+            job,
+            program,
+            written,
+            reader,
+            ..
+        } = self.fresh;
+        let grain = reader.grain(&written.options);
+        Scene {
+            job,
+            judge: Judge::new(program, reader, grain),
+            grain,
+            fresh: &self.told,
+            owners: &self.owners,
+            given,
+            sources,
         }
     }
-    Verdict { diagnostics, lines }
+
+    fn lines(&self, is: &Told<'_>, differences: usize, given: &[ProgramFile]) -> Vec<String> {
+        let read = format!(
+            "{} statements read, {} as compiled",
+            is.statements.len() + is.beyond,
+            self.told.statements.len()
+        );
+        let result = match differences {
+            0 if is_byte_for_byte(&self.fresh.written.files, given) => {
+                "the same program, byte for byte".to_owned()
+            }
+            0 => "the same program; layout or comments differ".to_owned(),
+            1 => "1 difference".to_owned(),
+            count => format!("{count} differences"),
+        };
+        vec![read, result]
+    }
+
+    /// What is wrong with what a program that differs would do.
+    fn checked(&self, scene: &Scene<'_>, steps: &[Step]) -> Vec<Diagnostic> {
+        let Some(machine) = &self.fresh.job.machine else {
+            return Vec::new();
+        };
+        let rig = rig(&machine.model, self.fresh.cell);
+        match rebuild(scene, steps, &rig) {
+            Ok(rebuilt) => Bench {
+                scene,
+                plan: self.fresh.plan,
+                model: &machine.model,
+                reader: self.fresh.reader,
+            }
+            .findings(rebuilt),
+            Err(obstacle) => vec![left_out(scene, obstacle)],
+        }
+    }
+}
+
+/// What is told of a program that differs and is right all the same.
+const SOUND: &str =
+    "as it is, the program frees every chip, stays out of the part, and is within reach of the machine";
+
+fn read<'f>(fresh: Fresh<'f>, files: &'f [ProgramFile], most: usize) -> Told<'f> {
+    let sources = Sources {
+        files,
+        cell: fresh.cell,
+        options: &fresh.written.options,
+    };
+    Told::read(fresh.reader, sources, most)
 }
 
 fn is_byte_for_byte(fresh: &[ProgramFile], given: &[ProgramFile]) -> bool {

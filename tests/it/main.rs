@@ -21,6 +21,8 @@ mod jobs;
 mod kinematics;
 #[cfg(feature = "krl")]
 mod krl_text;
+#[cfg(feature = "krl")]
+mod mutations;
 mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]
