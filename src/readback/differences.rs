@@ -217,7 +217,7 @@ impl Teller<'_> {
             self.says(self.scene.fresh, fresh),
             self.says(self.scene.given, given),
         );
-        let (span, text) = (self.span(given), quote(self.scene.fresh.text(fresh)));
+        let span = self.span(given);
         let owner = self.owner(fresh);
         let asked = self.asked(owner);
         let diagnostic = match (is, should, owner) {
@@ -269,7 +269,6 @@ impl Teller<'_> {
             }
             (None, _, _) | (_, None, _) => self.added(given),
         };
-        let diagnostic = diagnostic.note(format!("the compiler writes `{text}`"));
         diagnostic.fix(
             "put back what the compiler writes, or change the job so that it asks for this",
             span,

@@ -87,9 +87,9 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             fine(by.to_deg())
         ),
         Mismatch::Stance { is, should } => format!(
-            "the machine is to stand in another way: {}, the job needs {}",
-            stance(is),
-            stance(should)
+            "the machine is to stand in another way: with {}, the job needs {}",
+            stance(is, should),
+            stance(should, is)
         ),
         Mismatch::Axis { axis, is, should } => match cell.and_then(|cell| cell.axes.get(axis)) {
             Some(axis) => {
@@ -181,14 +181,18 @@ fn point(tip: Point3) -> String {
     format!("x {} mm, y {} mm, z {} mm", show(tip.x), show(tip.y), show(tip.z))
 }
 
-fn stance(stance: Option<Stance>) -> String {
-    match stance {
-        Some(Stance(numbers)) => {
-            let numbers: Vec<_> = numbers.iter().map(ToString::to_string).collect();
-            format!("({})", numbers.join(", "))
-        }
-        None => "no configuration".to_owned(),
-    }
+/// The numbers of a stance, as many as it or the other one uses.
+fn stance(stance: Option<Stance>, other: Option<Stance>) -> String {
+    let Some(Stance(numbers)) = stance else {
+        return "no configuration".to_owned();
+    };
+    let used = |Stance(numbers): Stance| numbers.iter().rposition(|&number| number != 0);
+    let last = stance
+        .and_then(used)
+        .max(other.and_then(used))
+        .unwrap_or_default();
+    let numbers: Vec<_> = numbers.iter().take(last + 1).map(ToString::to_string).collect();
+    format!("configuration {}", numbers.join(", "))
 }
 
 const fn switch(state: Switch) -> &'static str {

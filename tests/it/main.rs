@@ -40,3 +40,5 @@ mod status;
 mod syntax;
 mod third_party;
 mod tidy;
+#[cfg(feature = "krl")]
+mod verify;
