@@ -57,12 +57,20 @@ impl Dialect for Fanuc {
         999
     }
 
+    fn numbers_programs(&self) -> bool {
+        true
+    }
+
     fn opening(&self, file: File<'_>) -> Vec<String> {
         vec!["%".to_owned(), format!("O{:04} ({})", number(file), file.name)]
     }
 
     fn setup(&self, _: &Settings<'_>, _: u32) -> Vec<String> {
         vec!["G17 G21 G40 G80 G90 G94".to_owned(), "G61".to_owned()]
+    }
+
+    fn work_offsets(&self) -> u32 {
+        54
     }
 
     fn work_offset(&self, number: u32) -> Option<String> {

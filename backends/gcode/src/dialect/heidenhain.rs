@@ -80,6 +80,10 @@ impl Dialect for Heidenhain {
         vec![format!("TOOL CALL {tool} Z"), "M127".to_owned()]
     }
 
+    fn work_offsets(&self) -> u32 {
+        9999
+    }
+
     /// The operator activates the preset.
     fn work_offset(&self, _: u32) -> Option<String> {
         None

@@ -11,7 +11,7 @@
 //!
 //! Checked with the interpreter of LinuxCNC 2.9.
 
-use super::{Comments, Dialect, File, Letters};
+use super::{Comments, Dialect, File, Letters, TcpCodes};
 use crate::options::Settings;
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::script::{Layout, trimmed_text};
@@ -69,6 +69,10 @@ impl Dialect for LinuxCnc {
         vec!["G17 G21 G40 G80 G90 G94".to_owned(), "G61.1".to_owned()]
     }
 
+    fn work_offsets(&self) -> u32 {
+        9
+    }
+
     fn work_offset(&self, number: u32) -> Option<String> {
         match number {
             1..=6 => Some(format!("G{}", 53 + number)),
@@ -86,6 +90,10 @@ impl Dialect for LinuxCnc {
 
     fn call(&self, part: File<'_>) -> String {
         format!("o<{}> call", part.name)
+    }
+
+    fn tcp_codes(&self) -> TcpCodes {
+        TcpCodes::Given
     }
 
     fn tcp_on(&self, settings: &Settings<'_>, tool: u32) -> Vec<String> {

@@ -44,6 +44,15 @@ pub(crate) enum AxisPace {
     Rapid,
 }
 
+/// Whose words switch tool-centre-point control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TcpCodes {
+    /// The dialect's own; the job has none to add.
+    Own,
+    /// Those of the machine's configuration, which the job has to give.
+    Given,
+}
+
 /// How comments look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Comments {
@@ -161,16 +170,24 @@ pub(crate) trait Dialect: Sync {
     /// Largest number of a tool.
     fn most_tools(&self) -> u32;
 
+    /// Whether programs are called by numbers.
+    fn numbers_programs(&self) -> bool {
+        false
+    }
+
     /// What stands before everything else in a file, comments included.
     fn opening(&self, file: File<'_>) -> Vec<String>;
 
-    /// What sets up everything that motions depend on, tool-centre-point control off.
+    /// What sets up everything that motions depend on; tool-centre-point control is off.
     fn setup(&self, settings: &Settings<'_>, tool: u32) -> Vec<String>;
 
-    /// The work offset of that number, counted from 1.
+    /// How many work offsets there are.
+    fn work_offsets(&self) -> u32;
+
+    /// What makes the work offset of that number hold, counted from 1; none where the operator does.
     fn work_offset(&self, number: u32) -> Option<String>;
 
-    /// Who sets the work offset of that number, for the comment at the head.
+    /// What the operator calls it.
     fn work_offset_name(&self, number: u32) -> String {
         self.work_offset(number).unwrap_or_default()
     }
@@ -180,6 +197,11 @@ pub(crate) trait Dialect: Sync {
 
     /// What calls a part.
     fn call(&self, part: File<'_>) -> String;
+
+    /// What the job has to say about switching tool-centre-point control.
+    fn tcp_codes(&self) -> TcpCodes {
+        TcpCodes::Own
+    }
 
     /// Tool-centre-point control on, with the length of that tool.
     fn tcp_on(&self, settings: &Settings<'_>, tool: u32) -> Vec<String>;

@@ -57,6 +57,10 @@ impl Dialect for Sinumerik {
         vec!["G17 G40 G90 G94 G710".to_owned(), "G60 G601".to_owned()]
     }
 
+    fn work_offsets(&self) -> u32 {
+        99
+    }
+
     fn work_offset(&self, number: u32) -> Option<String> {
         match number {
             1..=4 => Some(format!("G{}", 53 + number)),
