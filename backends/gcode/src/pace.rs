@@ -3,6 +3,8 @@
 //! The proof that the axes can follow assumed how long every motion takes ([`Stroke::duration`]), and the blocks say exactly
 //! that. Where the tip moves, F is the way of the tip divided by this time, in mm/min; a turn about the still tip has no such
 //! way and gets inverse time, or the rate of the rotary axes where the dialect has no inverse time.
+//!
+//! A move of all axes takes as long as the slowest axis needs at the part of its rate that the job allows (`home_speed`).
 
 use crate::axes::{Word, printed};
 use crate::dialect::{AxisPace, FeedMode};

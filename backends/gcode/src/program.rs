@@ -63,7 +63,8 @@ fn head(source: Source<'_>, file: File<'_>, blocks: &mut Blocks<'_, '_>) -> Writ
     blocks.comment("job ", &source.program().name)?;
     blocks.comment("machine ", &source.cell.name)?;
     for line in source.settings.header {
-        blocks.comment("", line)?;
+        // LinuxCNC carries out comments that begin with words such as MSG or LOGOPEN [L-OV].
+        blocks.comment("note: ", line)?;
     }
     frames(source, blocks)?;
     setup(source, blocks)?;
