@@ -46,6 +46,11 @@ fn by_hand() -> Vec<ProgramFile> {
 fn a_program_written_by_hand_is_the_same_program() {
     let (program, options) = two_cuts();
     let files = by_hand();
+    let odd = &files[1].text;
+    assert!(
+        odd.contains("\r\n") && odd.contains("\u{fc}r"),
+        "the file lost its bytes"
+    );
     let told = told(&files, &program, &options);
     if let Err(departure) = retraced(&told, &program, &options) {
         let at = departure.place.map(|place| {
