@@ -41,6 +41,11 @@
 //! on the branch that its straight moves are proven on, which a `LIN` from wherever the arm stands would not.
 //! It is a pose and not axis values, so that with frames that the controller keeps it is the pose of the part before it.
 //!
+//! # Reading
+//!
+//! [`read::KrlReader`] tells what a program does, whoever wrote it; [`read::syntax`] has the statements of a text with their
+//! places, for other readers of KRL.
+//!
 //! # Machines
 //!
 //! KUKA robots with six rotary axes and a spherical wrist: S and T are defined for those.

@@ -365,6 +365,13 @@ fn is_bounded(files: &[ProgramFile]) -> Result<(), TestCaseError> {
         );
         let _ = text(files, statement);
     }
+    let mut places: Vec<_> = told
+        .iter()
+        .map(|statement| statement.place)
+        .filter(|place| place.start < place.end)
+        .collect();
+    places.sort_unstable();
+    prop_assert!(places.windows(2).all(|pair| pair[0] != pair[1]), "told twice");
     Ok(())
 }
 
