@@ -161,12 +161,14 @@ impl<'a> Controller<'a> {
     }
 
     fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>) -> Result<Deed, Trouble> {
+        let named;
         let target = match &motion.target {
-            Target::Literal(coordinates) => *coordinates,
-            Target::Variable(variable) => self
-                .variables
-                .get(asker, variable)
-                .ok_or(Trouble::Expected("a position that is declared"))?,
+            Target::Literal(coordinates) => coordinates,
+            Target::Variable(variable) => {
+                let known = self.variables.get(asker, variable);
+                named = known.ok_or(Trouble::Expected("a position that is declared"))?;
+                &named
+            }
         };
         let external = Component::EXTERNAL.into_iter();
         let mut external = external.filter_map(|component| target.get(component));
@@ -194,7 +196,7 @@ impl<'a> Controller<'a> {
             return Err(Trouble::Expected(missing));
         }
         match need {
-            Need::Axes if target.has_any(&Component::AXES) => self.axes(&target).map(Deed::Axes),
+            Need::Axes if target.has_any(&Component::AXES) => self.axes(target).map(Deed::Axes),
             Need::Axes => {
                 let stance = match (target.get(Component::S), target.get(Component::T)) {
                     (Some(status), Some(turn)) => whole(status)
@@ -202,11 +204,11 @@ impl<'a> Controller<'a> {
                         .and_then(|(status, turn)| stance(status, turn)),
                     (_, _) => None,
                 };
-                self.goal(&target, stance).map(Deed::AxesToPose)
+                self.goal(target, stance).map(Deed::AxesToPose)
             }
             Need::Straight | Need::Rounded => {
                 // The controller takes S and T from where the motion begins.
-                let to = self.goal(&target, None)?;
+                let to = self.goal(target, None)?;
                 let pace = self.setup.pace();
                 Ok(Deed::Straight { to, pace, end })
             }
