@@ -19,8 +19,10 @@ pub(super) struct Controller<'a> {
     pub(super) variables: Variables,
     /// What the last target said, and the ones before it where it left something out.
     last: Coordinates,
-    /// The angles A, B, C that were asked for last, and what they are: most moves keep them.
-    turned: Option<([f64; 3], Orientation)>,
+    /// The angles A, B, C of some of the last targets, and what they are: most moves keep them, or change between two.
+    turned: [([f64; 3], Orientation); 4],
+    /// Which of them is the oldest.
+    oldest: usize,
 }
 
 /// Why a motion is not told as a deed.
@@ -45,7 +47,8 @@ impl<'a> Controller<'a> {
             setup: Setup::default(),
             variables: Variables::default(),
             last: Coordinates::default(),
-            turned: None,
+            turned: [([0.0; 3], Orientation::IDENTITY); 4],
+            oldest: 0,
         }
     }
 
@@ -158,12 +161,14 @@ impl<'a> Controller<'a> {
     }
 
     fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>) -> Result<Deed, Trouble> {
+        let named;
         let target = match &motion.target {
-            Target::Literal(coordinates) => *coordinates,
-            Target::Variable(variable) => self
-                .variables
-                .get(asker, variable)
-                .ok_or(Trouble::Expected("a position that is declared"))?,
+            Target::Literal(coordinates) => coordinates,
+            Target::Variable(variable) => {
+                let known = self.variables.get(asker, variable);
+                named = known.ok_or(Trouble::Expected("a position that is declared"))?;
+                &named
+            }
         };
         let external = Component::EXTERNAL.into_iter();
         let mut external = external.filter_map(|component| target.get(component));
@@ -191,7 +196,7 @@ impl<'a> Controller<'a> {
             return Err(Trouble::Expected(missing));
         }
         match need {
-            Need::Axes if target.has_any(&Component::AXES) => self.axes(&target).map(Deed::Axes),
+            Need::Axes if target.has_any(&Component::AXES) => self.axes(target).map(Deed::Axes),
             Need::Axes => {
                 let stance = match (target.get(Component::S), target.get(Component::T)) {
                     (Some(status), Some(turn)) => whole(status)
@@ -199,11 +204,11 @@ impl<'a> Controller<'a> {
                         .and_then(|(status, turn)| stance(status, turn)),
                     (_, _) => None,
                 };
-                self.goal(&target, stance).map(Deed::AxesToPose)
+                self.goal(target, stance).map(Deed::AxesToPose)
             }
             Need::Straight | Need::Rounded => {
                 // The controller takes S and T from where the motion begins.
-                let to = self.goal(&target, None)?;
+                let to = self.goal(target, None)?;
                 let pace = self.setup.pace();
                 Ok(Deed::Straight { to, pace, end })
             }
@@ -220,12 +225,8 @@ impl<'a> Controller<'a> {
         }
         let [x, y, z] = self.complete(target, Component::TIP)?;
         let angles = self.complete(target, Component::ANGLES)?;
-        let orientation = match self.turned {
-            Some((known, orientation)) if known == angles => orientation,
-            Some(_) | None => orientation(angles),
-        };
-        self.turned = Some((angles, orientation));
-        self.last = Coordinates::default();
+        let orientation = self.orientation(angles);
+        self.last.forget();
         self.remember(Component::TIP, [x, y, z]);
         self.remember(Component::ANGLES, angles);
         Ok(Goal {
@@ -234,12 +235,25 @@ impl<'a> Controller<'a> {
         })
     }
 
+    fn orientation(&mut self, angles: [f64; 3]) -> Orientation {
+        let known = self.turned.iter().find(|(known, _)| *known == angles);
+        if let Some(&(_, orientation)) = known {
+            return orientation;
+        }
+        let orientation = orientation(angles);
+        if let Some(place) = self.turned.get_mut(self.oldest) {
+            *place = (angles, orientation);
+        }
+        self.oldest = (self.oldest + 1) % self.turned.len();
+        orientation
+    }
+
     fn axes(&mut self, target: &Coordinates) -> Result<AxisValues, Trouble> {
         if target.has_any(&Component::TIP) || target.has_any(&Component::ANGLES) {
             return Err(Trouble::Expected("either a pose or axes"));
         }
         let degrees = self.complete(target, Component::AXES)?;
-        self.last = Coordinates::default();
+        self.last.forget();
         self.remember(Component::AXES, degrees);
         Ok(AxisValues(degrees.map(f64::to_radians)))
     }

@@ -43,10 +43,14 @@ impl<'t> Cursor<'t> {
     /// The next byte that is no blank.
     #[inline]
     pub(super) fn peek(&mut self) -> Option<u8> {
+        let mut at = self.at;
         loop {
-            match self.byte(self.at) {
-                Some(b' ' | b'\t' | b'\r') => self.at += 1,
-                other => return other,
+            match self.byte(at) {
+                Some(b' ' | b'\t' | b'\r') => at += 1,
+                other => {
+                    self.at = at;
+                    return other;
+                }
             }
         }
     }
@@ -77,12 +81,15 @@ impl<'t> Cursor<'t> {
     }
 
     /// The bytes from here on that are of a kind, all of them ASCII.
-    fn run(&mut self, is_of: fn(u8) -> bool) -> &'t str {
+    #[inline]
+    fn run(&mut self, is_of: impl Fn(u8) -> bool) -> &'t str {
         let start = self.at;
-        while self.byte(self.at).is_some_and(is_of) {
-            self.at += 1;
+        let mut at = start;
+        while self.byte(at).is_some_and(&is_of) {
+            at += 1;
         }
-        self.text.get(start..self.at).unwrap_or_default()
+        self.at = at;
+        self.text.get(start..at).unwrap_or_default()
     }
 
     /// Text in this kind of quotes.
@@ -123,27 +130,29 @@ impl<'t> Cursor<'t> {
             _ => false,
         };
         let start = self.at;
-        let mut digits = 0_u64;
-        let whole = self.digits(&mut digits);
-        let mut fraction = 0;
-        if self.byte(self.at) == Some(b'.') {
+        let (whole, digits) = self.digits(0);
+        let (fraction, digits) = if self.byte(self.at) == Some(b'.') {
             self.at += 1;
-            fraction = self.digits(&mut digits);
-        }
+            self.digits(digits)
+        } else {
+            (0, digits)
+        };
         if whole + fraction == 0 {
             *self = before;
             return Number::None;
         }
-        let has_exponent = self.exponent();
+        let is_plain = match self.byte(self.at) {
+            None | Some(b',' | b'}' | b' ') => true,
+            Some(_) => !self.exponent(),
+        };
         if self
             .byte(self.at)
             .is_some_and(|byte| is_of_word(byte) || byte == b'.')
         {
             return Number::Bad;
         }
-        let scale = TENS.get(fraction);
-        let size = match scale {
-            Some(scale) if !has_exponent && whole + fraction <= MOST_DIGITS && digits <= EXACT => {
+        let size = match TENS.get(fraction) {
+            Some(scale) if is_plain && whole + fraction <= MOST_DIGITS && digits <= EXACT => {
                 Some(digits as f64 / scale)
             }
             _ => self.text.get(start..self.at).and_then(|text| text.parse().ok()),
@@ -154,15 +163,18 @@ impl<'t> Cursor<'t> {
         }
     }
 
-    /// Goes over digits, appends them to a number as long as they fit, and counts them.
+    /// Goes over digits. Gives how many, and the number that they make behind those of another; meaningless when there are
+    /// more than fit.
     #[inline]
-    fn digits(&mut self, number: &mut u64) -> usize {
+    fn digits(&mut self, before: u64) -> (usize, u64) {
         let start = self.at;
-        while let Some(digit @ b'0'..=b'9') = self.byte(self.at) {
-            *number = number.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
-            self.at += 1;
+        let (mut at, mut number) = (start, before);
+        while let Some(digit @ b'0'..=b'9') = self.byte(at) {
+            number = number.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
+            at += 1;
         }
-        self.at - start
+        self.at = at;
+        (at - start, number)
     }
 
     /// Goes over an exponent.
@@ -175,7 +187,8 @@ impl<'t> Cursor<'t> {
         if matches!(self.byte(self.at), Some(b'-' | b'+')) {
             self.at += 1;
         }
-        let is_one = self.digits(&mut 0) > 0;
+        let (digits, _) = self.digits(0);
+        let is_one = digits > 0;
         if !is_one {
             *self = before;
         }

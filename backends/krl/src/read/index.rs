@@ -128,7 +128,10 @@ impl<'t> Index<'t> {
                     }
                 }
                 Head::Calls(name) => {
-                    self.called.insert(name.to_ascii_uppercase());
+                    // That a routine calls itself does not make it one that others call.
+                    if !open.is_some_and(|routine| is_same_name(routine.name, name)) {
+                        self.called.insert(name.to_ascii_uppercase());
+                    }
                 }
                 Head::Other => {}
             }

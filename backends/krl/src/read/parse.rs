@@ -24,6 +24,7 @@ const fn expected<T>(what: &'static str) -> Parsed<T> {
 }
 
 /// The statement of a line that begins at a byte of its text: without its comment and the blanks around it.
+#[inline]
 pub(super) fn code(line: &str, start: usize) -> Option<(Span, &str)> {
     let code = match line.find(';') {
         Some(comment) => line.get(..before_comment(line, comment))?,
@@ -50,6 +51,7 @@ fn before_comment(line: &str, first: usize) -> usize {
 }
 
 /// What a statement without comment is.
+#[inline]
 pub(super) fn phrase(code: &str) -> Phrase<'_> {
     let mut cursor = Cursor::new(code);
     let Some(word) = cursor.word() else {
@@ -67,6 +69,7 @@ pub(super) fn phrase(code: &str) -> Phrase<'_> {
     }
 }
 
+#[inline]
 fn statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
     if let Some(motion) = motion_word(word) {
         return Ok(Phrase::Motion(Motion {
@@ -81,6 +84,7 @@ fn statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
     }
 }
 
+#[inline]
 fn motion_word(word: &str) -> Option<MotionWord> {
     let words = [
         ("LIN", MotionWord::Lin),
@@ -337,6 +341,7 @@ fn variable<'t>(name: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Variable<'t>> 
     }
 }
 
+#[inline]
 fn target<'t>(cursor: &mut Cursor<'t>) -> Parsed<Target<'t>> {
     if cursor.peek() == Some(b'{') {
         return match coordinates(cursor)? {
@@ -350,6 +355,7 @@ fn target<'t>(cursor: &mut Cursor<'t>) -> Parsed<Target<'t>> {
     }
 }
 
+#[inline]
 fn approximation(cursor: &mut Cursor<'_>) -> Parsed<Option<Approximation>> {
     let words = [
         ("C_DIS", Approximation::Distance),

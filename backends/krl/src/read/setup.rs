@@ -42,6 +42,16 @@ enum Said {
 }
 
 impl Said {
+    const ALL: [Self; 7] = [
+        Self::Start,
+        Self::IpoMode,
+        Self::OriType,
+        Self::Advance,
+        Self::Load,
+        Self::AxisSpeed,
+        Self::Rounding,
+    ];
+
     const fn bit(self) -> u32 {
         1 << self as u32
     }
@@ -91,15 +101,22 @@ impl Setup {
 
     /// What is missing for a motion.
     pub(super) fn missing(&self, need: Need, wanted: Wanted<'_>) -> Option<&'static str> {
-        let load = wanted.cell.load.as_ref().map(|_| Said::Load);
-        let own = match need {
-            Need::Axes => Some(Said::AxisSpeed),
-            Need::Straight => None,
-            Need::Rounded => Some(Said::Rounding),
+        let always = Said::Start.bit() | Said::IpoMode.bit() | Said::OriType.bit() | Said::Advance.bit();
+        let load = match wanted.cell.load {
+            Some(_) => Said::Load.bit(),
+            None => 0,
         };
-        let always = [Said::Start, Said::IpoMode, Said::OriType, Said::Advance];
-        let mut needed = always.into_iter().chain(load).chain(own);
-        needed.find(|said| self.said & said.bit() == 0).map(Said::missing)
+        let own = match need {
+            Need::Axes => Said::AxisSpeed.bit(),
+            Need::Straight => 0,
+            Need::Rounded => Said::Rounding.bit(),
+        };
+        let missing = (always | load | own) & !self.said;
+        if missing == 0 {
+            return None;
+        }
+        let first = Said::ALL.into_iter().find(|said| missing & said.bit() != 0);
+        first.map(Said::missing)
     }
 
     /// The speeds of a straight move. The rate of turning counts when both of its parts are the same.

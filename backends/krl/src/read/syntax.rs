@@ -48,6 +48,7 @@ impl<'t> Statements<'t> {
 impl<'t> Iterator for Statements<'t> {
     type Item = Statement<'t>;
 
+    #[inline]
     fn next(&mut self) -> Option<Statement<'t>> {
         while self.at < self.end {
             let start = self.at;
@@ -272,6 +273,7 @@ impl Component {
 
     /// By its name.
     #[must_use]
+    #[inline]
     pub const fn named(name: &str) -> Option<Self> {
         match *name.as_bytes() {
             [b'X' | b'x'] => Some(Self::X),
@@ -300,16 +302,25 @@ impl Component {
 }
 
 /// Components with their values; what is left out keeps the value it had before.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Coordinates {
     values: [f64; Component::ALL.len()],
     /// A bit for each component that is given.
     given: u32,
 }
 
+/// The same components with the same values.
+impl PartialEq for Coordinates {
+    fn eq(&self, other: &Self) -> bool {
+        let mut all = Component::ALL.iter();
+        all.all(|&component| self.get(component) == other.get(component))
+    }
+}
+
 impl Coordinates {
     /// The value of a component; none when it is not given.
     #[must_use]
+    #[inline]
     pub fn get(&self, component: Component) -> Option<f64> {
         self.has(component)
             .then(|| self.values.get(component as usize).copied())
@@ -317,6 +328,7 @@ impl Coordinates {
     }
 
     /// Gives a component a value.
+    #[inline]
     pub fn set(&mut self, component: Component, value: f64) {
         if let Some(place) = self.values.get_mut(component as usize) {
             *place = value;
@@ -324,20 +336,28 @@ impl Coordinates {
         }
     }
 
+    /// Gives nothing any more.
+    pub const fn forget(&mut self) {
+        self.given = 0;
+    }
+
     /// Whether a component is given.
     #[must_use]
+    #[inline]
     pub const fn has(&self, component: Component) -> bool {
         self.given & (1 << component as u32) != 0
     }
 
     /// The given among some components.
     #[must_use]
+    #[inline]
     pub fn has_any(&self, components: &[Component]) -> bool {
         components.iter().any(|&component| self.has(component))
     }
 
     /// The values of some components; none when one of them is not given.
     #[must_use]
+    #[inline]
     pub fn all<const N: usize>(&self, components: [Component; N]) -> Option<[f64; N]> {
         let mut values = [0.0; N];
         for (value, component) in values.iter_mut().zip(components) {
