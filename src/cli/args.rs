@@ -200,7 +200,8 @@ impl CompileArgs {
         let output = self.output.as_ref().map(|_| "--output".to_owned());
         let emit = self.emit.map(|_| "--emit".to_owned());
         let set = self.overrides.set.first().map(|_| "--set".to_owned());
-        job.or(target).or(output).or(emit).or(set)
+        let machine = self.overrides.machine.as_ref().map(|_| "--machine".to_owned());
+        job.or(target).or(output).or(emit).or(set).or(machine)
     }
 }
 
@@ -245,6 +246,7 @@ pub(super) struct PlaceArgs {
     pub(super) overrides: Overrides,
 }
 
+/// What the command line says over what the job says.
 #[derive(Debug, Args)]
 pub(super) struct Overrides {
     /// Replace the value of a `let` of the job; can be given several times
@@ -252,6 +254,12 @@ pub(super) struct Overrides {
     /// The value is written as in the job, with its unit: --set width=90mm, --set 'height = 2 in'.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub(super) set: Vec<String>,
+
+    /// Cut on this machine of the job, whatever its `cell` block says
+    ///
+    /// For jobs that see several machines, such as all cells of a shop.
+    #[arg(long, value_name = "NAME")]
+    pub(super) machine: Option<String>,
 }
 
 /// How to talk to the user.

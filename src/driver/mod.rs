@@ -33,6 +33,8 @@ pub struct Request<'a> {
     pub loader: &'a dyn Loader,
     /// `name=value` texts that replace `let`s.
     pub overrides: &'a [String],
+    /// The machine to cut on, over what the job says.
+    pub machine: Option<&'a str>,
     /// Targets whose options the machine may hold.
     pub targets: &'a [&'static dyn Backend],
 }
@@ -131,10 +133,12 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
         path,
         loader,
         overrides,
+        machine,
         targets,
     } = request;
+    let choices = sema::Choices { overrides, machine };
     let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
-    let (ast, job) = sema::check(path, loader, overrides, sources, diagnostics)
+    let (ast, job) = sema::check(path, loader, choices, sources, diagnostics)
         .map_err(|error| RequestError::Unreadable(error.to_string()))?;
     outcome.ast = ast;
     if let Some(job) = &job {

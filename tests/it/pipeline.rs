@@ -46,10 +46,16 @@ impl Loader for Files {
 
 /// Compiles a job.
 pub(crate) fn compile(path: &str, files: &Files) -> Outcome {
+    compile_on(None, path, files)
+}
+
+/// Compiles a job on one of its machines.
+pub(crate) fn compile_on(machine: Option<&str>, path: &str, files: &Files) -> Outcome {
     let request = Request {
         path,
         loader: files,
         overrides: &[],
+        machine,
         targets: &vcutc::registry::backends(),
     };
     driver::compile(request, &mut |_| {}).unwrap()
