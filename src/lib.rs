@@ -16,6 +16,7 @@ pub mod posture;
 pub mod reach;
 pub mod reach_summary;
 pub mod reach_verdict;
+pub mod readback;
 pub mod registry;
 pub mod remedy;
 pub mod sema;

@@ -19,6 +19,8 @@ Examples:
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
                                           All axis values that bring the flange there
   vcutc targets                           See what programs can be written, and with which options
+  vcutc verify rib.vcut out/rib.src out/rib.dat
+                                          See whether a program still is what its job says
 
 Exit status:
   0  all is well
@@ -141,6 +143,28 @@ pub(super) enum Command {
     },
     /// List the targets and their options
     Targets,
+    /// Hold a program against the job that it was made from
+    ///
+    /// Compiles the job, reads the program as its controller would, and tells every operation that is not the job's: at its
+    /// line of the program and at its place in the job. Comments and layout may differ. Nothing is written.
+    Verify(VerifyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct VerifyArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// All files of one program, in any order
+    #[arg(required = true, value_name = "PROGRAM")]
+    pub(super) programs: Vec<String>,
+
+    /// The target that the program was written for [default: the one whose files have such names]
+    #[arg(short, long, value_name = "TARGET")]
+    pub(super) target: Option<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
 }
 
 /// A machine and the frames between its flange and the blade, its root and the work.
