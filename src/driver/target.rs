@@ -9,6 +9,7 @@ use vcutc_backend_api::backend::{
     Backend, BackendIssue, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
 };
 use vcutc_backend_api::ir::{Action, MachineKind, Maker, OpId, Program};
+use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 use vcutc_backend_api::verify::VerifiedProgram;
 
 /// Blocks in the machine that are meant for a target that does not exist.
@@ -210,6 +211,12 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             "needed by this operation",
         )
         .help("choose another target, or leave this to a job of its own"),
+        BackendIssue::Failed { op, what, said } => failed(
+            target,
+            what,
+            said,
+            op.map_or(job.name_span, |op| place_of(job, program, op)),
+        ),
         BackendIssue::OutOfRange {
             op,
             what,
@@ -229,6 +236,22 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
         .note(format!("{what} may be {allowed}"))
         .help(format!("change the job so that {what} is {allowed}")),
     }
+}
+
+/// An outside program that did not do its work.
+fn failed(target: &str, what: &str, said: &[String], span: Span) -> Diagnostic {
+    let diagnostic = Diagnostic::new(
+        Code::OutsideProgram,
+        format!("the program behind target `{target}` {what}"),
+        span,
+        "asked to write this",
+    );
+    let diagnostic = said.iter().fold(diagnostic, |diagnostic, line| {
+        diagnostic.note(format!("it says: {line}"))
+    });
+    diagnostic.help(format!(
+        "nothing was written; tell the authors of `{PROGRAM_PREFIX}{target}`, the job is not at fault"
+    ))
 }
 
 /// A program that no machine is to carry out.

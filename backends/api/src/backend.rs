@@ -13,6 +13,7 @@ use crate::profile::Profile;
 use crate::readback::Reader;
 use crate::units::Length;
 use crate::verify::Capabilities;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// One output dialect.
@@ -122,10 +123,22 @@ pub enum BackendIssue {
         /// What is allowed, as text.
         allowed: String,
     },
+    /// The program behind the dialect did not do its work. Only programs outside of the compiler can fail so
+    /// ([`crate::protocol`]).
+    Failed {
+        /// Where, if about one op.
+        op: Option<OpId>,
+        /// What it did, such as `ended with exit status 3`.
+        what: String,
+        /// What it said itself, line by line.
+        said: Vec<String>,
+    },
 }
 
 /// What sets a machine apart from those that a dialect drives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum MachineMismatch {
     /// Its kind.
     Kind,
