@@ -45,6 +45,8 @@ pub(super) struct Arguments {
     #[command(flatten)]
     pub(super) compile: CompileArgs,
     #[command(flatten)]
+    pub(super) outside: OutsideArgs,
+    #[command(flatten)]
     pub(super) display: DisplayArgs,
 }
 
@@ -139,8 +141,13 @@ pub(super) enum Command {
         #[arg(long, value_name = "W,X,Y,Z", allow_hyphen_values = true)]
         quaternion: Option<String>,
     },
-    /// List the targets and their options
-    Targets,
+    /// List the targets and their options, or describe one
+    ///
+    /// Programs `vcutc-backend-NAME` on the PATH are listed by their names; they are only run to be described.
+    Targets {
+        /// A target; without it, the list
+        target: Option<String>,
+    },
 }
 
 /// A machine and the frames between its flange and the blade, its root and the work.
@@ -252,6 +259,20 @@ pub(super) struct Overrides {
     /// The value is written as in the job, with its unit: --set width=90mm, --set 'height = 2 in'.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub(super) set: Vec<String>,
+}
+
+/// Where targets outside of the compiler are, and how long they may take.
+#[derive(Debug, Args)]
+pub(super) struct OutsideArgs {
+    /// Look for programs `vcutc-backend-NAME` in this folder, too; can be given several times
+    ///
+    /// Such a program is the target NAME. These folders come before those of the PATH.
+    #[arg(long, global = true, value_name = "DIR")]
+    pub(super) backend_path: Vec<String>,
+
+    /// Stop a program `vcutc-backend-NAME` that is not done after so many seconds
+    #[arg(long, global = true, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    pub(super) backend_timeout: u64,
 }
 
 /// How to talk to the user.

@@ -6,7 +6,7 @@ use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, Target
 use crate::machine::Model;
 use crate::source::Span;
 use vcutc_backend_api::backend::{
-    Backend, BackendIssue, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
+    Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
 };
 use vcutc_backend_api::ir::{Action, MachineKind, Maker, OpId, Program};
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
@@ -211,12 +211,10 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             "needed by this operation",
         )
         .help("choose another target, or leave this to a job of its own"),
-        BackendIssue::Failed { op, what, said } => failed(
-            target,
-            what,
-            said,
-            op.map_or(job.name_span, |op| place_of(job, program, op)),
-        ),
+        BackendIssue::Failed(fault) => {
+            let place = fault.op.map_or(job.name_span, |op| place_of(job, program, op));
+            failed(target, fault, place)
+        }
         BackendIssue::OutOfRange {
             op,
             what,
@@ -239,17 +237,14 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
 }
 
 /// An outside program that did not do its work.
-fn failed(target: &str, what: &str, said: &[String], span: Span) -> Diagnostic {
-    let diagnostic = Diagnostic::new(
-        Code::OutsideProgram,
-        format!("the program behind target `{target}` {what}"),
-        span,
-        "asked to write this",
-    );
-    let diagnostic = said.iter().fold(diagnostic, |diagnostic, line| {
+pub(super) fn failed(target: &str, fault: &Fault, place: Span) -> Diagnostic {
+    let message = format!("the program behind target `{target}` {}", fault.what);
+    let diagnostic = Diagnostic::new(Code::OutsideProgram, message, place, "asked to write this");
+    let said = fault.said.iter();
+    said.fold(diagnostic, |diagnostic, line| {
         diagnostic.note(format!("it says: {line}"))
-    });
-    diagnostic.help(format!(
+    })
+    .help(format!(
         "nothing was written; tell the authors of `{PROGRAM_PREFIX}{target}`, the job is not at fault"
     ))
 }

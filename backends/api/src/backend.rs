@@ -30,6 +30,14 @@ pub trait Backend: Sync {
     /// The options it takes.
     fn options(&self) -> &'static [OptionSpec];
 
+    /// Whether it can be asked at all. Backends that are linked in can; one that is a program of its own may be broken.
+    ///
+    /// # Errors
+    /// What it did when it was asked.
+    fn ready(&self) -> Result<(), Fault> {
+        Ok(())
+    }
+
     /// Who reads its programs back; none when nobody can, and then nothing checks what was written.
     fn reader(&self) -> Option<&dyn Reader>;
 
@@ -125,14 +133,18 @@ pub enum BackendIssue {
     },
     /// The program behind the dialect did not do its work. Only programs outside of the compiler can fail so
     /// ([`crate::protocol`]).
-    Failed {
-        /// Where, if about one op.
-        op: Option<OpId>,
-        /// What it did, such as `ended with exit status 3`.
-        what: String,
-        /// What it said itself, line by line.
-        said: Vec<String>,
-    },
+    Failed(Fault),
+}
+
+/// What a program outside of the compiler did instead of its work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where, if about one op.
+    pub op: Option<OpId>,
+    /// What it did, such as `ended with exit status 3`.
+    pub what: String,
+    /// What it said itself, line by line.
+    pub said: Vec<String>,
 }
 
 /// What sets a machine apart from those that a dialect drives.
