@@ -257,6 +257,10 @@ pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
         return Ok(None);
     };
+    if let Err(fault) = backend.ready() {
+        let failed = target::failed(backend.id(), &fault, job.name_span);
+        return Err(EmitFailure::Diagnostics(vec![failed]));
+    }
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
     let Some(reached) = compiled.program.reached() else {
         return Err(EmitFailure::Diagnostics(vec![target::without_machine(

@@ -2,9 +2,11 @@
 //! by URDF all end as a [`Model`].
 
 pub mod catalogue;
+mod document;
 pub mod facts;
 mod five_axis;
 pub mod flaw;
+pub mod habits;
 mod robot;
 pub mod sheet;
 mod table;

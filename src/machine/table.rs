@@ -1,11 +1,11 @@
-//! Reading a TOML table of a sheet, with a flaw for everything that does not fit.
+//! Reading a TOML table of a sheet or a profile, with a flaw for everything that does not fit.
 //!
 //! A [`Table`] is told the keys that its form has and reports others; after that each value is asked for by key. What is missing or faulty comes back as `None`, and faults are among the [`Flaw`]s then: a reader
 //! goes on to the end, so that one run shows all of them.
 
 use super::flaw::Flaw;
 use crate::diag::suggest::nearest;
-use core::ops::Range;
+use core::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -57,7 +57,9 @@ const MOST_UNKNOWN: usize = 10;
 /// A table that is being read.
 #[derive(Clone)]
 pub(super) struct Table<'t> {
-    /// How the sheet writes it, such as `[opw]`; empty for the sheet as a whole.
+    /// What it is a table of, such as `sheet`.
+    document: &'static str,
+    /// How the document writes it, such as `[opw]`; empty for the document as a whole.
     title: String,
     /// Where complaints about the table as a whole point.
     span: Range<usize>,
@@ -65,9 +67,10 @@ pub(super) struct Table<'t> {
 }
 
 impl<'t> Table<'t> {
-    /// The sheet as a whole, whatever keys it has.
-    pub(super) const fn root(entries: &'t DeTable<'t>) -> Self {
+    /// The document as a whole, whatever keys it has.
+    pub(super) const fn root(entries: &'t DeTable<'t>, document: &'static str) -> Self {
         Self {
+            document,
             title: String::new(),
             span: 0..0,
             entries,
@@ -86,7 +89,7 @@ impl<'t> Table<'t> {
 
     fn unknown(&self, key: &str, span: Range<usize>, known: &[&str]) -> Flaw {
         let holder = if self.title.is_empty() {
-            "a sheet".to_owned()
+            format!("a {}", self.document)
         } else {
             format!("`{}`", self.title)
         };
@@ -122,7 +125,7 @@ impl<'t> Table<'t> {
         let keys = list(lacking.iter().map(|(key, _)| format!("`{key}`")).collect());
         let lines = list(lacking.iter().map(|(_, line)| format!("`{line}`")).collect());
         let holder = if self.title.is_empty() {
-            "the sheet".to_owned()
+            format!("the {}", self.document)
         } else {
             format!("`{}`", self.title)
         };
@@ -171,6 +174,7 @@ impl<'t> Table<'t> {
         let value = self.get(key)?;
         match value.get_ref() {
             DeValue::Table(entries) => Some(Self {
+                document: self.document,
                 title: self.path(key),
                 span: value.span(),
                 entries,
@@ -189,6 +193,7 @@ impl<'t> Table<'t> {
             match value.get_ref() {
                 DeValue::Table(entries) => {
                     let table = Self {
+                        document: self.document,
                         title: format!("[{}]", self.path(key)),
                         span: value.span(),
                         entries,
@@ -209,6 +214,12 @@ impl<'t> Table<'t> {
 
     /// The texts under a key: a list, or a single one.
     pub(super) fn texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<String> {
+        let texts = self.placed_texts(key, flaws).into_iter();
+        texts.map(|(text, _)| text.to_owned()).collect()
+    }
+
+    /// The same, each with where it stands.
+    pub(super) fn placed_texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<(&'t str, Range<usize>)> {
         let single = self
             .get(key)
             .filter(|value| matches!(value.get_ref(), DeValue::String(_)));
@@ -217,8 +228,7 @@ impl<'t> Table<'t> {
             None => self.elements(key, "a list of texts", flaws),
         };
         all.iter()
-            .filter_map(|value| text(key, "texts in quotes", value, flaws))
-            .map(str::to_owned)
+            .filter_map(|value| Some((text(key, "texts in quotes", value, flaws)?, value.span())))
             .collect()
     }
 
@@ -264,6 +274,28 @@ impl<'t> Table<'t> {
                 None
             }
         }
+    }
+
+    /// The whole number under a key, within this range.
+    pub(super) fn whole(&self, key: &str, range: RangeInclusive<u32>, flaws: &mut Vec<Flaw>) -> Option<u32> {
+        let (min, max) = (f64::from(*range.start()), f64::from(*range.end()));
+        let number = self.number(key, measure("", min, max), flaws)?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "within the range of the type, and what has a fraction is refused"
+        )]
+        let whole = number as u32;
+        if f64::from(whole) == number {
+            return Some(whole);
+        }
+        let flaw = Flaw::new(
+            self.span_of(key),
+            format!("`{key}` takes a whole number, not {number}"),
+            "not a whole number",
+        );
+        flaws.push(flaw.help(format!("write `{key} = {whole}`")));
+        None
     }
 
     /// The number under a key.
