@@ -1,8 +1,10 @@
 #![doc = include_str!("../ARCHITECTURE.md")]
 
+mod align;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod diag;
+pub mod document;
 pub mod driver;
 pub mod geom;
 pub mod job;

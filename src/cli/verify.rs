@@ -26,6 +26,7 @@ pub(super) fn verify(args: &VerifyArgs, targets: &Targets, console: &Console) ->
         path: disk.job(),
         loader: &disk,
         overrides: &args.overrides.set,
+        machine: args.overrides.machine.as_deref(),
         targets,
     };
     let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {

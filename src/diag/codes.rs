@@ -169,6 +169,10 @@ codes! {
     TargetRange = "VC0606", Error, "a number that the target does not take";
     /// A machine that the target does not drive.
     WrongMachine = "VC0607", Error, "a machine that the target does not drive";
+    /// A file with the habits of a machine that is no such file.
+    BadProfile = "VC0608", Error, "a profile that does not say what it should";
+    /// A target that is a program of its own, which did not do its work.
+    OutsideProgram = "VC0609", Error, "a target's own program that failed";
 
     /// An operation of a program that is not the job's.
     ChangedOperation = "VC0701", Error, "an operation that a program does in another way";

@@ -34,6 +34,8 @@ pub struct Request<'a> {
     pub loader: &'a dyn Loader,
     /// `name=value` texts that replace `let`s.
     pub overrides: &'a [String],
+    /// The machine to cut on, over what the job says.
+    pub machine: Option<&'a str>,
     /// Targets whose options the machine may hold.
     pub targets: &'a [&'static dyn Backend],
 }
@@ -134,10 +136,12 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
         path,
         loader,
         overrides,
+        machine,
         targets,
     } = request;
+    let choices = sema::Choices { overrides, machine };
     let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
-    let (ast, job) = sema::check(path, loader, overrides, sources, diagnostics)
+    let (ast, job) = sema::check(path, loader, choices, sources, diagnostics)
         .map_err(|error| RequestError::Unreadable(error.to_string()))?;
     outcome.ast = ast;
     if let Some(job) = &job {
@@ -253,6 +257,10 @@ pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
         return Ok(None);
     };
+    if let Err(fault) = backend.ready() {
+        let failed = target::failed(backend.id(), &fault, job.name_span);
+        return Err(EmitFailure::Diagnostics(vec![failed]));
+    }
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
     let Some(reached) = compiled.program.reached() else {
         return Err(EmitFailure::Diagnostics(vec![target::without_machine(

@@ -9,7 +9,6 @@
 //! Nothing here knows a dialect: a reader tells statements, and texts are compared by their essence. A difference in the
 //! essence is always told, also where a number differs by less than its rounding.
 
-mod align;
 mod checks;
 mod differences;
 mod rebuild;

@@ -1,6 +1,6 @@
 //! What it takes to get from one program's statements to another's.
 
-use super::align::{Pair, common};
+use crate::align::{Pair, common};
 use super::told::{Names, Told};
 use core::ops::Range;
 use std::collections::{BTreeMap, VecDeque};
