@@ -2,8 +2,9 @@
 //!
 //! Tool-centre-point control is a property of the kinematics module: while one is active that is not the identity, X, Y, Z are
 //! those of the tip. Which M codes switch between the two is a matter of each configuration (in the sample configurations
-//! M428 and M429, in either order), so the job has to say them [L-SW, L-BC]. `G43` belongs behind every switch: what the
-//! kinematics takes for the tool's length is the offset at hand.
+//! M428 and M429, in either order), so the job has to say them [L-SW, L-BC]. The kinematics takes the tool offset at hand for
+//! the tool's length, so the offset changes only while the identity is active: `G43` stands before the switch and `G49` behind
+//! the switch back, for otherwise the axes would have to jump.
 //!
 //! `G53` moves in machine coordinates with `G0` and `G1`, without the tool offset; with inverse time the whole block takes the
 //! time that F says. `M64` and `M65` wait for the motion before them. `M66` gives up after the time Q and goes on, so Q is
@@ -97,14 +98,14 @@ impl Dialect for LinuxCnc {
     }
 
     fn tcp_on(&self, settings: &Settings<'_>, tool: u32) -> Vec<String> {
-        let mut lines = settings.codes.tcp_on.to_vec();
-        lines.push(format!("G43 H{tool}"));
+        let mut lines = vec![format!("G43 H{tool}")];
+        lines.extend_from_slice(settings.codes.tcp_on);
         lines
     }
 
     fn tcp_off(&self, settings: &Settings<'_>) -> Vec<String> {
-        let mut lines = vec!["G49".to_owned()];
-        lines.extend_from_slice(settings.codes.tcp_off);
+        let mut lines = settings.codes.tcp_off.to_vec();
+        lines.push("G49".to_owned());
         lines
     }
 

@@ -6,5 +6,8 @@
     reason = "a test that meets the unexpected should stop"
 )]
 
+mod dialect;
+mod refusals;
 mod snapshots;
 mod support;
+mod words;
