@@ -1,30 +1,10 @@
 //! The examples that people start from.
 
 use crate::krl_text;
-use crate::pipeline::{Files, all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, told};
-use crate::repository::{files, root};
+use crate::pipeline::{all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, told};
+use crate::shop::{DIALECTS, FAILING, NOT_ON, Pairing, compiling, folder, folder_for, jobs};
 use std::collections::BTreeSet;
 use vcutc::registry;
-
-/// The examples that are meant to fail, with the codes they show.
-const FAILING: &[(&str, &[&str])] = &[
-    ("broken.vcut", &["VC0102", "VC0201", "VC0203", "VC0205", "VC0209"]),
-    ("out_of_reach.vcut", &["VC0510"]),
-    ("too_deep.vcut", &["VC0401"]),
-];
-
-/// The jobs among the examples: what lies in their folder itself, without the files they use.
-fn jobs() -> Vec<(String, String)> {
-    let jobs = files("examples", ".vcut").into_iter().filter_map(|file| {
-        let name = file.path.strip_prefix("examples/")?.to_owned();
-        (!name.contains('/')).then_some((name, file.text))
-    });
-    jobs.collect()
-}
-
-fn folder() -> Files {
-    Files::of(root().join("examples"))
-}
 
 #[test]
 fn examples_say_what_they_are_and_what_they_show() {
@@ -34,37 +14,6 @@ fn examples_say_what_they_are_and_what_they_show() {
         assert!(first.starts_with("// ") && first.len() > 20, "{name}: {first}");
         assert!(second.starts_with("// Shows: "), "{name}: {second}");
     }
-}
-
-/// The machines of the shop, with the target that drives each.
-const CELLS: &[(&str, &str)] = &[
-    ("large_cell", "krl"),
-    ("abb_cell", "rapid"),
-    ("gantry", "gcode"),
-    ("knife_gantry", "gcode"),
-];
-
-/// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself.
-const NOT_ON: &[(&str, &str)] = &[("spoiler_rae2822.vcut", "gantry")];
-
-/// The examples that compile, each with the machines it can be cut on. A job with a machine of its own has no other.
-fn compiling() -> Vec<(String, Vec<(Option<&'static str>, &'static str)>)> {
-    let compiling = jobs()
-        .into_iter()
-        .filter(|(name, _)| FAILING.iter().all(|(failing, _)| failing != name));
-    let with_machines = compiling.map(|(name, text)| {
-        if !text.contains("shop/cells.vcut") {
-            return (name, vec![(None, "krl")]);
-        }
-        let allowed = CELLS
-            .iter()
-            .filter(|(machine, _)| !NOT_ON.contains(&(&*name, machine)));
-        let machines = allowed
-            .map(|&(machine, target)| (Some(machine), target))
-            .collect();
-        (name, machines)
-    });
-    with_machines.collect()
 }
 
 #[test]
@@ -77,17 +26,17 @@ fn examples_compile_and_say_what_was_planned() {
     }
 }
 
-/// Every machine of the shop carries out every example that it is meant for, and the targets that drive it write it.
+/// Every machine of the shop carries out every example that it is meant for, and the target that drives it writes it.
 #[test]
 fn examples_compile_for_every_machine_and_target() {
     let mut programs = 0;
-    for (name, machines) in compiling() {
-        for (machine, its_target) in machines {
+    for (name, pairings) in compiling() {
+        for Pairing { machine, target } in pairings {
             let outcome = compile_on(machine, &name, &folder());
             assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name} on {machine:?}");
-            for target in registry::backends() {
-                let refused = emit_for(target, &outcome).err().unwrap_or_default();
-                if target.id() == its_target {
+            for backend in registry::backends() {
+                let refused = emit_for(backend, &outcome).err().unwrap_or_default();
+                if backend.id() == target {
                     assert_eq!(told(&refused, &outcome), "", "{name} on {machine:?}");
                     programs += 1;
                 } else {
@@ -95,13 +44,41 @@ fn examples_compile_for_every_machine_and_target() {
                         numbers(&refused),
                         ["VC0607"],
                         "{name} on {machine:?} for {}",
-                        target.id()
+                        backend.id()
                     );
                 }
             }
         }
     }
-    assert!(programs >= 8, "{programs} programs");
+    let pairings = || compiling().into_iter().flat_map(|(_, pairings)| pairings);
+    // Eight jobs for KRL, six of them for RAPID, and eleven pairings with gantries for G-code.
+    assert_eq!(pairings().count(), 8 + 6 + 11);
+    let is_built = |pairing: &Pairing| registry::backend(pairing.target).is_some();
+    assert_eq!(programs, pairings().filter(is_built).count());
+}
+
+#[cfg(feature = "gcode")]
+#[test]
+fn examples_compile_for_every_dialect_of_g_code() {
+    let mut programs = 0;
+    for &(dialect, _) in DIALECTS {
+        let files = folder_for(dialect);
+        for (name, pairings) in compiling() {
+            for Pairing { machine, .. } in pairings.iter().filter(|pairing| pairing.target == "gcode") {
+                let outcome = compile_on(*machine, &name, &files);
+                let target = registry::backend("gcode").unwrap();
+                let refused = emit_for(target, &outcome).err().unwrap_or_default();
+                assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name} on {machine:?}");
+                assert_eq!(
+                    told(&refused, &outcome),
+                    "",
+                    "{name} on {machine:?} for {dialect}"
+                );
+                programs += 1;
+            }
+        }
+    }
+    assert_eq!(programs, DIALECTS.len() * 11);
 }
 
 #[test]

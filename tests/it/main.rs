@@ -32,12 +32,14 @@ mod process_errors;
 mod published;
 #[cfg(feature = "krl")]
 mod reach;
-#[cfg(feature = "krl")]
+#[cfg(all(feature = "gcode", feature = "krl"))]
 mod referees;
 mod repository;
 mod schema;
 #[cfg(feature = "krl")]
 mod serial_arm;
+#[cfg(feature = "krl")]
+mod shop;
 mod status;
 mod syntax;
 mod third_party;

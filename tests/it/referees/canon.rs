@@ -12,8 +12,8 @@ pub(super) enum Canon {
     Feed {
         /// Where it ends.
         to: Position,
-        /// How long it takes, by LinuxCNC's rule: F counts along X, Y, Z where these move, along the rotary axes otherwise.
-        seconds: f64,
+        /// How fast: mm a minute along X, Y, Z where these move, degrees a minute along the rotary axes otherwise.
+        rate: f64,
     },
     /// A straight motion at the rates of the axes.
     Traverse {
@@ -66,7 +66,6 @@ pub(super) const NOTHING: f64 = 0.000_05;
 /// Reads what `rs274` printed.
 pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
     let mut canon = Vec::new();
-    let mut at: Option<Position> = None;
     let mut feed = 0.0;
     for line in text.lines() {
         let fault = || format!("cannot read `{line}`");
@@ -94,13 +93,10 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
             }
             ("STRAIGHT_FEED", _) => {
                 let to = Position::try_from(numbers).map_err(|_| fault())?;
-                let seconds = at.map_or(f64::NAN, |from| way(&from, &to) / feed * 60.0);
-                at = Some(to);
-                Canon::Feed { to, seconds }
+                Canon::Feed { to, rate: feed }
             }
             ("STRAIGHT_TRAVERSE", _) => {
                 let to = Position::try_from(numbers).map_err(|_| fault())?;
-                at = Some(to);
                 Canon::Traverse { to }
             }
             ("SET_AUX_OUTPUT_BIT" | "SET_MOTION_OUTPUT_BIT", &[number]) => output(number, true),
@@ -120,16 +116,4 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
 fn output(number: f64, on: bool) -> Canon {
     let number = number as u32;
     Canon::Output { number, on }
-}
-
-/// The way that F counts along.
-fn way(from: &Position, to: &Position) -> f64 {
-    let length = |axes: core::ops::Range<usize>| {
-        let squares = axes.map(|axis| (to[axis] - from[axis]).powi(2));
-        squares.sum::<f64>().sqrt()
-    };
-    match length(0..3) {
-        along if along > NOTHING => along,
-        _ => length(3..6),
-    }
 }

@@ -1,6 +1,7 @@
 //! An intermediate program against what an interpreter makes of the emitted text.
 
 use super::canon::{Canon, NOTHING, Position};
+use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, OpId, Ready, Switch};
 use vcutc_backend_api::motion::{ReachableProgram, pose_after};
 use vcutc_backend_api::stroke::Stroke;
@@ -10,8 +11,15 @@ use vcutc_backend_api::stroke::Stroke;
 pub(super) enum Deed {
     /// All axes to these values, at whatever speed.
     Axes(Position),
-    /// The tip straight to X Y Z, the rotary axes to A B C, in so many seconds.
-    Straight(Position, f64),
+    /// The tip straight to X, Y, Z, the rotary axes to A, B, C.
+    Straight {
+        /// Where it begins. The interpreter does not know this where the meaning of X, Y, Z has just changed from axes to tip.
+        from: Position,
+        /// Where it ends.
+        to: Position,
+        /// How long it takes.
+        seconds: f64,
+    },
     /// The generator is switched.
     Switch(u32, bool),
     /// A wait, in s.
@@ -31,10 +39,12 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
         at = pose_after(at, &op.action);
         let deed = match (op.action, stroke) {
             (_, Some(stroke)) => {
-                let mut to = words(cell, &axes);
-                let tip = stroke.to.0;
-                to[..3].copy_from_slice(&[tip.x, tip.y, tip.z]);
-                Deed::Straight(to, stroke.duration().to_s())
+                let before = program.axes_after(OpId(id.0 - 1)).unwrap();
+                Deed::Straight {
+                    from: pose(cell, stroke.from.0, &before),
+                    to: pose(cell, stroke.to.0, &axes),
+                    seconds: stroke.duration().to_s(),
+                }
             }
             (Action::Home | Action::AxisTravel { .. }, None) => Deed::Axes(words(cell, &axes)),
             (Action::Ultrasonic { state }, None) => {
@@ -63,6 +73,12 @@ fn words(cell: &Cell, axes: &AxisValues) -> Position {
         };
     }
     words
+}
+
+/// A tip and the rotary axes as words. Base frames of these machines are not turned.
+fn pose(cell: &Cell, tip: Point3, axes: &AxisValues) -> Position {
+    let [_, _, _, a, b, c] = words(cell, axes);
+    [tip.x, tip.y, tip.z, a, b, c]
 }
 
 /// How far a program may be from what it should do, given the decimals that it prints.
@@ -131,11 +147,23 @@ pub(super) fn compare(deeds: &[(OpId, Deed)], canon: &[Canon], within: Tolerance
     }
 }
 
+/// The way that F counts along, by LinuxCNC's rule: that of the tip where it moves, that of the rotary axes otherwise.
+fn way(from: &Position, to: &Position) -> f64 {
+    let length = |axes: core::ops::Range<usize>| {
+        let squares = axes.map(|axis| (to[axis] - from[axis]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    match length(0..3) {
+        along if along > NOTHING => along,
+        _ => length(3..6),
+    }
+}
+
 fn carries_out(did: &Canon, deed: &Deed, within: Tolerance) -> bool {
     match (did, deed) {
         (Canon::Feed { to, .. } | Canon::Traverse { to }, Deed::Axes(axes)) => within.is_there(to, axes),
-        (Canon::Feed { to, seconds }, Deed::Straight(pose, time)) => {
-            within.is_there(to, pose) && same_time(*seconds, *time)
+        (Canon::Feed { to: there, rate }, Deed::Straight { from, to, seconds }) => {
+            within.is_there(there, to) && same_time(way(from, to) / rate * 60.0, *seconds)
         }
         (Canon::Output { number, on }, Deed::Switch(output, state)) => (number, on) == (output, state),
         (Canon::Dwell(seconds), Deed::Wait(time)) => same_time(*seconds, *time),

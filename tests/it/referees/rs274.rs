@@ -1,10 +1,13 @@
 //! LinuxCNC's interpreter, `rs274`, as it comes with the Debian package linuxcnc-uspace.
 
 use super::canon::{self, Canon};
-use super::compare::{Deed, Tolerance, compare};
+use super::compare::{Deed, Tolerance, compare, deeds};
 use super::is_there;
+use crate::pipeline::{compile_on, emit_for};
+use crate::shop::{Pairing, compiling, folder_for};
 use std::fs;
 use std::process::{Command, Stdio};
+use vcutc::registry;
 use vcutc_backend_api::ir::OpId;
 
 /// The configuration of a machine with switchable kinematics: two M codes of its own, as the sample configurations of
@@ -35,7 +38,10 @@ fn is_installed() -> bool {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("nothing.ngc"), "M2\n").unwrap();
     let mut command = Command::new("rs274");
-    command.args(["-g", "nothing.ngc"]).current_dir(&folder);
+    command
+        .args(["-g", "nothing.ngc"])
+        .current_dir(&folder)
+        .env("HOME", folder.path());
     is_there("rs274", &mut command, "Debian package linuxcnc-uspace")
 }
 
@@ -57,6 +63,8 @@ fn carry_out(files: &[(String, Vec<u8>)]) -> Result<Vec<Canon>, String> {
     let output = Command::new("rs274")
         .args(["-i", "machine.ini", "-t", "tool.tbl", "-g", &files[0].0])
         .current_dir(&folder)
+        // It keeps its tools in a file there, which runs at the same time would share.
+        .env("HOME", folder.path())
         .stdin(Stdio::null())
         .output()
         .unwrap();
@@ -68,6 +76,70 @@ fn carry_out(files: &[(String, Vec<u8>)]) -> Result<Vec<Canon>, String> {
         let errors = String::from_utf8_lossy(&output.stderr);
         Err(format!("rs274 stops: {}\nafter {last:#?}", errors.trim()))
     }
+}
+
+/// Whether the program of an example does what its intermediate program says, by the interpreter. The words of the dialect
+/// that LinuxCNC has not are replaced before.
+fn judge_examples(dialect: &str, words: &[(&str, &str)], within: Tolerance) {
+    if !is_installed() {
+        return;
+    }
+    let target = registry::backend("gcode").unwrap();
+    let files = folder_for(dialect);
+    let mut programs = 0;
+    for (name, pairings) in compiling() {
+        for Pairing { machine, .. } in pairings.iter().filter(|pairing| pairing.target == target.id()) {
+            let outcome = compile_on(*machine, &name, &files);
+            let bundle = emit_for(target, &outcome).unwrap();
+            let translated: Vec<_> = bundle
+                .files()
+                .iter()
+                .map(|file| translated(file, words))
+                .collect();
+            let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
+            let judged =
+                carry_out(&translated).and_then(|canon| compare(&deeds(&reached.program), &canon, within));
+            assert_eq!(judged, Ok(()), "{name} on {machine:?} for {dialect}");
+            programs += 1;
+        }
+    }
+    assert!(programs > 0, "no example is cut on a gantry");
+}
+
+/// A file with the words replaced that begin its lines.
+fn translated((name, text): &(String, Vec<u8>), words: &[(&str, &str)]) -> (String, Vec<u8>) {
+    let lines = str::from_utf8(text).unwrap().lines().map(|line| {
+        let found = words
+            .iter()
+            .find_map(|(from, to)| Some((to, line.strip_prefix(from)?)));
+        found.map_or_else(|| line.to_owned(), |(to, rest)| format!("{to}{rest}"))
+    });
+    (
+        name.clone(),
+        lines.map(|line| line + "\n").collect::<String>().into_bytes(),
+    )
+}
+
+/// Its programs are for this interpreter: nothing is replaced.
+#[test]
+fn programs_for_linuxcnc_do_what_they_should() {
+    judge_examples("linuxcnc", &[], Tolerance::of_decimals(3, 4));
+}
+
+/// Fanuc's words that LinuxCNC has not, with those that do the same there.
+const FANUC: &[(&str, &str)] = &[
+    // Tool-centre-point control: LinuxCNC leaves it to the kinematics, and needs the tool's length alone.
+    ("G43.4 H", "G43 H"),
+    // A wait in seconds.
+    ("G4 X", "G4 P"),
+    // M codes of the builder, as the shop's options have them, for its output 3.
+    ("M50", "M64 P3"),
+    ("M51", "M65 P3"),
+];
+
+#[test]
+fn programs_for_fanuc_do_what_they_should() {
+    judge_examples("fanuc", FANUC, Tolerance::of_decimals(3, 3));
 }
 
 /// A program written by hand in the way of the backend: home, tip control, a cut, a turn about the still tip.
@@ -96,16 +168,20 @@ M2
 
 fn by_hand() -> Vec<(OpId, Deed)> {
     let home = [300.0, 200.0, -200.0, 0.0, 0.0, 0.0];
-    // From (310, 200, -200), where the axes stand, to (10, 20, 30): 418.688 mm.
-    let approach = (300.0_f64.powi(2) + 180.0_f64.powi(2) + 230.0_f64.powi(2)).sqrt() / 100.0;
+    let straight = |from, to, seconds| Deed::Straight { from, to, seconds };
+    // The kinematics of the tip begin 50 mm above the first point.
+    let above = [10.0, 20.0, 80.0, -30.0, 40.0, 0.0];
+    let begin = [10.0, 20.0, 30.0, -30.0, 40.0, 0.0];
+    let end = [10.0, 120.0, 30.0, -30.0, 40.0, 0.0];
+    let turned = [10.0, 120.0, 30.0, 30.0, -40.0, 0.0];
     let deeds = [
         Deed::Axes(home),
         Deed::Axes([310.0, 200.0, -200.0, -30.0, 40.0, 0.0]),
         Deed::Switch(3, true),
         Deed::Wait(0.8),
-        Deed::Straight([10.0, 20.0, 30.0, -30.0, 40.0, 0.0], approach),
-        Deed::Straight([10.0, 120.0, 30.0, -30.0, 40.0, 0.0], 0.5),
-        Deed::Straight([10.0, 120.0, 30.0, 30.0, -40.0, 0.0], 2.0),
+        straight(above, begin, 0.5),
+        straight(begin, end, 0.5),
+        straight(end, turned, 2.0),
         Deed::Axes(home),
         Deed::Switch(3, false),
     ];
