@@ -4,20 +4,24 @@
 //! Which mutants are made follows from the text alone, so that every run makes the same ones. What stands in comments is
 //! left alone, and so are mutants that read the same, such as two equal lines swapped.
 
-use crate::pipeline::{Files, compile};
-use crate::repository::{files, root};
+use crate::pipeline::compile_on;
+use crate::shop::{self, Pairing, compiling, folder, folder_for};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 use vcutc::driver;
 use vcutc::readback::{Fresh, Reference};
 use vcutc::registry;
-use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::readback::{ProgramFile, essence};
 
 /// Mutants of each kind and program, at most.
-const MOST_OF_A_KIND: usize = 60;
+const MOST_OF_A_KIND: usize = 40;
 
-/// Mutants that are made, and found, in all. docs/verify.md says so too.
-const MUTANTS: usize = 1864;
+/// Mutants that are made, and found, of the programs of each dialect. `docs/verify.md` says so too.
+const MUTANTS: &[(&str, usize)] = &[("krl", 1864)];
+
+/// Programs that are worked on at once.
+const WORKERS: usize = 4;
 
 /// One change of a text.
 #[derive(Clone, Copy, Debug)]
@@ -37,45 +41,73 @@ const KINDS: [Mutation; 4] = [
 
 /// What is a comment, and which lines say speeds.
 struct Dialect {
-    /// A comment goes from here to the end of its line.
-    to_line_end: &'static str,
-    /// A comment goes from the first to the second.
-    enclosed: Option<(char, char)>,
+    name: &'static str,
+    /// A comment goes from the first of these to the end of its line.
+    comments: &'static [char],
     /// What begins a line that the controller passes over.
     passed_over: &'static str,
+    /// Whether blocks have numbers, which mean nothing.
+    numbered: bool,
     /// Words in front of a speed.
     speeds: &'static [&'static str],
 }
 
-fn dialect(target: &str) -> Dialect {
-    match target {
-        "krl" => Dialect {
-            to_line_end: ";",
-            enclosed: None,
-            passed_over: "&",
-            speeds: &["$VEL", "#VEL_PTP,"],
-        },
-        "rapid" => Dialect {
-            to_line_end: "!",
-            enclosed: None,
-            passed_over: "<",
-            speeds: &["speeddata"],
-        },
-        _ => Dialect {
-            to_line_end: ";",
-            enclosed: Some(('(', ')')),
-            passed_over: "<",
-            speeds: &[" F", "FROT"],
-        },
-    }
-}
+const DIALECTS: &[Dialect] = &[
+    Dialect {
+        name: "krl",
+        comments: &[';'],
+        passed_over: "&",
+        numbered: false,
+        speeds: &["$VEL", "#VEL_PTP,"],
+    },
+    Dialect {
+        name: "rapid",
+        comments: &['!'],
+        passed_over: "<",
+        numbered: false,
+        speeds: &["speeddata"],
+    },
+    Dialect {
+        name: "linuxcnc",
+        comments: &['(', ';'],
+        passed_over: "<",
+        numbered: true,
+        speeds: &[" F"],
+    },
+    Dialect {
+        name: "fanuc",
+        comments: &['('],
+        passed_over: "<",
+        numbered: true,
+        speeds: &[" F"],
+    },
+    Dialect {
+        name: "sinumerik",
+        comments: &[';'],
+        passed_over: "<",
+        numbered: true,
+        speeds: &[" F"],
+    },
+    Dialect {
+        name: "heidenhain",
+        comments: &[';'],
+        passed_over: "*",
+        numbered: true,
+        speeds: &[" F"],
+    },
+];
 
 impl Dialect {
-    /// How much of a line, from its beginning, is no comment.
+    /// How much of a line, from behind its number, is no comment.
     fn code<'l>(&self, line: &'l str) -> &'l str {
-        let end = line.find(self.to_line_end).unwrap_or(line.len());
-        let enclosed = self.enclosed.and_then(|(open, _)| line.find(open));
-        let code = line[..end.min(enclosed.unwrap_or(end))].trim();
+        let line = if self.numbered {
+            let line = line.trim_start();
+            let behind = line.strip_prefix('N').unwrap_or(line);
+            behind.trim_start_matches(|c: char| c.is_ascii_digit())
+        } else {
+            line
+        };
+        let code = line.split(self.comments).next().unwrap_or_default().trim();
         if code.starts_with(self.passed_over) {
             ""
         } else {
@@ -87,19 +119,13 @@ impl Dialect {
 /// A place of a program: a file and a line of it.
 type Line = (usize, usize);
 
-/// All lines that hold more than comments.
-fn lines_of_code(files: &[ProgramFile], dialect: &Dialect) -> Vec<Line> {
+/// All lines that hold more than comments, and their texts.
+fn lines_of_code<'f>(files: &'f [ProgramFile], dialect: &Dialect) -> Vec<(Line, &'f str)> {
     let all = files.iter().enumerate().flat_map(|(file, program)| {
         let lines = program.text.lines().enumerate();
         lines.map(move |(line, text)| ((file, line), text))
     });
-    all.filter(|(_, text)| !dialect.code(text).is_empty())
-        .map(|(line, _)| line)
-        .collect()
-}
-
-fn line(files: &[ProgramFile], (file, line): Line) -> &str {
-    files[file].text.lines().nth(line).unwrap()
+    all.filter(|(_, text)| !dialect.code(text).is_empty()).collect()
 }
 
 fn with_line(files: &[ProgramFile], (file, number): Line, replaced: Option<&str>) -> Vec<ProgramFile> {
@@ -152,130 +178,160 @@ fn other_speed(text: &str, words: &[&str]) -> Option<String> {
     Some(format!("{}{}{}", &text[..start], speed * 1.5, &text[end..]))
 }
 
-/// The mutants of a kind.
-fn mutants(files: &[ProgramFile], dialect: &Dialect, kind: Mutation) -> Vec<(Line, Vec<ProgramFile>)> {
+/// The mutants of a kind, each with the line that was changed.
+fn mutants<'f>(
+    files: &'f [ProgramFile],
+    dialect: &Dialect,
+    kind: Mutation,
+) -> Vec<(Line, &'f str, Vec<ProgramFile>)> {
     let lines = lines_of_code(files, dialect);
-    let changed = |at: Line, text: Option<String>| {
-        let text = text.filter(|text| essence(dialect.code(text)) != essence(dialect.code(line(files, at))));
-        text.map(|text| (at, with_line(files, at, Some(&text))))
+    let read = |text: &str| essence(dialect.code(text));
+    let changed = |(at, text): (Line, &'f str), other: String| {
+        (read(text) != read(&other)).then(|| (at, text, with_line(files, at, Some(&other))))
     };
     match kind {
         Mutation::Digit => {
-            let with_digits: Vec<Line> = lines
-                .into_iter()
-                .filter(|&at| {
-                    dialect
-                        .code(line(files, at))
-                        .contains(|c: char| c.is_ascii_digit())
-                })
-                .collect();
+            let has_digits =
+                |(_, text): &(Line, &str)| dialect.code(text).contains(|c: char| c.is_ascii_digit());
+            let with_digits: Vec<_> = lines.into_iter().filter(has_digits).collect();
             let chosen = spread(&with_digits, MOST_OF_A_KIND).into_iter().enumerate();
             chosen
-                .filter_map(|(salt, at)| {
-                    let text = line(files, at);
-                    changed(at, other_digit(text, dialect.code(text), salt * 7))
+                .filter_map(|(salt, line)| {
+                    changed(line, other_digit(line.1, dialect.code(line.1), salt * 7)?)
                 })
                 .collect()
         }
         Mutation::Dropped => spread(&lines, MOST_OF_A_KIND)
             .into_iter()
-            .map(|at| (at, with_line(files, at, None)))
+            .map(|(at, text)| (at, text, with_line(files, at, None)))
             .collect(),
         Mutation::Swapped => {
-            let pairs: Vec<(Line, Line)> = lines
+            let is_pair = |((one, first), (other, second)): &((Line, &str), (Line, &str))| {
+                one.0 == other.0 && one.1 + 1 == other.1 && read(first) != read(second)
+            };
+            let pairs: Vec<_> = lines
                 .windows(2)
                 .map(|pair| (pair[0], pair[1]))
-                .filter(|(one, other)| one.0 == other.0 && one.1 + 1 == other.1)
-                .filter(|&(one, other)| {
-                    let read = |at| essence(dialect.code(line(files, at)));
-                    read(one) != read(other)
-                })
+                .filter(is_pair)
                 .collect();
-            spread(&pairs, MOST_OF_A_KIND)
-                .into_iter()
-                .map(|(one, other)| {
-                    let mutant = with_line(files, one, Some(line(files, other)));
-                    (one, with_line(&mutant, other, Some(line(files, one))))
+            let swapped = spread(&pairs, MOST_OF_A_KIND).into_iter();
+            swapped
+                .map(|((one, first), (other, second))| {
+                    let mutant = with_line(files, one, Some(second));
+                    (one, first, with_line(&mutant, other, Some(first)))
                 })
                 .collect()
         }
         Mutation::Speed => {
-            let with_speeds: Vec<Line> = lines
-                .into_iter()
-                .filter(|&at| other_speed(dialect.code(line(files, at)), dialect.speeds).is_some())
-                .collect();
+            let has_speed =
+                |(_, text): &(Line, &str)| other_speed(dialect.code(text), dialect.speeds).is_some();
+            let with_speeds: Vec<_> = lines.into_iter().filter(has_speed).collect();
             spread(&with_speeds, MOST_OF_A_KIND)
                 .into_iter()
-                .filter_map(|at| changed(at, other_speed(line(files, at), dialect.speeds)))
+                .filter_map(|line| changed(line, other_speed(line.1, dialect.speeds)?))
                 .collect()
         }
     }
 }
 
-/// Runs the mutants of one program; returns how many there were, and those that were not found.
-fn tried(
-    job: &str,
-    backend: &dyn Backend,
-    reference: &Reference<'_>,
-    files: &[ProgramFile],
-) -> (usize, Vec<String>) {
-    assert_eq!(reference.differences(files), 0, "{job} for {}", backend.id());
-    let dialect = dialect(backend.id());
-    let (mut count, mut missed) = (0, Vec::new());
-    for kind in KINDS {
-        for (at, mutant) in mutants(files, &dialect, kind) {
-            count += 1;
-            if reference.differences(&mutant) == 0 {
-                let (name, text) = (&files[at.0].name, line(files, at));
-                missed.push(format!(
-                    "{job} for {}: {kind:?} in {name}:{}: {text}",
-                    backend.id(),
-                    at.1 + 1
-                ));
+/// A program of an example.
+struct Example {
+    job: String,
+    machine: Option<&'static str>,
+    target: &'static str,
+    dialect: &'static Dialect,
+}
+
+/// The programs of all examples, for all targets of this build and all dialects of those.
+fn examples() -> Vec<Example> {
+    let mut examples = Vec::new();
+    for dialect in DIALECTS {
+        for (job, pairings) in compiling() {
+            let is_of = |pairing: &&Pairing| match pairing.target {
+                "gcode" => shop::DIALECTS.iter().any(|(name, _)| *name == dialect.name),
+                target => target == dialect.name,
+            };
+            for pairing in pairings.iter().filter(is_of) {
+                examples.push(Example {
+                    job: job.clone(),
+                    machine: pairing.machine,
+                    target: pairing.target,
+                    dialect,
+                });
             }
         }
     }
-    (count, missed)
+    examples.retain(|example| registry::backend(example.target).is_some());
+    examples
 }
 
-fn jobs() -> Vec<String> {
-    let names = files("examples", ".vcut").into_iter().filter_map(|file| {
-        let name = file.path.strip_prefix("examples/")?.to_owned();
-        (!name.contains('/')).then_some(name)
-    });
-    names.collect()
+impl Example {
+    /// Runs all mutants; returns how many there were, and those that were not found.
+    fn tried(&self) -> (usize, Vec<String>) {
+        let files = match self.target {
+            "gcode" => folder_for(self.dialect.name),
+            _ => folder(),
+        };
+        let backend = registry::backend(self.target).unwrap();
+        let outcome = compile_on(self.machine, &self.job, &files);
+        let written = driver::write(&outcome, backend).unwrap().unwrap();
+        let reached = outcome.compiled.as_ref().unwrap().program.reached();
+        let (job, plan) = (outcome.job.as_ref(), outcome.plan.as_ref());
+        let reader = backend.reader().unwrap();
+        let reference = Reference::new(Fresh::of(job, plan, reached, &written, reader).unwrap());
+        assert_eq!(reference.differences(&written.files), 0, "{}", self.job);
+        let (mut count, mut missed) = (0, Vec::new());
+        for kind in KINDS {
+            for (at, text, mutant) in mutants(&written.files, self.dialect, kind) {
+                count += 1;
+                if reference.differences(&mutant) == 0 {
+                    let file = &written.files[at.0].name;
+                    let (job, dialect, number) = (&self.job, self.dialect.name, at.1 + 1);
+                    missed.push(format!(
+                        "{job} for {dialect}: {kind:?} in {file}:{number}: {text}"
+                    ));
+                }
+            }
+        }
+        (count, missed)
+    }
 }
 
 #[test]
 fn every_mutant_of_every_example_is_found() {
-    let folder = Files::of(root().join("examples"));
-    let mut missed = Vec::new();
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for job in jobs() {
-        let outcome = compile(&job, &folder);
-        for backend in registry::backends() {
-            // Jobs that are meant to fail have no program, and not every target drives the job's machine.
-            let Ok(Some(written)) = driver::write(&outcome, backend) else {
-                continue;
-            };
-            let reached = outcome
-                .compiled
-                .as_ref()
-                .and_then(|compiled| compiled.program.reached());
-            let reader = backend.reader().unwrap();
-            let fresh = Fresh::of(
-                outcome.job.as_ref(),
-                outcome.plan.as_ref(),
-                reached,
-                &written,
-                reader,
-            );
-            let (count, more) = tried(&job, backend, &Reference::new(fresh.unwrap()), &written.files);
-            *counts.entry(backend.id()).or_default() += count;
-            missed.extend(more);
+    let examples = examples();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut tried = Vec::new();
+        while let Some(example) = examples.get(next.fetch_add(1, Ordering::Relaxed)) {
+            tried.push((example.dialect.name, example.tried()));
         }
+        tried
+    };
+    let tried: Vec<_> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..WORKERS).map(|_| scope.spawn(work)).collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap())
+            .collect()
+    });
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut missed = Vec::new();
+    for (dialect, (count, more)) in tried {
+        *counts.entry(dialect).or_default() += count;
+        missed.extend(more);
     }
     println!("mutants: {counts:?}");
-    assert!(missed.is_empty(), "{}", missed.join("\n"));
-    assert_eq!(counts.values().sum::<usize>(), MUTANTS);
+    assert!(
+        missed.is_empty(),
+        "{} were missed:\n{}",
+        missed.len(),
+        missed.join("\n")
+    );
+    let expected: BTreeMap<&str, usize> = MUTANTS
+        .iter()
+        .copied()
+        .filter(|(dialect, _)| counts.contains_key(dialect))
+        .collect();
+    assert_eq!(counts, expected);
 }
