@@ -73,23 +73,17 @@ impl<'t> Script<'t> {
             let (line, next) = lines::line(self.text, self.at)?;
             let code = style.code(line, self.at);
             self.at = next;
-            match code {
-                Code::None => {}
-                Code::Is(span, code) => {
-                    return Some(Line {
-                        place: self.place(span),
-                        length: line.len(),
-                        code: Some(code),
-                    });
-                }
-                Code::Open(span) => {
-                    return Some(Line {
-                        place: self.place(span),
-                        length: line.len(),
-                        code: None,
-                    });
-                }
-            }
+            let (span, code) = match code {
+                Code::None => continue,
+                Code::Is(span, code) => (span, Ok(code)),
+                Code::Open(span) => (span, Err(Trouble::Expected("the end of the comment".to_owned()))),
+                Code::Active(span) => (span, Err(Trouble::Unknown)),
+            };
+            return Some(Line {
+                place: self.place(span),
+                length: line.len(),
+                code,
+            });
         }
     }
 
@@ -113,8 +107,8 @@ struct Line<'t> {
     place: Place,
     /// Bytes of the whole line.
     length: usize,
-    /// The statement; none behind a comment that does not end.
-    code: Option<&'t str>,
+    /// The statement, or why there is none to be read.
+    code: Result<&'t str, Trouble>,
 }
 
 /// The first file that no other calls.
@@ -287,6 +281,7 @@ impl<'t> Walk<'t, '_> {
         while let Some(line) = self.next_of(script) {
             let order = line
                 .code
+                .ok()
                 .and_then(|code| self.tongue.order(code, self.context).ok());
             let is_end = matches!(
                 order.and_then(|order| order.flow),
@@ -316,18 +311,18 @@ impl<'t> Walk<'t, '_> {
 
     fn statement(&mut self, script: usize, line: &Line<'t>) -> (Says, Onward) {
         let longest = self.context.settings.dialect.longest_line();
-        let understood = match line.code {
-            None => Err(Trouble::Expected("the end of the comment".to_owned())),
-            Some(_) if line.length > longest => Err(Trouble::Expected(format!(
+        let understood = match &line.code {
+            Err(trouble) => Err(trouble.clone()),
+            Ok(_) if line.length > longest => Err(Trouble::Expected(format!(
                 "a line of at most {longest} characters"
             ))),
-            Some(code) => self.understood(script, code),
+            Ok(code) => self.understood(script, code),
         };
         let is_main = self.stack.len() == 1;
-        let is_head = matches!(&understood, Ok((Says::Setting, _)));
-        let taken = match line.code {
-            Some(code) if is_main && !is_head && !is_motion(&understood) => self.profile.takes(code),
-            Some(_) | None => false,
+        let is_setting = matches!(&understood, Ok((Says::Setting, _)));
+        let taken = match &line.code {
+            Ok(code) if is_main && !is_setting && !is_motion(&understood) => self.profile.takes(code),
+            Ok(_) | Err(_) => false,
         };
         if taken {
             return (Says::Setting, Onward::Next);

@@ -49,7 +49,7 @@ impl Tongue for Fanuc {
                 Code::None => {}
                 Code::Is(_, "%") => {}
                 Code::Is(_, code) => return head(code),
-                Code::Open(_) => return None,
+                Code::Open(_) | Code::Active(_) => return None,
             }
             at = next;
         }
