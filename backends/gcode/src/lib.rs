@@ -67,6 +67,7 @@ mod names;
 mod options;
 mod pace;
 mod program;
+mod read;
 
 use crate::axes::{Word, WorkInOffset};
 use crate::blocks::Blocks;
@@ -74,6 +75,7 @@ use crate::body::Source;
 use crate::limits::Sayable;
 use crate::names::{MOST_PARTS, main_name};
 use crate::options::{LINES_PER_PART, OPTIONS, Settings};
+use crate::read::GcodeReader;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
@@ -110,7 +112,7 @@ impl Backend for Gcode {
     }
 
     fn reader(&self) -> Option<&dyn Reader> {
-        None
+        Some(&GcodeReader)
     }
 
     fn check<'p>(
