@@ -1,0 +1,14 @@
+//! Tests of the G-code backend from outside.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test that meets the unexpected should stop"
+)]
+
+mod dialect;
+mod read_back;
+mod refusals;
+mod snapshots;
+mod support;
+mod words;

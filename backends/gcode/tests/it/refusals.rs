@@ -1,0 +1,351 @@
+//! What is refused, in the order of the options, the machine and the ops.
+
+use crate::support::{DIALECTS, Given, block, issues, issues_with, needed, recipe};
+use vcutc_backend_api::backend::{BackendIssue, MachineMismatch, OptionValue};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, Axis, Op, PlacedFrame, Program, Ready, Site};
+use vcutc_backend_api::profile::{LineNumbers, Profile};
+use vcutc_backend_api::testkit::{CellRecipe, Recipe};
+use vcutc_backend_api::units::{AngularSpeed, Duration, Length, Speed};
+
+fn with(dialect: &'static str, more: &[Given]) -> Vec<Given> {
+    let mut given = needed(dialect);
+    given.extend_from_slice(more);
+    given
+}
+
+/// What the issues are about, in a few words each.
+fn told(issues: &[BackendIssue]) -> Vec<&str> {
+    issues
+        .iter()
+        .map(|issue| match issue {
+            BackendIssue::WrongMachine { .. } => "machine",
+            BackendIssue::MissingMachineField { field, .. } => field,
+            BackendIssue::OptionConflict { key, .. } | BackendIssue::Profile { key, .. } => key,
+            BackendIssue::Unsupported { what, .. } | BackendIssue::OutOfRange { what, .. } => what,
+        })
+        .collect()
+}
+
+fn cell(recipe: CellRecipe) -> Program {
+    Recipe {
+        cell: recipe,
+        ..Recipe::default()
+    }
+    .program()
+}
+
+#[test]
+fn nothing_is_refused_that_can_be_said() {
+    for dialect in DIALECTS {
+        assert_eq!(issues(recipe().program(), &needed(dialect)), [], "{dialect}");
+    }
+}
+
+#[test]
+fn robots() {
+    let found = issues(Recipe::default().program(), &needed("fanuc"));
+    assert!(
+        matches!(
+            found.as_slice(),
+            [BackendIssue::WrongMachine {
+                mismatch: MachineMismatch::Kind,
+                ..
+            }]
+        ),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn codes_that_only_the_builder_knows() {
+    let alone = |dialect| vec![("dialect", OptionValue::Choice(dialect))];
+    for (dialect, should) in [
+        ("linuxcnc", vec!["tcp_on", "tcp_off"]),
+        ("fanuc", vec!["on_code", "off_code"]),
+        ("sinumerik", vec![]),
+        ("heidenhain", vec!["on_code", "off_code"]),
+    ] {
+        let found = issues(recipe().program(), &alone(dialect));
+        assert_eq!(told(&found), should, "{dialect}");
+    }
+    let waits = || {
+        cell(CellRecipe {
+            ready: Ready::Input(7),
+            ..CellRecipe::five_axis()
+        })
+    };
+    for (dialect, should) in [
+        ("linuxcnc", vec![]),
+        ("fanuc", vec!["ready_code"]),
+        ("sinumerik", vec![]),
+        ("heidenhain", vec![]),
+    ] {
+        assert_eq!(told(&issues(waits(), &needed(dialect))), should, "{dialect}");
+        let given = with(dialect, &[("ready_code", block("M52"))]);
+        assert_eq!(issues(waits(), &given), [], "{dialect}");
+        // This machine is ready after a time.
+        assert_eq!(
+            told(&issues(recipe().program(), &given)),
+            ["ready_code"],
+            "{dialect}"
+        );
+    }
+}
+
+#[test]
+fn codes_that_have_no_use_or_half_of_one() {
+    for dialect in ["fanuc", "sinumerik", "heidenhain"] {
+        let given = with(dialect, &[("tcp_on", block("M429"))]);
+        assert_eq!(told(&issues(recipe().program(), &given)), ["tcp_on"], "{dialect}");
+    }
+    let half = with("linuxcnc", &[("on_code", block("M101"))]);
+    assert_eq!(told(&issues(recipe().program(), &half)), ["off_code"]);
+}
+
+#[test]
+fn codes_that_are_no_block() {
+    for text in ["", "   ", "M50\nG0 X0", "M\u{fc}", &"M50 ".repeat(40)] {
+        let given = with("heidenhain", &[("on_code", block(text))]);
+        assert_eq!(told(&issues(recipe().program(), &given)), ["on_code"], "{text:?}");
+    }
+    let two = OptionValue::Lines(vec!["M50".to_owned(), "M51".to_owned()]);
+    assert_eq!(
+        told(&issues(recipe().program(), &with("fanuc", &[("on_code", two)]))),
+        ["on_code"]
+    );
+}
+
+#[test]
+fn rounding_and_decimals_that_a_dialect_lacks() {
+    let given = with(
+        "heidenhain",
+        &[("approximation", OptionValue::Length(Length::mm(1.0)))],
+    );
+    assert_eq!(told(&issues(recipe().program(), &given)), ["approximation"]);
+    for (dialect, decimals, fits) in [
+        ("fanuc", 4, true),
+        ("fanuc", 5, false),
+        ("heidenhain", 5, false),
+        ("linuxcnc", 6, true),
+    ] {
+        let given = with(dialect, &[("decimals", OptionValue::Integer(decimals))]);
+        let found = issues(recipe().program(), &given);
+        assert_eq!(found.is_empty(), fits, "{dialect} {decimals}: {found:?}");
+    }
+}
+
+#[test]
+fn profiles_that_a_dialect_cannot_follow() {
+    let refused = |dialect, profile| {
+        let found = issues_with(recipe().program(), &needed(dialect), profile);
+        let of_profile = |issue: &BackendIssue| matches!(issue, BackendIssue::Profile { .. });
+        assert!(found.iter().all(of_profile), "{found:?}");
+        told(&found).join(" ")
+    };
+    let numbers = |start, step| Profile {
+        line_numbers: Some(LineNumbers { start, step }),
+        ..Profile::default()
+    };
+    assert_eq!(refused("heidenhain", numbers(0, 1)), "line_numbers");
+    assert_eq!(refused("fanuc", numbers(10, 0)), "line_numbers");
+    assert_eq!(refused("fanuc", numbers(100_000, 1)), "line_numbers");
+    assert_eq!(refused("fanuc", numbers(0, 10)), "");
+    let profile = Profile {
+        header: vec!["M8\nM3".to_owned()],
+        footer: vec!["x".repeat(300)],
+        extension: Some("../nc".to_owned()),
+        decimals: Some(6),
+        ..Profile::default()
+    };
+    assert_eq!(refused("fanuc", profile), "decimals header footer extension");
+}
+
+#[test]
+fn machines_that_lack_something() {
+    let mut program = recipe().program();
+    let cell = program.cell.as_mut().unwrap();
+    cell.axes[3].rate = None;
+    assert_eq!(
+        told(&issues(program.clone(), &needed("linuxcnc"))),
+        ["home_speed"]
+    );
+    assert_eq!(issues(program, &needed("fanuc")), []);
+
+    let silent = cell_without_generator();
+    assert_eq!(told(&issues(silent, &needed("sinumerik"))), ["ultrasonic"]);
+
+    let mut homeless = recipe().program();
+    homeless.cell.as_mut().unwrap().home = None;
+    homeless.ops.retain(|op| !matches!(op.action, Action::Home));
+    assert_eq!(told(&issues(homeless, &needed("sinumerik"))), ["home"]);
+}
+
+/// A program without any cut, since no program cuts with a silent blade.
+fn cell_without_generator() -> Program {
+    Recipe {
+        layers: 0,
+        cell: CellRecipe {
+            ultrasonic: None,
+            ..CellRecipe::five_axis()
+        },
+        ..Recipe::default()
+    }
+    .program()
+}
+
+#[test]
+fn spindles_without_a_letter() {
+    let spindle = |given: &[Given]| {
+        let mut program = recipe().program();
+        let cell = program.cell.as_mut().unwrap();
+        cell.axes.push(Axis {
+            name: "S".to_owned(),
+            ..cell.axes[4].clone()
+        });
+        issues(program, given)
+    };
+    let given = |letter| with("sinumerik", &[("spindle_axis", OptionValue::Choice(letter))]);
+    assert_eq!(told(&spindle(&needed("sinumerik"))), ["spindle_axis"]);
+    assert_eq!(told(&spindle(&given("a"))), ["spindle_axis"]);
+    assert_eq!(spindle(&given("c")), []);
+}
+
+#[test]
+fn tools_beside_the_spindle_and_numbers_beyond_the_tables() {
+    let tool = |x, y, number| {
+        let five_axis = CellRecipe::five_axis();
+        let mut tool = five_axis.tool;
+        tool.frame.origin = Point3::new(x, y, 310.0);
+        cell(CellRecipe {
+            tool: PlacedFrame { number, ..tool },
+            ..five_axis
+        })
+    };
+    assert_eq!(issues(tool(0.0004, 0.0, None), &needed("fanuc")), []);
+    let found = issues(tool(0.25, -3.0, Some(1000)), &needed("fanuc"));
+    assert_eq!(told(&found), ["tool number", "tool X", "tool Y"]);
+    assert!(
+        matches!(&found[1], BackendIssue::OutOfRange { value, allowed, .. }
+            if value == "0.25 mm" && allowed == "-0.0005 to 0.0005 mm"),
+        "{found:?}"
+    );
+    for (dialect, last) in [("linuxcnc", 9), ("fanuc", 54), ("sinumerik", 99)] {
+        let base = |number| {
+            let five_axis = CellRecipe::five_axis();
+            let base = PlacedFrame {
+                number: Some(number),
+                ..five_axis.base
+            };
+            cell(CellRecipe { base, ..five_axis })
+        };
+        assert_eq!(issues(base(last), &needed(dialect)), [], "{dialect}");
+        assert_eq!(told(&issues(base(last + 1), &needed(dialect))), ["base number"]);
+    }
+}
+
+#[test]
+fn signals_beyond_the_control() {
+    let signals = |output, input| {
+        cell(CellRecipe {
+            ultrasonic: Some(output),
+            ready: Ready::Input(input),
+            ..CellRecipe::five_axis()
+        })
+    };
+    assert_eq!(issues(signals(63, 63), &needed("linuxcnc")), []);
+    assert_eq!(
+        told(&issues(signals(64, 64), &needed("linuxcnc"))),
+        ["output number", "input number"]
+    );
+    let own = [
+        ("on_code", block("M101")),
+        ("off_code", block("M102")),
+        ("ready_code", block("M103")),
+    ];
+    assert_eq!(issues(signals(64, 64), &with("linuxcnc", &own)), []);
+}
+
+#[test]
+fn speeds_and_times_that_cannot_be_said() {
+    let slow = Recipe {
+        cut_feed: Speed::mm_per_s(0.0005),
+        ..recipe()
+    };
+    assert_eq!(told(&issues(slow.program(), &needed("fanuc"))), ["tip speed"]);
+    assert_eq!(issues(slow.program(), &needed("linuxcnc")), []);
+    let fast = Recipe {
+        travel_feed: Speed::mm_per_s(1700.0),
+        ..recipe()
+    };
+    assert_eq!(
+        told(&issues(fast.program(), &needed("heidenhain"))),
+        ["tip speed"]
+    );
+    let creeping = Recipe {
+        rate: AngularSpeed::deg_per_s(0.001),
+        ..recipe()
+    };
+    assert_eq!(
+        told(&issues(creeping.program(), &needed("fanuc"))),
+        ["reorientation rate", "tip speed"]
+    );
+    let patient = Recipe {
+        dwell: Some(Duration::s(86_401.0)),
+        ..recipe()
+    };
+    assert_eq!(
+        told(&issues(patient.program(), &needed("fanuc"))),
+        ["waiting time"]
+    );
+}
+
+#[test]
+fn coordinates_beyond_the_digits() {
+    let far = |width| {
+        let mut recipe = recipe();
+        recipe.stock.width = Length::mm(2.0 * width);
+        recipe.step = Length::mm(width);
+        recipe.layers = 1;
+        recipe.cuts = 1;
+        recipe.program()
+    };
+    let fine = with("fanuc", &[("decimals", OptionValue::Integer(4))]);
+    assert_eq!(issues(far(9_000.0), &fine), []);
+    let found = issues(far(40_000.0), &fine);
+    assert!(told(&found).contains(&"X"), "{found:?}");
+    assert_eq!(issues(far(40_000.0), &needed("fanuc")), []);
+}
+
+#[test]
+fn numbers_of_programs_that_are_the_builders() {
+    let number = |number| {
+        let given = with("fanuc", &[("program_number", OptionValue::Integer(number))]);
+        told(&issues(recipe().program(), &given)).join(" ")
+    };
+    assert_eq!(number(7998), "");
+    assert_eq!(number(7999), "program_number");
+    let elsewhere = with("linuxcnc", &[("program_number", OptionValue::Integer(9999))]);
+    assert_eq!(issues(recipe().program(), &elsewhere), []);
+}
+
+#[test]
+fn changes_of_the_blade() {
+    let mut program = Recipe {
+        operations: 2,
+        ..recipe()
+    }
+    .program();
+    program.operations[1].blade.name = "other".to_owned();
+    program.ops.push(Op {
+        site: Site::Program,
+        action: Action::ToolChange { tool: 2 },
+    });
+    assert_eq!(
+        told(&issues(program, &needed("heidenhain"))),
+        [
+            "a change of the blade within the program",
+            "a tool change within the program"
+        ]
+    );
+}
