@@ -11,7 +11,9 @@ mod support;
 
 mod dialect;
 mod never;
+mod oddities;
 mod parts;
+mod read_back;
 mod refusals;
 mod round_trip;
 mod snapshots;
