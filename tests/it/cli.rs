@@ -6,6 +6,8 @@ mod kinematics;
 mod machines;
 mod place;
 mod refusals;
+#[cfg(feature = "krl")]
+mod verify;
 
 use std::fs;
 use std::io::Write;

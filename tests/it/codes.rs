@@ -24,13 +24,13 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
 #[test]
 fn every_code_has_a_failing_example() {
     // By their names: one of them is no text.
-    let folders = ["tests/check/err", "tests/process/err"];
+    let folders = ["tests/check/err", "tests/process/err", "tests/verify"];
     let entries = folders
         .iter()
         .flat_map(|folder| fs::read_dir(root().join(folder)).unwrap());
     let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let examples: BTreeSet<String> = names
-        .filter(|name| name.ends_with(".vcut"))
+        .filter(|name| name.starts_with("VC") && (name.ends_with(".vcut") || name.ends_with(".diff")))
         .filter_map(|name| Some(name.get(..6)?.to_owned()))
         .collect();
     let tested: BTreeSet<&str> = WITHOUT_A_JOB.iter().map(|(code, ..)| code.number()).collect();

@@ -1,29 +1,10 @@
 //! The examples that people start from.
 
 use crate::krl_text;
-use crate::pipeline::{Files, all_diagnostics, compile, emit, fixed, numbers, told};
-use crate::repository::{files, root};
+use crate::pipeline::{all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, told};
+use crate::shop::{DIALECTS, FAILING, NOT_ON, Pairing, compiling, folder, folder_for, jobs};
 use std::collections::BTreeSet;
-
-/// The examples that are meant to fail, with the codes they show.
-const FAILING: &[(&str, &[&str])] = &[
-    ("broken.vcut", &["VC0102", "VC0201", "VC0203", "VC0205", "VC0209"]),
-    ("out_of_reach.vcut", &["VC0510"]),
-    ("too_deep.vcut", &["VC0401"]),
-];
-
-/// The jobs among the examples: what lies in their folder itself, without the files they use.
-fn jobs() -> Vec<(String, String)> {
-    let jobs = files("examples", ".vcut").into_iter().filter_map(|file| {
-        let name = file.path.strip_prefix("examples/")?.to_owned();
-        (!name.contains('/')).then_some((name, file.text))
-    });
-    jobs.collect()
-}
-
-fn folder() -> Files {
-    Files::of(root().join("examples"))
-}
+use vcutc::registry;
 
 #[test]
 fn examples_say_what_they_are_and_what_they_show() {
@@ -37,10 +18,7 @@ fn examples_say_what_they_are_and_what_they_show() {
 
 #[test]
 fn examples_compile_and_say_what_was_planned() {
-    for (name, _) in jobs() {
-        if FAILING.iter().any(|(failing, _)| *failing == name) {
-            continue;
-        }
+    for (name, _) in compiling() {
         let outcome = compile(&name, &folder());
         let messages = told(&all_diagnostics(&outcome), &outcome);
         assert_eq!(messages, "", "{name}");
@@ -48,32 +26,66 @@ fn examples_compile_and_say_what_was_planned() {
     }
 }
 
-/// The files of the examples with an ABB arm in place of the large KUKA.
-fn folder_with_abb() -> Files {
-    let files = files("examples", ".vcut").into_iter();
-    files.fold(folder(), |all, file| {
-        let text = file
-            .text
-            .replace("kuka/kr210_r3100_ultra", "abb/irb6700_155_285")
-            .replace(
-                "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
-                "joints(0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg)",
-            );
-        match file.path.strip_prefix("examples/") {
-            Some(name) if text != file.text && text.contains("irb6700") => all.with(name, text),
-            Some(_) | None => all,
+/// Every machine of the shop carries out every example that it is meant for, and the target that drives it writes it.
+#[test]
+fn examples_compile_for_every_machine_and_target() {
+    let mut programs = 0;
+    for (name, pairings) in compiling() {
+        for Pairing { machine, target } in pairings {
+            let outcome = compile_on(machine, &name, &folder());
+            assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name} on {machine:?}");
+            for backend in registry::backends() {
+                let refused = emit_for(backend, &outcome).err().unwrap_or_default();
+                if backend.id() == target {
+                    assert_eq!(told(&refused, &outcome), "", "{name} on {machine:?}");
+                    programs += 1;
+                } else {
+                    assert_eq!(
+                        numbers(&refused),
+                        ["VC0607"],
+                        "{name} on {machine:?} for {}",
+                        backend.id()
+                    );
+                }
+            }
         }
-    })
+    }
+    let pairings = || compiling().into_iter().flat_map(|(_, pairings)| pairings);
+    // Eight jobs for KRL, six of them for RAPID, and eleven pairings with gantries for G-code.
+    assert_eq!(pairings().count(), 8 + 6 + 11);
+    let is_built = |pairing: &Pairing| registry::backend(pairing.target).is_some();
+    assert_eq!(programs, pairings().filter(is_built).count());
+}
+
+#[cfg(feature = "gcode")]
+#[test]
+fn examples_compile_for_every_dialect_of_g_code() {
+    let mut programs = 0;
+    for &(dialect, _) in DIALECTS {
+        let files = folder_for(dialect);
+        for (name, pairings) in compiling() {
+            for Pairing { machine, .. } in pairings.iter().filter(|pairing| pairing.target == "gcode") {
+                let outcome = compile_on(*machine, &name, &files);
+                let target = registry::backend("gcode").unwrap();
+                let refused = emit_for(target, &outcome).err().unwrap_or_default();
+                assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name} on {machine:?}");
+                assert_eq!(
+                    told(&refused, &outcome),
+                    "",
+                    "{name} on {machine:?} for {dialect}"
+                );
+                programs += 1;
+            }
+        }
+    }
+    assert_eq!(programs, DIALECTS.len() * 11);
 }
 
 #[test]
-fn examples_are_within_reach_of_an_abb_too() {
-    for (name, _) in jobs() {
-        if FAILING.iter().any(|(failing, _)| *failing == name) {
-            continue;
-        }
-        let outcome = compile(&name, &folder_with_abb());
-        assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name}");
+fn examples_are_refused_by_machines_that_cannot_hold_the_blade() {
+    for &(name, machine) in NOT_ON {
+        let outcome = compile_on(Some(machine), name, &folder());
+        assert_eq!(numbers(&outcome.diagnostics), ["VC0516"], "{name} on {machine}");
     }
 }
 

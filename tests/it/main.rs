@@ -22,6 +22,8 @@ mod jobs;
 mod kinematics;
 #[cfg(feature = "krl")]
 mod krl_text;
+#[cfg(feature = "krl")]
+mod mutations;
 mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]
@@ -31,11 +33,17 @@ mod process_errors;
 mod published;
 #[cfg(feature = "krl")]
 mod reach;
+#[cfg(all(feature = "gcode", feature = "krl"))]
+mod referees;
 mod repository;
 mod schema;
 #[cfg(feature = "krl")]
 mod serial_arm;
+#[cfg(feature = "krl")]
+mod shop;
 mod status;
 mod syntax;
 mod third_party;
 mod tidy;
+#[cfg(feature = "krl")]
+mod verify;

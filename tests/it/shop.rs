@@ -1,0 +1,106 @@
+//! The examples' shop: its jobs, its machines, and the controls that its gantries may have.
+
+use crate::pipeline::Files;
+use crate::repository::{files, root};
+
+/// The examples that are meant to fail, with the codes they show.
+pub(crate) const FAILING: &[(&str, &[&str])] = &[
+    ("broken.vcut", &["VC0102", "VC0201", "VC0203", "VC0205", "VC0209"]),
+    ("out_of_reach.vcut", &["VC0510"]),
+    ("too_deep.vcut", &["VC0401"]),
+];
+
+/// The machines of the shop, with the target that drives each.
+const CELLS: &[(&str, &str)] = &[
+    ("large_cell", "krl"),
+    ("abb_cell", "rapid"),
+    ("gantry", "gcode"),
+    ("knife_gantry", "gcode"),
+];
+
+/// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself.
+pub(crate) const NOT_ON: &[(&str, &str)] = &[("spoiler_rae2822.vcut", "gantry")];
+
+/// The dialects of G-code, each with the options that a gantry under such a control has. M codes of Fanuc and Heidenhain
+/// controls are their builder's.
+pub(crate) const DIALECTS: &[(&str, &str)] = &[
+    (
+        "linuxcnc",
+        r#"dialect = linuxcnc approximation = 2 mm tcp_on = ("M429") tcp_off = ("M428")"#,
+    ),
+    (
+        "fanuc",
+        r#"dialect = fanuc approximation = 2 mm on_code = ("M50") off_code = ("M51")"#,
+    ),
+    ("sinumerik", "dialect = sinumerik approximation = 2 mm"),
+    (
+        "heidenhain",
+        r#"dialect = heidenhain on_code = ("M50") off_code = ("M51")"#,
+    ),
+];
+
+/// An example on a machine that can cut it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pairing {
+    /// The machine of the shop; none when the job has one of its own.
+    pub(crate) machine: Option<&'static str>,
+    /// The target that drives it.
+    pub(crate) target: &'static str,
+}
+
+/// The jobs among the examples, name and text: what lies in their folder itself, without the files they use.
+pub(crate) fn jobs() -> Vec<(String, String)> {
+    let jobs = files("examples", ".vcut").into_iter().filter_map(|file| {
+        let name = file.path.strip_prefix("examples/")?.to_owned();
+        (!name.contains('/')).then_some((name, file.text))
+    });
+    jobs.collect()
+}
+
+/// The examples that compile, each with the machines that can cut it.
+pub(crate) fn compiling() -> Vec<(String, Vec<Pairing>)> {
+    let is_meant_to_fail = |name: &str| FAILING.iter().any(|&(failing, _)| failing == name);
+    let with_machines = jobs().into_iter().filter_map(|(name, text)| {
+        if is_meant_to_fail(&name) {
+            return None;
+        }
+        let machines = if text.contains("shop/cells.vcut") {
+            let able = CELLS
+                .iter()
+                .filter(|(machine, _)| !NOT_ON.contains(&(name.as_str(), machine)));
+            let pairing = |&(machine, target)| Pairing {
+                machine: Some(machine),
+                target,
+            };
+            able.map(pairing).collect()
+        } else {
+            let (machine, target) = (None, "krl");
+            vec![Pairing { machine, target }]
+        };
+        Some((name, machines))
+    });
+    with_machines.collect()
+}
+
+/// The files of the examples.
+pub(crate) fn folder() -> Files {
+    Files::of(root().join("examples"))
+}
+
+/// The files of the examples with gantries under that control.
+pub(crate) fn folder_for(dialect: &str) -> Files {
+    const CELLS: &str = "shop/cells.vcut";
+    let (_, options) = DIALECTS.iter().find(|(name, _)| *name == dialect).unwrap();
+    let cells = files("examples", ".vcut")
+        .into_iter()
+        .find(|file| file.path.ends_with(CELLS))
+        .unwrap();
+    let mut blocks = cells.text.split("gcode {");
+    let head = blocks.next().unwrap().to_owned();
+    let text = blocks.fold(head, |text, block| {
+        let (_, rest) = block.split_once('}').unwrap();
+        text + "gcode { " + options + " }" + rest
+    });
+    assert_ne!(text, cells.text);
+    folder().with(CELLS, text)
+}
