@@ -38,6 +38,7 @@
 
 pub mod backend;
 pub mod bundle;
+pub mod confdata;
 pub mod exchange;
 pub mod geometry;
 pub mod ir;
