@@ -8,6 +8,8 @@ pub fn backends() -> Vec<&'static dyn Backend> {
     vec![
         #[cfg(feature = "krl")]
         &vcutc_backend_krl::Krl,
+        #[cfg(feature = "rapid")]
+        &vcutc_backend_rapid::Rapid,
     ]
 }
 
