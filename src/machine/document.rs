@@ -14,7 +14,7 @@ pub(super) struct Wording {
 }
 
 /// Largest document in bytes. Sheets of the catalogue are below 10 000.
-const LARGEST: usize = 1 << 18;
+pub(super) const LARGEST: usize = 1 << 18;
 
 /// Most flaws of one document that are told.
 pub(super) const MOST_FLAWS: usize = 20;
