@@ -6,6 +6,8 @@ use vcutc_backend_api::backend::Backend;
 #[must_use]
 pub fn backends() -> Vec<&'static dyn Backend> {
     vec![
+        #[cfg(feature = "gcode")]
+        &vcutc_backend_gcode::Gcode,
         #[cfg(feature = "krl")]
         &vcutc_backend_krl::Krl,
     ]

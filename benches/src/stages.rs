@@ -69,7 +69,7 @@ pub fn parse(text: &str) -> Ast {
 pub fn check(text: &str) -> (SourceMap, CheckedJob) {
     let mut sources = SourceMap::default();
     let mut diagnostics = Vec::new();
-    let checked = sema::check(PATH, &OneText(text), &[], &mut sources, &mut diagnostics);
+    let checked = sema::check(PATH, &OneText(text), sema::Choices::default(), &mut sources, &mut diagnostics);
     let (_, job) = checked.expect("the text is there");
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
     (sources, job.expect("the job is right"))

@@ -19,6 +19,8 @@ Examples:
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
                                           All axis values that bring the flange there
   vcutc targets                           See what programs can be written, and with which options
+  vcutc verify rib.vcut out/rib.src out/rib.dat
+                                          See whether a program still is what its job says
 
 Exit status:
   0  all is well
@@ -148,6 +150,28 @@ pub(super) enum Command {
         /// A target; without it, the list
         target: Option<String>,
     },
+    /// Hold a program against the job that it was made from
+    ///
+    /// Compiles the job, reads the program as its controller would, and tells every operation that is not the job's: at its
+    /// line of the program and at its place in the job. Comments and layout may differ. Nothing is written.
+    Verify(VerifyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct VerifyArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// All files of one program, in any order
+    #[arg(required = true, value_name = "PROGRAM")]
+    pub(super) programs: Vec<String>,
+
+    /// The target that the program was written for [default: the one whose files have such names]
+    #[arg(short, long, value_name = "TARGET")]
+    pub(super) target: Option<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
 }
 
 /// A machine and the frames between its flange and the blade, its root and the work.
@@ -207,7 +231,8 @@ impl CompileArgs {
         let output = self.output.as_ref().map(|_| "--output".to_owned());
         let emit = self.emit.map(|_| "--emit".to_owned());
         let set = self.overrides.set.first().map(|_| "--set".to_owned());
-        job.or(target).or(output).or(emit).or(set)
+        let machine = self.overrides.machine.as_ref().map(|_| "--machine".to_owned());
+        job.or(target).or(output).or(emit).or(set).or(machine)
     }
 }
 
@@ -252,6 +277,7 @@ pub(super) struct PlaceArgs {
     pub(super) overrides: Overrides,
 }
 
+/// What the command line says over what the job says.
 #[derive(Debug, Args)]
 pub(super) struct Overrides {
     /// Replace the value of a `let` of the job; can be given several times
@@ -259,6 +285,12 @@ pub(super) struct Overrides {
     /// The value is written as in the job, with its unit: --set width=90mm, --set 'height = 2 in'.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub(super) set: Vec<String>,
+
+    /// Cut on this machine of the job, whatever its `cell` block says
+    ///
+    /// For jobs that see several machines, such as all cells of a shop.
+    #[arg(long, value_name = "NAME")]
+    pub(super) machine: Option<String>,
 }
 
 /// Where targets outside of the compiler are, and how long they may take.

@@ -1,6 +1,6 @@
 //! `vcutc JOB` and `vcutc check JOB...`: jobs through the pipeline.
 
-use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm};
+use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::inner::{self, Progressed};
@@ -39,7 +39,7 @@ pub(super) fn compile(args: &CompileArgs, targets: &Targets, console: &Console) 
     // Without a job clap has printed the help already.
     let job = args.job.as_deref().unwrap_or_default();
     match product(args, targets) {
-        Ok(product) => judge(job, &args.overrides.set, targets, &product, console),
+        Ok(product) => judge(job, &args.overrides, targets, &product, console),
         Err(failure) => console.failure(&failure),
     }
 }
@@ -49,7 +49,7 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
     let product = Product::Verdict { remark: None };
     args.jobs
         .iter()
-        .map(|job| judge(job, &args.overrides.set, targets, &product, console))
+        .map(|job| judge(job, &args.overrides, targets, &product, console))
         .max()
         .unwrap_or(Exit::Success)
 }
@@ -87,13 +87,14 @@ fn inner_destination(output: Option<&str>) -> Destination {
 }
 
 /// Takes one job through the pipeline and tells what came of it.
-fn judge(job: &str, overrides: &[String], targets: &Targets, product: &Product, console: &Console) -> Exit {
+fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product, console: &Console) -> Exit {
     let disk = Disk::around(job);
     let mut progress = Progress::start(console.shows_progress());
     let request = Request {
         path: disk.job(),
         loader: &disk,
-        overrides,
+        overrides: &overrides.set,
+        machine: overrides.machine.as_deref(),
         targets,
     };
     let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
@@ -208,7 +209,7 @@ fn published(output: Output) -> Result<Made, Failure> {
     })
 }
 
-fn unreadable(job: &str, reason: &str) -> Failure {
+pub(super) fn unreadable(job: &str, reason: &str) -> Failure {
     let failure = Failure::new(format!("cannot read the job {job}: {reason}"));
     match Arguments::command_near(job) {
         Some(command) => failure.help(format!("did you mean the command `vcutc {command}`?")),

@@ -8,7 +8,7 @@ use super::console::{Console, Failure};
 use super::files::Disk;
 use crate::diag::Code;
 use crate::machine::facts::{Dynamics, Facts, FkCheck};
-use crate::machine::flaw::Flaw;
+use crate::document::flaw::Flaw;
 use crate::machine::sheet::{self, Sheet};
 use crate::machine::{self, FileKind, Model, Origin, catalogue};
 use crate::source::{Loader, SourceMap, text_from_bytes};

@@ -19,6 +19,7 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
         path: disk.job(),
         loader: &disk,
         overrides: &args.overrides.set,
+        machine: args.overrides.machine.as_deref(),
         targets,
     };
     let asked = Asked {

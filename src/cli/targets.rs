@@ -106,6 +106,9 @@ fn description(backend: &dyn Backend) -> String {
             options.iter().for_each(|spec| describe_option(&mut text, spec));
         }
     }
+    if backend.reader().is_none() {
+        text.push_str("\n  Its programs are not read back: nobody here can read them.\n");
+    }
     text.push('\n');
     text
 }

@@ -140,7 +140,10 @@ fn prepare(
     let (_, job) = sema::check(
         request.path,
         request.loader,
-        request.overrides,
+        sema::Choices {
+            overrides: request.overrides,
+            machine: request.machine,
+        },
         sources,
         &mut diagnostics,
     )

@@ -4,7 +4,7 @@ use super::files::{not_loaded, text_of};
 use super::report::Checked;
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
-use crate::machine::flaw::Flaw;
+use crate::document::flaw::Flaw;
 use crate::source::Span;
 
 /// What a file describes. Its flaws are told under a code, each with the place where the file is named.

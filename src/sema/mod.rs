@@ -41,42 +41,54 @@ mod tests;
 
 use crate::diag::{Diagnostic, has_errors};
 use crate::job::{CheckedJob, Operation};
-use crate::source::{LoadError, Loader, SourceMap};
+use crate::source::{LoadError, Loader, SourceMap, Spanned};
 use crate::syntax::ast::Ast;
 use eval::Scope;
 use files::{File, Files};
 use missing::Missing;
-use overrides::Overrides;
+use overrides::{Overrides, keep_fixes_to_files};
 use report::Checked;
 use session::Session;
+
+/// What the command line says about a job, over what the job's files say.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Choices<'a> {
+    /// Texts of the form `name=value` that replace `let`s.
+    pub overrides: &'a [String],
+    /// The name of the machine to cut on.
+    pub machine: Option<&'a str>,
+}
 
 /// Loads a job and everything it uses, and works out what it means.
 ///
 /// Gives the root file's tree, and the job when it is without errors of meaning. What there is to tell goes to
-/// `diagnostics` in the order of the source, file by file; all texts go to `sources`. `overrides` are texts of the
-/// form `name=value`.
+/// `diagnostics` in the order of the source, file by file; all texts go to `sources`.
 ///
 /// # Errors
 /// When the root file cannot be loaded.
 pub fn check(
     root: &str,
     loader: &dyn Loader,
-    overrides: &[String],
+    choices: Choices<'_>,
     sources: &mut SourceMap,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(Option<Ast>, Option<CheckedJob>), LoadError> {
     let mut session = Session::new(loader, sources);
     let files = files::load(root, &mut session)?;
-    let overrides = overrides::read(overrides, &mut session);
+    let overrides = overrides::read(choices.overrides, &mut session);
+    let wanted = cell::wanted(choices.machine, &mut session);
     let job = files
         .first()
-        .map(|root| understand(root, &files, &overrides, &mut session));
+        .map(|root| understand(root, &files, &overrides, wanted.as_ref(), &mut session));
     let mut found = session.reports.into_vec();
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
     let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
     cut_short(&mut found);
     for diagnostic in &mut found {
         overrides.keep_fixes_to_files(diagnostic);
+        if let Some(wanted) = &wanted {
+            keep_fixes_to_files(diagnostic, |file| file == wanted.span.file);
+        }
     }
     diagnostics.append(&mut found);
     let tree = files.into_iter().next().map(|file| file.ast);
@@ -102,6 +114,7 @@ fn understand(
     root: &File,
     files: &Files,
     overrides: &Overrides,
+    wanted: Option<&Spanned<String>>,
     session: &mut Session<'_>,
 ) -> Checked<CheckedJob> {
     let all = gather::gather(files, overrides, session);
@@ -157,7 +170,10 @@ fn understand(
         operations.into_iter().collect()
     };
     let machine = cell::choose(
-        all.cell,
+        cell::Said {
+            on_the_command_line: wanted,
+            in_the_job: all.cell,
+        },
         &all.machines,
         &machines,
         missing.anchor(),

@@ -28,16 +28,19 @@ pub(crate) struct Overrides {
 }
 
 impl Overrides {
-    /// Turns fixes that would change the command line, which nothing can do but the user, into help.
+    /// Turns fixes that would change a `--set` into help.
     pub(crate) fn keep_fixes_to_files(&self, diagnostic: &mut Diagnostic) {
-        let is_typed = |fix: &Fix| fix.edits.iter().any(|edit| self.texts.contains(&edit.span.file));
-        let (typed, fixes) = core::mem::take(&mut diagnostic.fixes)
-            .into_iter()
-            .partition(is_typed);
-        diagnostic.fixes = fixes;
-        let typed: Vec<Fix> = typed;
-        diagnostic.help.extend(typed.into_iter().map(|fix| fix.title));
+        keep_fixes_to_files(diagnostic, |file| self.texts.contains(&file));
     }
+}
+
+/// Turns fixes that would change the command line, which nothing can do but the user, into help.
+pub(crate) fn keep_fixes_to_files(diagnostic: &mut Diagnostic, is_typed: impl Fn(FileId) -> bool) {
+    let (typed, fixes): (Vec<Fix>, _) = core::mem::take(&mut diagnostic.fixes)
+        .into_iter()
+        .partition(|fix| fix.edits.iter().any(|edit| is_typed(edit.span.file)));
+    diagnostic.fixes = fixes;
+    diagnostic.help.extend(typed.into_iter().map(|fix| fix.title));
 }
 
 /// Reads all `--set`s.

@@ -1,6 +1,6 @@
 //! Tests of the checks as a whole: expressions against an independent evaluator, and jobs that try to be a burden.
 
-use super::check;
+use super::{Choices, check};
 use crate::diag::{Code, Diagnostic, fix};
 use crate::job::{Auto, CheckedJob, Operation, Sourced};
 use crate::source::{LoadError, Loader, SourceMap};
@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use vcutc_backend_api::units::Length;
 
 /// Files in memory.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Files(BTreeMap<String, Vec<u8>>);
 
 impl Files {
@@ -21,11 +21,25 @@ impl Files {
 
     fn check(&self, overrides: &[&str]) -> (Vec<Diagnostic>, Option<CheckedJob>) {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        self.check_with(Choices {
+            overrides: &overrides,
+            machine: None,
+        })
+    }
+
+    fn check_on(&self, machine: &str) -> (Vec<Diagnostic>, Option<CheckedJob>) {
+        self.check_with(Choices {
+            overrides: &[],
+            machine: Some(machine),
+        })
+    }
+
+    fn check_with(&self, choices: Choices<'_>) -> (Vec<Diagnostic>, Option<CheckedJob>) {
         let mut diagnostics = Vec::new();
         let (_, job) = check(
             "job.vcut",
             self,
-            &overrides,
+            choices,
             &mut SourceMap::default(),
             &mut diagnostics,
         )
@@ -73,7 +87,7 @@ fn a_missing_root_is_the_callers_affair() {
     let outcome = check(
         "job.vcut",
         &Files::default(),
-        &[],
+        Choices::default(),
         &mut SourceMap::default(),
         &mut Vec::new(),
     );
@@ -156,7 +170,7 @@ fn a_chain_of_files_without_end_is_refused() {
     check(
         "1.vcut",
         &Endless,
-        &[],
+        Choices::default(),
         &mut SourceMap::default(),
         &mut diagnostics,
     )
@@ -175,6 +189,58 @@ fn the_command_line_replaces_a_let_wherever_it_is() {
     assert_eq!(codes(&files.check(&["g=2 deg"]).0), [Code::WrongDimension]);
     assert_eq!(codes(&files.check(&["b=2 mm"]).0), [Code::BadOverride]);
     assert_eq!(codes(&files.check(&["=2 mm"]).0), [Code::BadOverride]);
+}
+
+/// A cell of that name.
+fn cell_named(name: &str) -> String {
+    let frame = "frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)";
+    format!("machine {name} = robot \"kuka/kr210_r3100_ultra\" {{ tool = {frame} base = {frame} }}\n")
+}
+
+#[test]
+fn the_command_line_chooses_among_all_machines_of_the_job() {
+    let machine_of = |job: Option<CheckedJob>| job.unwrap().machine.unwrap().name;
+    let shop = cell_named("left") + &cell_named("right");
+    let own = job(&("use \"shop.vcut\"\n".to_owned() + &cell_named("own")), "4 mm");
+    let files = Files::default()
+        .with("job.vcut", own.clone())
+        .with("shop.vcut", shop);
+    assert_eq!(machine_of(files.check(&[]).1), "own");
+    for name in ["own", "left", "right"] {
+        let (diagnostics, job) = files.check_on(name);
+        assert_eq!(codes(&diagnostics), []);
+        assert_eq!(machine_of(job), name);
+    }
+    let with_cell = files.clone().with("job.vcut", own + "\ncell { machine = left }");
+    assert_eq!(machine_of(with_cell.check(&[]).1), "left");
+    assert_eq!(machine_of(with_cell.check_on("right").1), "right");
+}
+
+#[test]
+fn a_machine_of_the_command_line_that_is_none_is_told_of() {
+    let files = Files::default().with("job.vcut", job(&cell_named("left"), "4 mm"));
+    let (diagnostics, checked) = files.check_on("lefd");
+    assert!(checked.is_none());
+    assert_eq!(codes(&diagnostics), [Code::UnknownName]);
+    // Only the user can change what was typed.
+    assert!(diagnostics[0].fixes.is_empty());
+    assert_eq!(diagnostics[0].help, ["did you mean `left`?"]);
+    assert_eq!(codes(&files.check_on("knife").0), [Code::WrongKind]);
+    assert_eq!(codes(&files.check_on("").0), [Code::UnknownName]);
+
+    let none = Files::default().with("job.vcut", job("", "4 mm"));
+    assert_eq!(codes(&none.check_on("left").0), [Code::UnknownName]);
+    let unread = Files::default().with("job.vcut", job("use \"shop.vcut\"", "4 mm"));
+    assert_eq!(codes(&unread.check_on("left").0), [Code::FileNotFound]);
+}
+
+#[test]
+fn a_wrong_cell_block_is_wrong_on_every_machine() {
+    let text = job(&(cell_named("left") + "cell { machine = wright }"), "4 mm");
+    let files = Files::default().with("job.vcut", text);
+    assert_eq!(codes(&files.check_on("left").0), [Code::UnknownName]);
+    let twice = files.check_on("wright").0;
+    assert_eq!(codes(&twice), [Code::UnknownName, Code::UnknownName]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use vcutc::diag::render::{ColorChoice, render};
 use vcutc::diag::{Code, Diagnostic, Fix, fix};
 use vcutc::job::CheckedJob;
-use vcutc::sema::check;
+use vcutc::sema::{Choices, check};
 use vcutc::source::{LoadError, Loader, SourceMap};
 
 /// The files of a folder, with one of them changed.
@@ -46,7 +46,7 @@ impl Outcome {
     }
 }
 
-/// A case: a job file, whose first lines may read `// expect: CODES` and `// set: name=value`.
+/// A case: a job file, whose first lines may read `// expect: CODES`, `// set: name=value` and `// machine: NAME`.
 struct Case {
     folder: PathBuf,
     name: String,
@@ -71,6 +71,12 @@ impl Case {
         lines.map(str::to_owned).collect()
     }
 
+    fn machine(&self) -> Option<&str> {
+        self.text
+            .lines()
+            .find_map(|line| line.strip_prefix("// machine: "))
+    }
+
     fn check(&self, changed: Option<(String, String)>) -> Outcome {
         let loader = Folder {
             path: self.folder.clone(),
@@ -81,7 +87,10 @@ impl Case {
         let (_, job) = check(
             &self.name,
             &loader,
-            &self.overrides(),
+            Choices {
+                overrides: &self.overrides(),
+                machine: self.machine(),
+            },
             &mut sources,
             &mut diagnostics,
         )

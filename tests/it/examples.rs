@@ -1,9 +1,10 @@
 //! The examples that people start from.
 
 use crate::krl_text;
-use crate::pipeline::{Files, all_diagnostics, compile, emit, fixed, numbers, told};
+use crate::pipeline::{Files, all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, told};
 use crate::repository::{files, root};
 use std::collections::BTreeSet;
+use vcutc::registry;
 
 /// The examples that are meant to fail, with the codes they show.
 const FAILING: &[(&str, &[&str])] = &[
@@ -35,12 +36,40 @@ fn examples_say_what_they_are_and_what_they_show() {
     }
 }
 
+/// The machines of the shop, with the target that drives each.
+const CELLS: &[(&str, &str)] = &[
+    ("large_cell", "krl"),
+    ("abb_cell", "rapid"),
+    ("gantry", "gcode"),
+    ("knife_gantry", "gcode"),
+];
+
+/// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself.
+const NOT_ON: &[(&str, &str)] = &[("spoiler_rae2822.vcut", "gantry")];
+
+/// The examples that compile, each with the machines it can be cut on. A job with a machine of its own has no other.
+fn compiling() -> Vec<(String, Vec<(Option<&'static str>, &'static str)>)> {
+    let compiling = jobs()
+        .into_iter()
+        .filter(|(name, _)| FAILING.iter().all(|(failing, _)| failing != name));
+    let with_machines = compiling.map(|(name, text)| {
+        if !text.contains("shop/cells.vcut") {
+            return (name, vec![(None, "krl")]);
+        }
+        let allowed = CELLS
+            .iter()
+            .filter(|(machine, _)| !NOT_ON.contains(&(&*name, machine)));
+        let machines = allowed
+            .map(|&(machine, target)| (Some(machine), target))
+            .collect();
+        (name, machines)
+    });
+    with_machines.collect()
+}
+
 #[test]
 fn examples_compile_and_say_what_was_planned() {
-    for (name, _) in jobs() {
-        if FAILING.iter().any(|(failing, _)| *failing == name) {
-            continue;
-        }
+    for (name, _) in compiling() {
         let outcome = compile(&name, &folder());
         let messages = told(&all_diagnostics(&outcome), &outcome);
         assert_eq!(messages, "", "{name}");
@@ -48,32 +77,38 @@ fn examples_compile_and_say_what_was_planned() {
     }
 }
 
-/// The files of the examples with an ABB arm in place of the large KUKA.
-fn folder_with_abb() -> Files {
-    let files = files("examples", ".vcut").into_iter();
-    files.fold(folder(), |all, file| {
-        let text = file
-            .text
-            .replace("kuka/kr210_r3100_ultra", "abb/irb6700_155_285")
-            .replace(
-                "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
-                "joints(0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg)",
-            );
-        match file.path.strip_prefix("examples/") {
-            Some(name) if text != file.text && text.contains("irb6700") => all.with(name, text),
-            Some(_) | None => all,
+/// Every machine of the shop carries out every example that it is meant for, and the targets that drive it write it.
+#[test]
+fn examples_compile_for_every_machine_and_target() {
+    let mut programs = 0;
+    for (name, machines) in compiling() {
+        for (machine, its_target) in machines {
+            let outcome = compile_on(machine, &name, &folder());
+            assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name} on {machine:?}");
+            for target in registry::backends() {
+                let refused = emit_for(target, &outcome).err().unwrap_or_default();
+                if target.id() == its_target {
+                    assert_eq!(told(&refused, &outcome), "", "{name} on {machine:?}");
+                    programs += 1;
+                } else {
+                    assert_eq!(
+                        numbers(&refused),
+                        ["VC0607"],
+                        "{name} on {machine:?} for {}",
+                        target.id()
+                    );
+                }
+            }
         }
-    })
+    }
+    assert!(programs >= 8, "{programs} programs");
 }
 
 #[test]
-fn examples_are_within_reach_of_an_abb_too() {
-    for (name, _) in jobs() {
-        if FAILING.iter().any(|(failing, _)| *failing == name) {
-            continue;
-        }
-        let outcome = compile(&name, &folder_with_abb());
-        assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name}");
+fn examples_are_refused_by_machines_that_cannot_hold_the_blade() {
+    for &(name, machine) in NOT_ON {
+        let outcome = compile_on(Some(machine), name, &folder());
+        assert_eq!(numbers(&outcome.diagnostics), ["VC0516"], "{name} on {machine}");
     }
 }
 

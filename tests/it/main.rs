@@ -31,6 +31,8 @@ mod process_errors;
 mod published;
 #[cfg(feature = "krl")]
 mod reach;
+#[cfg(feature = "krl")]
+mod referees;
 mod repository;
 mod schema;
 #[cfg(feature = "krl")]

@@ -30,6 +30,7 @@ fn codes(job: &str) -> BTreeSet<Code> {
         path: JOB,
         loader: &Page(job),
         overrides: &[],
+        machine: None,
         targets: &vcutc::registry::backends(),
     };
     let outcome = compile(request, &mut |_| {}).expect("the page itself can be read");

@@ -46,10 +46,16 @@ impl Loader for Files {
 
 /// Compiles a job.
 pub(crate) fn compile(path: &str, files: &Files) -> Outcome {
+    compile_on(None, path, files)
+}
+
+/// Compiles a job on one of its machines.
+pub(crate) fn compile_on(machine: Option<&str>, path: &str, files: &Files) -> Outcome {
     let request = Request {
         path,
         loader: files,
         overrides: &[],
+        machine,
         targets: &vcutc::registry::backends(),
     };
     driver::compile(request, &mut |_| {}).unwrap()
@@ -62,8 +68,13 @@ pub(crate) fn krl() -> &'static dyn Backend {
 
 /// The program of a compiled job, or what stands in its way.
 pub(crate) fn emit(outcome: &Outcome) -> Result<Bundle, Vec<Diagnostic>> {
+    emit_for(krl(), outcome)
+}
+
+/// The program of a compiled job for a target, or what stands in its way.
+pub(crate) fn emit_for(target: &dyn Backend, outcome: &Outcome) -> Result<Bundle, Vec<Diagnostic>> {
     let mut bundle = Bundle::default();
-    match driver::emit(outcome, krl(), &mut bundle) {
+    match driver::emit(outcome, target, &mut bundle) {
         Ok(()) => Ok(bundle),
         Err(EmitFailure::Diagnostics(diagnostics)) => Err(diagnostics),
         Err(EmitFailure::Sink(reason)) => panic!("{reason}"),

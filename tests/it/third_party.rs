@@ -83,6 +83,7 @@ fn compiled(option: &str) -> Outcome {
         path: "job.vcut",
         loader: &files,
         overrides: &[],
+        machine: None,
         targets: &[&ABLE],
     };
     compile(request, &mut |_| {}).unwrap()

@@ -61,11 +61,13 @@ mod keywords;
 mod limits;
 mod module;
 mod options;
+pub mod read;
 
 use crate::attitude::Attitudes;
 use crate::body::Source;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{LINES_PER_PART, OPTIONS, Settings};
+use crate::read::KrlReader;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
@@ -113,7 +115,7 @@ impl Backend for Krl {
     }
 
     fn reader(&self) -> Option<&dyn Reader> {
-        None
+        Some(&KrlReader)
     }
 
     fn check<'p>(

@@ -3,7 +3,7 @@
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::FiveAxis;
 use crate::machine::catalogue;
-use crate::machine::flaw::Flaw;
+use crate::document::flaw::Flaw;
 use crate::machine::sheet::parse;
 use glam::DVec3;
 use vcutc_backend_api::ir::AxisKind;

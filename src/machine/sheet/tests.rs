@@ -1,6 +1,7 @@
 //! Sheets with one fault each, small sheets of users, and sheets meant to do harm.
 
 use super::*;
+use crate::document::{LARGEST, MOST_FLAWS};
 use crate::kinematics::opw::Coupling;
 use crate::machine::document::{LARGEST, MOST_FLAWS};
 use proptest::prelude::*;

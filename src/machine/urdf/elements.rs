@@ -1,6 +1,6 @@
 //! The elements of a URDF: links and joints with their numbers, each flaw at its place in the text.
 
-use super::super::flaw::Flaw;
+use crate::document::flaw::Flaw;
 use super::axis_in_tree;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::JointAxis;

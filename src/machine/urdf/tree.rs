@@ -1,6 +1,6 @@
 //! The tree of a URDF: which joint carries which link, where the robot begins and where it ends.
 
-use super::super::flaw::Flaw;
+use crate::document::flaw::Flaw;
 use super::Flange;
 use super::elements::{self, Joint, Kind, MovingJoint, Named, shortened};
 use crate::kinematics::pose::Pose;

@@ -14,6 +14,9 @@
 mod essence;
 mod judge;
 mod retrace;
+#[cfg(test)]
+#[cfg(feature = "testkit")]
+mod tests;
 
 pub use essence::essence;
 pub use judge::{Judge, Mismatch, Moment, rotary_way};

@@ -81,8 +81,13 @@ impl<'s> Text<'s> {
     /// When the sink does not take it.
     pub fn comment(&mut self, start: &str, words: &str) -> Result<(), SinkError> {
         self.put(start.as_bytes());
-        self.buffer.extend(plain(words, self.layout));
+        self.words(words);
         self.end_line()
+    }
+
+    /// Text that people wrote, within a line.
+    pub fn words(&mut self, words: &str) {
+        self.buffer.extend(plain(words, self.layout));
     }
 
     /// Bytes within a line.

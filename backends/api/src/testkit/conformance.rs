@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 /// * a sink that fails is reported;
 /// * what was written is read back as the program, op by op, where the backend has a reader.
 ///
-/// `samples` are for a machine that the dialect drives ([`super::samples_for`]).
+/// `samples` are for a machine that the dialect drives ([`super::samples_for`], [`super::five_axis_samples`]).
 ///
 /// # Errors
 /// The first promise that is broken, in words.
@@ -25,9 +25,22 @@ pub fn conformance(
     backend: &dyn Backend,
     samples: &[(&'static str, ReachableProgram)],
 ) -> Result<(), String> {
+    conformance_with(backend, samples, &Options::defaults(backend.options()))
+}
+
+/// The same with other options than the defaults, for backends whose machines differ too much to have any.
+///
+/// # Errors
+/// The first promise that is broken, in words.
+pub fn conformance_with(
+    backend: &dyn Backend,
+    samples: &[(&'static str, ReachableProgram)],
+    chosen: &Options,
+) -> Result<(), String> {
     options(backend.options())?;
     for (name, program) in samples {
-        sample(backend, program).map_err(|problem| format!("{}, sample {name}: {problem}", backend.id()))?;
+        sample(backend, program, chosen)
+            .map_err(|problem| format!("{}, sample {name}: {problem}", backend.id()))?;
     }
     Ok(())
 }
@@ -58,16 +71,15 @@ fn options(specs: &'static [OptionSpec]) -> Result<(), String> {
     Ok(())
 }
 
-fn sample(backend: &dyn Backend, program: &ReachableProgram) -> Result<(), String> {
-    let options = Options::defaults(backend.options());
-    let bundle = emitted(backend, program, &options)?;
+fn sample(backend: &dyn Backend, program: &ReachableProgram, options: &Options) -> Result<(), String> {
+    let bundle = emitted(backend, program, options)?;
     files(&bundle)?;
-    if emitted(backend, program, &options)? != bundle {
+    if emitted(backend, program, options)? != bundle {
         return Err("two runs gave different bytes".to_owned());
     }
-    read_back(backend, program, &options, &bundle)?;
-    beyond_capabilities(backend, program, &options)?;
-    full_disk(backend, program, &options)
+    read_back(backend, program, options, &bundle)?;
+    beyond_capabilities(backend, program, options)?;
+    full_disk(backend, program, options)
 }
 
 fn emitted(backend: &dyn Backend, program: &ReachableProgram, options: &Options) -> Result<Bundle, String> {

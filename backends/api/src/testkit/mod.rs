@@ -6,10 +6,12 @@
 
 mod conformance;
 mod pretend;
+mod pretend_five_axis;
 mod recipe;
 
-pub use conformance::conformance;
-pub use pretend::{axes, blade_in_work, reachable};
+pub use conformance::{conformance, conformance_with};
+pub use pretend::{axes, axes_at, blade_in_work, reachable};
+pub use pretend_five_axis::five_axes;
 pub use recipe::{CellRecipe, Crossing, Passes, Recipe};
 
 use crate::geometry::{Frame, Orientation, Point3};
@@ -35,11 +37,61 @@ pub fn samples_for(maker: Maker) -> Result<Vec<(&'static str, ReachableProgram)>
         maker,
         ..CellRecipe::default()
     };
+    let mut recipes = common(&cell);
+    recipes.push((
+        "beyond_half_a_turn",
+        Recipe {
+            cell: CellRecipe {
+                home: AxisValues([0.0, -90.0, 90.0, -340.0, 45.0, -340.0].map(f64::to_radians)),
+                ..cell.clone()
+            },
+            ..Recipe::default()
+        },
+    ));
+    recipes.push((
+        "numbered_cell",
+        Recipe {
+            cell: CellRecipe {
+                tool: numbered(3),
+                base: numbered(2),
+                load: Some(Registered::Number(1)),
+                ready: Ready::Input(7),
+                ..cell
+            },
+            ..Recipe::default()
+        },
+    ));
+    programs(recipes)
+}
+
+/// Sample programs with a name each, for a five-axis machine.
+///
+/// # Errors
+/// The name of a recipe that gave a program with faults (a fault of this module).
+pub fn five_axis_samples() -> Result<Vec<(&'static str, ReachableProgram)>, String> {
+    let cell = CellRecipe::five_axis();
+    let mut recipes = common(&cell);
+    recipes.push((
+        "numbered_cell",
+        Recipe {
+            cell: CellRecipe {
+                tool: numbered(3),
+                base: numbered(2),
+                ..cell
+            },
+            ..Recipe::default()
+        },
+    ));
+    programs(recipes)
+}
+
+/// What every machine can do.
+fn common(cell: &CellRecipe) -> Vec<(&'static str, Recipe)> {
     let plain = Recipe {
         cell: cell.clone(),
         ..Recipe::default()
     };
-    let recipes = [
+    vec![
         (
             "empty",
             Recipe {
@@ -83,33 +135,13 @@ pub fn samples_for(maker: Maker) -> Result<Vec<(&'static str, ReachableProgram)>
             Recipe {
                 operations: 3,
                 crossing: Crossing::ByAxes,
-                ..plain.clone()
-            },
-        ),
-        (
-            "beyond_half_a_turn",
-            Recipe {
-                cell: CellRecipe {
-                    home: AxisValues([0.0, -90.0, 90.0, -340.0, 45.0, -340.0].map(f64::to_radians)),
-                    ..cell.clone()
-                },
-                ..plain.clone()
-            },
-        ),
-        (
-            "numbered_cell",
-            Recipe {
-                cell: CellRecipe {
-                    tool: numbered(3),
-                    base: numbered(2),
-                    load: Some(Registered::Number(1)),
-                    ready: Ready::Input(7),
-                    ..cell.clone()
-                },
                 ..plain
             },
         ),
-    ];
+    ]
+}
+
+fn programs(recipes: Vec<(&'static str, Recipe)>) -> Result<Vec<(&'static str, ReachableProgram)>, String> {
     recipes
         .into_iter()
         .map(|(name, recipe)| {
@@ -128,5 +160,16 @@ const fn numbered(number: u32) -> PlacedFrame {
             orientation: Orientation::IDENTITY,
         },
         number: Some(number),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_samples_of_both_machines_are_reachable() {
+        assert_eq!(samples().map(|samples| samples.len()), Ok(9));
+        assert_eq!(five_axis_samples().map(|samples| samples.len()), Ok(8));
     }
 }

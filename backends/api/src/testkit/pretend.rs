@@ -5,9 +5,12 @@
 //! x, y and z of the workpiece, [`RACK`] mm each radian, and its other three are the angles A, B and C of the blade
 //! ([`Zyx`]). Axis 5 is set off so that its sign is that of its wrist: [`Wrist::Positive`] for one of its turns,
 //! [`Wrist::Negative`] for the turn below. Shoulder and elbow are always in front and forward.
+//!
+//! For cells of five-axis machines there is [another one](super::five_axes).
 
+use super::pretend_five_axis;
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
-use crate::ir::{Action, Axis, AxisKind, AxisValues, OpId, Program};
+use crate::ir::{Action, Axis, AxisKind, AxisValues, MachineKind, OpId, Program};
 use crate::motion::{
     Branch, Elbow, Motion, MotionFault, ReachableProgram, Shoulder, Stretch, Wrist, pose_after,
 };
@@ -42,14 +45,23 @@ pub fn axes() -> Vec<Axis> {
         .collect()
 }
 
-/// The program with the motion of the pretend machine, whose axes its cell must have. Every move of all axes but the first
-/// changes the wrist.
+/// The program with the motion of the pretend machine of its cell's kind, whose axes the cell must have. Every move of all
+/// axes of a robot but the first changes the wrist.
 ///
 /// # Errors
 /// When the cell of the program is that of another machine, or there is none.
 pub fn reachable(program: VerifiedProgram) -> Result<ReachableProgram, Vec<MotionFault>> {
     let motion = motion(program.program());
+    let blade_in_work = match kind(program.program()) {
+        MachineKind::Robot => blade_in_work,
+        MachineKind::FiveAxis => pretend_five_axis::blade_in_work,
+    };
     ReachableProgram::assemble(program, motion, &blade_in_work)
+}
+
+fn kind(program: &Program) -> MachineKind {
+    let cell = program.cell.as_ref();
+    cell.map_or(MachineKind::Robot, |cell| cell.kind)
 }
 
 fn motion(program: &Program) -> Motion {
@@ -62,24 +74,30 @@ fn motion(program: &Program) -> Motion {
     let mut at = None;
     let mut axes = home.unwrap_or(AxisValues([0.0; 6]));
     let mut wrist = Wrist::Negative;
+    let kind = kind(program);
+    let axes_at = |tip, held, wrist, before| match kind {
+        MachineKind::Robot => axes_at(tip, orientation(program, held), wrist, before),
+        MachineKind::FiveAxis => pretend_five_axis::axes_at(tip, orientation(program, held)),
+    };
     for (from, op) in (0..).map(OpId).zip(&program.ops) {
         let before = at;
         at = pose_after(at, &op.action);
         if matches!(op.action, Action::AxisTravel { .. }) {
             wrist = other(wrist);
-            let branch = Branch::Arm {
-                shoulder: Shoulder::Front,
-                elbow: Elbow::Forward,
-                wrist,
+            let branch = match kind {
+                MachineKind::Robot => Branch::Arm {
+                    shoulder: Shoulder::Front,
+                    elbow: Elbow::Forward,
+                    wrist,
+                },
+                MachineKind::FiveAxis => Branch::Numbered(0),
             };
             motion.stretches.push(Stretch { from, branch });
         }
         axes = match (op.action, at) {
             (Action::Home, _) => home.unwrap_or(axes),
-            (Action::AxisTravel { .. }, Some((tip, held))) => {
-                axes_at(tip, orientation(program, held), wrist, axes)
-            }
-            (_, Some((tip, held))) if at != before => axes_at(tip, orientation(program, held), wrist, axes),
+            (Action::AxisTravel { .. }, Some((tip, held))) => axes_at(tip, held, wrist, axes),
+            (_, Some((tip, held))) if at != before => axes_at(tip, held, wrist, axes),
             (_, _) => axes,
         };
         motion.ends.push(axes);
@@ -100,7 +118,8 @@ fn orientation(program: &Program, id: crate::ir::OrientationId) -> Orientation {
 }
 
 /// The axes that hold the blade there, those of A and C as near as may be to where they were.
-fn axes_at(tip: Point3, held: Orientation, wrist: Wrist, before: AxisValues) -> AxisValues {
+#[must_use]
+pub fn axes_at(tip: Point3, held: Orientation, wrist: Wrist, before: AxisValues) -> AxisValues {
     let Zyx { a, b, c } = held.to_zyx();
     let turn = match wrist {
         Wrist::Positive => 0.0,

@@ -1,6 +1,7 @@
 //! Programs made from a few numbers.
 
 use super::pretend;
+use super::pretend_five_axis::five_axes;
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{
     Action, AxisValues, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Maker, Op,
@@ -72,6 +73,8 @@ pub struct Recipe {
 /// The machine of a [`Recipe`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellRecipe {
+    /// Which of the pretend machines.
+    pub kind: MachineKind,
     /// Who made the controller.
     pub maker: Maker,
     /// Blade frame seen from the flange.
@@ -99,6 +102,7 @@ impl Default for CellRecipe {
             }),
         };
         Self {
+            kind: MachineKind::Robot,
             maker: Maker::Kuka,
             tool: PlacedFrame {
                 frame: frame(0.0, 0.0, 310.0, 0.0),
@@ -115,6 +119,31 @@ impl Default for CellRecipe {
             home: AxisValues([0.0, -90.0, 90.0, 0.0, 45.0, 0.0].map(f64::to_radians)),
             ultrasonic: Some(12),
             ready: Ready::After(Duration::s(0.5)),
+        }
+    }
+}
+
+impl CellRecipe {
+    /// The pretend five-axis machine, on whose table the work lies a little askew.
+    #[must_use]
+    pub fn five_axis() -> Self {
+        Self {
+            kind: MachineKind::FiveAxis,
+            maker: Maker::Other,
+            base: PlacedFrame {
+                frame: Frame {
+                    origin: Point3::new(-120.0, 80.0, 45.5),
+                    orientation: Orientation::from_zyx(Zyx {
+                        a: Angle::deg(3.0),
+                        b: Angle::ZERO,
+                        c: Angle::ZERO,
+                    }),
+                },
+                number: None,
+            },
+            load: None,
+            home: AxisValues([0.0, 0.0, 900.0, 0.0, 0.0, 0.0]),
+            ..Self::default()
         }
     }
 }
@@ -188,6 +217,7 @@ impl Recipe {
 
     fn cell(&self) -> Cell {
         let CellRecipe {
+            kind,
             maker,
             tool,
             base,
@@ -198,10 +228,13 @@ impl Recipe {
         } = self.cell;
         Cell {
             name: "cell".to_owned(),
-            kind: MachineKind::Robot,
+            kind,
             maker,
             model: "pretend".to_owned(),
-            axes: pretend::axes(),
+            axes: match kind {
+                MachineKind::Robot => pretend::axes(),
+                MachineKind::FiveAxis => five_axes(),
+            },
             tool,
             base,
             load,

@@ -1,29 +1,32 @@
 //! Texts in TOML as people write them: read once, with all flaws at their places.
 
-use super::flaw::Flaw;
-use super::table::Table;
+pub mod flaw;
+pub(crate) mod table;
+
+use flaw::Flaw;
+use table::Table;
 use toml::de::DeTable;
 
 /// What a document is called in messages, and looks like.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wording {
+pub(crate) struct Wording {
     /// Its name, such as `sheet`.
-    pub(super) name: &'static str,
+    pub(crate) name: &'static str,
     /// What lines of it look like.
-    pub(super) looks: &'static str,
+    pub(crate) looks: &'static str,
 }
 
 /// Largest document in bytes. Sheets of the catalogue are below 10 000.
-pub(super) const LARGEST: usize = 1 << 18;
+pub(crate) const LARGEST: usize = 1 << 18;
 
 /// Most flaws of one document that are told.
-pub(super) const MOST_FLAWS: usize = 20;
+pub(crate) const MOST_FLAWS: usize = 20;
 
 /// Reads a document.
 ///
 /// # Errors
 /// What is wrong with it, in the order of the text; the first [`MOST_FLAWS`] of it.
-pub(super) fn parse<T>(
+pub(crate) fn parse<T>(
     text: &str,
     wording: Wording,
     read: impl FnOnce(&Table<'_>, &mut Vec<Flaw>) -> Option<T>,

@@ -1,0 +1,171 @@
+//! Options and profiles that a dialect cannot take, or that it lacks.
+
+use crate::dialect::{Numbering, TcpCodes};
+use crate::options::{APPROXIMATION, DECIMALS, OFF_CODE, ON_CODE, READY_CODE, Settings, TCP_OFF, TCP_ON};
+use vcutc_backend_api::backend::BackendIssue;
+use vcutc_backend_api::ir::{Cell, Ready, Switch};
+
+/// Everything that is wrong with the options of a job on a machine.
+pub(crate) fn check(cell: &Cell, settings: &Settings<'_>) -> Vec<BackendIssue> {
+    let mut issues = Vec::new();
+    form(settings, &mut issues);
+    tcp(settings, &mut issues);
+    generator(cell, settings, &mut issues);
+    blocks(settings, &mut issues);
+    profile(settings, &mut issues);
+    issues
+}
+
+fn conflict(key: &'static str, why: String) -> BackendIssue {
+    BackendIssue::OptionConflict { key, why }
+}
+
+fn form(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
+    let dialect = settings.dialect;
+    let (decimals, most) = (settings.lengths.decimals(), dialect.most_decimals());
+    if decimals > most {
+        let why = format!("{} reads up to {most} decimals, not {decimals}", dialect.name());
+        issues.push(match settings.profile.decimals {
+            Some(_) => BackendIssue::Profile { key: DECIMALS, why },
+            None => conflict(DECIMALS, why),
+        });
+    }
+    if let Some(approximation) = settings.approximation
+        && dialect.rounded(approximation).is_none()
+    {
+        let why = format!(
+            "{} has no word for rounding some corners and stopping at others; take `approximation` out",
+            dialect.name()
+        );
+        issues.push(conflict(APPROXIMATION, why));
+    }
+}
+
+fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
+    let codes = [
+        (TCP_ON, settings.codes.tcp_on, "M429"),
+        (TCP_OFF, settings.codes.tcp_off, "M428"),
+    ];
+    let name = settings.dialect.name();
+    for (key, given, example) in codes {
+        match (settings.dialect.tcp_codes(), given) {
+            (TcpCodes::Given, []) => issues.push(conflict(
+                key,
+                format!(
+                    "{name} switches tool-centre-point control by M codes of its configuration, which the job has to give, \
+                     such as `{key} = \"{example}\"`"
+                ),
+            )),
+            (TcpCodes::Own, [_, ..]) => issues.push(conflict(
+                key,
+                format!("{name} has a word of its own for this; take `{key}` out"),
+            )),
+            (TcpCodes::Given, [_, ..]) | (TcpCodes::Own, []) => {}
+        }
+    }
+}
+
+fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
+    let (dialect, codes) = (settings.dialect, settings.codes);
+    let output = cell.ultrasonic.unwrap_or_default();
+    let name = dialect.name();
+    let sides = [
+        (ON_CODE, codes.on, Switch::On, "on", "M50"),
+        (OFF_CODE, codes.off, Switch::Off, "off", "M51"),
+    ];
+    // One code alone would switch by two different ways.
+    let any_given = !(codes.on.is_empty() && codes.off.is_empty());
+    for (key, given, state, side, example) in sides {
+        if given.is_empty() && (any_given || dialect.switch(output, state).is_none()) {
+            let why = format!(
+                "say what switches output {output} {side} on this {name}, such as `{key} = \"{example}\"`"
+            );
+            issues.push(conflict(key, why));
+        }
+    }
+    match cell.ready {
+        Ready::Input(input) => {
+            if codes.ready.is_empty() && dialect.await_input(input, 1).is_none() {
+                let why = format!(
+                    "{name} has no word that waits for input {input}; say which code does, such as `{READY_CODE} = \"M52\"`"
+                );
+                issues.push(conflict(READY_CODE, why));
+            }
+        }
+        Ready::After(_) => {
+            if !codes.ready.is_empty() {
+                let why = "this machine is ready after a time, not when an input says so; take the code out, or give the \
+                           machine `ready = input(...)`";
+                issues.push(conflict(READY_CODE, why.to_owned()));
+            }
+        }
+    }
+}
+
+/// Blocks that are copied into the program.
+fn blocks(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
+    let codes = settings.codes;
+    for (key, lines) in [
+        (TCP_ON, codes.tcp_on),
+        (TCP_OFF, codes.tcp_off),
+        (ON_CODE, codes.on),
+        (OFF_CODE, codes.off),
+        (READY_CODE, codes.ready),
+    ] {
+        if let Some(why) = lines.iter().find_map(|line| unfit(line, settings)) {
+            issues.push(conflict(key, why));
+        } else if lines.len() > 1 && !matches!(key, TCP_ON | TCP_OFF) {
+            let why = format!("one block, not {}", lines.len());
+            issues.push(conflict(key, why));
+        }
+    }
+}
+
+fn profile(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
+    let profile = settings.profile;
+    let mut refuse = |key, why| issues.push(BackendIssue::Profile { key, why });
+    for (key, lines) in [("header", &profile.header), ("footer", &profile.footer)] {
+        if let Some(why) = lines.iter().find_map(|line| unfit(line, settings)) {
+            refuse(key, why);
+        }
+    }
+    if let Some(extension) = &profile.extension {
+        let is_plain =
+            (1..=8).contains(&extension.len()) && extension.bytes().all(|byte| byte.is_ascii_alphanumeric());
+        if !is_plain {
+            refuse(
+                "extension",
+                format!("`{extension}` is not 1 to 8 letters and digits"),
+            );
+        }
+    }
+    match (profile.line_numbers, settings.dialect.numbering()) {
+        (Some(_), Numbering::Lines) => refuse(
+            "line_numbers",
+            format!("{} numbers every line from 0 by 1", settings.dialect.name()),
+        ),
+        (Some(of), Numbering::Words) if of.step == 0 || of.start > 99_999 => refuse(
+            "line_numbers",
+            "numbers start at 0 to 99999, and a step is 1 or more".to_owned(),
+        ),
+        (Some(_) | None, Numbering::Words) | (None, Numbering::Lines) => {}
+    }
+}
+
+/// Why a line cannot stand in a program as it is.
+fn unfit(line: &str, settings: &Settings<'_>) -> Option<String> {
+    let longest = settings.dialect.longest_line().saturating_sub(ROOM_FOR_NUMBER);
+    let is_printable = line.bytes().all(|byte| matches!(byte, b' '..=b'~'));
+    if !is_printable {
+        Some(format!("`{}` is not plain text on one line", line.escape_debug()))
+    } else if line.trim().is_empty() {
+        Some("there is an empty line".to_owned())
+    } else if line.len() > longest {
+        Some(format!("a line has {} characters, {longest} fit", line.len()))
+    } else {
+        None
+    }
+}
+
+/// What a block's number takes.
+const ROOM_FOR_NUMBER: usize = 11;

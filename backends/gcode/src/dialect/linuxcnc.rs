@@ -1,0 +1,142 @@
+//! LinuxCNC 2.9.
+//!
+//! Tool-centre-point control is a property of the kinematics module: while one is active that is not the identity, X, Y, Z are
+//! those of the tip. Which M codes switch between the two is a matter of each configuration (in the sample configurations
+//! M428 and M429, in either order), so the job has to say them [L-SW, L-BC]. `G43` belongs behind every switch: what the
+//! kinematics takes for the tool's length is the offset at hand.
+//!
+//! `G53` moves in machine coordinates with `G0` and `G1`, without the tool offset; with inverse time the whole block takes the
+//! time that F says. `M64` and `M65` wait for the motion before them. `M66` gives up after the time Q and goes on, so Q is
+//! a day: nobody waits so long for a generator.
+//!
+//! Checked with the interpreter of LinuxCNC 2.9.
+
+use super::{Comments, Dialect, File, Letters, TcpCodes};
+use crate::options::Settings;
+use vcutc_backend_api::ir::Switch;
+use vcutc_backend_api::script::{Layout, trimmed_text};
+use vcutc_backend_api::units::Length;
+
+pub(super) struct LinuxCnc;
+
+impl Dialect for LinuxCnc {
+    fn name(&self) -> &'static str {
+        "LinuxCNC"
+    }
+
+    fn extensions(&self) -> [&'static str; 2] {
+        ["ngc", "ngc"]
+    }
+
+    fn layout(&self) -> Layout {
+        Layout {
+            line_end: b"\n",
+            longest_comment: 100,
+            // Parentheses end a comment, and `%` at the start of a line would end the program.
+            kept_out_of_comments: b"()%",
+        }
+    }
+
+    fn comments(&self) -> Comments {
+        Comments {
+            open: "(",
+            close: ")",
+            letters: Letters::Any,
+        }
+    }
+
+    fn name_letters(&self) -> Letters {
+        // Names of subroutines are looked for in small letters [L-MC].
+        Letters::Small
+    }
+
+    fn longest_line(&self) -> usize {
+        255
+    }
+
+    fn most_tools(&self) -> u32 {
+        9999
+    }
+
+    fn opening(&self, file: File<'_>) -> Vec<String> {
+        match file.place {
+            0 => Vec::new(),
+            _ => vec![format!("o<{}> sub", file.name)],
+        }
+    }
+
+    fn setup(&self, _: &Settings<'_>, _: u32) -> Vec<String> {
+        vec!["G17 G21 G40 G80 G90 G94".to_owned(), "G61.1".to_owned()]
+    }
+
+    fn work_offsets(&self) -> u32 {
+        9
+    }
+
+    fn work_offset(&self, number: u32) -> Option<String> {
+        match number {
+            1..=6 => Some(format!("G{}", 53 + number)),
+            7..=9 => Some(format!("G59.{}", number - 6)),
+            _ => None,
+        }
+    }
+
+    fn closing(&self, file: File<'_>) -> Vec<String> {
+        match file.place {
+            0 => vec!["M2".to_owned()],
+            _ => vec![format!("o<{}> endsub", file.name), "M2".to_owned()],
+        }
+    }
+
+    fn call(&self, part: File<'_>) -> String {
+        format!("o<{}> call", part.name)
+    }
+
+    fn tcp_codes(&self) -> TcpCodes {
+        TcpCodes::Given
+    }
+
+    fn tcp_on(&self, settings: &Settings<'_>, tool: u32) -> Vec<String> {
+        let mut lines = settings.codes.tcp_on.to_vec();
+        lines.push(format!("G43 H{tool}"));
+        lines
+    }
+
+    fn tcp_off(&self, settings: &Settings<'_>) -> Vec<String> {
+        let mut lines = vec!["G49".to_owned()];
+        lines.extend_from_slice(settings.codes.tcp_off);
+        lines
+    }
+
+    fn axis_move(&self) -> [&'static str; 2] {
+        ["G53 G1", ""]
+    }
+
+    fn exact(&self) -> Option<&'static str> {
+        Some("G61.1")
+    }
+
+    fn rounded(&self, approximation: Length) -> Option<String> {
+        Some(format!("G64 P{}", trimmed_text(approximation.to_mm())))
+    }
+
+    fn dwell(&self, seconds: &str) -> Vec<String> {
+        vec![format!("G4 P{seconds}")]
+    }
+
+    fn switch(&self, output: u32, state: Switch) -> Option<Vec<String>> {
+        let code = match state {
+            Switch::On => "M64",
+            Switch::Off => "M65",
+        };
+        Some(vec![format!("{code} P{output}")])
+    }
+
+    fn await_input(&self, input: u32, _: u32) -> Option<Vec<String>> {
+        Some(vec![format!("M66 P{input} L3 Q86400")])
+    }
+
+    fn signals(&self) -> [u32; 2] {
+        [0, 63]
+    }
+}

@@ -1,0 +1,345 @@
+//! What a control does not take, found before anything is written.
+//!
+//! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million times.
+//! What is wrong with the options alone is in the module `demands`.
+
+use crate::axes::{NoWord, Word, WorkInOffset, printed, words};
+use crate::body::Source;
+use crate::demands;
+use crate::dialect::{AxisPace, FeedMode};
+use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
+use crate::pace::{self, Pace};
+use std::collections::BTreeSet;
+use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, MachineKind, OpId, OperationId, Ready};
+use vcutc_backend_api::motion::{ReachableProgram, pose_after};
+use vcutc_backend_api::script::{Part, trimmed_text};
+use vcutc_backend_api::stroke::Stroke;
+use vcutc_backend_api::units::Duration;
+
+/// A wait in s; a day.
+const LONGEST_WAIT_S: f64 = 86_400.0;
+
+/// Largest O number that is not kept for the builder's programs [F-30].
+const LARGEST_O_NUMBER: u64 = 7999;
+
+/// A speed is printed with a certain last decimal. It is refused below so many of its units, where rounding would change
+/// it by more than a hundredth.
+const SMALLEST_FEED_UNITS: f64 = 50.0;
+
+const DRIVES: &str = "five-axis machines with linear axes X, Y, Z and rotary axes A, B or C";
+
+const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "home",
+    why: "the program begins and ends with a move of all axes to positions that the job states, so that it does not depend \
+          on where the machine happens to stand",
+};
+
+const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "ultrasonic",
+    why: "the program switches the generator on before the blade enters; a blade that does not vibrate breaks",
+};
+
+/// What a program that can be said is written from.
+pub(crate) struct Sayable<'p> {
+    /// The machine.
+    pub(crate) cell: &'p Cell,
+    /// Its axes.
+    pub(crate) words: Vec<Word>,
+}
+
+/// What the program is written from, or everything that stands in the way.
+pub(crate) fn check<'p>(
+    program: &'p ReachableProgram,
+    settings: &Settings<'_>,
+    parts: &[Part],
+) -> Result<Sayable<'p>, Vec<BackendIssue>> {
+    let wrong = |mismatch| {
+        let drives = DRIVES;
+        vec![BackendIssue::WrongMachine { mismatch, drives }]
+    };
+    // No program is assembled without a machine; if one were, it would have no axes to drive.
+    let Some(cell) = &program.program().cell else {
+        return Err(wrong(MachineMismatch::Arm));
+    };
+    match cell.kind {
+        MachineKind::Robot => return Err(wrong(MachineMismatch::Kind)),
+        MachineKind::FiveAxis => {}
+    }
+    let words = match words(cell, settings) {
+        Ok(words) => words,
+        Err(NoWord::Name) => return Err(wrong(MachineMismatch::Arm)),
+        Err(NoWord::Spindle) => return Err(vec![spindle_without_letter()]),
+        Err(NoWord::Taken(letter)) => return Err(vec![letter_taken(letter)]),
+    };
+    let mut findings = Findings {
+        issues: demands::check(cell, settings),
+        told: BTreeSet::new(),
+    };
+    findings.cell(cell, settings);
+    findings.parts(settings, parts);
+    findings.ops(Source {
+        reachable: program,
+        cell,
+        settings,
+        words: &words,
+        work_in_offset: WorkInOffset::new(cell.base.frame.orientation),
+    });
+    if findings.issues.is_empty() {
+        Ok(Sayable { cell, words })
+    } else {
+        Err(findings.issues)
+    }
+}
+
+fn spindle_without_letter() -> BackendIssue {
+    BackendIssue::OptionConflict {
+        key: SPINDLE_AXIS,
+        why: "the machine turns its blade with an orientable spindle, axis S, and S is a speed in G-code; say by which letter \
+              the control moves the spindle as an axis, such as `spindle_axis = b` (M19 cannot turn it during a motion)"
+            .to_owned(),
+    }
+}
+
+fn letter_taken(letter: char) -> BackendIssue {
+    BackendIssue::OptionConflict {
+        key: SPINDLE_AXIS,
+        why: format!("the machine has another axis {letter}"),
+    }
+}
+
+struct Findings {
+    issues: Vec<BackendIssue>,
+    /// What was told, so that it is told once.
+    told: BTreeSet<&'static str>,
+}
+
+/// A number with its unit, to be checked.
+struct Number {
+    what: &'static str,
+    value: f64,
+    unit: &'static str,
+}
+
+impl Findings {
+    fn tell(&mut self, what: &'static str, issue: BackendIssue) {
+        if self.told.insert(what) {
+            self.issues.push(issue);
+        }
+    }
+
+    /// Inlined, because it is asked for every number of every op and nearly always says yes.
+    #[inline]
+    fn range(&mut self, op: Option<OpId>, number: &Number, limits: (f64, f64)) {
+        if !(limits.0..=limits.1).contains(&number.value) {
+            self.out_of_range(op, number, limits);
+        }
+    }
+
+    #[cold]
+    fn out_of_range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
+        let &Number { what, value, unit } = number;
+        self.tell(
+            what,
+            BackendIssue::OutOfRange {
+                op,
+                what,
+                value: format!("{} {unit}", trimmed_text(value)),
+                allowed: format!("{} to {} {unit}", trimmed_text(low), trimmed_text(high)),
+            },
+        );
+    }
+
+    fn number(&mut self, what: &'static str, value: u32, [lowest, highest]: [u32; 2]) {
+        if (lowest..=highest).contains(&value) {
+            return;
+        }
+        self.tell(
+            what,
+            BackendIssue::OutOfRange {
+                op: None,
+                what,
+                value: value.to_string(),
+                allowed: format!("{lowest} to {highest}"),
+            },
+        );
+    }
+
+    fn cell(&mut self, cell: &Cell, settings: &Settings<'_>) {
+        let dialect = settings.dialect;
+        if cell.home.is_none() {
+            self.tell("home", HOME_MISSING);
+        }
+        self.tool(cell, settings);
+        if let Some(number) = cell.base.number {
+            self.number("base number", number, [1, dialect.work_offsets()]);
+        }
+        match cell.ultrasonic {
+            Some(output) if settings.codes.on.is_empty() => {
+                self.number("output number", output, dialect.signals());
+            }
+            Some(_) => {}
+            None => self.tell("ultrasonic", GENERATOR_MISSING),
+        }
+        match cell.ready {
+            Ready::Input(input) if settings.codes.ready.is_empty() => {
+                self.number("input number", input, dialect.signals());
+            }
+            Ready::Input(_) => {}
+            Ready::After(time) => self.wait(None, "time until ready", time),
+        }
+        if dialect.axis_pace() != AxisPace::Rapid && cell.axes.iter().any(|axis| axis.rate.is_none()) {
+            let issue = BackendIssue::OptionConflict {
+                key: HOME_SPEED,
+                why: "the machine's sheet does not state the rates of all its axes, so a part of them is no speed; \
+                      add `rate_mm_s` and `rate_deg_s` to the sheet"
+                    .to_owned(),
+            };
+            self.tell("rates", issue);
+        }
+    }
+
+    /// The control knows of the tool one length, along the spindle.
+    fn tool(&mut self, cell: &Cell, settings: &Settings<'_>) {
+        let number = cell.tool.number.unwrap_or(settings.tool_number);
+        self.number("tool number", number, [1, settings.dialect.most_tools()]);
+        let Point3 { x, y, z } = cell.tool.frame.origin;
+        let half_a_unit = 0.5 / f64::from(10_u32.pow(u32::from(settings.lengths.decimals().min(6))));
+        for (what, value) in [("tool X", x), ("tool Y", y)] {
+            let unit = "mm";
+            self.range(None, &Number { what, value, unit }, (-half_a_unit, half_a_unit));
+        }
+        self.length(None, "tool Z", z, settings);
+    }
+
+    fn length(&mut self, op: Option<OpId>, what: &'static str, value: f64, settings: &Settings<'_>) {
+        let farthest = settings.dialect.farthest(settings.lengths.decimals());
+        let unit = "mm";
+        self.range(op, &Number { what, value, unit }, (-farthest, farthest));
+    }
+
+    fn parts(&mut self, settings: &Settings<'_>, parts: &[Part]) {
+        let last = u64::from(settings.program_number).saturating_add(parts.len() as u64);
+        if settings.dialect.numbers_programs() && last > LARGEST_O_NUMBER {
+            let issue = BackendIssue::OptionConflict {
+                key: PROGRAM_NUMBER,
+                why: format!(
+                    "the program and its parts would go up to O{last}, and O8000 and more are the builder's"
+                ),
+            };
+            self.tell("program number", issue);
+        }
+    }
+
+    fn ops(&mut self, source: Source<'_>) {
+        let program = source.program();
+        let mut at = None;
+        for (id, op) in source.reachable.verified().ops() {
+            if let Some(operation) = op.site.operation() {
+                self.blade(source, id, operation);
+            }
+            match op.action {
+                Action::Home | Action::AxisTravel { .. } => self.axes(source, id),
+                Action::Travel { .. }
+                | Action::Approach { .. }
+                | Action::Retract { .. }
+                | Action::Cut { .. }
+                | Action::Turn { .. } => {
+                    if let Some(stroke) = at.and_then(|from| Stroke::of(program, from, &op.action)) {
+                        self.stroke(source, id, &stroke);
+                    }
+                }
+                Action::Ultrasonic { .. } | Action::AwaitReady => {}
+                Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
+                Action::ToolChange { .. } => {
+                    let what = "a tool change within the program";
+                    self.tell(what, BackendIssue::Unsupported { op: id, what });
+                }
+            }
+            at = pose_after(at, &op.action);
+        }
+    }
+
+    /// The tool length is that of one blade, and nothing in the program would stop for another.
+    fn blade(&mut self, source: Source<'_>, id: OpId, operation: OperationId) {
+        let operations = &source.program().operations;
+        let blade_of = |place: usize| operations.get(place).map(|operation| &operation.blade);
+        if blade_of(usize::from(operation.0)) != blade_of(0) {
+            let what = "a change of the blade within the program";
+            self.tell(what, BackendIssue::Unsupported { op: id, what });
+        }
+    }
+
+    fn axes(&mut self, source: Source<'_>, op: OpId) {
+        let Some(to) = source.reachable.axes_after(op) else {
+            return;
+        };
+        self.words(source, op, &to, AxisKind::Linear);
+        self.words(source, op, &to, AxisKind::Rotary);
+        let before = op.0.checked_sub(1).map(OpId);
+        let before = before.and_then(|before| source.reachable.axes_after(before));
+        for from in [before.as_ref(), None] {
+            if let Some(pace) = pace::of_axes(source.settings, source.cell, source.words, from, &to) {
+                self.feed(source, op, "speed of all axes", pace);
+            }
+        }
+    }
+
+    fn words(&mut self, source: Source<'_>, op: OpId, axes: &AxisValues, kind: AxisKind) {
+        let settings = source.settings;
+        let (what, unit, decimals) = match kind {
+            AxisKind::Linear => ("axis position", "mm", settings.lengths.decimals()),
+            AxisKind::Rotary => ("axis angle", "deg", settings.angles.decimals()),
+        };
+        let farthest = settings.dialect.farthest(decimals);
+        for &word in source.words.iter().filter(|word| word.kind == kind) {
+            if let Some(value) = printed(word, axes) {
+                self.range(Some(op), &Number { what, value, unit }, (-farthest, farthest));
+            }
+        }
+    }
+
+    fn stroke(&mut self, source: Source<'_>, op: OpId, stroke: &Stroke) {
+        let to = source.work_in_offset.in_offset(stroke.to.0);
+        for (what, value) in [("X", to.x), ("Y", to.y), ("Z", to.z)] {
+            self.length(Some(op), what, value, source.settings);
+        }
+        let before = op.0.checked_sub(1).map(OpId);
+        let before = before.and_then(|before| source.reachable.axes_after(before));
+        let (Some(from), Some(to)) = (before, source.reachable.axes_after(op)) else {
+            return;
+        };
+        self.words(source, op, &to, AxisKind::Rotary);
+        if let Some(pace) = pace::of_stroke(source.settings, source.words, stroke, &from, &to) {
+            let what = match pace.mode {
+                FeedMode::Tip => "tip speed",
+                FeedMode::InverseTime | FeedMode::Rotary => "reorientation rate",
+            };
+            self.feed(source, op, what, pace);
+        }
+    }
+
+    fn feed(&mut self, source: Source<'_>, op: OpId, what: &'static str, pace: Pace) {
+        let dialect = source.settings.dialect;
+        let unit = match pace.mode {
+            FeedMode::Tip => "mm/min",
+            FeedMode::InverseTime => "1/min",
+            FeedMode::Rotary => "deg/min",
+        };
+        let decimals = u32::from(dialect.fine_decimals().min(6));
+        let smallest = SMALLEST_FEED_UNITS / f64::from(10_u32.pow(decimals));
+        let value = pace.feed;
+        self.range(
+            Some(op),
+            &Number { what, value, unit },
+            (smallest, dialect.largest_feed()),
+        );
+    }
+
+    fn wait(&mut self, op: Option<OpId>, what: &'static str, time: Duration) {
+        let value = time.to_s();
+        let unit = "s";
+        self.range(op, &Number { what, value, unit }, (0.0, LONGEST_WAIT_S));
+    }
+}

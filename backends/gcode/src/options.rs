@@ -1,0 +1,287 @@
+//! The options block `gcode { ... }` of a job.
+//!
+//! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
+//! crate never asks for a key by its name. What the profile of the machine says counts more than an option.
+
+use crate::dialect::{Dialect, FANUC, HEIDENHAIN, LINUXCNC, SINUMERIK};
+use core::num::NonZeroU32;
+use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
+use vcutc_backend_api::number::FixedDecimal;
+use vcutc_backend_api::profile::Profile;
+use vcutc_backend_api::units::Length;
+
+pub(crate) const DIALECT: &str = "dialect";
+pub(crate) const DECIMALS: &str = "decimals";
+pub(crate) const LINES_PER_PART: &str = "lines_per_part";
+const HEADER: &str = "header";
+pub(crate) const APPROXIMATION: &str = "approximation";
+pub(crate) const HOME_SPEED: &str = "home_speed";
+const TOOL_NUMBER: &str = "tool_number";
+pub(crate) const PROGRAM_NUMBER: &str = "program_number";
+pub(crate) const SPINDLE_AXIS: &str = "spindle_axis";
+pub(crate) const TCP_ON: &str = "tcp_on";
+pub(crate) const TCP_OFF: &str = "tcp_off";
+pub(crate) const ON_CODE: &str = "on_code";
+pub(crate) const OFF_CODE: &str = "off_code";
+pub(crate) const READY_CODE: &str = "ready_code";
+
+/// The words of the option `dialect`; the first is the default.
+const DIALECTS: &[&str] = &["linuxcnc", "fanuc", "sinumerik", "heidenhain"];
+
+/// The letters by which a controller may know the spindle as an axis; the first says that it does not.
+const SPINDLE_LETTERS: &[&str] = &["none", "a", "b", "c"];
+
+/// All options, in the order of the documentation.
+pub(crate) const OPTIONS: &[OptionSpec] = &[
+    OptionSpec {
+        key: DIALECT,
+        kind: OptionKind::Choice { of: DIALECTS },
+        help: "The controller that is to read the program.",
+    },
+    OptionSpec {
+        key: DECIMALS,
+        kind: OptionKind::Integer {
+            min: 3,
+            max: 6,
+            default: 3,
+        },
+        help: "Decimals of lengths in mm; angles get one more where the dialect reads it, up to six.",
+    },
+    OptionSpec {
+        key: LINES_PER_PART,
+        kind: OptionKind::Integer {
+            min: 0,
+            max: 1_000_000,
+            default: 0,
+        },
+        help: "Lines after which the program is split into subprograms at the next travel move; 0 never splits.",
+    },
+    OptionSpec {
+        key: HEADER,
+        kind: OptionKind::Lines,
+        help: "Comment lines put at the head of the main program.",
+    },
+    OptionSpec {
+        key: APPROXIMATION,
+        kind: OptionKind::Length {
+            min: Length::ZERO,
+            max: Length::mm(50.0),
+            default: Length::ZERO,
+        },
+        help: "How far corners in the air may be rounded; 0 mm stops at every point.",
+    },
+    OptionSpec {
+        key: HOME_SPEED,
+        kind: OptionKind::Integer {
+            min: 1,
+            max: 100,
+            default: 10,
+        },
+        help: "Speed of the moves of all axes, to home and from there, in percent of the axes' rates.",
+    },
+    OptionSpec {
+        key: TOOL_NUMBER,
+        kind: OptionKind::Integer {
+            min: 1,
+            max: 9999,
+            default: 1,
+        },
+        help: "Entry of the controller's tool table that holds the blade's length, when the machine's `tool` has no number.",
+    },
+    OptionSpec {
+        key: PROGRAM_NUMBER,
+        kind: OptionKind::Integer {
+            min: 1,
+            max: 9999,
+            default: 1,
+        },
+        help: "Fanuc's O number of the main program; parts have the numbers behind it.",
+    },
+    OptionSpec {
+        key: SPINDLE_AXIS,
+        kind: OptionKind::Choice { of: SPINDLE_LETTERS },
+        help: "Letter by which the controller moves an orientable spindle (axis S) as an axis.",
+    },
+    OptionSpec {
+        key: TCP_ON,
+        kind: OptionKind::Lines,
+        help: "LinuxCNC: what switches to the kinematics with tool-centre-point control, such as \"M429\".",
+    },
+    OptionSpec {
+        key: TCP_OFF,
+        kind: OptionKind::Lines,
+        help: "LinuxCNC: what switches back to the kinematics in which words are axis values, such as \"M428\".",
+    },
+    OptionSpec {
+        key: ON_CODE,
+        kind: OptionKind::Lines,
+        help: "Block that switches the ultrasonic generator on, such as \"M50\", where the dialect has no word for an output.",
+    },
+    OptionSpec {
+        key: OFF_CODE,
+        kind: OptionKind::Lines,
+        help: "Block that switches it off, such as \"M51\".",
+    },
+    OptionSpec {
+        key: READY_CODE,
+        kind: OptionKind::Lines,
+        help: "Block that ends when the generator is ready, such as \"M52\", where the dialect has no word that waits for an input.",
+    },
+];
+
+/// Blocks that only the builder of a machine knows. Empty where the job gives none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Codes<'p> {
+    /// Tool-centre-point control on.
+    pub(crate) tcp_on: &'p [String],
+    /// Tool-centre-point control off.
+    pub(crate) tcp_off: &'p [String],
+    /// Generator on.
+    pub(crate) on: &'p [String],
+    /// Generator off.
+    pub(crate) off: &'p [String],
+    /// Until the generator is ready.
+    pub(crate) ready: &'p [String],
+}
+
+/// The options as types.
+#[derive(Clone)]
+pub(crate) struct Settings<'p> {
+    /// Who reads the program.
+    pub(crate) dialect: &'static dyn Dialect,
+    /// Format of lengths in mm.
+    pub(crate) lengths: FixedDecimal,
+    /// Format of angles in degrees.
+    pub(crate) angles: FixedDecimal,
+    /// Longest body of a part, when there is a limit.
+    pub(crate) lines_per_part: Option<NonZeroU32>,
+    /// Comment lines at the head.
+    pub(crate) header: &'p [String],
+    /// Rounding of corners in the air, when wanted.
+    pub(crate) approximation: Option<Length>,
+    /// Speed of the moves of all axes as a part of the axes' rates.
+    pub(crate) home_speed: f64,
+    /// Entry of the tool table for a tool without a number.
+    pub(crate) tool_number: u32,
+    /// O number of the main program.
+    pub(crate) program_number: u32,
+    /// Letter of the spindle as an axis.
+    pub(crate) spindle_letter: Option<u8>,
+    /// What only the builder of the machine knows.
+    pub(crate) codes: Codes<'p>,
+    /// The habits of the machine.
+    pub(crate) profile: &'p Profile,
+}
+
+impl<'p> Settings<'p> {
+    /// Reads the options of a job.
+    pub(crate) fn read(options: &'p Options) -> Self {
+        let dialect = dialect(options);
+        let profile = options.profile();
+        let asked = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
+        let decimals = profile.decimals.unwrap_or(asked);
+        let approximation = options.length(APPROXIMATION);
+        Self {
+            dialect,
+            lengths: FixedDecimal::new(decimals),
+            angles: FixedDecimal::new(dialect.angle_decimals(decimals)),
+            lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
+            header: options.lines(HEADER),
+            approximation: (approximation > Length::ZERO).then_some(approximation),
+            home_speed: f64::from(options.integer(HOME_SPEED)) / 100.0,
+            tool_number: options.integer(TOOL_NUMBER),
+            program_number: options.integer(PROGRAM_NUMBER),
+            spindle_letter: match options.choice(SPINDLE_AXIS) {
+                "a" => Some(b'A'),
+                "b" => Some(b'B'),
+                "c" => Some(b'C'),
+                _ => None,
+            },
+            codes: Codes {
+                tcp_on: options.lines(TCP_ON),
+                tcp_off: options.lines(TCP_OFF),
+                on: options.lines(ON_CODE),
+                off: options.lines(OFF_CODE),
+                ready: options.lines(READY_CODE),
+            },
+            profile,
+        }
+    }
+
+    /// Format of speeds, inverse times and waits: written without trailing zeros, so these are the most decimals.
+    pub(crate) fn fine(&self) -> FixedDecimal {
+        FixedDecimal::new(self.dialect.fine_decimals())
+    }
+}
+
+fn dialect(options: &Options) -> &'static dyn Dialect {
+    match options.choice(DIALECT) {
+        "fanuc" => FANUC,
+        "sinumerik" => SINUMERIK,
+        "heidenhain" => HEIDENHAIN,
+        _ => LINUXCNC,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use vcutc_backend_api::backend::OptionValue;
+
+    #[test]
+    fn keys_are_unique() {
+        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
+        assert_eq!(keys.len(), OPTIONS.len());
+    }
+
+    #[test]
+    fn what_is_set_is_read() {
+        let mut options = Options::defaults(OPTIONS);
+        for (key, value) in [
+            (DIALECT, OptionValue::Choice("fanuc")),
+            (DECIMALS, OptionValue::Integer(4)),
+            (APPROXIMATION, OptionValue::Length(Length::mm(2.5))),
+            (HOME_SPEED, OptionValue::Integer(30)),
+            (SPINDLE_AXIS, OptionValue::Choice("b")),
+            (ON_CODE, OptionValue::Lines(vec!["M50".to_owned()])),
+        ] {
+            let spec = OPTIONS.iter().find(|spec| spec.key == key).unwrap();
+            options.set(spec, value).unwrap();
+        }
+        let settings = Settings::read(&options);
+        assert_eq!(settings.dialect.name(), "Fanuc");
+        assert_eq!(settings.lengths.decimals(), 4);
+        assert_eq!(settings.approximation, Some(Length::mm(2.5)));
+        assert_eq!(settings.home_speed.to_bits(), 0.3_f64.to_bits());
+        assert_eq!(settings.spindle_letter, Some(b'B'));
+        assert_eq!(settings.codes.on, ["M50"]);
+        assert_eq!(settings.lines_per_part, None);
+    }
+
+    #[test]
+    fn every_dialect_has_its_word() {
+        let spec = OPTIONS.iter().find(|spec| spec.key == DIALECT).unwrap();
+        let names: BTreeSet<&str> = DIALECTS
+            .iter()
+            .map(|word| {
+                let mut options = Options::defaults(OPTIONS);
+                options.set(spec, OptionValue::Choice(word)).unwrap();
+                let name = Settings::read(&options).dialect.name();
+                assert_eq!(name.to_ascii_lowercase(), *word);
+                name
+            })
+            .collect();
+        assert_eq!(names.len(), DIALECTS.len());
+    }
+
+    #[test]
+    fn a_profile_counts_more_than_an_option() {
+        let profile = Profile {
+            decimals: Some(5),
+            ..Profile::default()
+        };
+        let options = Options::defaults(OPTIONS).with_profile(profile);
+        assert_eq!(Settings::read(&options).lengths.decimals(), 5);
+    }
+}

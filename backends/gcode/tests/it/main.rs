@@ -1,0 +1,10 @@
+//! Tests of the G-code backend from outside.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test that meets the unexpected should stop"
+)]
+
+mod snapshots;
+mod support;

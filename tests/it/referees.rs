@@ -1,0 +1,27 @@
+//! Programs before judges who are not ours.
+//!
+//! LinuxCNC's own interpreter carries out the G-code programs of all examples, and what it makes of them (its canonical
+//! functions) is held against the intermediate program, op by op. A grammar of RAPID by another author reads the RAPID
+//! modules of all examples.
+//!
+//! Both are installed by `.ci/run`. Where one is missing its tests are skipped and say so, unless `VCUTC_REFEREES` is
+//! `required`.
+
+mod canon;
+mod compare;
+mod rapidchecker;
+mod rs274;
+
+use std::process::{Command, Stdio};
+
+/// Whether a referee is there, by starting it. A referee that is missing fails the test where referees are required.
+fn is_there(what: &str, command: &mut Command, package: &str) -> bool {
+    let started = command.stdin(Stdio::null()).output();
+    if started.is_ok_and(|output| output.status.success()) {
+        return true;
+    }
+    let is_required = std::env::var("VCUTC_REFEREES").is_ok_and(|value| value == "required");
+    assert!(!is_required, "{what} is required and not installed: {package}");
+    eprintln!("skipped: {what} is not installed ({package})");
+    false
+}
