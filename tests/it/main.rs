@@ -7,6 +7,7 @@
     reason = "tests read files, start the compiler, and stop at the first surprise"
 )]
 
+mod backends_page;
 mod check;
 #[cfg(feature = "cli")]
 mod cli;

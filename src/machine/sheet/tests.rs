@@ -3,6 +3,7 @@
 use super::*;
 use crate::document::{LARGEST, MOST_FLAWS};
 use crate::kinematics::opw::Coupling;
+use crate::machine::document::{LARGEST, MOST_FLAWS};
 use proptest::prelude::*;
 use vcutc_backend_api::ir::AxisKind;
 
