@@ -77,9 +77,18 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
     for (key, given, state, side, example) in sides {
         // A machine without an output is refused as such.
         let Some(output) = cell.ultrasonic else { break };
-        if given.is_empty() && (any_given || dialect.switch(output, state).is_none()) {
+        if !given.is_empty() {
+            continue;
+        }
+        if any_given {
             let why = format!(
-                "say what switches output {output} {side} on this {name}, such as `{key} = \"{example}\"`"
+                "the other code of the generator is given; add `{key} = \"{example}\"`, or take both out"
+            );
+            issues.push(conflict(key, why));
+        } else if dialect.switch(output, state).is_none() {
+            let why = format!(
+                "{name} has no word of its own for outputs; name the block that switches output {output} {side}, such as \
+                 `{key} = \"{example}\"`"
             );
             issues.push(conflict(key, why));
         }
