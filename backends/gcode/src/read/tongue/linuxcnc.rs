@@ -114,7 +114,9 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>, context: Context<'_>) 
         610 => order.set(Mode::Stop(None)),
         640 => {
             let mode = rounding(words.take(b'P'), context);
-            order.set(mode)
+            // Without `Q0` points that lie near a line are dropped as well.
+            let keeps_all = words.take(b'Q').is_some_and(|dropped| dropped.value == 0.0);
+            order.set(if keeps_all { mode } else { Mode::Stop(None) })
         }
         _ => known(american_g(code, order)?),
     }
