@@ -65,6 +65,14 @@ fn an_orientable_spindle_needs_a_letter() {
     assert!(text.contains(" C224."), "a branch that goes beyond half a turn");
 }
 
+#[test]
+fn every_option_is_explained() {
+    let page = read("docs/backends/gcode.md");
+    for option in registry::backend("gcode").unwrap().options() {
+        assert!(page.contains(&format!("`{}`", option.key)), "{}", option.key);
+    }
+}
+
 /// What the help line offers for a home is taken.
 #[test]
 fn a_home_that_is_missing_is_told_with_the_machines_own_axes() {
