@@ -75,6 +75,10 @@ fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(
         }
         (OptionKind::Length { .. }, GivenValue::Length(length)) => OptionValue::Length(*length),
         (OptionKind::Lines, GivenValue::Texts(lines)) => OptionValue::Lines(lines.clone()),
+        (OptionKind::Text, GivenValue::Texts(lines)) => match lines.as_slice() {
+            [text] => OptionValue::Text(text.clone()),
+            [] | [_, _, ..] => none,
+        },
         (OptionKind::Choice { of }, GivenValue::Word(word)) => of
             .iter()
             .find(|known| *known == word)
@@ -82,7 +86,13 @@ fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(
         (OptionKind::Lines, GivenValue::Ratio(_) | GivenValue::Length(_) | GivenValue::Word(_)) => {
             return Err("text in quotes".to_owned());
         }
-        (OptionKind::Integer { .. } | OptionKind::Length { .. } | OptionKind::Choice { .. }, _) => none,
+        (
+            OptionKind::Integer { .. }
+            | OptionKind::Length { .. }
+            | OptionKind::Text
+            | OptionKind::Choice { .. },
+            _,
+        ) => none,
     };
     options.set(spec, value)
 }
@@ -132,7 +142,8 @@ fn nearest_fitting(kind: OptionKind, given: &GivenValue) -> Option<String> {
             OptionKind::Integer { .. }
             | OptionKind::Length { .. }
             | OptionKind::Choice { .. }
-            | OptionKind::Lines,
+            | OptionKind::Lines
+            | OptionKind::Text,
             _,
         ) => None,
     }
