@@ -15,6 +15,7 @@ mod codes;
 mod examples;
 #[cfg(feature = "krl")]
 mod five_axis;
+mod gcode;
 mod hostile;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;

@@ -97,7 +97,6 @@ impl WorkInOffset {
     }
 
     /// A point of the frame of the work offset, seen from W.
-    #[cfg_attr(not(test), expect(dead_code, reason = "programs are not read back yet"))]
     pub(crate) fn in_work(&self, Point3 { x, y, z }: Point3) -> Point3 {
         let column = |at: usize| {
             let [first, second, third] = self.rows.map(|row| row.get(at).copied().unwrap_or_default());

@@ -90,11 +90,12 @@ mod tests {
             a in -80.0..80.0_f64,
         ) {
             let (b, a) = (b.to_radians(), a.to_radians());
+            let ((sin_b, cos_b), (sin_a, cos_a)) = (libm::sincos(b), libm::sincos(a));
             let axes = AxisValues([tip[0], tip[1], tip[2], b, a, 0.0]);
             let frame = blade_in_work(&axes);
             let out = out_of_the_shank(frame.orientation);
             // Ry(B) Rx(A) of the direction down.
-            let expected = [-a.cos() * b.sin(), a.sin(), -a.cos() * b.cos()];
+            let expected = [-cos_a * sin_b, sin_a, -cos_a * cos_b];
             for (is, should) in out.into_iter().zip(expected) {
                 prop_assert!((is - should).abs() < 1e-12);
             }

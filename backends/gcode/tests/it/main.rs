@@ -7,6 +7,7 @@
 )]
 
 mod dialect;
+mod read_back;
 mod refusals;
 mod snapshots;
 mod support;

@@ -1,0 +1,476 @@
+//! What holds at a block, and what the block therefore does.
+//!
+//! A motion is told only where everything that it depends on has been said in the program, and is what programs of this crate
+//! have: absolute coordinates in mm, tool-centre-point control on or off as the motion needs it, a tool and a work offset,
+//! a meaning of F, a way to stop. Coordinates that a block leaves out are those of the block before, which is the controller's rule
+//! too; behind a switch of tool-centre-point control the linear ones mean something else and have to be said anew.
+
+use super::order::{
+    Act, Context, Coordinates, HABITS, Habit, Mode, Motion, Once, Order, Parsed, Tcp, Trouble, expected,
+};
+use super::tongue::{Tongue, WorkOffset};
+use crate::axes::WorkInOffset;
+use crate::dialect::{AxisPace, FeedMode, TcpCodes};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{AxisKind, AxisValues, MOST_AXES, Ready, Switch};
+use vcutc_backend_api::readback::{Deed, End, FrameRole, FrameSetting, Held, Pace, Says, Target};
+use vcutc_backend_api::units::{AngularSpeed, Speed};
+
+/// Number of the work offset when the job gives none.
+const FIRST_OFFSET: u32 = 1;
+
+const SECONDS_A_MINUTE: f64 = 60.0;
+
+/// The state of a control.
+pub(super) struct Control<'a> {
+    tongue: &'static dyn Tongue,
+    context: Context<'a>,
+    work_in_offset: WorkInOffset,
+    modes: Modes,
+    /// The kind of motion that was named last.
+    motion: Option<Motion>,
+    /// F, while its meaning is the same.
+    feed: Option<f64>,
+    /// Where the tip is said to be, in the frame of the work offset.
+    tip: [Option<f64>; 3],
+    /// Where the axes are said to be, in mm and degrees; linear ones while the tip is not controlled.
+    axes: [Option<f64>; MOST_AXES],
+    cycle: Cycle,
+    reading: Reading,
+}
+
+/// What holds, as far as it has been said.
+#[derive(Clone, Copy, Debug, Default)]
+struct Modes {
+    habits: [Once; HABITS],
+    feed: Option<FeedMode>,
+    stop: Option<End>,
+    tcp: Option<Tcp>,
+    tool: Option<u32>,
+    work: Option<u32>,
+}
+
+/// Whether the first line of a wait in two lines was the statement before.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cycle {
+    None,
+    Begun,
+}
+
+/// Whether reading ahead has been stopped since the last motion.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reading {
+    Ahead,
+    Stopped,
+}
+
+impl Modes {
+    fn habit(&mut self, habit: Habit) -> Option<&mut Once> {
+        self.habits.get_mut(habit as usize)
+    }
+
+    fn has(&self, habit: Habit) -> bool {
+        self.habits.get(habit as usize) == Some(&Once::Yes)
+    }
+}
+
+impl<'a> Control<'a> {
+    /// Nothing said yet.
+    pub(super) fn new(tongue: &'static dyn Tongue, context: Context<'a>) -> Self {
+        let mut control = Self {
+            tongue,
+            context,
+            work_in_offset: WorkInOffset::new(context.cell.base.frame.orientation),
+            modes: Modes::default(),
+            motion: None,
+            feed: None,
+            tip: [None; 3],
+            axes: [None; MOST_AXES],
+            cycle: Cycle::None,
+            reading: Reading::Ahead,
+        };
+        control.restart();
+        control
+    }
+
+    /// A part begins: it has to say everything again.
+    pub(super) fn restart(&mut self) {
+        self.modes = Modes::default();
+        for &mode in self.tongue.from_the_start() {
+            self.set(mode);
+        }
+        (self.motion, self.feed) = (None, None);
+        self.forget();
+    }
+
+    /// Nobody knows where the machine is.
+    pub(super) fn forget(&mut self) {
+        self.tip = [None; 3];
+        self.axes = [None; MOST_AXES];
+        self.cycle = Cycle::None;
+        self.reading = Reading::Ahead;
+    }
+
+    /// Whether the tip is controlled, or not, or being switched.
+    pub(super) fn switch_tcp(&mut self, tcp: Option<Tcp>) {
+        self.set(Mode::Tcp(tcp));
+    }
+
+    /// What a block does. One that says where things go on does nothing else, and is none of the control's.
+    pub(super) fn carry_out(&mut self, order: &Order<'_>) -> Parsed<Says> {
+        let cycle = core::mem::replace(&mut self.cycle, Cycle::None);
+        let says = self.modes(&order.modes)?;
+        if let Some(motion) = order.motion {
+            self.motion = Some(motion);
+        }
+        let moves = order.has_axes();
+        if usize::from(moves) + usize::from(order.act.is_some()) + usize::from(order.flow.is_some()) > 1 {
+            return expected("one thing that is done in a block");
+        }
+        if moves {
+            if order.modes.iter().any(|mode| matches!(mode, Mode::Tcp(_))) {
+                return expected("the switch of tool-centre-point control in a block of its own");
+            }
+            let deed = match order.coordinates {
+                Coordinates::Work => self.straight(order)?,
+                Coordinates::Machine => self.all_axes(order)?,
+            };
+            self.reading = Reading::Ahead;
+            return Ok(Says::Deed(deed));
+        }
+        if order.coordinates == Coordinates::Machine || order.exact_once == Once::Yes {
+            return expected("coordinates");
+        }
+        if order.feed.is_some() {
+            self.feed = order.feed;
+        }
+        match order.act {
+            Some(act) => self.act(act, order.behind_stop, cycle),
+            None => Ok(says),
+        }
+    }
+
+    /// Sets modes; what is told if they are all that a block has.
+    fn modes(&mut self, modes: &[Mode]) -> Parsed<Says> {
+        let mut says = Says::Setting;
+        let mut trouble = None;
+        for &mode in modes {
+            self.set(mode);
+            match self.judged(mode) {
+                Ok(Says::Setting) => {}
+                Ok(other) => says = other,
+                Err(wrong) => trouble = Some(wrong),
+            }
+        }
+        trouble.map_or(Ok(says), Err)
+    }
+
+    fn set(&mut self, mode: Mode) {
+        match mode {
+            Mode::Habit(habit) | Mode::Not(habit) => {
+                let is_habit = matches!(mode, Mode::Habit(_));
+                if let Some(held) = self.modes.habit(habit) {
+                    *held = if is_habit { Once::Yes } else { Once::No };
+                }
+            }
+            Mode::Feed(feed) => {
+                if self.modes.feed != feed {
+                    self.feed = None;
+                }
+                self.modes.feed = feed;
+            }
+            Mode::Stop(stop) => self.modes.stop = stop,
+            Mode::Tcp(tcp) => {
+                if self.modes.tcp != tcp {
+                    self.tip = [None; 3];
+                    self.forget_linear_axes();
+                }
+                self.modes.tcp = tcp;
+            }
+            Mode::Tool(tool) => {
+                // A kinematics that the machine's builder switches takes the offset at hand: the axes would have to jump.
+                let jumps =
+                    self.context.settings.dialect.tcp_codes() == TcpCodes::Given && self.modes.tool != tool;
+                if jumps && self.modes.tcp == Some(Tcp::On) {
+                    self.set(Mode::Tcp(None));
+                }
+                self.modes.tool = tool;
+            }
+            Mode::Work(work) => self.modes.work = Some(work),
+            Mode::DwellCycle => self.cycle = Cycle::Begun,
+        }
+    }
+
+    fn forget_linear_axes(&mut self) {
+        for word in self.context.words {
+            match (word.kind, self.axes.get_mut(word.place)) {
+                (AxisKind::Linear, Some(axis)) => *axis = None,
+                (AxisKind::Rotary | AxisKind::Linear, _) => {}
+            }
+        }
+    }
+
+    /// Whether a mode is one that programs of this crate have.
+    fn judged(&self, mode: Mode) -> Parsed<Says> {
+        let cell = self.context.cell;
+        match mode {
+            Mode::Habit(_) | Mode::Feed(Some(_)) | Mode::Stop(Some(_)) | Mode::Tcp(_) | Mode::DwellCycle => {
+                Ok(Says::Setting)
+            }
+            Mode::Not(habit) => match self.tongue.habits().iter().find(|(known, _)| *known == habit) {
+                Some((_, words)) => expected(format!("`{words}`")),
+                None => Err(Trouble::Unknown),
+            },
+            Mode::Feed(None) => expected("a speed in mm/min or inverse time"),
+            Mode::Stop(None) => expected(match self.context.settings.approximation {
+                Some(distance) => format!(
+                    "`{}`, or rounding by {} mm",
+                    self.tongue.exact(),
+                    distance.to_mm()
+                ),
+                None => format!("`{}`", self.tongue.exact()),
+            }),
+            Mode::Tool(None | Some(0)) => Ok(Says::Setting),
+            Mode::Tool(Some(is)) => frame(FrameRole::Tool, is, cell.tool.number, self.tool()),
+            Mode::Work(is) => frame(FrameRole::Base, is, cell.base.number, FIRST_OFFSET),
+        }
+    }
+
+    /// The number of the blade in the controller's table.
+    fn tool(&self) -> u32 {
+        let number = self.context.cell.tool.number;
+        number.unwrap_or(self.context.settings.tool_number)
+    }
+
+    /// What both kinds of motion depend on.
+    fn habits(&self) -> Parsed<()> {
+        let missing = self
+            .tongue
+            .habits()
+            .iter()
+            .find(|(habit, _)| !self.modes.has(*habit));
+        match missing {
+            Some((_, words)) => expected(format!("`{words}` before a motion")),
+            None => Ok(()),
+        }
+    }
+
+    /// A motion of the tip.
+    fn straight(&mut self, order: &Order<'_>) -> Parsed<Deed> {
+        self.habits()?;
+        if self.modes.tcp != Some(Tcp::On) {
+            return expected("tool-centre-point control on, or coordinates of the machine");
+        }
+        if self.modes.tool != Some(self.tool()) {
+            return expected(format!("tool {} before a motion of the tip", self.tool()));
+        }
+        if self.tongue.work_offset() == WorkOffset::Said && self.modes.work.is_none() {
+            return expected("the work offset before a motion of the tip");
+        }
+        match self.motion {
+            Some(Motion::AtFeed) => {}
+            Some(Motion::Rapid) | None => return expected("a straight motion with a speed"),
+        }
+        let end = match (order.exact_once, self.modes.stop) {
+            (Once::Yes, _) => End::Exact,
+            (Once::No, Some(end)) => end,
+            (Once::No, None) => return expected(format!("`{}` before a motion", self.tongue.exact())),
+        };
+        let before = self.tip;
+        self.take(order);
+        let [Some(x), Some(y), Some(z)] = self.tip else {
+            return expected("all of X, Y and Z behind a switch of tool-centre-point control");
+        };
+        let mut rotary = AxisValues([0.0; MOST_AXES]);
+        self.values(&mut rotary, AxisKind::Rotary)?;
+        let pace = self.pace(order, before)?;
+        self.forget_linear_axes();
+        let tip = self.work_in_offset.in_work(Point3::new(x, y, z));
+        let to = Target {
+            tip,
+            held: Held::Rotary(rotary),
+        };
+        Ok(Deed::Straight { to, pace, end })
+    }
+
+    /// A motion of all axes.
+    fn all_axes(&mut self, order: &Order<'_>) -> Parsed<Deed> {
+        self.habits_of_axes()?;
+        if self.modes.tcp != Some(Tcp::Off) {
+            return expected("tool-centre-point control off before coordinates of the machine");
+        }
+        if let Some(tool) = self.tongue.tool_of_axis_moves()
+            && self.modes.tool != Some(tool)
+        {
+            return expected("`D0` with coordinates of the machine");
+        }
+        if order.exact_once == Once::No && self.modes.stop != Some(End::Exact) {
+            return expected(format!("`{}` before a motion of all axes", self.tongue.exact()));
+        }
+        match (self.context.settings.dialect.axis_pace(), self.motion) {
+            (AxisPace::Rapid, Some(Motion::Rapid)) => {}
+            (AxisPace::Rapid, _) => return expected("`G0` with coordinates of the machine"),
+            (AxisPace::InverseTime | AxisPace::Path, Some(Motion::AtFeed)) => {
+                self.speed(order)?;
+            }
+            (AxisPace::InverseTime | AxisPace::Path, Some(Motion::Rapid) | None) => {
+                return expected("a motion with a speed");
+            }
+        }
+        self.tip = [None; 3];
+        for (known, said) in self.axes.iter_mut().zip(order.axes) {
+            *known = said.or(*known);
+        }
+        let mut axes = AxisValues([0.0; MOST_AXES]);
+        self.values(&mut axes, AxisKind::Linear)?;
+        self.values(&mut axes, AxisKind::Rotary)?;
+        Ok(Deed::Axes(axes))
+    }
+
+    /// Coordinates of the machine need no habits of the tip.
+    fn habits_of_axes(&self) -> Parsed<()> {
+        let needed = |habit: Habit| match habit {
+            Habit::Absolute | Habit::Millimetres | Habit::AsWritten => true,
+            Habit::ByAxes | Habit::MachineAngles | Habit::FeedOfTip => false,
+        };
+        let missing = self.tongue.habits().iter();
+        let missing = missing
+            .filter(|(habit, _)| needed(*habit))
+            .find(|(habit, _)| !self.modes.has(*habit));
+        match missing {
+            Some((_, words)) => expected(format!("`{words}` before a motion")),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes over the coordinates of a motion of the tip.
+    fn take(&mut self, order: &Order<'_>) {
+        for word in self.context.words {
+            let Some(&Some(said)) = order.axes.get(word.place) else {
+                continue;
+            };
+            let known = match word.kind {
+                AxisKind::Linear => tip_place(word.letter).and_then(|place| self.tip.get_mut(place)),
+                AxisKind::Rotary => self.axes.get_mut(word.place),
+            };
+            if let Some(known) = known {
+                *known = Some(said);
+            }
+        }
+    }
+
+    /// The axes of a kind, in mm and rad.
+    fn values(&self, into: &mut AxisValues, kind: AxisKind) -> Parsed<()> {
+        for word in self.context.words.iter().filter(|word| word.kind == kind) {
+            let known = self.axes.get(word.place).copied().flatten();
+            let (Some(value), Some(place)) = (known, into.0.get_mut(word.place)) else {
+                return expected(format!("the word `{}`", char::from(word.letter)));
+            };
+            *place = match kind {
+                AxisKind::Linear => value,
+                AxisKind::Rotary => value.to_radians(),
+            };
+        }
+        Ok(())
+    }
+
+    /// The number behind F that counts for a block.
+    fn speed(&mut self, order: &Order<'_>) -> Parsed<f64> {
+        let said = match self.modes.feed {
+            // Inverse time is that of one block.
+            Some(FeedMode::InverseTime) => order.feed,
+            Some(FeedMode::Tip | FeedMode::Rotary) => {
+                self.feed = order.feed.or(self.feed);
+                self.feed
+            }
+            None => return expected("the meaning of `F` before a motion"),
+        };
+        match said {
+            Some(feed) if feed > 0.0 => Ok(feed),
+            Some(_) => expected("a speed above 0 behind `F`"),
+            None => expected("the word `F`"),
+        }
+    }
+
+    fn pace(&mut self, order: &Order<'_>, before: [Option<f64>; 3]) -> Parsed<Pace> {
+        let feed = self.speed(order)?;
+        match self.modes.feed {
+            Some(FeedMode::Tip) => Ok(Pace::Tip(Speed::mm_per_s(feed / SECONDS_A_MINUTE))),
+            Some(FeedMode::InverseTime) => Ok(Pace::PerMinute(feed)),
+            Some(FeedMode::Rotary) if self.moves_the_tip(before) => {
+                expected("rotary axes alone, for `F` is the speed of all axes that are named")
+            }
+            Some(FeedMode::Rotary) => Ok(Pace::Rotary(AngularSpeed::deg_per_s(feed / SECONDS_A_MINUTE))),
+            None => expected("the meaning of `F` before a motion"),
+        }
+    }
+
+    /// Whether the tip goes farther than by its last decimal.
+    fn moves_the_tip(&self, before: [Option<f64>; 3]) -> bool {
+        let unit = 2.0 * super::half_a_unit(self.context.settings.lengths);
+        let ways = self.tip.into_iter().zip(before);
+        ways.filter_map(|(to, from)| Some((to? - from?).abs()))
+            .any(|way| way > unit * 1.5)
+    }
+
+    fn act(&mut self, act: Act, behind_stop: Once, cycle: Cycle) -> Parsed<Says> {
+        if behind_stop == Once::Yes && self.reading == Reading::Ahead {
+            return expected("`STOPRE` before an output");
+        }
+        let cell = self.context.cell;
+        let deed = match act {
+            Act::Switch(output, state) => Deed::Switch { output, state },
+            Act::Generator(state) => match cell.ultrasonic {
+                Some(output) => Deed::Switch { output, state },
+                None => return Err(Trouble::Unknown),
+            },
+            Act::Await(input) => Deed::AwaitInput(input),
+            Act::AwaitReady => match cell.ready {
+                Ready::Input(input) => Deed::AwaitInput(input),
+                Ready::After(_) => return Err(Trouble::Unknown),
+            },
+            Act::Wait(time) => Deed::Wait(time),
+            Act::CycleWait(_) if cycle == Cycle::None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
+            Act::CycleWait(time) => Deed::Wait(time),
+            Act::StopReading => {
+                self.reading = Reading::Stopped;
+                return Ok(Says::Setting);
+            }
+        };
+        Ok(Says::Deed(deed))
+    }
+}
+
+/// The place of a letter among the coordinates of the tip.
+const fn tip_place(letter: u8) -> Option<usize> {
+    match letter {
+        b'X' => Some(0),
+        b'Y' => Some(1),
+        b'Z' => Some(2),
+        _ => None,
+    }
+}
+
+/// A number of a tool or work offset: that of the machine if it has one, or else the one that programs then have.
+fn frame(role: FrameRole, is: u32, given: Option<u32>, otherwise: u32) -> Parsed<Says> {
+    match given {
+        Some(_) => Ok(Says::Frame(role, FrameSetting::Number(is))),
+        None if is == otherwise => Ok(Says::Setting),
+        None => expected(match role {
+            FrameRole::Tool => format!("tool {otherwise}"),
+            FrameRole::Base => format!("work offset {otherwise}"),
+        }),
+    }
+}
+
+/// What a block that the job gives does.
+pub(super) fn given(role: super::codes::Role) -> Order<'static> {
+    use super::codes::Role;
+    match role {
+        Role::On => Order::act(Act::Generator(Switch::On)),
+        Role::Off => Order::act(Act::Generator(Switch::Off)),
+        Role::Ready => Order::act(Act::AwaitReady),
+        Role::TcpOn => Order::modes(vec![Mode::Tcp(Some(Tcp::On))]),
+        Role::TcpOff => Order::modes(vec![Mode::Tcp(Some(Tcp::Off))]),
+    }
+}

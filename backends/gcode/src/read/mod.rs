@@ -1,0 +1,90 @@
+//! Programs of the four dialects read back.
+//!
+//! A line is read in three steps that know nothing of each other's business. [`lines`] finds what of it is statement. A
+//! [`tongue`] turns the statement into an [`order`]: what the block says, in terms that all dialects share. [`control`] keeps
+//! what was said before, as a control does, and tells what the block therefore does; [`walk`] goes from file to file.
+//!
+//! # What is understood
+//!
+//! * Straight motions of the tip, every coordinate of which is known, and motions of all axes in coordinates of the machine.
+//! * Absolute coordinates in mm, and what each dialect says of tool-centre-point control, exact stops, rounding, tools, work
+//!   offsets, the meaning of F, outputs, inputs and waits, where it is that of the job. A motion for which one of these was not
+//!   said, in the same part, is not understood.
+//! * Parts in files of their own, each called once.
+//! * Blocks that the job gives (`tcp_on`, `on_code`, ...) and lines of the machine's profile, as texts.
+//!
+//! Letters may be small, blanks and zeros missing, coordinates left out that stay as they were. Everything else (arcs, `G91`,
+//! `G20`, variables, loops, other M codes) is told as not understood: nothing is guessed. How fast a motion of all axes goes is
+//! not told, for it is no part of the program that was proven.
+
+mod codes;
+mod control;
+mod lines;
+mod order;
+mod tongue;
+mod walk;
+mod words;
+
+use crate::blocks::last_place;
+use crate::options::Settings;
+use vcutc_backend_api::backend::Options;
+use vcutc_backend_api::ir::AxisValues;
+use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::number::FixedDecimal;
+use vcutc_backend_api::readback::{Frames, Grain, Reader, Sources, Stance, Statement};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
+
+/// The reader of all dialects.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct GcodeReader;
+
+/// Extensions of programs, in small letters.
+const EXTENSIONS: [&str; 8] = ["ngc", "nc", "mpf", "spf", "h", "cnc", "tap", "gcode"];
+
+const SECONDS_A_MINUTE: f64 = 60.0;
+
+/// Half a unit of the last decimal.
+fn half_a_unit(format: FixedDecimal) -> f64 {
+    0.5 * last_place(format)
+}
+
+impl Reader for GcodeReader {
+    fn recognises(&self, file: &str) -> bool {
+        let extension = file.rfind('.').and_then(|at| file.get(at + 1..));
+        extension.is_some_and(|extension| {
+            EXTENSIONS
+                .iter()
+                .any(|known| extension.eq_ignore_ascii_case(known))
+        })
+    }
+
+    fn grain(&self, options: &Options) -> Grain {
+        let settings = Settings::read(options);
+        let fine = half_a_unit(settings.fine());
+        let angle = Angle::deg(half_a_unit(settings.angles));
+        Grain {
+            // Printed in the frame of the machine, compared in that of the work: a coordinate of one may be made of all three
+            // of the other.
+            length: Length::mm(half_a_unit(settings.lengths) * 3.0_f64.sqrt()),
+            attitude: angle,
+            axis: angle,
+            speed: Speed::mm_per_s(fine / SECONDS_A_MINUTE),
+            rate: AngularSpeed::deg_per_s(fine / SECONDS_A_MINUTE),
+            per_minute: fine,
+            time: Duration::s(fine),
+        }
+    }
+
+    fn frames(&self) -> Frames {
+        Frames::OnMachine
+    }
+
+    /// Rotary axes are said by their values, so nothing is left open.
+    fn stance(&self, _: Branch, _: AxisValues) -> Option<Stance> {
+        None
+    }
+
+    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+        walk::read(sources, heed);
+    }
+}

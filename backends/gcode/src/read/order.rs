@@ -1,0 +1,287 @@
+//! What a block orders, in terms that all dialects share.
+//!
+//! An [`Order`] is the block alone: what it leaves to what was said before (the meaning of F, coordinates that stay) is filled
+//! in by the [`control`](super::control).
+
+use crate::axes::Word;
+use crate::dialect::FeedMode;
+use crate::options::Settings;
+use vcutc_backend_api::ir::{Cell, MOST_AXES, Switch};
+use vcutc_backend_api::readback::End;
+use vcutc_backend_api::units::Duration;
+
+/// For whom a block is read.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub(super) cell: &'a Cell,
+    pub(super) settings: &'a Settings<'a>,
+    /// The machine's axes as words.
+    pub(super) words: &'a [Word],
+}
+
+/// Why a block is not understood.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Trouble {
+    /// A word, or a combination of words, that no program of this crate has.
+    Unknown,
+    /// Something else was expected.
+    Expected(String),
+}
+
+/// What became of a part of a block.
+pub(super) type Parsed<T> = Result<T, Trouble>;
+
+/// That something else was expected.
+pub(super) fn expected<T>(what: impl Into<String>) -> Parsed<T> {
+    Err(Trouble::Expected(what.into()))
+}
+
+/// A block.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Order<'t> {
+    /// The kind of motion that it names.
+    pub(super) motion: Option<Motion>,
+    /// What its coordinates are.
+    pub(super) coordinates: Coordinates,
+    /// It ends at a standstill, whatever holds for others.
+    pub(super) exact_once: Once,
+    /// Values of the axes' words in mm and degrees, at their places among the machine's axes.
+    pub(super) axes: [Option<f64>; MOST_AXES],
+    /// The word F.
+    pub(super) feed: Option<f64>,
+    /// What holds from here on.
+    pub(super) modes: Vec<Mode>,
+    /// What is done besides motion.
+    pub(super) act: Option<Act>,
+    /// It is done in time only behind a stop of reading ahead.
+    pub(super) behind_stop: Once,
+    /// What is carried out next.
+    pub(super) flow: Option<Flow<'t>>,
+}
+
+/// A kind of motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Motion {
+    /// As fast as may be.
+    Rapid,
+    /// At the speed of F.
+    AtFeed,
+}
+
+/// What coordinates are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Coordinates {
+    /// Those of the tip, from the zero of the work.
+    #[default]
+    Work,
+    /// Those of the machine's axes, in this block.
+    Machine,
+}
+
+/// Whether something is said for one block.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Once {
+    /// It is not.
+    #[default]
+    No,
+    /// It is.
+    Yes,
+}
+
+/// Something that holds from here on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Mode {
+    /// A habit that every program of this crate has.
+    Habit(Habit),
+    /// The opposite of it.
+    Not(Habit),
+    /// The meaning of F; none for one that no program of this crate has.
+    Feed(Option<FeedMode>),
+    /// How moves end; none for a way that is not that of the job.
+    Stop(Option<End>),
+    /// Tool-centre-point control; none while it is being switched.
+    Tcp(Option<Tcp>),
+    /// The tool whose length counts, 0 for none; none when it has to be said again.
+    Tool(Option<u32>),
+    /// The work offset.
+    Work(u32),
+    /// The first of the two lines of a wait.
+    DwellCycle,
+}
+
+/// What a mode is about: a block says it once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Group {
+    Habit(Habit),
+    Feed,
+    Stop,
+    Tcp,
+    Tool,
+    Work,
+    DwellCycle,
+}
+
+impl Mode {
+    const fn group(self) -> Group {
+        match self {
+            Self::Habit(habit) | Self::Not(habit) => Group::Habit(habit),
+            Self::Feed(_) => Group::Feed,
+            Self::Stop(_) => Group::Stop,
+            Self::Tcp(_) => Group::Tcp,
+            Self::Tool(_) => Group::Tool,
+            Self::Work(_) => Group::Work,
+            Self::DwellCycle => Group::DwellCycle,
+        }
+    }
+}
+
+/// Whether tool-centre-point control is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tcp {
+    On,
+    Off,
+}
+
+/// Habits of the programs of this crate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Habit {
+    /// Coordinates are absolute.
+    Absolute,
+    /// Lengths are in mm.
+    Millimetres,
+    /// Rotary axes go straight to their values while the tip is controlled.
+    ByAxes,
+    /// Their values are those of the machine.
+    MachineAngles,
+    /// F is the speed of the tip alone.
+    FeedOfTip,
+    /// Rotary axes go the way that is written, not the shorter one.
+    AsWritten,
+}
+
+/// How many habits there are.
+pub(super) const HABITS: usize = 6;
+
+/// What is done besides motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Act {
+    /// An output is switched.
+    Switch(u32, Switch),
+    /// The generator is switched, by blocks that the job gives.
+    Generator(Switch),
+    /// Waits for an input.
+    Await(u32),
+    /// Waits until the generator is ready, by blocks that the job gives.
+    AwaitReady,
+    /// Waits.
+    Wait(Duration),
+    /// The second of the two lines of a wait.
+    CycleWait(Duration),
+    /// Reading ahead ends here.
+    StopReading,
+}
+
+/// What is carried out next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Flow<'t> {
+    /// The mark around a file on tape.
+    Tape,
+    /// A file begins, with its name.
+    Head(Routine<'t>),
+    /// The file of a part begins, with its name.
+    PartHead(Routine<'t>),
+    /// A part is carried out.
+    Call(Routine<'t>),
+    /// Back to who called.
+    Return,
+    /// Back from the part of this name to who called.
+    ReturnFrom(Routine<'t>),
+    /// Back to who called, or the end of the program.
+    Close(Routine<'t>),
+    /// The program ends.
+    End,
+}
+
+/// The name of a program or part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Routine<'t> {
+    /// In letters, small and capital ones alike.
+    Name(&'t str),
+    /// A number.
+    Number(u32),
+}
+
+impl Routine<'_> {
+    /// Whether two names are the same.
+    pub(super) fn is(self, other: Routine<'_>) -> bool {
+        match (self, other) {
+            (Self::Name(a), Routine::Name(b)) => a.eq_ignore_ascii_case(b),
+            (Self::Number(a), Routine::Number(b)) => a == b,
+            (Self::Name(_), Routine::Number(_)) | (Self::Number(_), Routine::Name(_)) => false,
+        }
+    }
+}
+
+impl<'t> Order<'t> {
+    /// A block that only says where things go on.
+    pub(super) fn flow(flow: Flow<'t>) -> Self {
+        Self {
+            flow: Some(flow),
+            ..Self::default()
+        }
+    }
+
+    /// A block that does one thing besides motion.
+    pub(super) fn act(act: Act) -> Self {
+        Self {
+            act: Some(act),
+            ..Self::default()
+        }
+    }
+
+    /// A block that sets these.
+    pub(super) fn modes(modes: Vec<Mode>) -> Self {
+        Self {
+            modes,
+            ..Self::default()
+        }
+    }
+
+    /// Adds what holds from here on.
+    pub(super) fn set(&mut self, mode: Mode) -> Parsed<()> {
+        if self.modes.iter().any(|known| known.group() == mode.group()) {
+            return expected("one word of a group");
+        }
+        self.modes.push(mode);
+        Ok(())
+    }
+
+    /// Names the kind of motion.
+    pub(super) fn moves(&mut self, motion: Motion) -> Parsed<()> {
+        match self.motion.replace(motion) {
+            Some(_) => expected("one word for the motion"),
+            None => Ok(()),
+        }
+    }
+
+    /// Adds what is done.
+    pub(super) fn does(&mut self, act: Act) -> Parsed<()> {
+        match self.act.replace(act) {
+            Some(_) => expected("one thing that is done in a block"),
+            None => Ok(()),
+        }
+    }
+
+    /// Adds where things go on.
+    pub(super) fn goes(&mut self, flow: Flow<'t>) -> Parsed<()> {
+        match self.flow.replace(flow) {
+            Some(_) => expected("one way to go on"),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether it has coordinates.
+    pub(super) fn has_axes(&self) -> bool {
+        self.axes.iter().any(Option::is_some)
+    }
+}
