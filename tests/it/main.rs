@@ -34,7 +34,7 @@ mod process_errors;
 mod published;
 #[cfg(feature = "krl")]
 mod reach;
-#[cfg(all(feature = "gcode", feature = "krl"))]
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod referees;
 mod repository;
 mod schema;
