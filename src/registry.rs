@@ -10,6 +10,8 @@ pub fn backends() -> Vec<&'static dyn Backend> {
         &vcutc_backend_gcode::Gcode,
         #[cfg(feature = "krl")]
         &vcutc_backend_krl::Krl,
+        #[cfg(feature = "rapid")]
+        &vcutc_backend_rapid::Rapid,
     ]
 }
 

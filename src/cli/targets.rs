@@ -124,6 +124,7 @@ fn describe_option(text: &mut String, spec: &OptionSpec) {
             max.to_mm(),
             default.to_mm()
         ),
+        OptionKind::Text => "text in quotes, none when not given".to_owned(),
         OptionKind::Lines => "lines of text in quotes, none when not given".to_owned(),
         OptionKind::Choice { of } => match of.split_first() {
             Some((default, _)) => format!("one of {}; {default} when not given", of.join(", ")),

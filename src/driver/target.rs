@@ -8,7 +8,7 @@ use crate::source::{Span, Spanned};
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
 };
-use vcutc_backend_api::ir::{Action, MachineKind, Maker, OpId, Program};
+use vcutc_backend_api::ir::{Action, AxisKind, MachineKind, Maker, OpId, Program};
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -114,6 +114,10 @@ fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(
         }
         (OptionKind::Length { .. }, GivenValue::Length(length)) => OptionValue::Length(*length),
         (OptionKind::Lines, GivenValue::Texts(lines)) => OptionValue::Lines(lines.clone()),
+        (OptionKind::Text, GivenValue::Texts(lines)) => match lines.as_slice() {
+            [text] => OptionValue::Text(text.clone()),
+            [] | [_, _, ..] => none,
+        },
         (OptionKind::Choice { of }, GivenValue::Word(word)) => of
             .iter()
             .find(|known| *known == word)
@@ -121,7 +125,13 @@ fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(
         (OptionKind::Lines, GivenValue::Ratio(_) | GivenValue::Length(_) | GivenValue::Word(_)) => {
             return Err("text in quotes".to_owned());
         }
-        (OptionKind::Integer { .. } | OptionKind::Length { .. } | OptionKind::Choice { .. }, _) => none,
+        (
+            OptionKind::Integer { .. }
+            | OptionKind::Length { .. }
+            | OptionKind::Text
+            | OptionKind::Choice { .. },
+            _,
+        ) => none,
     };
     options.set(spec, value)
 }
@@ -171,7 +181,8 @@ fn nearest_fitting(kind: OptionKind, given: &GivenValue) -> Option<String> {
             OptionKind::Integer { .. }
             | OptionKind::Length { .. }
             | OptionKind::Choice { .. }
-            | OptionKind::Lines,
+            | OptionKind::Lines
+            | OptionKind::Text,
             _,
         ) => None,
     }
@@ -226,7 +237,10 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             format!("no `{field}` here"),
         )
         .note(*why)
-        .help(format!("add `{}` to this block", example(field))),
+        .help(format!(
+            "add `{}` to this block",
+            example(field, job.machine.as_ref())
+        )),
         BackendIssue::OptionConflict { key, why } => {
             let span = option_span(job.machine.as_ref(), target, key).unwrap_or(machine);
             Diagnostic::new(
@@ -338,14 +352,30 @@ fn wrong_machine(job: &CheckedJob, target: &str, mismatch: MachineMismatch, driv
 }
 
 /// A line to add for a field of the machine.
-fn example(field: &str) -> String {
-    let value = match field {
-        "home" => "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
-        "ultrasonic" => "output(12)",
-        "tool" | "base" => "frame(x = 0 mm, y = 0 mm, z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)",
-        _ => "...",
+fn example(field: &str, machine: Option<&Machine>) -> String {
+    let value = match (field, machine.map(|machine| machine.model.as_ref())) {
+        ("home", Some(model)) if model.kind() == MachineKind::FiveAxis => home_of_axes(model),
+        ("home", _) => "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)".to_owned(),
+        ("ultrasonic", _) => "output(12)".to_owned(),
+        ("tool" | "base", _) => {
+            "frame(x = 0 mm, y = 0 mm, z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)".to_owned()
+        }
+        _ => "...".to_owned(),
     };
     format!("{field} = {value}")
+}
+
+/// A home with the names of the machine's axes: Z at its upper end, clear of the work, the others at zero.
+fn home_of_axes(model: &Model) -> String {
+    let places = model.axes.iter().map(|axis| {
+        let name = axis.name.to_lowercase();
+        match axis.kind {
+            AxisKind::Linear if axis.name == "Z" => format!("{name} = {} mm", axis.max),
+            AxisKind::Linear => format!("{name} = 0 mm"),
+            AxisKind::Rotary => format!("{name} = 0 deg"),
+        }
+    });
+    format!("axes({})", places.collect::<Vec<_>>().join(", "))
 }
 
 fn option_span(machine: Option<&Machine>, target: &str, key: &str) -> Option<Span> {

@@ -5,19 +5,13 @@
 //! - **KUKA** status S, bits with the weights 1, 2, 4: the wrist centre behind axis 1; the forearm folded forward
 //!   (`A3 > phi`); A5 negative. Turn T, bits with the weights 1 to 32: A1 to A6 negative. (Beckhoff TF5200 "Status & Turn";
 //!   KUKA's expert manual as quoted on robot-forum.com, threads 7173 and 45777.)
-//! - **ABB** `[cf1, cf4, cf6, cfx]`: the quarter turns in which axes 1, 4 and 6 are, counted from 0 upwards and -1 downwards;
-//!   cfx with the weights 1, 2, 4: axis 5 negative; the wrist centre behind the lower arm; behind axis 1. (RAPID reference,
-//!   `confdata`.) "Behind the lower arm" is meant here as seen in the frame that turns with axis 1, so that it is
-//!   [`Elbow::Backward`] on both sides of axis 1. visose/Robots agrees: it swaps the sense of the elbow in its kinematics
-//!   and once more where it writes cfx. The table of ABB's manual was not at hand; before relying on 4 to 7, compare with
-//!   RobotStudio. Arms with a parallelogram write 0 for cfx: they cannot fold over.
+//! - **ABB** `[cf1, cf4, cf6, cfx]`: [`vcutc_backend_api::confdata`] says what they are.
 //!
 //! On the border between two ways a controller may decide one way or the other; [`borders`] names the borders that axis
 //! values lie on.
 
 use super::Joints;
 use super::opw::{Coupling, Opw};
-use core::f64::consts::FRAC_PI_2;
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 
 /// Angles (rad) and sines up to this count as zero.
@@ -78,37 +72,6 @@ pub fn kuka_turn(joints: &Joints) -> u8 {
         .enumerate()
         .filter(|(_, joint)| **joint < -ZERO_ANGLE)
         .fold(0, |turn, (axis, _)| turn | 1 << axis)
-}
-
-/// ABB's `[cf1, cf4, cf6, cfx]`; none for machines that are no such arms, and for axis values that are no angles.
-#[must_use]
-pub fn abb_confdata(joints: &Joints, branch: Branch, coupling: Coupling) -> Option<[i32; 4]> {
-    let Branch::Arm {
-        shoulder,
-        elbow,
-        wrist,
-    } = branch
-    else {
-        return None;
-    };
-    let cfx = match coupling {
-        Coupling::Serial => {
-            i32::from(wrist == Wrist::Negative)
-                + 2 * i32::from(elbow == Elbow::Backward)
-                + 4 * i32::from(shoulder == Shoulder::Back)
-        }
-        Coupling::Parallelogram => 0,
-    };
-    let [cf1, cf4, cf6] = [joints[0], joints[3], joints[5]].map(quarter);
-    Some([cf1?, cf4?, cf6?, cfx])
-}
-
-/// The quarter turn in which an angle is. What is below a border by rounding only counts as on it.
-fn quarter(angle: f64) -> Option<i32> {
-    let quarter = ((angle + ZERO_ANGLE) / FRAC_PI_2).floor();
-    let is_angle = quarter.abs() <= 1e6;
-    #[expect(clippy::cast_possible_truncation, reason = "an integer of at most a million")]
-    is_angle.then_some(quarter as i32)
 }
 
 /// A border between two ways to stand, or between two values of a controller's integers.

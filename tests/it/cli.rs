@@ -4,7 +4,10 @@ mod gallery;
 mod jobs;
 mod kinematics;
 mod machines;
+#[cfg(unix)]
+mod outside;
 mod place;
+mod profiles;
 mod refusals;
 #[cfg(feature = "krl")]
 mod verify;

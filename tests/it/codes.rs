@@ -14,6 +14,12 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "the planner keeps every cut out of the part; the proof is there to find its mistakes",
     ),
     (
+        Code::OutsideProgram,
+        "tests/it/cli/outside.rs",
+        "what_is_no_program_is_not_written",
+        "it takes a program beside the job",
+    ),
+    (
         Code::Internal,
         "src/driver/mod.rs",
         "a_program_that_breaks_a_rule_is_the_compilers_fault",

@@ -7,6 +7,7 @@
     reason = "tests read files, start the compiler, and stop at the first surprise"
 )]
 
+mod backends_page;
 mod check;
 #[cfg(feature = "cli")]
 mod cli;
@@ -15,6 +16,7 @@ mod codes;
 mod examples;
 #[cfg(feature = "krl")]
 mod five_axis;
+mod gcode;
 mod hostile;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod jobs;
@@ -32,7 +34,7 @@ mod process_errors;
 mod published;
 #[cfg(feature = "krl")]
 mod reach;
-#[cfg(all(feature = "gcode", feature = "krl"))]
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod referees;
 mod repository;
 mod schema;

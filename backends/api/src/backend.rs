@@ -194,6 +194,8 @@ pub enum OptionKind {
     },
     /// Lines of text, none when not given.
     Lines,
+    /// A text on one line, empty when not given.
+    Text,
     /// One of a few words.
     Choice {
         /// The words; the first is the default.
@@ -210,6 +212,8 @@ pub enum OptionValue {
     Length(Length),
     /// Lines of text.
     Lines(Vec<String>),
+    /// A text on one line.
+    Text(String),
     /// A word.
     Choice(&'static str),
 }
@@ -229,6 +233,7 @@ impl Options {
             OptionKind::Integer { default, .. } => OptionValue::Integer(default),
             OptionKind::Length { default, .. } => OptionValue::Length(default),
             OptionKind::Lines => OptionValue::Lines(Vec::new()),
+            OptionKind::Text => OptionValue::Text(String::new()),
             OptionKind::Choice { of } => OptionValue::Choice(of.first().copied().unwrap_or_default()),
         };
         Self {
@@ -270,6 +275,8 @@ impl Options {
             }
             (OptionKind::Lines, OptionValue::Lines(_)) => {}
             (OptionKind::Lines, _) => return Err("text in quotes".to_owned()),
+            (OptionKind::Text, OptionValue::Text(text)) if !text.contains(['\r', '\n']) => {}
+            (OptionKind::Text, _) => return Err("one text in quotes, on one line".to_owned()),
             (OptionKind::Choice { of }, OptionValue::Choice(word)) if of.contains(word) => {}
             (OptionKind::Choice { of }, _) => return Err(format!("one of {}", of.join(", "))),
         }
@@ -301,6 +308,15 @@ impl Options {
         match self.values.get(key) {
             Some(OptionValue::Lines(lines)) => lines,
             _ => &[],
+        }
+    }
+
+    /// A text; empty when not given, and for a key that is no such option.
+    #[must_use]
+    pub fn text(&self, key: &str) -> &str {
+        match self.values.get(key) {
+            Some(OptionValue::Text(text)) => text,
+            _ => "",
         }
     }
 

@@ -38,7 +38,9 @@
 
 pub mod backend;
 pub mod bundle;
+pub mod confdata;
 pub mod exchange;
+pub mod findings;
 pub mod geometry;
 pub mod ir;
 pub mod motion;
@@ -53,3 +55,4 @@ pub mod stroke;
 pub mod testkit;
 pub mod units;
 pub mod verify;
+pub mod wrist;

@@ -95,8 +95,8 @@ pub enum Value<'a> {
     Length(Length),
     /// Lines of text.
     Lines(Cow<'a, [String]>),
-    /// A word.
-    Choice(Cow<'a, str>),
+    /// A word, or one text.
+    Text(Cow<'a, str>),
 }
 
 /// All options by their keys.
@@ -106,7 +106,8 @@ pub fn values(options: &Options) -> BTreeMap<Cow<'_, str>, Value<'_>> {
         &OptionValue::Integer(number) => Value::Integer(number),
         &OptionValue::Length(length) => Value::Length(length),
         OptionValue::Lines(lines) => Value::Lines(Cow::Borrowed(lines)),
-        &OptionValue::Choice(word) => Value::Choice(Cow::Borrowed(word)),
+        OptionValue::Text(text) => Value::Text(Cow::Borrowed(text)),
+        &OptionValue::Choice(word) => Value::Text(Cow::Borrowed(word)),
     };
     let options = options.iter();
     options
@@ -187,6 +188,8 @@ pub enum DescribedKind {
     },
     /// Lines of text, none when not given.
     Lines,
+    /// One text on one line, empty when not given.
+    Text,
     /// One of a few words.
     Choice {
         /// The words; the first is the default.
@@ -200,6 +203,7 @@ impl From<OptionKind> for DescribedKind {
             OptionKind::Integer { min, max, default } => Self::Integer { min, max, default },
             OptionKind::Length { min, max, default } => Self::Length { min, max, default },
             OptionKind::Lines => Self::Lines,
+            OptionKind::Text => Self::Text,
             OptionKind::Choice { of } => Self::Choice {
                 of: of.iter().map(|&word| word.to_owned()).collect(),
             },

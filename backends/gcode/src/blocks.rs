@@ -131,6 +131,12 @@ impl<'a, 's> Blocks<'a, 's> {
     }
 }
 
+/// One unit of the last decimal.
+pub(crate) fn last_place(format: FixedDecimal) -> f64 {
+    let decimals = u32::from(format.decimals().min(9));
+    1.0 / f64::from(10_u32.pow(decimals))
+}
+
 /// Appends a coordinate: a blank, its letter and its value.
 pub(crate) fn push_word(
     out: &mut Vec<u8>,

@@ -234,11 +234,8 @@ impl Body<'_, '_, '_, '_> {
             self.feed(pace)?;
         }
         self.blocks.put(end);
+        // Coordinates of the tip mean something else from here on, so the next block says all of them.
         self.last_tip.clear();
-        if let Place::Tip(tip, _) = self.state.place {
-            self.tip_words(tip)?;
-            core::mem::swap(&mut self.tip, &mut self.last_tip);
-        }
         self.blocks.end()
     }
 

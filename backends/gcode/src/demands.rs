@@ -67,7 +67,6 @@ fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 
 fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let (dialect, codes) = (settings.dialect, settings.codes);
-    let output = cell.ultrasonic.unwrap_or_default();
     let name = dialect.name();
     let sides = [
         (ON_CODE, codes.on, Switch::On, "on", "M50"),
@@ -76,9 +75,20 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
     // One code alone would switch by two different ways.
     let any_given = !(codes.on.is_empty() && codes.off.is_empty());
     for (key, given, state, side, example) in sides {
-        if given.is_empty() && (any_given || dialect.switch(output, state).is_none()) {
+        // A machine without an output is refused as such.
+        let Some(output) = cell.ultrasonic else { break };
+        if !given.is_empty() {
+            continue;
+        }
+        if any_given {
             let why = format!(
-                "say what switches output {output} {side} on this {name}, such as `{key} = \"{example}\"`"
+                "the other code of the generator is given; add `{key} = \"{example}\"`, or take both out"
+            );
+            issues.push(conflict(key, why));
+        } else if dialect.switch(output, state).is_none() {
+            let why = format!(
+                "{name} has no word of its own for outputs; name the block that switches output {output} {side}, such as \
+                 `{key} = \"{example}\"`"
             );
             issues.push(conflict(key, why));
         }

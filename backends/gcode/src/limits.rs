@@ -4,6 +4,7 @@
 //! What is wrong with the options alone is in the module `demands`.
 
 use crate::axes::{NoWord, Word, WorkInOffset, printed, words};
+use crate::blocks::last_place;
 use crate::body::Source;
 use crate::demands;
 use crate::dialect::{AxisPace, FeedMode};
@@ -205,7 +206,7 @@ impl Findings {
         let number = cell.tool.number.unwrap_or(settings.tool_number);
         self.number("tool number", number, [1, settings.dialect.most_tools()]);
         let Point3 { x, y, z } = cell.tool.frame.origin;
-        let half_a_unit = 0.5 / f64::from(10_u32.pow(u32::from(settings.lengths.decimals().min(6))));
+        let half_a_unit = 0.5 * last_place(settings.lengths);
         for (what, value) in [("tool X", x), ("tool Y", y)] {
             let unit = "mm";
             self.range(None, &Number { what, value, unit }, (-half_a_unit, half_a_unit));
@@ -327,8 +328,7 @@ impl Findings {
             FeedMode::InverseTime => "1/min",
             FeedMode::Rotary => "deg/min",
         };
-        let decimals = u32::from(dialect.fine_decimals().min(6));
-        let smallest = SMALLEST_FEED_UNITS / f64::from(10_u32.pow(decimals));
+        let smallest = SMALLEST_FEED_UNITS * last_place(source.settings.fine());
         let value = pace.feed;
         self.range(
             Some(op),

@@ -7,6 +7,7 @@
 //! A move of all axes takes as long as the slowest axis needs at the part of its rate that the job allows (`home_speed`).
 
 use crate::axes::{Word, printed};
+use crate::blocks::last_place;
 use crate::dialect::{AxisPace, FeedMode};
 use crate::options::Settings;
 use vcutc_backend_api::geometry::Point3;
@@ -27,15 +28,10 @@ const SECONDS_A_MINUTE: f64 = 60.0;
 
 /// Two points that a control cannot tell apart, being nearer than the last decimal in each direction.
 fn is_same_place(settings: &Settings<'_>, a: Point3, b: Point3) -> bool {
-    let unit = last_decimal(settings.lengths.decimals());
+    let unit = last_place(settings.lengths);
     [(a.x, b.x), (a.y, b.y), (a.z, b.z)]
         .into_iter()
         .all(|(a, b)| (a - b).abs() < unit)
-}
-
-/// The last decimal of lengths, in mm.
-fn last_decimal(decimals: u8) -> f64 {
-    1.0 / f64::from(10_u32.pow(u32::from(decimals.min(6))))
 }
 
 /// The pace of a straight motion between two axis values. None when the program is not one that can be carried out.

@@ -81,10 +81,10 @@ fn frames(source: Source<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
     let Point3 { x, y, z } = source.cell.base.frame.origin;
     let [x, y, z] = [x, y, z].map(trimmed_text);
     blocks.comment(
-        &format!("{offset}: zero of the work, from where work is mounted"),
+        &format!("{offset}: zero of the job, a corner of the stock, at"),
         "",
     )?;
-    blocks.comment(&format!("X {x} Y {y} Z {z} mm"), "")?;
+    blocks.comment(&format!("X {x} Y {y} Z {z} mm from the mount"), "")?;
     let length = trimmed_text(source.cell.tool.frame.origin.z);
     blocks.comment(&format!("tool {}: length {length} mm", source.tool()), "")
 }

@@ -90,6 +90,7 @@ fn spec(option: &DescribedOption) -> Result<OptionSpec, Fault> {
         &DescribedKind::Integer { min, max, default } => OptionKind::Integer { min, max, default },
         &DescribedKind::Length { min, max, default } => OptionKind::Length { min, max, default },
         DescribedKind::Lines => OptionKind::Lines,
+        DescribedKind::Text => OptionKind::Text,
         DescribedKind::Choice { of } => {
             if of.is_empty() || of.len() > MOST_OPTIONS || !of.iter().all(|word| is_name(word)) {
                 return refused("whose words are none, too many, or no names");
@@ -114,7 +115,7 @@ fn is_sound(kind: OptionKind) -> bool {
     match kind {
         OptionKind::Integer { min, max, default } => (min..=max).contains(&default),
         OptionKind::Length { min, max, default } => (min..=max).contains(&default),
-        OptionKind::Lines | OptionKind::Choice { .. } => true,
+        OptionKind::Lines | OptionKind::Text | OptionKind::Choice { .. } => true,
     }
 }
 

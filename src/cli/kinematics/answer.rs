@@ -2,12 +2,13 @@
 
 use super::{AT_LIMIT, margin};
 use crate::cli::machines::{SCHEMA, axis_unit};
-use crate::kinematics::configuration::{Border, abb_confdata, borders, branch_words, kuka_status, kuka_turn};
+use crate::kinematics::configuration::{Border, borders, branch_words, kuka_status, kuka_turn};
 use crate::kinematics::{Joints, Mechanism};
 use crate::machine::Model;
 use serde_json::{Map, Value, json};
+use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
+use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, Maker};
 use vcutc_backend_api::motion::Branch;
 
 /// Where axis values bring a machine.
@@ -168,7 +169,7 @@ fn stance(model: &Model, branch: Branch, joints: &Joints) -> Vec<String> {
 
 /// What tells the turns of a way to stand apart, in the terms of the controller.
 fn turns(model: &Model, branch: Branch, joints: &Joints) -> Option<String> {
-    let Mechanism::OrthoParallel(arm) = &model.mechanism else {
+    let Mechanism::OrthoParallel(_) = &model.mechanism else {
         return None;
     };
     match model.maker {
@@ -176,7 +177,7 @@ fn turns(model: &Model, branch: Branch, joints: &Joints) -> Option<String> {
             let turn = kuka_turn(joints);
             Some(format!("T {turn} ('B{turn:06b}')"))
         }
-        Maker::Abb => abb_confdata(joints, branch, arm.coupling)
+        Maker::Abb => confdata(branch, &AxisValues(*joints))
             .map(|[cf1, cf4, cf6, cfx]| format!("confdata [{cf1},{cf4},{cf6},{cfx}]")),
         Maker::Other => None,
     }
@@ -248,7 +249,7 @@ fn set_in_json(model: &Model, branch: Option<Branch>, joints: &Joints) -> Map<St
             put("turn", json!(kuka_turn(joints)));
         }
         Maker::Abb => {
-            put("confdata", json!(abb_confdata(joints, branch, arm.coupling)));
+            put("confdata", json!(confdata(branch, &AxisValues(*joints))));
         }
         Maker::Other => {}
     }

@@ -3,6 +3,8 @@
 use super::*;
 use crate::kinematics::Mechanism;
 use crate::machine::catalogue;
+use vcutc_backend_api::confdata::confdata;
+use vcutc_backend_api::ir::AxisValues;
 
 fn arm(name: &str) -> Opw {
     let mechanism = catalogue::find(name).unwrap().mechanism;
@@ -18,7 +20,7 @@ fn kuka(joints_deg: [f64; 6]) -> (u8, u8) {
 fn abb(name: &str, joints_deg: [f64; 6]) -> [i32; 4] {
     let joints = joints_deg.map(f64::to_radians);
     let arm = arm(name);
-    abb_confdata(&joints, branch_of(&arm, &joints), arm.coupling).unwrap()
+    confdata(branch_of(&arm, &joints), &AxisValues(joints)).unwrap()
 }
 
 #[test]
@@ -55,14 +57,6 @@ fn confdata_of_an_abb() {
     // The whole arm leaning back.
     assert_eq!(abb(name, [0.0, -60.0, -20.0, 0.0, 30.0, 0.0])[3], 4);
     assert_eq!(abb(name, [0.0, -50.0, -100.0, 0.0, -30.0, 0.0])[3], 7);
-}
-
-#[test]
-fn parallel_rods_write_no_cfx() {
-    assert_eq!(
-        abb("abb/irb6660_205_190", [10.0, 0.0, 0.0, -10.0, -30.0, 0.0]),
-        [0, -1, 0, 0]
-    );
 }
 
 /// Every published pose: the way told from axis values is the one on which the inverse finds them again.
@@ -110,14 +104,4 @@ fn borders_are_named() {
 #[test]
 fn numbered_ways_have_no_status() {
     assert_eq!(kuka_status(Branch::Numbered(0)), None);
-    assert_eq!(
-        abb_confdata(&[0.0; 6], Branch::Numbered(0), Coupling::Serial),
-        None
-    );
-    let zero = Branch::Arm {
-        shoulder: Shoulder::Front,
-        elbow: Elbow::Forward,
-        wrist: Wrist::Positive,
-    };
-    assert_eq!(abb_confdata(&[f64::NAN; 6], zero, Coupling::Serial), None);
 }

@@ -198,20 +198,34 @@ impl<'p> Judge<'p> {
     /// Whether a deed brings the machine to a waypoint on the way of the op at a moment, as the op itself would go on.
     #[must_use]
     pub fn passes(&self, moment: Moment, waypoint: &Waypoint, deed: &Deed) -> bool {
+        self.mismatches_on_the_way(moment, waypoint, deed).is_empty()
+    }
+
+    /// Whether every waypoint has to be named.
+    #[must_use]
+    pub fn needs_waypoints(&self) -> bool {
+        self.reader.says_waypoints()
+    }
+
+    /// Everything in which a deed is not the motion to a waypoint of the op at a moment.
+    #[must_use]
+    pub fn mismatches_on_the_way(&self, moment: Moment, waypoint: &Waypoint, deed: &Deed) -> Vec<Mismatch> {
         let program = self.program();
         let Deed::Straight { to, pace, .. } = deed else {
-            return false;
+            return vec![Mismatch::Kind];
         };
         let action = program.ops.get(moment.op.0 as usize).map(|op| op.action);
         let stroke = action.and_then(|action| Stroke::of(program, moment.at?, &action));
-        let Some(stroke) = stroke else { return false };
+        let Some(stroke) = stroke else {
+            return vec![Mismatch::Kind];
+        };
         let mut found = Vec::new();
         let branch = self.reachable.branch_after(moment.op);
         let stance = branch.and_then(|branch| self.reader.stance(branch, waypoint.axes));
         self.pose(to, waypoint.frame.origin, waypoint.frame.orientation, &mut found);
         self.stance(to, stance, &mut found);
         self.pace(moment.op, &stroke, *pace, &mut found);
-        found.is_empty()
+        found
     }
 
     /// Whether a deed leaves everything as it is before an op: the move to where the machine stands already, the state of

@@ -274,6 +274,12 @@ pub trait Reader: Sync {
     /// How the dialect says the way to stand on a branch with the axes there; none where it does not say it.
     fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance>;
 
+    /// Whether its programs name the waypoints of ops ([`crate::motion::Motion::waypoints`]), so that one that is missing is
+    /// a difference.
+    fn says_waypoints(&self) -> bool {
+        false
+    }
+
     /// Tells the statements of a program in the order in which they are carried out. A statement that is carried out never
     /// is told as [`Says::Setting`] or [`Says::Unknown`] where it stands.
     ///

@@ -162,7 +162,20 @@ impl<'p> Retrace<'p> {
             }
             return;
         };
-        let found = self.judge.mismatches(moment, deed);
+        let due = self.waypoint.filter(|waypoint| waypoint.op == moment.op);
+        let found = match due {
+            Some(waypoint) if self.judge.needs_waypoints() => {
+                let found = self.judge.mismatches_on_the_way(moment, waypoint, deed);
+                if found.is_empty() {
+                    self.restating = Restating::Over;
+                    self.waypoint = self.waypoints.next();
+                } else if !restates {
+                    self.depart(Some(place), DepartureKind::Differs(found));
+                }
+                return;
+            }
+            Some(_) | None => self.judge.mismatches(moment, deed),
+        };
         if found.is_empty() {
             self.restating = Restating::Over;
             while self.waypoint.is_some_and(|waypoint| waypoint.op <= moment.op) {
@@ -173,8 +186,7 @@ impl<'p> Retrace<'p> {
             self.state = self.state.after(&op.action);
         } else if restates {
             // Nothing changes.
-        } else if let Some(waypoint) = self.waypoint
-            && waypoint.op == moment.op
+        } else if let Some(waypoint) = due
             && self.judge.passes(moment, waypoint, deed)
         {
             self.waypoint = self.waypoints.next();

@@ -96,6 +96,11 @@ impl<'s> Text<'s> {
         self.buffer.extend_from_slice(bytes);
     }
 
+    /// What is gathered, to append to it within a line.
+    pub fn buffer(&mut self) -> &mut Vec<u8> {
+        &mut self.buffer
+    }
+
     /// A number within a line, with all decimals of its format.
     ///
     /// # Errors

@@ -59,6 +59,7 @@ fn options(specs: &'static [OptionSpec]) -> Result<(), String> {
             OptionKind::Integer { default, .. } => crate::backend::OptionValue::Integer(default),
             OptionKind::Length { default, .. } => crate::backend::OptionValue::Length(default),
             OptionKind::Lines => crate::backend::OptionValue::Lines(Vec::new()),
+            OptionKind::Text => crate::backend::OptionValue::Text(String::new()),
             OptionKind::Choice { of } => {
                 let first = of.first().ok_or("a choice of nothing")?;
                 crate::backend::OptionValue::Choice(first)

@@ -117,8 +117,9 @@ impl Dialect for LinuxCnc {
         Some("G61.1")
     }
 
+    /// Without Q the interpreter would also drop points that lie within P of a line.
     fn rounded(&self, approximation: Length) -> Option<String> {
-        Some(format!("G64 P{}", trimmed_text(approximation.to_mm())))
+        Some(format!("G64 P{} Q0", trimmed_text(approximation.to_mm())))
     }
 
     fn dwell(&self, seconds: &str) -> Vec<String> {

@@ -240,9 +240,9 @@ pub(crate) trait Dialect: Sync {
     /// What sets the meaning of F.
     fn feed_mode(&self, mode: FeedMode) -> &'static str {
         match mode {
-            FeedMode::Tip => "G94",
+            // With rotary axes alone in a block it is deg/min.
+            FeedMode::Tip | FeedMode::Rotary => "G94",
             FeedMode::InverseTime => "G93",
-            FeedMode::Rotary => "",
         }
     }
 

@@ -29,7 +29,21 @@ pub(super) enum Code<'t> {
     Is(Span, &'t str),
     /// A comment begins and does not end.
     Open(Span),
+    /// A comment that LinuxCNC carries out: it stops the program, runs another, or writes files.
+    Active(Span),
 }
+
+/// How such comments begin, in small letters [L-OV].
+const ACTIVE: [&str; 8] = [
+    "abort,",
+    "py,",
+    "probeopen",
+    "probeclose",
+    "logopen",
+    "logappend",
+    "logclose",
+    "log,",
+];
 
 /// The line that begins at a byte, and where the next one begins. None at the end of the text.
 pub(super) fn line(text: &str, start: usize) -> Option<(&str, usize)> {
@@ -45,13 +59,19 @@ pub(super) fn line(text: &str, start: usize) -> Option<(&str, usize)> {
 impl Style {
     /// The statement of a line that begins at a byte of its text.
     pub(super) fn code(self, line: &str, start: usize) -> Code<'_> {
-        let Some((from, to)) = self.bounds(line) else {
+        let whole = || {
             let (from, to) = trimmed(line);
-            return Code::Open(Span {
+            Span {
                 start: start + from,
                 end: start + to,
-            });
+            }
         };
+        let Some((from, to)) = self.bounds(line) else {
+            return Code::Open(whole());
+        };
+        if self == Self::Brackets && has_active_comment(line) {
+            return Code::Active(whole());
+        }
         let code = line.get(from..to).unwrap_or_default();
         let number = self.number(code);
         let behind = code.get(number..).unwrap_or_default();
@@ -118,6 +138,18 @@ impl Style {
     }
 }
 
+/// Whether a line has a comment that is carried out.
+fn has_active_comment(line: &str) -> bool {
+    let comments = line.split(['(', ';']).skip(1);
+    comments.map(str::trim_ascii_start).any(|comment| {
+        let begins = |word: &&str| {
+            let start = comment.get(..word.len());
+            start.is_some_and(|start| start.eq_ignore_ascii_case(word))
+        };
+        ACTIVE.iter().any(|word| begins(word))
+    })
+}
+
 fn trimmed(line: &str) -> (usize, usize) {
     let from = line.len() - line.trim_ascii_start().len();
     (from, line.trim_ascii_end().len().max(from))
@@ -136,6 +168,7 @@ mod tests {
                 Some(code)
             }
             Code::Open(_) => Some("open"),
+            Code::Active(_) => Some("active"),
         }
     }
 
@@ -150,6 +183,9 @@ mod tests {
             (Style::Brackets, "(a) N10 (b) G1", Some("G1")),
             (Style::Brackets, "G1 (a) X1.", Some("G1 (a) X1.")),
             (Style::Brackets, "G1 (a", Some("open")),
+            (Style::Brackets, "G1 ( Abort, now) X1", Some("active")),
+            (Style::Brackets, "G1 X1 ;py,run()", Some("active")),
+            (Style::Brackets, "(abort it)", None),
             (Style::Semicolon, "N5 FGROUP(X,Y,Z) ; all", Some("FGROUP(X,Y,Z)")),
             (Style::Semicolon, "MSG(\"a;b\")", Some("MSG(\"a;b\")")),
             (Style::Semicolon, "N1=5", Some("N1=5")),
@@ -183,7 +219,7 @@ mod tests {
                     prop_assert!(next > at);
                     match style.code(one, at) {
                         Code::Is(span, code) => prop_assert_eq!(text.get(span.start..span.end), Some(code)),
-                        Code::Open(span) => prop_assert!(text.get(span.start..span.end).is_some()),
+                        Code::Open(span) | Code::Active(span) => prop_assert!(text.get(span.start..span.end).is_some()),
                         Code::None => {}
                     }
                     at = next;

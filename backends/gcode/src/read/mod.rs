@@ -25,6 +25,7 @@ mod tongue;
 mod walk;
 mod words;
 
+use crate::blocks::last_place;
 use crate::options::Settings;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
@@ -44,8 +45,7 @@ const SECONDS_A_MINUTE: f64 = 60.0;
 
 /// Half a unit of the last decimal.
 fn half_a_unit(format: FixedDecimal) -> f64 {
-    let decimals = u32::from(format.decimals().min(9));
-    0.5 / f64::from(10_u32.pow(decimals))
+    0.5 * last_place(format)
 }
 
 impl Reader for GcodeReader {

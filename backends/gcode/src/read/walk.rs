@@ -4,7 +4,7 @@ use super::codes::{Found, Given, Role, essences};
 use super::control::{Control, given};
 use super::lines::{self, Code, Span, Style};
 use super::order::{Context, Flow, Order, Routine, Trouble};
-use super::tongue::{self, Tongue};
+use super::tongue::{self, Heads, Tongue};
 use crate::axes;
 use crate::options::Settings;
 use vcutc_backend_api::readback::{Deed, Place, ProgramFile, Says, Sources, Statement, essence};
@@ -73,23 +73,17 @@ impl<'t> Script<'t> {
             let (line, next) = lines::line(self.text, self.at)?;
             let code = style.code(line, self.at);
             self.at = next;
-            match code {
-                Code::None => {}
-                Code::Is(span, code) => {
-                    return Some(Line {
-                        place: self.place(span),
-                        length: line.len(),
-                        code: Some(code),
-                    });
-                }
-                Code::Open(span) => {
-                    return Some(Line {
-                        place: self.place(span),
-                        length: line.len(),
-                        code: None,
-                    });
-                }
-            }
+            let (span, code) = match code {
+                Code::None => continue,
+                Code::Is(span, code) => (span, Ok(code)),
+                Code::Open(span) => (span, Err(Trouble::Expected("the end of the comment".to_owned()))),
+                Code::Active(span) => (span, Err(Trouble::Unknown)),
+            };
+            return Some(Line {
+                place: self.place(span),
+                length: line.len(),
+                code,
+            });
         }
     }
 
@@ -113,8 +107,8 @@ struct Line<'t> {
     place: Place,
     /// Bytes of the whole line.
     length: usize,
-    /// The statement; none behind a comment that does not end.
-    code: Option<&'t str>,
+    /// The statement, or why there is none to be read.
+    code: Result<&'t str, Trouble>,
 }
 
 /// The first file that no other calls.
@@ -287,13 +281,24 @@ impl<'t> Walk<'t, '_> {
         while let Some(line) = self.next_of(script) {
             let order = line
                 .code
+                .ok()
                 .and_then(|code| self.tongue.order(code, self.context).ok());
-            let is_end = matches!(
-                order.and_then(|order| order.flow),
-                Some(Flow::Tape | Flow::End | Flow::Close(_))
-            );
+            let is_end = match order.and_then(|order| order.flow) {
+                Some(Flow::Tape | Flow::End) => true,
+                Some(Flow::Close(routine)) => self.is_own(script, routine),
+                Some(
+                    Flow::Head(_) | Flow::PartHead(_) | Flow::Call(_) | Flow::Return | Flow::ReturnFrom(_),
+                )
+                | None => false,
+            };
             self.tell(line.place, if is_end { Says::Setting } else { Says::Unknown });
         }
+    }
+
+    /// Whether a routine is that of a file.
+    fn is_own(&self, script: usize, routine: Routine<'_>) -> bool {
+        let own = self.scripts.get(script).and_then(|script| script.routine);
+        own.is_some_and(|own| own.is(routine))
     }
 
     fn next_of(&mut self, script: usize) -> Option<Line<'t>> {
@@ -316,18 +321,18 @@ impl<'t> Walk<'t, '_> {
 
     fn statement(&mut self, script: usize, line: &Line<'t>) -> (Says, Onward) {
         let longest = self.context.settings.dialect.longest_line();
-        let understood = match line.code {
-            None => Err(Trouble::Expected("the end of the comment".to_owned())),
-            Some(_) if line.length > longest => Err(Trouble::Expected(format!(
+        let understood = match &line.code {
+            Err(trouble) => Err(trouble.clone()),
+            Ok(_) if line.length > longest => Err(Trouble::Expected(format!(
                 "a line of at most {longest} characters"
             ))),
-            Some(code) => self.understood(script, code),
+            Ok(code) => self.understood(script, code),
         };
         let is_main = self.stack.len() == 1;
-        let is_head = matches!(&understood, Ok((Says::Setting, _)));
-        let taken = match line.code {
-            Some(code) if is_main && !is_head && !is_motion(&understood) => self.profile.takes(code),
-            Some(_) | None => false,
+        let is_setting = matches!(&understood, Ok((Says::Setting, _)));
+        let taken = match &line.code {
+            Ok(code) if is_main && !is_setting && !is_motion(&understood) => self.profile.takes(code),
+            Ok(_) | Err(_) => false,
         };
         if taken {
             return (Says::Setting, Onward::Next);
@@ -375,6 +380,22 @@ impl<'t> Walk<'t, '_> {
             before
         });
         let says = self.control.carry_out(&order)?;
+        let is_main = self.stack.len() == 1;
+        let needs_head = match self.tongue.heads() {
+            Heads::None => false,
+            Heads::OfParts => !is_main,
+            Heads::All => true,
+        };
+        match order.flow {
+            Some(Flow::Tape | Flow::Head(_) | Flow::PartHead(_)) => {}
+            Some(Flow::Call(_) | Flow::Return | Flow::ReturnFrom(_) | Flow::Close(_) | Flow::End) | None => {
+                if needs_head && begun == Some(false) {
+                    return Err(Trouble::Expected(
+                        "the name of the file, at its beginning".to_owned(),
+                    ));
+                }
+            }
+        }
         match order.flow {
             None => Ok((says, Onward::Next)),
             Some(flow) => self.flow(script, flow, begun.unwrap_or(true), &order),
@@ -389,8 +410,7 @@ impl<'t> Walk<'t, '_> {
         order: &Order<'_>,
     ) -> Result<(Says, Onward), Trouble> {
         let is_main = self.stack.len() == 1;
-        let own = self.scripts.get(script).and_then(|script| script.routine);
-        let is_own = |routine: Routine<'_>| own.is_some_and(|own| own.is(routine));
+        let is_own = |routine: Routine<'_>| self.is_own(script, routine);
         if order.feed.is_some() {
             return Err(Trouble::Expected("nothing else in the block".to_owned()));
         }

@@ -293,6 +293,50 @@ fn blocks_say_where_the_program_goes_and_how_long_it_takes() {
     }
 }
 
+/// In a move of all axes from a known place the slowest axis goes as fast as it may, and from an unknown one none goes faster,
+/// wherever the machine stands.
+#[test]
+fn moves_of_all_axes_keep_to_the_home_speed() {
+    let program = reachable(recipe().program());
+    let axes = &program.program().cell.as_ref().unwrap().axes;
+    let letter = |axis: &Axis| axis.name.chars().next().unwrap();
+    let unit = |axis: &Axis| match axis.kind {
+        AxisKind::Linear => 1.0,
+        AxisKind::Rotary => 1.0_f64.to_degrees(),
+    };
+    for (dialect, percent) in [("linuxcnc", 10), ("sinumerik", 35), ("heidenhain", 100)] {
+        let given = [("home_speed", OptionValue::Integer(percent))];
+        let allowed = f64::from(percent) / 100.0;
+        let all = moves(&emit(&program, dialect, &given), dialect);
+        let machine: Vec<&Moved> = all.iter().filter(|moved| moved.machine).collect();
+        let [home, work, _] = machine.as_slice() else {
+            panic!("{machine:?}")
+        };
+        // How much of its rate an axis uses on a way in mm or deg.
+        let used = |axis: &Axis, way: f64, seconds: f64| way / seconds / (axis.rate.unwrap() * unit(axis));
+        let (_, feed) = work.feed.unwrap();
+        let seconds = match dialect {
+            "heidenhain" => way("XYZABC", &home.said, &work.said) / feed * 60.0,
+            _ => 60.0 / feed,
+        };
+        let fastest = axes.iter().map(|axis| {
+            let way = (work.said[&letter(axis)] - home.said[&letter(axis)]).abs();
+            used(axis, way, seconds)
+        });
+        let fastest = fastest.fold(0.0, f64::max);
+        assert!((fastest / allowed - 1.0).abs() < 1e-5, "{dialect}: {fastest}");
+        let (_, feed) = home.feed.unwrap();
+        for axis in axes {
+            let is = match dialect {
+                // F is along the way of all axes, so no axis is faster than that.
+                "heidenhain" => used(axis, feed / 60.0, 1.0),
+                _ => used(axis, (axis.max - axis.min) * unit(axis), 60.0 / feed),
+            };
+            assert!(is <= allowed * 1.01, "{dialect} {}: {is}", axis.name);
+        }
+    }
+}
+
 fn any_recipe() -> impl Strategy<Value = Recipe> {
     let base = (
         [-2e3..2e3_f64, -2e3..2e3, -500.0..500.0],

@@ -305,7 +305,7 @@ fn declaration<'t>(kind: &'t str, scope: Scope, cursor: &mut Cursor<'t>) -> Pars
     let mut further = "";
     if value.is_none() && cursor.skip(b',') {
         further = cursor.rest();
-        *cursor = Cursor::new("");
+        further_names(cursor)?;
     }
     Ok(Phrase::Declaration(Declaration {
         scope,
@@ -314,6 +314,17 @@ fn declaration<'t>(kind: &'t str, scope: Scope, cursor: &mut Cursor<'t>) -> Pars
         value,
         further,
     }))
+}
+
+/// Goes over names with commas between them.
+fn further_names(cursor: &mut Cursor<'_>) -> Parsed<()> {
+    loop {
+        let name = name(cursor)?;
+        variable(name, cursor)?;
+        if !cursor.skip(b',') {
+            return Ok(());
+        }
+    }
 }
 
 fn name<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {

@@ -175,8 +175,16 @@ pub struct Declaration<'t> {
     pub name: Variable<'t>,
     /// Its value.
     pub value: Option<Value<'t>>,
-    /// Further names behind a comma, as they stand.
+    /// What stands behind a comma: further names of the same type, without values.
     pub further: &'t str,
+}
+
+impl<'t> Declaration<'t> {
+    /// The further names, without those of arrays.
+    pub fn further_names(&self) -> impl Iterator<Item = &'t str> {
+        let names = self.further.split(',').map(str::trim_ascii);
+        names.filter(|name| !name.is_empty() && !name.ends_with(']'))
+    }
 }
 
 /// A variable, a place of an array, or a field of one: `XP1`, `$OUT[3]`, `$VEL.CP`, `TOOL_DATA[3]`.
@@ -421,4 +429,93 @@ pub enum Approximation {
     Spline,
     /// `C_VEL`: from a speed on.
     Speed,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn phrase(line: &str) -> Phrase<'_> {
+        statements(line).next().unwrap().phrase
+    }
+
+    fn value(text: &str) -> Value<'_> {
+        match phrase(text) {
+            Phrase::Assignment { value, .. } => value,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn statements_have_places_without_comments_and_blanks() {
+        let text = "&REL 1\r\n\r\n  DEF a( ) ; head\r\n;FOLD x\r\n\tHALT\r\nEND";
+        let found: Vec<_> = statements(text)
+            .map(|statement| (statement.text, statement.span))
+            .collect();
+        assert_eq!(
+            found.iter().map(|(code, _)| *code).collect::<Vec<_>>(),
+            ["&REL 1", "DEF a( )", "HALT", "END"]
+        );
+        for (code, span) in found {
+            assert_eq!(&text[span.start..span.end], code);
+        }
+    }
+
+    #[test]
+    fn a_semicolon_in_quotes_begins_no_comment() {
+        assert_eq!(value("N=\"a;b\" ; c"), Value::Text("a;b"));
+    }
+
+    #[test]
+    fn values_are_told_apart() {
+        assert_eq!(value("X=-1.5"), Value::Number(-1.5));
+        assert_eq!(value("X='B101'"), Value::Number(5.0));
+        assert_eq!(value("X='H fF'"), Value::Number(255.0));
+        assert_eq!(value("X=true"), Value::Bool(true));
+        assert_eq!(value("X=#VAR"), Value::Enum("VAR"));
+        let variable = Variable {
+            name: "TOOL_DATA",
+            index: Some(3),
+            field: None,
+        };
+        assert_eq!(value("$TOOL=TOOL_DATA[3]"), Value::Variable(variable));
+        assert_eq!(phrase("X=A+1"), Phrase::Other("X"));
+        assert_eq!(phrase("X=(1)"), Phrase::Other("X"));
+    }
+
+    #[test]
+    fn structures_have_types_and_structures_in_them() {
+        let Value::Structure(fields) = value("$LOAD={LOAD: M 5,CM {X 1,Y 2},NOTE[] \"n\"}") else {
+            panic!("a structure");
+        };
+        let names: Vec<_> = fields.iter().map(|field| field.name).collect();
+        assert_eq!(names, ["M", "CM", "NOTE"]);
+        let Value::Coordinates(centre) = &fields[1].value else {
+            panic!("coordinates");
+        };
+        assert_eq!(centre.all([Component::X, Component::Y]), Some([1.0, 2.0]));
+        assert_eq!(centre.get(Component::Z), None);
+    }
+
+    #[test]
+    fn components_are_found_by_their_names() {
+        for component in Component::ALL {
+            let name = format!("{component:?}");
+            assert_eq!(Component::named(&name), Some(component));
+            assert_eq!(Component::named(&name.to_lowercase()), Some(component));
+        }
+        for name in ["", "A7", "E0", "XY", "Q"] {
+            assert_eq!(Component::named(name), None);
+        }
+    }
+
+    #[test]
+    fn declarations_may_have_several_names() {
+        let Phrase::Declaration(declaration) = phrase("DECL GLOBAL E6POS XP1, XP2 ,LIST[7]") else {
+            panic!("a declaration");
+        };
+        assert_eq!((declaration.scope, declaration.kind), (Scope::Global, "E6POS"));
+        assert_eq!(declaration.name.name, "XP1");
+        assert_eq!(declaration.further_names().collect::<Vec<_>>(), ["XP2"]);
+    }
 }

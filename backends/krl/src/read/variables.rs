@@ -88,12 +88,13 @@ impl Variables {
                 Some(_) | None => return Outcome::Unknown,
             },
         };
-        if name.index.is_none() {
+        let own = name.index.is_none().then_some(name.name);
+        for name in own.into_iter().chain(declaration.further_names()) {
             let place = match scope {
                 Scope::Module => asker.own(),
                 Scope::Global => Place::All,
             };
-            self.values.insert((place, name.name.to_ascii_uppercase()), value);
+            self.values.insert((place, name.to_ascii_uppercase()), value);
         }
         Outcome::Known
     }

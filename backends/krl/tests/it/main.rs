@@ -13,6 +13,7 @@ mod dialect;
 mod never;
 mod oddities;
 mod parts;
+mod profile;
 mod read_back;
 mod refusals;
 mod round_trip;

@@ -47,6 +47,7 @@ fn cell() -> impl Strategy<Value = CellRecipe> {
     )
         .prop_map(|(tool, base, load, home, ultrasonic, ready)| CellRecipe {
             maker: vcutc_backend_api::ir::Maker::Kuka,
+            kind: vcutc_backend_api::ir::MachineKind::Robot,
             tool,
             base,
             load,

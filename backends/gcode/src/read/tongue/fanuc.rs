@@ -3,7 +3,7 @@
 //! A coordinate without a point may be read in thousandths of a mm, as a parameter says [F-30], so it is refused. One M code is
 //! what a block may have without other parameters.
 
-use super::{Tongue, WorkOffset, american_g, seconds};
+use super::{Heads, Tongue, WorkOffset, american_g, seconds};
 use crate::read::lines::{self, Code, Style};
 use crate::read::order::{
     Act, Context, Coordinates, Flow, Habit, Mode, Once, Order, Parsed, Routine, Tcp, Trouble, expected,
@@ -37,6 +37,10 @@ impl Tongue for Fanuc {
         "G61"
     }
 
+    fn heads(&self) -> Heads {
+        Heads::All
+    }
+
     fn endings(&self) -> [&'static str; 2] {
         ["M30", "M99"]
     }
@@ -49,7 +53,7 @@ impl Tongue for Fanuc {
                 Code::None => {}
                 Code::Is(_, "%") => {}
                 Code::Is(_, code) => return head(code),
-                Code::Open(_) => return None,
+                Code::Open(_) | Code::Active(_) => return None,
             }
             at = next;
         }

@@ -3,7 +3,7 @@
 //! What switches the kinematics is given by the job ([`codes`](crate::read::codes)), so nothing here says that the tip is
 //! controlled. `G61` stops at corners only, and `M62` switches with the next motion, so neither is what is needed.
 
-use super::{Tongue, WorkOffset, american_g, rounding, seconds, stem};
+use super::{Heads, Tongue, WorkOffset, american_g, rounding, seconds, stem};
 use crate::read::lines::Style;
 use crate::read::order::{
     Act, Context, Coordinates, Flow, Habit, Mode, Order, Parsed, Routine, Trouble, expected,
@@ -39,6 +39,10 @@ impl Tongue for LinuxCnc {
 
     fn exact(&self) -> &'static str {
         "G61.1"
+    }
+
+    fn heads(&self) -> Heads {
+        Heads::OfParts
     }
 
     fn endings(&self) -> [&'static str; 2] {
@@ -110,7 +114,9 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>, context: Context<'_>) 
         610 => order.set(Mode::Stop(None)),
         640 => {
             let mode = rounding(words.take(b'P'), context);
-            order.set(mode)
+            // Without `Q0` points that lie near a line are dropped as well.
+            let keeps_all = words.take(b'Q').is_some_and(|dropped| dropped.value == 0.0);
+            order.set(if keeps_all { mode } else { Mode::Stop(None) })
         }
         _ => known(american_g(code, order)?),
     }

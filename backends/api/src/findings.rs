@@ -1,0 +1,137 @@
+//! What a target does not take, gathered before anything is written.
+//!
+//! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million
+//! times.
+
+use crate::backend::BackendIssue;
+use crate::geometry::Point3;
+use crate::ir::{OpId, OperationId, Program};
+use crate::script::trimmed_text;
+use std::collections::BTreeSet;
+
+/// The problems found so far.
+#[derive(Debug, Default)]
+pub struct Findings {
+    issues: Vec<BackendIssue>,
+    /// What was told, so that it is told once.
+    told: BTreeSet<&'static str>,
+}
+
+/// A number with its unit, to be checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Number {
+    /// What it is, such as `tip speed`.
+    pub what: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+impl Findings {
+    /// Tells a problem, unless one of its kind was told.
+    pub fn tell(&mut self, what: &'static str, issue: BackendIssue) {
+        if self.told.insert(what) {
+            self.issues.push(issue);
+        }
+    }
+
+    /// A number must lie within limits, or be printed as one that does.
+    ///
+    /// Inlined, because it is asked for every number of every op and nearly always says yes.
+    #[inline]
+    pub fn range(&mut self, op: Option<OpId>, number: &Number, limits: (f64, f64)) {
+        let allowed = |value: f64| (limits.0..=limits.1).contains(&value);
+        if !(allowed(number.value) || allowed(as_printed(number.value))) {
+            self.out_of_range(op, number, limits);
+        }
+    }
+
+    #[cold]
+    fn out_of_range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
+        let &Number { what, value, unit } = number;
+        self.tell(
+            what,
+            BackendIssue::OutOfRange {
+                op,
+                what,
+                value: format!("{} {unit}", trimmed_text(value)),
+                allowed: format!("{} to {} {unit}", trimmed_text(low), trimmed_text(high)),
+            },
+        );
+    }
+
+    /// Coordinates, called by these names, must not be farther from zero than this, in mm.
+    pub fn point(&mut self, op: Option<OpId>, names: [&'static str; 3], point: Point3, farthest: f64) {
+        for (what, value) in names.into_iter().zip([point.x, point.y, point.z]) {
+            let unit = "mm";
+            self.range(op, &Number { what, value, unit }, (-farthest, farthest));
+        }
+    }
+
+    /// An operation must not have another blade than the first: the tool frame of the machine is that of one blade, and
+    /// nothing in the program would stop for another.
+    pub fn blade(&mut self, program: &Program, op: OpId, operation: OperationId) {
+        let blade_of = |place: usize| program.operations.get(place).map(|operation| &operation.blade);
+        if blade_of(usize::from(operation.0)) != blade_of(0) {
+            let what = "a change of the blade within the program";
+            self.tell(what, BackendIssue::Unsupported { op, what });
+        }
+    }
+
+    /// Whether all is well.
+    ///
+    /// # Errors
+    /// Everything that was told, in that order.
+    pub fn result(self) -> Result<(), Vec<BackendIssue>> {
+        if self.issues.is_empty() {
+            Ok(())
+        } else {
+            Err(self.issues)
+        }
+    }
+}
+
+/// A value as it will be printed at best, with six decimals: 400 deg/s kept in radians comes back a hair above 400.
+fn as_printed(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_each_kind_is_told() {
+        let mut findings = Findings::default();
+        for (op, x) in [(1, 5.0), (2, 50.0), (3, 500.0)] {
+            findings.point(Some(OpId(op)), ["X", "Y", "Z"], Point3::new(x, -x, 0.0), 10.0);
+        }
+        let told: Vec<_> = findings
+            .result()
+            .unwrap_err()
+            .into_iter()
+            .map(|issue| match issue {
+                BackendIssue::OutOfRange { op, what, value, .. } => (op, what, value),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        let op = Some(OpId(2));
+        assert_eq!(
+            told,
+            [(op, "X", "50.0 mm".to_owned()), (op, "Y", "-50.0 mm".to_owned())]
+        );
+    }
+
+    #[test]
+    fn a_value_that_is_printed_as_its_limit_is_within() {
+        let mut findings = Findings::default();
+        let number = |value| Number {
+            what: "rate",
+            value,
+            unit: "deg/s",
+        };
+        findings.range(None, &number(400.000_000_1), (0.0, 400.0));
+        assert_eq!(findings.result(), Ok(()));
+    }
+}

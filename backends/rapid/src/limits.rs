@@ -1,0 +1,338 @@
+//! What a controller does not take, found before anything is written.
+//!
+//! Sources: [A-KER] ABB 3HAC050946, RAPID kernel; [A-INS] ABB, RAPID instructions, functions and data types.
+
+use crate::keywords::{
+    AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, is_name, main_name, part_module, part_routine,
+};
+use crate::options::{READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME};
+use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
+use vcutc_backend_api::confdata::confdata;
+use vcutc_backend_api::findings::{Findings, Number};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{
+    Action, AxisKind, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, Program, RateId, Ready,
+    Registered,
+};
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::profile::PROFILE_DECIMALS;
+use vcutc_backend_api::units::Duration;
+
+/// Largest coordinate, in mm. A `num` is a single precision number [A-KER]: up to here it keeps half a micrometre, and no
+/// robot reaches half as far.
+const FARTHEST_MM: f64 = 9999.0;
+
+/// Tip speed in mm/s: zero is refused, and the fastest of ABB's own speeddata is v7000 [A-INS].
+const TIP_SPEED: (f64, f64) = (0.001, 7000.0);
+
+/// Rate of turning in deg/s: that of ABB's own speeddata is 500 [A-INS].
+const TURNING: (f64, f64) = (0.001, 500.0);
+
+/// `WaitTime` in s; a day.
+const LONGEST_WAIT_S: f64 = 86_400.0;
+
+/// Mass of `loaddata` in kg: zero is refused, and the largest arm is rated for 1000.
+const LOAD_MASS_KG: (f64, f64) = (0.001, 1000.0);
+
+/// A centre of mass nearer than this to the flange's origin, in mm, is none: all zeros are refused.
+const NO_DISTANCE_MM: f64 = 0.001;
+
+/// What modules may be called behind the dot; RobotWare 7 writes the second.
+const EXTENSIONS: [&str; 2] = ["mod", "modx"];
+
+const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "home",
+    why: "a RAPID program begins and ends with a move of all six axes to angles that the job states, so that it does not \
+          depend on where the arm happens to stand",
+};
+
+const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "ultrasonic",
+    why: "the program switches the generator on before the blade enters; a blade that does not vibrate breaks",
+};
+
+const LOAD_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "load",
+    why: "the tool is given by values, so the program declares a tooldata, and the controller refuses one without the mass \
+          and the centre of mass of what the flange carries",
+};
+
+/// What a program needs to run on.
+const DRIVES: &str = "ABB robots with six rotary axes and a spherical wrist";
+
+/// The cell of a program, or everything that stands in the way of writing it.
+pub(crate) fn check<'p>(
+    program: &'p ReachableProgram,
+    settings: &Settings<'_>,
+    parts: usize,
+) -> Result<&'p Cell, Vec<BackendIssue>> {
+    let wrong = |mismatch| {
+        let drives = DRIVES;
+        vec![BackendIssue::WrongMachine { mismatch, drives }]
+    };
+    // No program is assembled without a machine; if one were, it would have no arm to drive.
+    let Some(cell) = &program.program().cell else {
+        return Err(wrong(MachineMismatch::Arm));
+    };
+    if let Some(mismatch) = mismatch(cell, program) {
+        return Err(wrong(mismatch));
+    }
+    let mut findings = Findings::default();
+    profile(settings, &mut findings);
+    names(settings, cell, &mut findings);
+    reserved(settings, cell, &program.program().name, parts, &mut findings);
+    machine(cell, &mut findings);
+    ops(program, &mut findings);
+    findings.result().map(|()| cell)
+}
+
+/// What sets a machine apart from those that RAPID programs are for.
+fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> {
+    match cell.kind {
+        MachineKind::FiveAxis => return Some(MachineMismatch::Kind),
+        MachineKind::Robot => {}
+    }
+    match cell.maker {
+        Maker::Kuka | Maker::Other => return Some(MachineMismatch::Maker),
+        Maker::Abb => {}
+    }
+    let turns = |kind| match kind {
+        AxisKind::Rotary => true,
+        AxisKind::Linear => false,
+    };
+    let is_arm = cell.axes.len() == MOST_AXES && cell.axes.iter().all(|axis| turns(axis.kind));
+    let has_confdata = program.motion().stretches.iter().all(|stretch| {
+        let axes = program.axes_after(stretch.from);
+        axes.and_then(|axes| confdata(stretch.branch, &axes)).is_some()
+    });
+    (!(is_arm && has_confdata)).then_some(MachineMismatch::Arm)
+}
+
+/// What the machine's profile asks for.
+fn profile(settings: &Settings<'_>, findings: &mut Findings) {
+    let profile = settings.profile;
+    let mut refuse = |key: &'static str, why: String| findings.tell(key, BackendIssue::Profile { key, why });
+    if profile.line_numbers.is_some() {
+        refuse("line_numbers", "RAPID has no numbers of lines".to_owned());
+    }
+    if let Some(extension) = &profile.extension
+        && !EXTENSIONS.contains(&extension.to_ascii_lowercase().as_str())
+    {
+        refuse(
+            "extension",
+            format!("modules are called {}", EXTENSIONS.join(" or ")),
+        );
+    }
+    if let Some(decimals) = profile.decimals
+        && !PROFILE_DECIMALS.contains(&decimals)
+    {
+        let (least, most) = (PROFILE_DECIMALS.start(), PROFILE_DECIMALS.end());
+        refuse("decimals", format!("lengths have {least} to {most} decimals"));
+    }
+    for (key, lines) in [("header", &profile.header), ("footer", &profile.footer)] {
+        let is_plain = |line: &String| line.bytes().all(|byte| matches!(byte, b'\t' | b' '..=b'~'));
+        if let Some(line) = lines.iter().find(|line| !is_plain(line)) {
+            refuse(key, format!("a line is not plain ASCII: {line:?}"));
+        }
+    }
+}
+
+/// Names that the job gives must be such.
+fn names(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
+    for key in [TOOL_NAME, WORK_OBJECT_NAME, ULTRASONIC_SIGNAL, READY_SIGNAL] {
+        if let Some(name) = settings.given(key)
+            && !is_name(name)
+        {
+            let why = format!(
+                "`{name}` is no name: a letter, then letters, digits and `_`, at most 32 in all, and no word of RAPID"
+            );
+            findings.tell(key, BackendIssue::OptionConflict { key, why });
+        }
+    }
+    let mut taken = own_names();
+    for (key, name) in used_names(settings, cell) {
+        if taken.iter().any(|other| other.eq_ignore_ascii_case(&name)) {
+            let why = format!("`{name}` already stands for something else in the program");
+            findings.tell(key, BackendIssue::OptionConflict { key, why });
+        }
+        taken.push(name);
+    }
+}
+
+/// The names of frames and signals, with the option that gives each.
+fn used_names(settings: &Settings<'_>, cell: &Cell) -> Vec<(&'static str, String)> {
+    let mut used = vec![
+        (TOOL_NAME, settings.tool(cell)),
+        (WORK_OBJECT_NAME, settings.work_object(cell)),
+    ];
+    used.extend(
+        cell.ultrasonic
+            .map(|number| (ULTRASONIC_SIGNAL, settings.output(number))),
+    );
+    match cell.ready {
+        Ready::Input(number) => used.push((READY_SIGNAL, settings.input(number))),
+        Ready::After(_) => {}
+    }
+    used
+}
+
+/// The names of data that every program declares.
+fn own_names() -> Vec<String> {
+    [HOME, AXES_SPEED, ZONE].map(str::to_owned).to_vec()
+}
+
+/// Names that the module of a program must not have, besides those of RAPID itself.
+pub(crate) fn taken_names(settings: &Settings<'_>, cell: &Cell) -> Vec<String> {
+    let used = used_names(settings, cell).into_iter().map(|(_, name)| name);
+    let mut taken = own_names();
+    taken.extend(used);
+    taken.extend(settings.profile.reserved.iter().cloned());
+    taken
+}
+
+/// Names that the machine keeps for itself, against those that a program cannot change.
+fn reserved(settings: &Settings<'_>, cell: &Cell, job: &str, parts: usize, findings: &mut Findings) {
+    let reserved = &settings.profile.reserved;
+    if reserved.is_empty() {
+        return;
+    }
+    let is_own = |name: &str| {
+        let numbered = [FEED, RATE, SPEED].into_iter().any(|start| {
+            let rest = name.to_ascii_lowercase();
+            let number = rest.strip_prefix(start).map(str::to_owned);
+            number.is_some_and(|number| !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()))
+        });
+        numbered
+            || name.eq_ignore_ascii_case(MAIN)
+            || own_names().iter().any(|own| own.eq_ignore_ascii_case(name))
+    };
+    let main = main_name(job, &taken_names(settings, cell));
+    let is_part = |name: &str| {
+        let mut of_parts = (1..=parts).flat_map(|part| [part_module(&main, part), part_routine(&main, part)]);
+        parts > 1 && of_parts.any(|part| part.eq_ignore_ascii_case(name))
+    };
+    if let Some(name) = reserved.iter().find(|name| is_own(name) || is_part(name)) {
+        let key = "reserved";
+        let why = format!("the program has something of the name `{name}` that cannot be called otherwise");
+        findings.tell(key, BackendIssue::Profile { key, why });
+    }
+}
+
+fn machine(cell: &Cell, findings: &mut Findings) {
+    if cell.home.is_none() {
+        findings.tell("home", HOME_MISSING);
+    }
+    if cell.ultrasonic.is_none() {
+        findings.tell("ultrasonic", GENERATOR_MISSING);
+    }
+    if cell.tool.number.is_none() {
+        findings.point(
+            None,
+            ["tool X", "tool Y", "tool Z"],
+            cell.tool.frame.origin,
+            FARTHEST_MM,
+        );
+        match cell.load {
+            Some(Registered::Value(carried)) => load(carried, findings),
+            Some(Registered::Number(_)) | None => findings.tell("load", LOAD_MISSING),
+        }
+    }
+    if cell.base.number.is_none() {
+        findings.point(
+            None,
+            ["base X", "base Y", "base Z"],
+            cell.base.frame.origin,
+            FARTHEST_MM,
+        );
+    }
+    match cell.ready {
+        Ready::Input(_) => {}
+        Ready::After(time) => wait(None, "time until ready", time, findings),
+    }
+}
+
+fn load(load: Load, findings: &mut Findings) {
+    let mass = Number {
+        what: "load mass",
+        value: load.mass.to_kg(),
+        unit: "kg",
+    };
+    findings.range(None, &mass, LOAD_MASS_KG);
+    findings.point(None, ["load X", "load Y", "load Z"], load.centre, FARTHEST_MM);
+    let Point3 { x, y, z } = load.centre;
+    if [x, y, z].iter().all(|part| part.abs() < NO_DISTANCE_MM) {
+        let what = "load centre of mass";
+        findings.tell(
+            what,
+            BackendIssue::OutOfRange {
+                op: None,
+                what,
+                value: "0, 0, 0 mm".to_owned(),
+                allowed: "anywhere but at the origin of the flange, such as 0, 0, 50 mm".to_owned(),
+            },
+        );
+    }
+}
+
+fn ops(program: &ReachableProgram, findings: &mut Findings) {
+    let tables = program.program();
+    for (id, op) in program.verified().ops() {
+        if let Some(operation) = op.site.operation() {
+            findings.blade(tables, id, operation);
+        }
+        match op.action {
+            Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
+            Action::AxisTravel { to, .. } => target(id, to, findings),
+            Action::Travel { to, feed, rate, .. } => {
+                target(id, to, findings);
+                tip_speed(id, tables, feed, findings);
+                turning(id, tables, rate, findings);
+            }
+            Action::Approach { to, feed } | Action::Retract { to, feed } | Action::Cut { to, feed, .. } => {
+                target(id, to, findings);
+                tip_speed(id, tables, feed, findings);
+            }
+            Action::Turn { rate, .. } => turning(id, tables, rate, findings),
+            Action::Dwell { time } => wait(Some(id), "waiting time", time, findings),
+            Action::ToolChange { .. } => {
+                let what = "a tool change within the program";
+                findings.tell(what, BackendIssue::Unsupported { op: id, what });
+            }
+        }
+    }
+}
+
+fn target(op: OpId, to: Point3, findings: &mut Findings) {
+    findings.point(Some(op), ["X", "Y", "Z"], to, FARTHEST_MM);
+}
+
+fn tip_speed(op: OpId, program: &Program, feed: FeedId, findings: &mut Findings) {
+    if let Some(feed) = program.feeds.get(usize::from(feed.0)) {
+        let number = Number {
+            what: "tip speed",
+            value: feed.to_mm_per_s(),
+            unit: "mm/s",
+        };
+        findings.range(Some(op), &number, TIP_SPEED);
+    }
+}
+
+fn turning(op: OpId, program: &Program, rate: RateId, findings: &mut Findings) {
+    if let Some(rate) = program.rates.get(usize::from(rate.0)) {
+        let number = Number {
+            what: "reorientation rate",
+            value: rate.to_deg_per_s(),
+            unit: "deg/s",
+        };
+        findings.range(Some(op), &number, TURNING);
+    }
+}
+
+fn wait(op: Option<OpId>, what: &'static str, time: Duration, findings: &mut Findings) {
+    let number = Number {
+        what,
+        value: time.to_s(),
+        unit: "s",
+    };
+    findings.range(op, &number, (0.0, LONGEST_WAIT_S));
+}

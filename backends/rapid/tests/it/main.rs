@@ -1,0 +1,13 @@
+//! Tests of the RAPID backend from outside.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test that meets the unexpected should stop"
+)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod dialect;
+mod snapshots;
