@@ -10,4 +10,6 @@
 mod support;
 
 mod dialect;
+mod edits;
+mod round_trip;
 mod snapshots;
