@@ -40,7 +40,7 @@ pub(super) enum Datum {
 /// The data of a program by their names, which are in upper case.
 #[derive(Debug, Default)]
 pub(super) struct Data {
-    all: BTreeMap<(Scope, String), Datum>,
+    all: BTreeMap<Scope, BTreeMap<String, Datum>>,
 }
 
 /// Where names are looked up: the innermost first.
@@ -54,13 +54,14 @@ pub(super) struct View<'d> {
 impl Data {
     /// Keeps what a name stands for; whether the name is new there.
     pub(super) fn declare(&mut self, scope: Scope, name: &str, datum: Datum) -> bool {
-        self.all.insert((scope, name.to_owned()), datum).is_none()
+        let names = self.all.entry(scope).or_default();
+        names.insert(name.to_owned(), datum).is_none()
     }
 
     /// What the name stands for in a scope is not known any more.
     pub(super) fn forget(&mut self, scopes: [Option<Scope>; 3], name: &str) {
         for scope in scopes.into_iter().flatten() {
-            if let Some(datum) = self.all.get_mut(&(scope, name.to_owned())) {
+            if let Some(datum) = self.all.get_mut(&scope).and_then(|names| names.get_mut(name)) {
                 *datum = Datum::Unclear;
                 return;
             }
@@ -107,7 +108,7 @@ impl View<'_> {
         seen_from(self.module, self.routine)
             .into_iter()
             .flatten()
-            .find_map(|scope| self.data.all.get(&(scope, name.to_owned())))
+            .find_map(|scope| self.data.all.get(&scope)?.get(name))
     }
 
     /// A value, or what its name stands for. Names that stand for names are not followed: RAPID has none.

@@ -24,8 +24,6 @@ pub(super) struct Module<'t> {
 /// A procedure.
 #[derive(Debug)]
 pub(super) struct Routine {
-    /// Its name, in upper case.
-    pub(super) name: String,
     pub(super) module: usize,
     /// Whether other modules cannot call it.
     pub(super) local: bool,
@@ -236,23 +234,21 @@ impl<'t> Program<'t> {
         let name = name.trim().to_owned();
         let is_name = !name.is_empty() && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_');
         let clashes = self
-            .routines
-            .iter()
-            .any(|other| other.name == name && (other.module == module || !(other.local || local)));
+            .named(&name)
+            .any(|(_, other)| other.module == module || !(other.local || local));
         if !is_name || clashes {
             return (Some(Says::Unknown), None);
         }
+        let number = self.routines.len();
+        self.named.entry(name).or_default().push(number);
+        let inner = parameters.trim_end().strip_suffix(')');
         self.routines.push(Routine {
-            name,
             module,
             local,
-            plain: parameters
-                .trim_end()
-                .strip_suffix(')')
-                .is_some_and(|inner| inner.trim().is_empty()),
+            plain: inner.is_some_and(|inner| inner.trim().is_empty()),
             pieces: 0..0,
         });
-        (None, self.routines.len().checked_sub(1))
+        (None, Some(number))
     }
 
     /// A declaration of a module.
@@ -358,24 +354,26 @@ impl<'t> Program<'t> {
         }
     }
 
+    /// The routines of a name, in upper case, with their numbers.
+    fn named(&self, name: &str) -> impl Iterator<Item = (usize, &Routine)> {
+        let numbers = self.named.get(name).into_iter().flatten();
+        numbers.filter_map(|&number| Some((number, self.routines.get(number)?)))
+    }
+
     /// The routine that a module calls by a name, in upper case.
     pub(super) fn routine(&self, name: &str, module: usize) -> Option<usize> {
-        let own = self
-            .routines
-            .iter()
-            .position(|routine| routine.name == name && routine.module == module);
-        own.or_else(|| {
-            let is_seen = |routine: &Routine| routine.name == name && !routine.local;
-            self.routines.iter().position(is_seen)
-        })
+        let own = self.named(name).find(|(_, routine)| routine.module == module);
+        let seen = || self.named(name).find(|(_, routine)| !routine.local);
+        own.or_else(seen).map(|(number, _)| number)
     }
 
     /// The routine that a task begins with.
     pub(super) fn main(&self) -> Option<usize> {
-        let main = MAIN.to_ascii_uppercase();
-        self.routines
-            .iter()
-            .position(|routine| routine.name == main && !routine.local)
+        let name = MAIN.to_ascii_uppercase();
+        let main = self
+            .named(&name)
+            .find(|(_, routine)| !routine.local && routine.plain);
+        main.map(|(number, _)| number)
     }
 }
 

@@ -35,15 +35,30 @@ fn layout_case_and_names_make_no_difference() {
     for (from, to) in [
         (MOVE, "movel\n  [ [ 2.985 , -16.0360,\t! a comment; with ends\r\n"),
         ("SingArea\\Off;", "  SINGAREA \\ off ;"),
-        ("ConfL\\On;", "ConfL\\On; AccSet 100, 100; VelSet 100,5000; TPErase; TPWrite \"go; now\";"),
+        (
+            "ConfL\\On;",
+            "ConfL\\On; AccSet 100, 100; VelSet 100,5000; TPErase; TPWrite \"go; now\";",
+        ),
         ("CONST num", "LOCAL CONST num"),
         ("vc_feed2:=500.0", "vc_feed2:=5E2"),
-        ("MODULE sample", "%%%\n  VERSION:1\n  LANGUAGE:ENGLISH\n%%%\nMODULE sample(NOSTEPIN)"),
+        (
+            "MODULE sample",
+            "%%%\n  VERSION:1\n  LANGUAGE:ENGLISH\n%%%\nMODULE sample(NOSTEPIN)",
+        ),
         ("SetDO do12,1;", "SetDO DO12,high;"),
         (SPEED, "vc_speed2\\V:=500,fine"),
-        ("CONST num", "CONST robtarget unused:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nCONST num"),
-        ("PERS tooldata", "PERS tooldata tUnused:=[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];PERS tooldata"),
-        ("ENDMODULE", "  PROC extra(num x)\n MoveL nowhere; ENDPROC FUNC num f() RETURN 1; ENDFUNC ENDMODULE"),
+        (
+            "CONST num",
+            "CONST robtarget unused:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nCONST num",
+        ),
+        (
+            "PERS tooldata",
+            "PERS tooldata tUnused:=[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];PERS tooldata",
+        ),
+        (
+            "ENDMODULE",
+            "  PROC extra(num x)\n MoveL nowhere; ENDPROC FUNC num f() RETURN 1; ENDFUNC ENDMODULE",
+        ),
     ] {
         let found = edited(from, to);
         assert!(found.is_ok(), "{to}: {found:?}");
@@ -56,7 +71,10 @@ fn a_named_target_is_that_target() {
     let mut files = files(&options);
     let declared = format!("  VAR robtarget pStart:={POINT};\n  CONST num");
     assert!(files[0].text.contains(POINT));
-    files[0].text = files[0].text.replace(POINT, "pStart").replacen("  CONST num", &declared, 1);
+    files[0].text = files[0]
+        .text
+        .replace(POINT, "pStart")
+        .replacen("  CONST num", &declared, 1);
     assert!(retraced(&program(), &options, &files).is_ok());
 }
 
@@ -88,7 +106,10 @@ fn what_is_changed_differs() {
 
 #[test]
 fn another_frame_is_another_program() {
-    for (from, to) in [("[[0.000,0.000,310.000]", "[[0.000,0.000,311.000]"), ("[[1800.000", "[[1801.000")] {
+    for (from, to) in [
+        ("[[0.000,0.000,310.000]", "[[0.000,0.000,311.000]"),
+        ("[[1800.000", "[[1801.000"),
+    ] {
         let found = edited(from, to).unwrap_err();
         assert!(matches!(found.what, DepartureKind::Frame(_)), "{to}: {found:?}");
     }
@@ -113,7 +134,10 @@ fn what_is_not_known_is_not_taken_for_a_move() {
         (SPEED, "vc_speed1,z10"),
         (SPEED, "vc_speed1\\V:=10\\T:=2,fine"),
         (POINT, "Offs(p1,0,0,10)"),
-        ("9E9,9E9,9E9,9E9,9E9,9E9]],vc_speed1", "0,9E9,9E9,9E9,9E9,9E9]],vc_speed1"),
+        (
+            "9E9,9E9,9E9,9E9,9E9,9E9]],vc_speed1",
+            "0,9E9,9E9,9E9,9E9,9E9]],vc_speed1",
+        ),
         ("[0.37554642", "[0.47554642"),
         ("[12.5,[", "[11.5,["),
         ("[TRUE,[[", "[FALSE,[["),
@@ -121,7 +145,10 @@ fn what_is_not_known_is_not_taken_for_a_move() {
         (",5000,1000]", ",5000,1001]"),
         ("MODULE sample", "MODULE simple"),
         ("PROC main()", "PROC main(num x)"),
-        ("CONST num vc_feed1:=200.0;", "CONST num vc_feed1:=200.0; CONST num vc_feed1:=200.0;"),
+        (
+            "CONST num vc_feed1:=200.0;",
+            "CONST num vc_feed1:=200.0; CONST num vc_feed1:=200.0;",
+        ),
         ("SetDO do12,1;", "SetDO\\SDelay:=1,do12,1;"),
         ("SetDO do12,1;", "SetDO do12,1"),
         (";\r\n    WaitTime 0.5;", "\r\n    WaitTime 0.5;"),
@@ -148,10 +175,14 @@ fn the_list_says_what_is_loaded() {
     missing.remove(1);
     assert!(retraced(&program, &options, &missing).is_err());
     let mut unlisted = all.clone();
-    unlisted[list].text = unlisted[list].text.replacen("  <Module>sample_m001.mod</Module>\r\n", "", 1);
+    unlisted[list].text = unlisted[list]
+        .text
+        .replacen("  <Module>sample_m001.mod</Module>\r\n", "", 1);
     assert!(retraced(&program, &options, &unlisted).is_err());
     let mut twice = all.clone();
-    twice[0].text = twice[0].text.replacen("sample_part001;", "sample_part001; sample_part001;", 1);
+    twice[0].text = twice[0]
+        .text
+        .replacen("sample_part001;", "sample_part001; sample_part001;", 1);
     assert!(retraced(&program, &options, &twice).is_err());
     // One of an older program beside it does no harm.
     let mut older = all;
@@ -173,7 +204,10 @@ fn lines_of_the_profile_are_known_and_a_move_among_them_is_not_hidden() {
     for (line, is_fine) in [
         ("    Set doLamp;", true),
         ("    ConfL\\Off;", false),
-        ("    MoveAbsJ vc_home\\NoEOffs,vc_axes,fine,vc_tool\\WObj:=vc_wobj;MoveL 1;", false),
+        (
+            "    MoveAbsJ vc_home\\NoEOffs,vc_axes,fine,vc_tool\\WObj:=vc_wobj;MoveL 1;",
+            false,
+        ),
     ] {
         let options = options(&[]).with_profile(profile(line));
         let files = files(&options);

@@ -11,5 +11,7 @@ mod support;
 
 mod dialect;
 mod edits;
+mod never;
+mod refusals;
 mod round_trip;
 mod snapshots;

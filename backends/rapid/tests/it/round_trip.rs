@@ -17,7 +17,10 @@ pub(crate) fn retraced(
     files: &[ProgramFile],
 ) -> Result<Retraced, Departure> {
     let reader = Rapid.reader().unwrap();
-    let mut retrace = Retrace::new(Judge::new(program, reader, reader.grain(options)), reader.frames());
+    let mut retrace = Retrace::new(
+        Judge::new(program, reader, reader.grain(options)),
+        reader.frames(),
+    );
     let sources = Sources {
         files,
         cell: program.program().cell.as_ref().unwrap(),
@@ -123,7 +126,9 @@ fn tell_all(files: &[ProgramFile], options: &Options) {
     let mut told = std::collections::BTreeSet::new();
     reader.read(sources, &mut |statement| {
         let place = statement.place;
-        let text = files[place.file as usize].text.get(place.start as usize..place.end as usize);
+        let text = files[place.file as usize]
+            .text
+            .get(place.start as usize..place.end as usize);
         assert!(text.is_some_and(|text| !text.is_empty()), "{place:?}");
         assert!(told.insert(place), "{place:?} is told twice");
     });
