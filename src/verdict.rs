@@ -54,13 +54,15 @@ pub fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
 /// What each operation must stay out of.
 #[must_use]
 pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
-    let bound = |operation| match operation {
-        &PlannedOperation::RoughVcut(ref vcut) => Bound {
-            part: &vcut.bound,
-            drop: vcut.parameters.drop,
-        },
-    };
-    plan.operations.iter().map(bound).collect()
+    let operations = plan.operations.iter();
+    operations
+        .map(|operation| match operation {
+            PlannedOperation::RoughVcut(vcut) => Bound {
+                part: &vcut.bound,
+                drop: vcut.parameters.drop,
+            },
+        })
+        .collect()
 }
 
 /// Puts everything that is wrong with a proven program into words.

@@ -92,10 +92,7 @@ fn moved(essences: &[Vec<u32>; 2], pairs: &[Pair]) -> Moved {
 }
 
 /// The elements whose places are not among those taken, which ascend.
-fn left_over<'e>(
-    elements: &'e [u32],
-    taken: impl Iterator<Item = usize>,
-) -> impl Iterator<Item = (usize, &'e u32)> {
+fn left_over(elements: &[u32], taken: impl Iterator<Item = usize>) -> impl Iterator<Item = (usize, &u32)> {
     let mut taken = taken.peekable();
     let is_free = move |&(index, _): &(usize, &u32)| taken.next_if_eq(&index).is_none();
     elements.iter().enumerate().filter(is_free)

@@ -18,7 +18,14 @@ use vcutc_backend_api::readback::{ProgramFile, essence};
 const MOST_OF_A_KIND: usize = 40;
 
 /// Mutants that are made, and found, of the programs of each dialect. `docs/verify.md` says so too.
-const MUTANTS: &[(&str, usize)] = &[("krl", 1864)];
+const MUTANTS: &[(&str, usize)] = &[
+    ("krl", 1244),
+    ("rapid", 738),
+    ("linuxcnc", 1760),
+    ("fanuc", 1760),
+    ("sinumerik", 1760),
+    ("heidenhain", 1760),
+];
 
 /// Programs that are worked on at once.
 const WORKERS: usize = 4;
