@@ -161,13 +161,6 @@ fn profiles_that_ask_for_what_rapid_does_not_have() {
             },
         ),
         (
-            "decimals",
-            Profile {
-                decimals: Some(2),
-                ..Profile::default()
-            },
-        ),
-        (
             "header",
             Profile {
                 header: vec!["! Grüße".to_owned()],
