@@ -22,6 +22,7 @@ fn what(issues: &[BackendIssue]) -> Vec<&'static str> {
             BackendIssue::MissingMachineField { field, .. } => field,
             BackendIssue::OptionConflict { key, .. } | BackendIssue::Profile { key, .. } => key,
             BackendIssue::Unsupported { what, .. } | BackendIssue::OutOfRange { what, .. } => what,
+            BackendIssue::Failed(_) => "failed",
         })
         .collect()
 }
