@@ -343,8 +343,12 @@ fn wrong_machine(job: &CheckedJob, target: &str, mismatch: MachineMismatch, driv
     let diagnostic =
         Diagnostic::new(Code::WrongMachine, message, span, label).note(format!("`{target}` drives {drives}"));
     match (mismatch, model.map(|model| model.maker)) {
-        (MachineMismatch::Maker, Some(Maker::Other)) => diagnostic
-            .help("if it is a KUKA robot, state `manufacturer = \"KUKA\"` in the file that describes it"),
+        (MachineMismatch::Maker, Some(Maker::Other)) => match drives.split(' ').next() {
+            Some(maker @ ("KUKA" | "ABB")) => diagnostic.help(format!(
+                "if it is one of these, state `manufacturer = \"{maker}\"` in the file that describes it"
+            )),
+            Some(_) | None => diagnostic.help("choose another machine, or a target that drives it"),
+        },
         (_, _) => {
             diagnostic.help("choose a target that drives it (`vcutc targets` lists them), or another machine")
         }
@@ -357,6 +361,7 @@ fn example(field: &str, machine: Option<&Machine>) -> String {
         ("home", Some(model)) if model.kind() == MachineKind::FiveAxis => home_of_axes(model),
         ("home", _) => "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)".to_owned(),
         ("ultrasonic", _) => "output(12)".to_owned(),
+        ("load", _) => "load(mass = 12 kg, x = 0 mm, y = 0 mm, z = 100 mm)".to_owned(),
         ("tool" | "base", _) => {
             "frame(x = 0 mm, y = 0 mm, z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)".to_owned()
         }

@@ -15,7 +15,6 @@ use vcutc_backend_api::ir::{
     Ready, Registered,
 };
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::profile::PROFILE_DECIMALS;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::wrist::{TOO_FAR, turn};
 
@@ -124,12 +123,6 @@ fn profile(settings: &Settings<'_>, findings: &mut Findings) {
             "extension",
             format!("modules are called {}", EXTENSIONS.join(" or ")),
         );
-    }
-    if let Some(decimals) = profile.decimals
-        && !PROFILE_DECIMALS.contains(&decimals)
-    {
-        let (least, most) = (PROFILE_DECIMALS.start(), PROFILE_DECIMALS.end());
-        refuse("decimals", format!("lengths have {least} to {most} decimals"));
     }
     for (key, lines) in [("header", &profile.header), ("footer", &profile.footer)] {
         let is_plain = |line: &String| line.bytes().all(|byte| matches!(byte, b'\t' | b' '..=b'~'));

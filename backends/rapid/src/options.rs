@@ -110,8 +110,8 @@ impl<'p> Settings<'p> {
     /// Reads the options of a job.
     pub(crate) fn read(options: &'p Options) -> Self {
         let profile = options.profile();
-        let asked = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
-        let decimals = profile.decimals.unwrap_or(asked);
+        // The compiler has set it to what the profile says, unless the job says otherwise.
+        let decimals = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
         let approximation = options.length(APPROXIMATION);
         Self {
             lengths: FixedDecimal::new(decimals),
@@ -209,15 +209,5 @@ mod tests {
             (settings.output(12), settings.input(7)),
             ("doKnife".to_owned(), "di7".to_owned())
         );
-    }
-
-    #[test]
-    fn the_profile_of_the_machine_has_the_last_word_on_decimals() {
-        let profile = Profile {
-            decimals: Some(5),
-            ..Profile::default()
-        };
-        let options = Options::defaults(OPTIONS).with_profile(profile);
-        assert_eq!(Settings::read(&options).lengths.decimals(), 5);
     }
 }

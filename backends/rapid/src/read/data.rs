@@ -2,7 +2,7 @@
 
 use super::sentence::Value;
 use crate::speeds::EXTERNAL;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{AxisValues, Load};
 use vcutc_backend_api::units::Mass;
@@ -41,7 +41,14 @@ pub(super) enum Datum {
 #[derive(Debug, Default)]
 pub(super) struct Data {
     all: BTreeMap<Scope, BTreeMap<String, Datum>>,
+    /// Where each name was declared first.
+    homes: BTreeMap<String, Scope>,
+    /// Names that stand for something else elsewhere. Which of them an aggregate of a third place means depends on rules that
+    /// are not modelled here, so nothing is said of them.
+    ambiguous: BTreeSet<String>,
 }
+
+static UNCLEAR: Datum = Datum::Unclear;
 
 /// Where names are looked up: the innermost first.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +61,9 @@ pub(super) struct View<'d> {
 impl Data {
     /// Keeps what a name stands for; whether the name is new there.
     pub(super) fn declare(&mut self, scope: Scope, name: &str, datum: Datum) -> bool {
+        if *self.homes.entry(name.to_owned()).or_insert(scope) != scope {
+            self.ambiguous.insert(name.to_owned());
+        }
         let names = self.all.entry(scope).or_default();
         names.insert(name.to_owned(), datum).is_none()
     }
@@ -105,6 +115,9 @@ pub(super) struct SpeedData {
 impl View<'_> {
     /// What a name stands for.
     pub(super) fn find(&self, name: &str) -> Option<&Datum> {
+        if self.data.ambiguous.contains(name) {
+            return Some(&UNCLEAR);
+        }
         seen_from(self.module, self.routine)
             .into_iter()
             .flatten()

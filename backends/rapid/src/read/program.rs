@@ -277,7 +277,7 @@ impl<'t> Program<'t> {
             text.get(..word.len())
                 .is_some_and(|start| start.eq_ignore_ascii_case(word))
         };
-        if !starts.iter().any(|word| begins(&word)) {
+        if !starts.iter().any(begins) {
             return None;
         }
         match sentence(text) {

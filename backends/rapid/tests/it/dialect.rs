@@ -226,11 +226,11 @@ fn the_profile_of_a_machine_is_honoured() {
         header: vec!["    Set doLamp;".to_owned()],
         footer: vec!["    Reset doLamp;".to_owned()],
         extension: Some("modx".to_owned()),
-        decimals: Some(4),
+        decimals: None,
         line_numbers: None,
         reserved: vec!["Sample".to_owned()],
     };
-    let options = crate::support::options(&[]).with_profile(profile);
+    let options = crate::support::options(&[("decimals", OptionValue::Integer(4))]).with_profile(profile);
     let bundle = crate::support::emit_with(&reachable(one_cut().program()), &options);
     let names: Vec<&str> = bundle.files().iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["sample_2.modx", "sample_2.pgf"]);

@@ -149,6 +149,7 @@ fn what_is_not_known_is_not_taken_for_a_move() {
             "CONST num vc_feed1:=200.0;",
             "CONST num vc_feed1:=200.0; CONST num vc_feed1:=200.0;",
         ),
+        ("PROC main()", "PROC main() CONST num vc_feed1:=7;"),
         ("SetDO do12,1;", "SetDO\\SDelay:=1,do12,1;"),
         ("SetDO do12,1;", "SetDO do12,1"),
         (";\r\n    WaitTime 0.5;", "\r\n    WaitTime 0.5;"),

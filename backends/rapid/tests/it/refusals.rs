@@ -22,6 +22,7 @@ fn what(issues: &[BackendIssue]) -> Vec<&'static str> {
             BackendIssue::MissingMachineField { field, .. } => field,
             BackendIssue::OptionConflict { key, .. } | BackendIssue::Profile { key, .. } => key,
             BackendIssue::Unsupported { what, .. } | BackendIssue::OutOfRange { what, .. } => what,
+            BackendIssue::Failed(_) => "failed",
         })
         .collect()
 }
@@ -157,13 +158,6 @@ fn profiles_that_ask_for_what_rapid_does_not_have() {
             "extension",
             Profile {
                 extension: Some("prg".to_owned()),
-                ..Profile::default()
-            },
-        ),
-        (
-            "decimals",
-            Profile {
-                decimals: Some(2),
                 ..Profile::default()
             },
         ),
