@@ -96,7 +96,7 @@ impl<'a> Control<'a> {
     /// A part begins: it has to say everything again.
     pub(super) fn restart(&mut self) {
         self.modes = Modes::default();
-        for &mode in self.tongue.from_the_start() {
+        for &mode in self.tongue.unsaid() {
             self.set(mode);
         }
         (self.motion, self.feed) = (None, None);
@@ -264,8 +264,9 @@ impl<'a> Control<'a> {
         if self.modes.tool != Some(self.tool()) {
             return expected(format!("tool {} before a motion of the tip", self.tool()));
         }
-        if self.tongue.work_offset() == WorkOffset::Said && self.modes.work.is_none() {
-            return expected("the work offset before a motion of the tip");
+        let offset = self.context.cell.base.number.unwrap_or(FIRST_OFFSET);
+        if self.tongue.work_offset() == WorkOffset::Said && self.modes.work != Some(offset) {
+            return expected(format!("work offset {offset} before a motion of the tip"));
         }
         match self.motion {
             Some(Motion::AtFeed) => {}

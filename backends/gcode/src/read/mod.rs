@@ -2,7 +2,8 @@
 //!
 //! A line is read in three steps that know nothing of each other's business. [`lines`] finds what of it is statement. A
 //! [`tongue`] turns the statement into an [`order`]: what the block says, in terms that all dialects share. [`control`] keeps
-//! what was said before, as a control does, and tells what the block therefore does; [`walk`] goes from file to file.
+//! what was said before, as a control does, and tells what the block therefore does; [`walk`] goes from file to file
+//! ([`scripts`]).
 //!
 //! # What is understood
 //!
@@ -21,6 +22,8 @@ mod codes;
 mod control;
 mod lines;
 mod order;
+mod profile;
+mod scripts;
 mod tongue;
 mod walk;
 mod words;
