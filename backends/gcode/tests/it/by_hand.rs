@@ -400,6 +400,34 @@ fn tools_and_work_offsets_are_those_of_the_machine() {
     }
 }
 
+/// The first move of all axes comes from nowhere, the second from home, the third from behind the cut.
+#[test]
+fn moves_of_all_axes_keep_to_the_home_speed() {
+    for (dialect, said, other) in [
+        ("linuxcnc", "F0.006", "F0.06"),
+        (
+            "linuxcnc",
+            "B-34.1600 A-30.0000 F5.470746",
+            "B-34.1600 A-30.0000 F5.5",
+        ),
+        ("linuxcnc", "B0.0000 A0.0000 F5.470746", "B0.0000 A0.0000 F90"),
+        ("sinumerik", "F0.006", "F0.06"),
+        (
+            "sinumerik",
+            "B-34.1600 A-30.0000 F5.470746",
+            "B-34.1600 A-30.0000 F5.5",
+        ),
+        ("heidenhain", "F515.662", "F520"),
+        ("heidenhain", "F3182.238", "F3200"),
+    ] {
+        let (_, what) = departs(dialect, &[], |text| {
+            assert!(text.contains(said), "{dialect} {said}\n{text}");
+            text.replacen(said, other, 1)
+        });
+        assert_eq!(what, DepartureKind::NotUnderstood, "{dialect} {other}");
+    }
+}
+
 #[test]
 fn rounding_is_that_of_the_job_or_not_understood() {
     let two = [("approximation", OptionValue::Length(Length::mm(2.0)))];
