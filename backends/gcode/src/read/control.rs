@@ -8,6 +8,7 @@
 use super::order::{
     Act, Context, Coordinates, HABITS, Habit, Mode, Motion, Once, Order, Parsed, Tcp, Trouble, expected,
 };
+use super::rates::is_too_fast;
 use super::tongue::{Tongue, WorkOffset};
 use crate::axes::WorkInOffset;
 use crate::dialect::{AxisPace, FeedMode, TcpCodes};
@@ -96,7 +97,7 @@ impl<'a> Control<'a> {
     /// A part begins: it has to say everything again.
     pub(super) fn restart(&mut self) {
         self.modes = Modes::default();
-        for &mode in self.tongue.from_the_start() {
+        for &mode in self.tongue.unsaid() {
             self.set(mode);
         }
         (self.motion, self.feed) = (None, None);
@@ -264,8 +265,9 @@ impl<'a> Control<'a> {
         if self.modes.tool != Some(self.tool()) {
             return expected(format!("tool {} before a motion of the tip", self.tool()));
         }
-        if self.tongue.work_offset() == WorkOffset::Said && self.modes.work.is_none() {
-            return expected("the work offset before a motion of the tip");
+        let offset = self.context.cell.base.number.unwrap_or(FIRST_OFFSET);
+        if self.tongue.work_offset() == WorkOffset::Said && self.modes.work != Some(offset) {
+            return expected(format!("work offset {offset} before a motion of the tip"));
         }
         match self.motion {
             Some(Motion::AtFeed) => {}
@@ -307,24 +309,34 @@ impl<'a> Control<'a> {
         if order.exact_once == Once::No && self.modes.stop != Some(End::Exact) {
             return expected(format!("`{}` before a motion of all axes", self.tongue.exact()));
         }
-        match (self.context.settings.dialect.axis_pace(), self.motion) {
+        let from = self.axes;
+        self.tip = [None; 3];
+        for (known, said) in self.axes.iter_mut().zip(order.axes) {
+            *known = said.or(*known);
+        }
+        let pace = self.context.settings.dialect.axis_pace();
+        match (pace, self.motion) {
             (AxisPace::Rapid, Some(Motion::Rapid)) => {}
-            (AxisPace::Rapid, _) => return expected("`G0` with coordinates of the machine"),
+            (AxisPace::Rapid, Some(Motion::AtFeed) | None) => {
+                return expected("`G0` with coordinates of the machine");
+            }
             (AxisPace::InverseTime, Some(Motion::AtFeed))
                 if self.modes.feed != Some(FeedMode::InverseTime) =>
             {
                 return expected("`G93` before a motion of all axes");
             }
             (AxisPace::InverseTime | AxisPace::Path, Some(Motion::AtFeed)) => {
-                self.speed(order)?;
+                let feed = self.speed(order)?;
+                if is_too_fast(self.context, pace, feed, &from, &self.axes) {
+                    let percent = self.context.settings.home_speed * 100.0;
+                    return expected(format!(
+                        "a lower `F`: no axis faster than {percent:.0} % of its rate"
+                    ));
+                }
             }
             (AxisPace::InverseTime | AxisPace::Path, Some(Motion::Rapid) | None) => {
                 return expected("a motion with a speed");
             }
-        }
-        self.tip = [None; 3];
-        for (known, said) in self.axes.iter_mut().zip(order.axes) {
-            *known = said.or(*known);
         }
         let mut axes = AxisValues([0.0; MOST_AXES]);
         self.values(&mut axes, AxisKind::Linear)?;

@@ -146,7 +146,7 @@ fn has_active_comment(line: &str) -> bool {
             let start = comment.get(..word.len());
             start.is_some_and(|start| start.eq_ignore_ascii_case(word))
         };
-        ACTIVE.iter().any(|word| begins(word))
+        ACTIVE.iter().any(begins)
     })
 }
 

@@ -2,7 +2,8 @@
 //!
 //! A line is read in three steps that know nothing of each other's business. [`lines`] finds what of it is statement. A
 //! [`tongue`] turns the statement into an [`order`]: what the block says, in terms that all dialects share. [`control`] keeps
-//! what was said before, as a control does, and tells what the block therefore does; [`walk`] goes from file to file.
+//! what was said before, as a control does, and tells what the block therefore does; [`walk`] goes from file to file
+//! ([`scripts`]).
 //!
 //! # What is understood
 //!
@@ -14,13 +15,16 @@
 //! * Blocks that the job gives (`tcp_on`, `on_code`, ...) and lines of the machine's profile, as texts.
 //!
 //! Letters may be small, blanks and zeros missing, coordinates left out that stay as they were. Everything else (arcs, `G91`,
-//! `G20`, variables, loops, other M codes) is told as not understood: nothing is guessed. How fast a motion of all axes goes is
-//! not told, for it is no part of the program that was proven.
+//! `G20`, variables, loops, other M codes) is told as not understood: nothing is guessed. Motions of all axes are held against the
+//! job's `home_speed` ([`rates`]).
 
 mod codes;
 mod control;
 mod lines;
 mod order;
+mod profile;
+mod rates;
+mod scripts;
 mod tongue;
 mod walk;
 mod words;

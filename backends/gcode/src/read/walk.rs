@@ -1,13 +1,14 @@
 //! The statements of all files in the order in which a control carries them out.
 
-use super::codes::{Found, Given, Role, essences};
+use super::codes::{Found, Given, Role};
 use super::control::{Control, given};
-use super::lines::{self, Code, Span, Style};
 use super::order::{Context, Flow, Order, Routine, Trouble};
+use super::profile::{OfProfile, Stage};
+use super::scripts::{self, Directory, Line, Script};
 use super::tongue::{self, Heads, Tongue};
 use crate::axes;
 use crate::options::Settings;
-use vcutc_backend_api::readback::{Deed, Place, ProgramFile, Says, Sources, Statement, essence};
+use vcutc_backend_api::readback::{Deed, Place, Says, Sources, Statement};
 
 /// Tells all statements of a program.
 pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
@@ -24,7 +25,8 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
         .zip(sources.files)
         .map(|(place, file)| Script::new(place, file, tongue))
         .collect();
-    let main = main(&scripts, tongue, context);
+    let directory = Directory::new(&scripts);
+    let main = scripts::main(&scripts, &directory, tongue, context);
     let mut walk = Walk {
         tongue,
         context,
@@ -32,6 +34,7 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
         given: Given::new(settings.codes, tongue.style()),
         profile: OfProfile::new(&settings, tongue.style()),
         scripts,
+        directory,
         stack: Vec::new(),
         heed,
     };
@@ -42,171 +45,6 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
     walk.never_called();
 }
 
-/// A file on the way.
-struct Script<'t> {
-    file: u32,
-    text: &'t str,
-    routine: Option<Routine<'t>>,
-    /// Where the next statement is looked for.
-    at: usize,
-    entered: bool,
-    /// Whether a statement has been carried out, but for the mark of a tape.
-    begun: bool,
-}
-
-impl<'t> Script<'t> {
-    fn new(file: u32, source: &'t ProgramFile, tongue: &dyn Tongue) -> Self {
-        let text = source.text.as_str();
-        Self {
-            file,
-            text,
-            routine: tongue.routine(&source.name, text),
-            at: 0,
-            entered: false,
-            begun: false,
-        }
-    }
-
-    /// The next statement.
-    fn next(&mut self, style: Style) -> Option<Line<'t>> {
-        loop {
-            let (line, next) = lines::line(self.text, self.at)?;
-            let code = style.code(line, self.at);
-            self.at = next;
-            let (span, code) = match code {
-                Code::None => continue,
-                Code::Is(span, code) => (span, Ok(code)),
-                Code::Open(span) => (span, Err(Trouble::Expected("the end of the comment".to_owned()))),
-                Code::Active(span) => (span, Err(Trouble::Unknown)),
-            };
-            return Some(Line {
-                place: self.place(span),
-                length: line.len(),
-                code,
-            });
-        }
-    }
-
-    fn place(&self, span: Span) -> Place {
-        let byte = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-        Place {
-            file: self.file,
-            start: byte(span.start),
-            end: byte(span.end),
-        }
-    }
-
-    fn end(&self) -> Place {
-        let end = self.text.len();
-        self.place(Span { start: end, end })
-    }
-}
-
-/// A line with a statement.
-struct Line<'t> {
-    place: Place,
-    /// Bytes of the whole line.
-    length: usize,
-    /// The statement, or why there is none to be read.
-    code: Result<&'t str, Trouble>,
-}
-
-/// The first file that no other calls.
-fn main(scripts: &[Script<'_>], tongue: &dyn Tongue, context: Context<'_>) -> Option<usize> {
-    if scripts.len() < 2 {
-        return (!scripts.is_empty()).then_some(0);
-    }
-    let mut called = vec![false; scripts.len()];
-    for (place, script) in scripts.iter().enumerate() {
-        for routine in calls(script, tongue, context) {
-            let to = scripts
-                .iter()
-                .position(|to| to.routine.is_some_and(|of| of.is(routine)));
-            match to.and_then(|to| Some((to, called.get_mut(to)?))) {
-                Some((to, called)) if to != place => *called = true,
-                Some(_) | None => {}
-            }
-        }
-    }
-    Some(called.iter().position(|called| !called).unwrap_or(0))
-}
-
-/// Longest call that is looked for: names are shorter than 100 characters.
-const LONGEST_CALL: usize = 128;
-
-/// The parts that a file calls.
-fn calls<'t>(script: &Script<'t>, tongue: &dyn Tongue, context: Context<'_>) -> Vec<Routine<'t>> {
-    let mut found = Vec::new();
-    let mut at = 0;
-    while let Some((line, next)) = lines::line(script.text, at) {
-        if let Code::Is(_, code) = tongue.style().code(line, at)
-            && code.len() <= LONGEST_CALL
-            && may_be_call(code)
-            && let Ok(order) = tongue.order(code, context)
-            && let Some(Flow::Call(routine)) = order.flow
-        {
-            found.push(routine);
-        }
-        at = next;
-    }
-    found
-}
-
-/// Most statements are coordinates behind a G code or `L`.
-fn may_be_call(code: &str) -> bool {
-    match code.as_bytes() {
-        [b'G' | b'g' | b'L' | b'l' | b'X' | b'x', second, ..] => {
-            second.is_ascii_alphabetic() || *second == b'_'
-        }
-        [_, ..] => true,
-        [] => false,
-    }
-}
-
-/// Lines of the machine's profile, which stand in the program as they are.
-struct OfProfile {
-    header: Vec<String>,
-    footer: Vec<String>,
-    stage: Stage,
-}
-
-/// How far the program is.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Stage {
-    /// Nothing has been done.
-    Head,
-    /// Between the first thing done and the lines at the end.
-    Body,
-    /// A line at the end has been read.
-    Foot,
-}
-
-impl OfProfile {
-    fn new(settings: &Settings<'_>, style: Style) -> Self {
-        Self {
-            header: essences(&settings.profile.header, style),
-            footer: essences(&settings.profile.footer, style),
-            stage: Stage::Head,
-        }
-    }
-
-    /// Whether a statement of the main program is one of them; then it is used up.
-    fn takes(&mut self, code: &str) -> bool {
-        let take = |lines: &mut Vec<String>| {
-            let is = lines.iter().position(|line| *line == essence(code));
-            is.map(|at| lines.remove(at)).is_some()
-        };
-        if self.stage == Stage::Head && take(&mut self.header) {
-            return true;
-        }
-        let is_foot = take(&mut self.footer);
-        if is_foot {
-            self.stage = Stage::Foot;
-        }
-        is_foot
-    }
-}
-
 struct Walk<'t, 'h> {
     tongue: &'static dyn Tongue,
     context: Context<'t>,
@@ -214,6 +52,7 @@ struct Walk<'t, 'h> {
     given: Given,
     profile: OfProfile,
     scripts: Vec<Script<'t>>,
+    directory: Directory<'t>,
     /// The files that are being carried out, the main program first.
     stack: Vec<usize>,
     heed: &'h mut dyn FnMut(Statement),
@@ -425,8 +264,8 @@ impl<'t> Walk<'t, '_> {
                 "the name of the file, at its beginning".to_owned(),
             )),
             Flow::Call(routine) => {
-                let mut scripts = self.scripts.iter();
-                let to = scripts.position(|to| !to.entered && to.routine.is_some_and(|of| of.is(routine)));
+                let to = self.directory.find(routine);
+                let to = to.filter(|&to| self.scripts.get(to).is_some_and(|to| !to.entered));
                 match to {
                     Some(to) => {
                         self.control.restart();

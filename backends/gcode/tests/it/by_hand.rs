@@ -5,7 +5,7 @@ use crate::support::{DIALECTS, Given, emit, needed, options, reachable, recipe};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{Departure, DepartureKind, ProgramFile, Retraced, program_files};
-use vcutc_backend_api::testkit::Recipe;
+use vcutc_backend_api::testkit::{Recipe, five_axis_samples};
 use vcutc_backend_api::units::{Duration, Length};
 
 /// The program of the snapshots.
@@ -371,11 +371,69 @@ fn a_state_that_was_not_set_shows() {
     }
 }
 
+/// Frames by number are the machine's, also where a block says one and moves at once.
+#[test]
+fn tools_and_work_offsets_are_those_of_the_machine() {
+    let samples = five_axis_samples().unwrap();
+    let (_, program) = samples.iter().find(|(name, _)| *name == "numbered_cell").unwrap();
+    for (dialect, said, other) in [
+        ("linuxcnc", "G55\n", "G54\n"),
+        ("linuxcnc", "\nG1 X", "\nG54 G1 X"),
+        ("linuxcnc", "G43 H3", "G43 H1"),
+        ("fanuc", "G55\n", "G56\n"),
+        ("fanuc", "\nG1 X", "\nG54 G1 X"),
+        ("fanuc", "G43.4 H3", "G43.4 H1"),
+        ("sinumerik", "G55\n", "G505\n"),
+        ("sinumerik", "\nG1 X", "\nG54 G1 X"),
+        ("sinumerik", "\nD3", "\nD1"),
+        ("heidenhain", "TOOL CALL 3 Z", "TOOL CALL 1 Z"),
+    ] {
+        let options = options(&needed(dialect));
+        let mut files = program_files(&emit(program, dialect, &[]));
+        assert!(retraced(program, &files, &options).0.is_ok(), "{dialect}");
+        assert!(files[0].text.contains(said), "{dialect} {said}");
+        files[0].text = files[0].text.replacen(said, other, 1);
+        assert!(
+            retraced(program, &files, &options).0.is_err(),
+            "{dialect} {other}"
+        );
+    }
+}
+
+/// The first move of all axes comes from nowhere, the second from home, the third from behind the cut.
+#[test]
+fn moves_of_all_axes_keep_to_the_home_speed() {
+    for (dialect, said, other) in [
+        ("linuxcnc", "F0.006", "F0.06"),
+        (
+            "linuxcnc",
+            "B-34.1600 A-30.0000 F5.470746",
+            "B-34.1600 A-30.0000 F5.5",
+        ),
+        ("linuxcnc", "B0.0000 A0.0000 F5.470746", "B0.0000 A0.0000 F90"),
+        ("sinumerik", "F0.006", "F0.06"),
+        (
+            "sinumerik",
+            "B-34.1600 A-30.0000 F5.470746",
+            "B-34.1600 A-30.0000 F5.5",
+        ),
+        ("heidenhain", "F515.662", "F520"),
+        ("heidenhain", "F3182.238", "F3200"),
+    ] {
+        let (_, what) = departs(dialect, &[], |text| {
+            assert!(text.contains(said), "{dialect} {said}\n{text}");
+            text.replacen(said, other, 1)
+        });
+        assert_eq!(what, DepartureKind::NotUnderstood, "{dialect} {other}");
+    }
+}
+
 #[test]
 fn rounding_is_that_of_the_job_or_not_understood() {
     let two = [("approximation", OptionValue::Length(Length::mm(2.0)))];
     for (dialect, said, other) in [
-        ("linuxcnc", "G64 P2.0", "G64 P3.0"),
+        ("linuxcnc", "G64 P2.0 Q0", "G64 P3.0 Q0"),
+        ("linuxcnc", "G64 P2.0 Q0", "G64 P2.0"),
         ("sinumerik", "G641 ADIS=2.0", "G641 ADIS=20"),
     ] {
         let (text, what) = departs(dialect, &two, |text| text.replacen(said, other, 1));

@@ -163,7 +163,6 @@ fn one_character_more_less_or_other_is_told() {
             }
         }
     }
-    println!("{tally:?}");
     assert!(tally.departed > 20 * tally.edited, "{tally:?}");
 }
 
@@ -191,6 +190,5 @@ fn a_line_dropped_doubled_or_swapped_is_told() {
             }
         }
     }
-    println!("{tally:?}");
     assert!(tally.departed > tally.edited, "{tally:?}");
 }

@@ -29,7 +29,7 @@ impl Tongue for Heidenhain {
         ]
     }
 
-    fn from_the_start(&self) -> &'static [Mode] {
+    fn unsaid(&self) -> &'static [Mode] {
         &[Mode::Habit(Habit::Absolute), Mode::Stop(Some(End::Exact))]
     }
 

@@ -29,7 +29,7 @@ impl Tongue for LinuxCnc {
         &[(Habit::Absolute, "G90"), (Habit::Millimetres, "G21")]
     }
 
-    fn from_the_start(&self) -> &'static [Mode] {
+    fn unsaid(&self) -> &'static [Mode] {
         &[]
     }
 

@@ -26,7 +26,7 @@ pub(super) trait Tongue: Sync {
     fn habits(&self) -> &'static [(Habit, &'static str)];
 
     /// What holds without being said.
-    fn from_the_start(&self) -> &'static [Mode];
+    fn unsaid(&self) -> &'static [Mode];
 
     /// Whether the work offset, or the operator's choice of it, is a matter of the program.
     fn work_offset(&self) -> WorkOffset;

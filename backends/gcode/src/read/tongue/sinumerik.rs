@@ -32,7 +32,7 @@ impl Tongue for Sinumerik {
         ]
     }
 
-    fn from_the_start(&self) -> &'static [Mode] {
+    fn unsaid(&self) -> &'static [Mode] {
         &[]
     }
 
