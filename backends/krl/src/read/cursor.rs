@@ -13,6 +13,19 @@ const TENS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
+/// By how much a number grows when so many digits follow it.
+const WHOLE_TENS: [u64; 9] = [
+    1,
+    10,
+    100,
+    1_000,
+    10_000,
+    100_000,
+    1_000_000,
+    10_000_000,
+    100_000_000,
+];
+
 /// Whole numbers up to here are doubles.
 const EXACT: u64 = 1 << 53;
 
@@ -169,6 +182,17 @@ impl<'t> Cursor<'t> {
     fn digits(&mut self, before: u64) -> (usize, u64) {
         let start = self.at;
         let (mut at, mut number) = (start, before);
+        while let Some(eight) = self.text.as_bytes().get(at..).and_then(<[u8]>::first_chunk) {
+            let (count, value) = leading_digits(*eight);
+            at += count;
+            number = number
+                .wrapping_mul(WHOLE_TENS[count % WHOLE_TENS.len()])
+                .wrapping_add(value);
+            if count < eight.len() {
+                self.at = at;
+                return (at - start, number);
+            }
+        }
         while let Some(digit @ b'0'..=b'9') = self.byte(at) {
             number = number.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
             at += 1;
@@ -194,6 +218,30 @@ impl<'t> Cursor<'t> {
         }
         is_one
     }
+}
+
+/// How many digits eight bytes begin with, and the number that these make.
+///
+/// All eight at once in one register, because how many digits a number has is what a processor guesses wrong most often
+/// when it is asked byte by byte (Lemire, Number Parsing at a Gigabyte per Second, 2021, section 4).
+#[inline]
+const fn leading_digits(bytes: [u8; 8]) -> (usize, u64) {
+    const ONES: u64 = 0x0101_0101_0101_0101;
+    // Digits become 0 to 9, other bytes something larger.
+    let values = u64::from_le_bytes(bytes) ^ (ONES * b'0' as u64);
+    // The highest bit of every byte that is larger.
+    let others = (((values & (ONES * 0x7f)) + ONES * (0x80 - 10)) | values) & (ONES * 0x80);
+    let count = others.trailing_zeros() / 8;
+    if count == 0 {
+        return (0, 0);
+    }
+    // The digits move to the end, with zeros before them.
+    let eight = values << (64 - 8 * count);
+    let twos = eight.wrapping_mul(10).wrapping_add(eight >> 8);
+    const EVERY_FOURTH: u64 = 0x0000_00ff_0000_00ff;
+    let high = (twos & EVERY_FOURTH).wrapping_mul(100 + (1_000_000 << 32));
+    let low = ((twos >> 16) & EVERY_FOURTH).wrapping_mul(1 + (10_000 << 32));
+    (count as usize, high.wrapping_add(low) >> 32)
 }
 
 #[inline]
@@ -237,6 +285,19 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn eight_bytes_are_what_they_are_one_by_one(bytes in proptest::collection::vec(prop_oneof![b'0'..=b'9', any::<u8>()], 8)) {
+            let digits: Vec<u8> = bytes.iter().copied().take_while(u8::is_ascii_digit).collect();
+            let value = digits.iter().fold(0, |value, digit| 10 * value + u64::from(digit - b'0'));
+            let eight: [u8; 8] = bytes.try_into().unwrap();
+            prop_assert_eq!(leading_digits(eight), (digits.len(), value));
+        }
+
+        #[test]
+        fn what_follows_a_number_does_not_change_it(text in "[0-9]{1,12}(\\.[0-9]{0,14})?", rest in "[,} ][ -~]{0,9}") {
+            prop_assert_eq!(number(&(text.clone() + &rest)), Number::Is(text.parse().unwrap()));
+        }
+
         #[test]
         fn numbers_are_those_of_the_standard_library(text in "-?[0-9]{1,12}(\\.[0-9]{0,14})?") {
             prop_assert_eq!(number(&text), Number::Is(text.parse().unwrap()));
