@@ -411,17 +411,27 @@ fn a_program_that_writes_something_else_than_it_was_given_is_found_out() {
     let folder = with_the_program_of_the_page();
     let path = folder.path().join("vcutc-backend-deeds");
     let program = fs::read_to_string(&path).unwrap();
-    for (right, wrong) in [
-        ("\"tip\": feed", "\"tip\": feed and feed + 1.0"),
-        ("\"end\": \"exact\"", "\"end\": \"rounded\""),
+    for (right, wrong, says) in [
+        (
+            "\"tip\": feed",
+            "\"tip\": feed and feed + 1.0",
+            "the tip goes at 201 mm/s",
+        ),
+        ("\"end\": \"exact\"", "\"end\": \"rounded\"", "VC0901"),
         (
             "yield {\"axes\": axes}",
             "yield {\"axes\": [axes[0] + 0.001] + axes[1:]}",
+            "VC0901",
         ),
-        ("\"end\": start + length}", "\"end\": start + length + 10**6}"),
         (
-            "answers = {",
-            "if request[\"ask\"] == \"read\": sys.exit(4)\nanswers = {",
+            "\"end\": start + length}",
+            "\"end\": start + length + 10**6}",
+            "which are not there",
+        ),
+        (
+            "answer = {",
+            "if request[\"ask\"] == \"read\": sys.exit(4)\nanswer = {",
+            "ended with exit status 4",
         ),
     ] {
         assert!(program.contains(right), "{right}");
@@ -431,6 +441,7 @@ fn a_program_that_writes_something_else_than_it_was_given_is_found_out() {
             &["rib.vcut", "--target", "deeds", "--backend-path", ".", "-q"],
         );
         assert_eq!(run.code, Some(1), "{wrong}: {}", run.stderr);
+        assert!(run.stderr.contains(says), "{wrong}: {}", run.stderr);
         assert!(!folder.path().join("job_rib.jsonl").exists(), "{wrong}");
     }
 }
