@@ -3,7 +3,6 @@
 use super::*;
 use crate::document::{LARGEST, MOST_FLAWS};
 use crate::kinematics::opw::Coupling;
-use crate::machine::document::{LARGEST, MOST_FLAWS};
 use proptest::prelude::*;
 use vcutc_backend_api::ir::AxisKind;
 
