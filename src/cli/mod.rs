@@ -97,7 +97,7 @@ pub fn run(linked: &Targets) -> ExitCode {
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
         Some(Command::Targets { target: None }) => targets::list(linked, &outside, &console),
         Some(Command::Targets { target: Some(target) }) => targets::describe(targets, target, &console),
-        Some(Command::Verify(verify)) => verify::verify(verify, targets, &console),
+        Some(Command::Verify(verify)) => verify::verify(verify, linked, targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),
     };
     exit.into()

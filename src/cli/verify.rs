@@ -13,9 +13,12 @@ use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
 
 /// Compares and tells.
-pub(super) fn verify(args: &VerifyArgs, targets: &Targets, console: &Console) -> Exit {
+///
+/// Of the targets those that are linked in are asked whether they know the files. One that is a program of its own has to be named:
+/// it would be run to find out.
+pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, console: &Console) -> Exit {
     let ready = program(&args.programs)
-        .and_then(|files| Ok((target(args.target.as_deref(), &files, targets)?, files)));
+        .and_then(|files| Ok((target(args.target.as_deref(), &files, linked, targets)?, files)));
     let ((backend, reader), files) = match ready {
         Ok(ready) => ready,
         Err(failure) => return console.failure(&failure),
@@ -122,7 +125,12 @@ fn program(paths: &[String]) -> Result<Vec<ProgramFile>, Failure> {
 type Readable = (&'static dyn Backend, &'static dyn Reader);
 
 /// The target that wrote the files: the one that was given, or the only one that knows their names.
-fn target(given: Option<&str>, files: &[ProgramFile], targets: &Targets) -> Result<Readable, Failure> {
+fn target(
+    given: Option<&str>,
+    files: &[ProgramFile],
+    linked: &Targets,
+    targets: &Targets,
+) -> Result<Readable, Failure> {
     let readable = |backend: &'static dyn Backend| Some((backend, backend.reader()?));
     if let Some(id) = given {
         let backend = targets::find(targets, id)?;
@@ -130,7 +138,7 @@ fn target(given: Option<&str>, files: &[ProgramFile], targets: &Targets) -> Resu
             .ok_or_else(|| Failure::new(format!("programs of target `{id}` cannot be read back")));
     }
     let knows_all = |(_, reader): &Readable| files.iter().all(|file| reader.recognises(&file.name));
-    let known: Vec<_> = targets
+    let known: Vec<_> = linked
         .iter()
         .filter_map(|&backend| readable(backend))
         .filter(knows_all)

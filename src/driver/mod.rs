@@ -288,7 +288,11 @@ pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>
         .map(Some)
         .map_err(|Astray(notes)| {
             let what = "the program that was written does not say what it was made from";
-            EmitFailure::Diagnostics(vec![not_written(job, what, &notes)])
+            EmitFailure::Diagnostics(vec![match backend.ready() {
+                Ok(()) => not_written(job, what, &notes),
+                // It could not be read at all.
+                Err(fault) => target::failed(backend.id(), &fault, job.name_span),
+            }])
         })
 }
 

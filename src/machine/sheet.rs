@@ -113,8 +113,8 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
     let manufacturer = root.text("manufacturer", flaws);
     let payload = root.number("rated_payload_kg", MASS, flaws);
     let confidence = root.word("confidence", CONFIDENCES, flaws);
-    let mut facts = facts::read(&root, flaws);
-    let body = (form.read)(&root, maker(manufacturer), flaws)?;
+    let mut facts = facts::read(root, flaws);
+    let body = (form.read)(root, maker(manufacturer), flaws)?;
     facts.sources.extend(body.sources);
     facts.remarks.extend(body.remarks);
     let mechanism = body.mechanism?;

@@ -30,7 +30,8 @@ pub trait Backend: Sync {
     /// The options it takes.
     fn options(&self) -> &'static [OptionSpec];
 
-    /// Whether it can be asked at all. Backends that are linked in can; one that is a program of its own may be broken.
+    /// Whether it can be asked, and has answered so far. Backends that are linked in always can; one that is a program of its own may
+    /// be broken.
     ///
     /// # Errors
     /// What it did when it was asked.

@@ -49,6 +49,10 @@ pub struct Request<'a> {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "ask", rename_all = "snake_case")]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one at a time, and it is written or read at once"
+)]
 pub enum Ask<'a> {
     /// What are you? Answered by a [`Description`].
     Describe,
@@ -322,6 +326,10 @@ pub struct ReadBack {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one at a time, and it is written or read at once"
+)]
 pub enum Message<'a> {
     /// To the program.
     Request(Request<'a>),

@@ -18,7 +18,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 use std::time::Duration;
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Emission, EmitError, Fault, MachineMismatch, OptionSpec, Options,
@@ -50,6 +50,8 @@ pub(super) struct External {
     path: PathBuf,
     time: Duration,
     described: OnceLock<Result<Described, Fault>>,
+    /// The reading that failed last: the trait's readers tell statements, and have no other way to say that there are none.
+    unread: Mutex<Option<Fault>>,
 }
 
 /// The programs that can be found, by their names; of several with one name the first that is found.
@@ -115,6 +117,7 @@ impl External {
             path,
             time,
             described: OnceLock::new(),
+            unread: Mutex::new(None),
         }
     }
 
@@ -262,7 +265,9 @@ impl Backend for External {
     }
 
     fn ready(&self) -> Result<(), Fault> {
-        self.described().map(|_| ()).map_err(Fault::clone)
+        self.described().map_err(Fault::clone)?;
+        let unread = self.unread.lock().ok().and_then(|fault| fault.clone());
+        unread.map_or(Ok(()), Err)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {
@@ -365,7 +370,12 @@ impl Reader for External {
             });
         match told {
             Ok(statements) => statements.into_iter().for_each(heed),
-            Err(fault) => heed(unread(self.name, &fault)),
+            Err(fault) => {
+                heed(unread(self.name, &fault));
+                if let Ok(mut unread) = self.unread.lock() {
+                    *unread = Some(fault);
+                }
+            }
         }
     }
 }

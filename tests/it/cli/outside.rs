@@ -2,7 +2,7 @@
 
 use super::jobs::RIB;
 use super::{Run, folder, json_lines, names, vcutc};
-use crate::repository::root;
+use crate::repository::{read, root};
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
@@ -371,4 +371,77 @@ fn the_example_in_python_writes_a_statement_for_every_op() {
         .unwrap();
     let x = first.split(',').next().unwrap();
     assert_eq!(x.split_once('.').unwrap().1.len(), 5, "{first}");
+}
+
+/// The program of `docs/backends.md`, installed as the page says.
+fn with_the_program_of_the_page() -> TempDir {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    let page = read("docs/backends.md");
+    let (_, program) = page.split_once("```python\n").unwrap();
+    let (program, _) = program.split_once("```").unwrap();
+    let path = folder.path().join("vcutc-backend-deeds");
+    fs::write(&path, program).unwrap();
+    fs::set_permissions(&path, Permissions::from_mode(0o755)).unwrap();
+    folder
+}
+
+#[test]
+fn what_an_outside_program_wrote_is_read_back_and_verified() {
+    let folder = with_the_program_of_the_page();
+    let vcutc = |args: &[&str]| vcutc(folder.path(), &[args, &["--backend-path", ".", "-q"]].concat());
+    let run = vcutc(&["rib.vcut", "--target", "deeds"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let verify = ["verify", "rib.vcut", "job_rib.jsonl", "--target", "deeds"];
+    let run = vcutc(&verify);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+
+    let path = folder.path().join("job_rib.jsonl");
+    let text = fs::read_to_string(&path).unwrap();
+    let changed = text.replacen("\"tip\": 200.0", "\"tip\": 250.0", 1);
+    assert_ne!(changed, text);
+    fs::write(&path, changed).unwrap();
+    let run = vcutc(&verify);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("job_rib.jsonl:"), "{}", run.stderr);
+}
+
+#[test]
+fn a_program_that_writes_something_else_than_it_was_given_is_found_out() {
+    let folder = with_the_program_of_the_page();
+    let path = folder.path().join("vcutc-backend-deeds");
+    let program = fs::read_to_string(&path).unwrap();
+    for (right, wrong, says) in [
+        (
+            "\"tip\": feed",
+            "\"tip\": feed and feed + 1.0",
+            "the tip goes at 201 mm/s",
+        ),
+        ("\"end\": \"exact\"", "\"end\": \"rounded\"", "VC0901"),
+        (
+            "yield {\"axes\": axes}",
+            "yield {\"axes\": [axes[0] + 0.001] + axes[1:]}",
+            "VC0901",
+        ),
+        (
+            "\"end\": start + length}",
+            "\"end\": start + length + 10**6}",
+            "which are not there",
+        ),
+        (
+            "answer = {",
+            "if request[\"ask\"] == \"read\": sys.exit(4)\nanswer = {",
+            "ended with exit status 4",
+        ),
+    ] {
+        assert!(program.contains(right), "{right}");
+        fs::write(&path, program.replace(right, wrong)).unwrap();
+        let run = vcutc(
+            folder.path(),
+            &["rib.vcut", "--target", "deeds", "--backend-path", ".", "-q"],
+        );
+        assert_eq!(run.code, Some(1), "{wrong}: {}", run.stderr);
+        assert!(run.stderr.contains(says), "{wrong}: {}", run.stderr);
+        assert!(!folder.path().join("job_rib.jsonl").exists(), "{wrong}");
+    }
 }
