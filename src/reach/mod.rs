@@ -19,4 +19,5 @@ mod survey;
 pub mod trajectory;
 pub mod trouble;
 pub mod way;
+mod waypoints;
 mod ways;

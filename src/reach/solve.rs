@@ -22,6 +22,7 @@ use super::runs::{Split, Station, StationKind, split};
 use super::stands::Stands;
 use super::survey::{Extent, Failure, Survey, middles, moved, opened};
 use super::trouble::{self, Trouble};
+use super::waypoints::waypoints;
 use super::ways::{OnBranch, Ways};
 use crate::kinematics::Joints;
 use crate::machine::Model;
@@ -161,11 +162,12 @@ fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Rea
         let changed = with_changes(program.program(), &solved.report.changes);
         verify(changed).map_err(Unreached::Rules)?
     };
-    let motion = Motion {
+    let mut motion = Motion {
         ends: solved.ends.into_iter().map(AxisValues).collect(),
         stretches: solved.report.stretches.clone(),
         waypoints: Vec::new(),
     };
+    motion.waypoints = waypoints(program.program(), &legs(program.program()), rig, &motion);
     let blade_in_work = |values: &AxisValues| Frame::from(rig.blade_in_work(&values.0));
     let program = ReachableProgram::assemble(program, motion, &blade_in_work).map_err(Unreached::Motion)?;
     Ok(Reached {

@@ -54,3 +54,4 @@ pub mod stroke;
 pub mod testkit;
 pub mod units;
 pub mod verify;
+pub mod wrist;

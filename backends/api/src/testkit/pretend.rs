@@ -10,12 +10,14 @@
 
 use super::pretend_five_axis;
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
-use crate::ir::{Action, Axis, AxisKind, AxisValues, MachineKind, OpId, Program};
+use crate::ir::{Action, Axis, AxisKind, AxisValues, MachineKind, Maker, OpId, Program};
 use crate::motion::{
-    Branch, Elbow, Motion, MotionFault, ReachableProgram, Shoulder, Stretch, Wrist, pose_after,
+    Branch, Elbow, Motion, MotionFault, ReachableProgram, Shoulder, Stretch, Waypoint, Wrist, pose_after,
 };
+use crate::stroke::Stroke;
 use crate::units::Angle;
 use crate::verify::VerifiedProgram;
+use crate::wrist::spaced;
 use core::f64::consts::TAU;
 
 /// How far a rack moves, in mm each radian: far enough that a turn of its axis crosses any workshop.
@@ -94,6 +96,7 @@ fn motion(program: &Program) -> Motion {
             };
             motion.stretches.push(Stretch { from, branch });
         }
+        let start = axes;
         axes = match (op.action, at) {
             (Action::Home, _) => home.unwrap_or(axes),
             (Action::AxisTravel { .. }, Some((tip, held))) => axes_at(tip, held, wrist, axes),
@@ -101,8 +104,51 @@ fn motion(program: &Program) -> Motion {
             (_, _) => axes,
         };
         motion.ends.push(axes);
+        if let Some(stroke) = before.and_then(|before| Stroke::of(program, before, &op.action)) {
+            motion
+                .waypoints
+                .extend(on_the_way(program, from, &stroke, wrist, [start, axes]));
+        }
     }
     motion
+}
+
+/// How many samples are taken on the way of an op.
+const SAMPLES: u32 = 256;
+
+/// The waypoints of an op, for controllers that are told of them.
+fn on_the_way(
+    program: &Program,
+    op: OpId,
+    stroke: &Stroke,
+    wrist: Wrist,
+    [start, end]: [AxisValues; 2],
+) -> Vec<Waypoint> {
+    let maker = program.cell.as_ref().map(|cell| cell.maker);
+    if maker != Some(Maker::Abb) {
+        return Vec::new();
+    }
+    let mut near = start;
+    let places = (1..SAMPLES).map(|sample| f64::from(sample) / f64::from(SAMPLES));
+    let samples: Vec<(f64, AxisValues)> = places
+        .filter_map(|done| {
+            let frame = stroke.frame_at(program, done)?;
+            near = axes_at(frame.origin, frame.orientation, wrist, near);
+            Some((done, near))
+        })
+        .collect();
+    let chosen = spaced(start, &samples, end).into_iter();
+    chosen
+        .filter_map(|(done, axes)| {
+            let frame = stroke.frame_at(program, done)?;
+            Some(Waypoint {
+                op,
+                done,
+                frame,
+                axes,
+            })
+        })
+        .collect()
 }
 
 const fn other(wrist: Wrist) -> Wrist {
