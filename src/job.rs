@@ -4,9 +4,10 @@
 
 use crate::geom::profile::Profile;
 use crate::machine::Model;
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
+use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 
 /// A value and where it was written; `None` when it is a default.
@@ -207,6 +208,8 @@ pub struct TargetOptions {
     pub span: Span,
     /// Keys and values in the order written.
     pub given: Vec<GivenOption>,
+    /// What the file says that `profile` names, and where it is named.
+    pub profile: Option<Spanned<Habits>>,
 }
 
 /// One option as given.

@@ -1,8 +1,10 @@
 #![doc = include_str!("../ARCHITECTURE.md")]
 
+mod align;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod diag;
+pub mod document;
 pub mod driver;
 pub mod geom;
 pub mod job;
@@ -16,6 +18,7 @@ pub mod posture;
 pub mod reach;
 pub mod reach_summary;
 pub mod reach_verdict;
+pub mod readback;
 pub mod registry;
 pub mod remedy;
 pub mod sema;

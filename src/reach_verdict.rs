@@ -16,37 +16,28 @@ use crate::remedy;
 use crate::source::Span;
 use vcutc_backend_api::ir::{Action, Axis, OpId, OrientationId, Program, Site};
 
-/// Puts into words why a program is not carried out.
+/// Puts into words why a program is not carried out, and offers changes of the job that mend it.
 #[must_use]
 pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) -> Vec<Diagnostic> {
     let Some(machine) = &job.machine else {
         return Vec::new();
     };
-    let scene = Scene {
-        job,
-        machine,
-        program: unreachable.program.program(),
-    };
+    let scene = Scene::of(job, machine, unreachable);
     if let Some(diagnostic) = scene.lacks_an_axis(&unreachable.trouble) {
         return vec![diagnostic];
     }
-    let diagnostic = match &unreachable.trouble {
-        Trouble::Motion {
-            failing,
-            other_cuts,
-            hardest,
-        } => scene.motion(failing, *other_cuts, hardest.as_ref()),
-        Trouble::NoCommonBranch { failing, other } => scene.no_common_branch(failing, other),
-        Trouble::Way { op, leads, obstacle } => scene.way(*op, *leads, obstacle),
-        Trouble::Nowhere => Diagnostic::new(
-            Code::OutOfReach,
-            "the machine reaches no pose of this job",
-            scene.base(),
-            "with the work in this place",
-        ),
-    };
+    let diagnostic = scene.trouble(&unreachable.trouble);
     let remedies = remedy::remedies(job, plan, unreachable);
     vec![remedy::offer(diagnostic, &remedies, general(unreachable))]
+}
+
+/// The same without remedies, for a program that is not what its job makes of itself. A job without a machine has nothing
+/// to tell.
+#[must_use]
+pub fn in_words(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic> {
+    let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
+    let lacks = scene.lacks_an_axis(&unreachable.trouble);
+    Some(lacks.unwrap_or_else(|| scene.trouble(&unreachable.trouble)))
 }
 
 /// What to do where no single change was found.
@@ -81,7 +72,33 @@ struct Scene<'s> {
     program: &'s Program,
 }
 
-impl Scene<'_> {
+impl<'s> Scene<'s> {
+    fn of(job: &'s CheckedJob, machine: &'s Machine, unreachable: &'s Unreachable) -> Self {
+        Self {
+            job,
+            machine,
+            program: unreachable.program.program(),
+        }
+    }
+
+    fn trouble(&self, trouble: &Trouble) -> Diagnostic {
+        match trouble {
+            Trouble::Motion {
+                failing,
+                other_cuts,
+                hardest,
+            } => self.motion(failing, *other_cuts, hardest.as_ref()),
+            Trouble::NoCommonBranch { failing, other } => self.no_common_branch(failing, other),
+            Trouble::Way { op, leads, obstacle } => self.way(*op, *leads, obstacle),
+            Trouble::Nowhere => Diagnostic::new(
+                Code::OutOfReach,
+                "the machine reaches no pose of this job",
+                self.base(),
+                "with the work in this place",
+            ),
+        }
+    }
+
     /// A posture that a five-axis machine cannot hold wherever the work is.
     fn lacks_an_axis(&self, trouble: &Trouble) -> Option<Diagnostic> {
         let failing = match trouble {

@@ -45,18 +45,22 @@ pub fn prove(plan: &PlannedJob, sources: &SourceMap) -> Result<Proven, Vec<Fault
     })
 }
 
-fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
-    let bounds: Vec<Bound<'_>> = plan
-        .operations
-        .iter()
-        .map(|operation| match operation {
-            PlannedOperation::RoughVcut(vcut) => Bound {
-                part: &vcut.bound,
-                drop: vcut.parameters.drop,
-            },
-        })
-        .collect();
-    prove::replay(program, &bounds)
+/// Replays the cuts of a program, each operation held against what the plan keeps it out of.
+#[must_use]
+pub fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
+    prove::replay(program, &bounds(plan))
+}
+
+/// What each operation must stay out of.
+#[must_use]
+pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
+    let bound = |operation| match operation {
+        &PlannedOperation::RoughVcut(ref vcut) => Bound {
+            part: &vcut.bound,
+            drop: vcut.parameters.drop,
+        },
+    };
+    plan.operations.iter().map(bound).collect()
 }
 
 /// Puts everything that is wrong with a proven program into words.
@@ -320,7 +324,10 @@ fn limit_that_is_kept(job: &CheckedJob, operation: OperationId, height: Length) 
 const MOST_LIMITS: usize = 8;
 
 /// The operation with the tightest scallop limit, if the machined contour is above it.
-fn scallop_excess<'p>(plan: &'p PlannedJob, report: &Report) -> Option<(OperationId, &'p RoughVcut, Length)> {
+pub fn scallop_excess<'p>(
+    plan: &'p PlannedJob,
+    report: &Report,
+) -> Option<(OperationId, &'p RoughVcut, Length)> {
     let limits = (0..).zip(&plan.operations).filter_map(|(index, operation)| {
         let PlannedOperation::RoughVcut(vcut) = operation;
         let limit = vcut.asked.limits.scallop?;

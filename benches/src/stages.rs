@@ -13,6 +13,7 @@ use vcutc::{lower, sim};
 use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::readback::{Judge, ProgramFile, Retrace, Sources, Statement};
 use vcutc_backend_api::testkit;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_backend_krl::Krl;
@@ -155,6 +156,39 @@ pub fn reachable(program: &VerifiedProgram) -> ReachableProgram {
 #[must_use]
 pub fn prepare<'p>(program: &'p ReachableProgram, options: &'p Options) -> Box<dyn Emission + 'p> {
     Krl.check(program, options).expect("KRL can say it")
+}
+
+/// Text to statements; gives how many.
+#[must_use]
+#[inline(never)]
+pub fn read(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) -> usize {
+    let mut count = 0;
+    told(program, options, files, &mut |statement| {
+        std::hint::black_box(&statement);
+        count += 1;
+    });
+    count
+}
+
+/// Text to statements, each of them held against the program.
+#[inline(never)]
+pub fn retrace(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) {
+    let reader = Krl.reader().expect("KRL is read");
+    let judge = Judge::new(program, reader, reader.grain(options));
+    let mut retrace = Retrace::new(judge, reader.frames());
+    told(program, options, files, &mut |statement| retrace.heed(&statement));
+    retrace.finish().expect("the program is what was written");
+}
+
+fn told(
+    program: &ReachableProgram,
+    options: &Options,
+    files: &[ProgramFile],
+    heed: &mut dyn FnMut(Statement),
+) {
+    let cell = program.program().cell.as_ref().expect("the job has a machine");
+    let reader = Krl.reader().expect("KRL is read");
+    reader.read(Sources { files, cell, options }, heed);
 }
 
 /// Program to text.

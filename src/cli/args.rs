@@ -19,6 +19,8 @@ Examples:
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
                                           All axis values that bring the flange there
   vcutc targets                           See what programs can be written, and with which options
+  vcutc verify rib.vcut out/rib.src out/rib.dat
+                                          See whether a program still is what its job says
 
 Exit status:
   0  all is well
@@ -44,6 +46,8 @@ pub(super) struct Arguments {
     pub(super) command: Option<Command>,
     #[command(flatten)]
     pub(super) compile: CompileArgs,
+    #[command(flatten)]
+    pub(super) outside: OutsideArgs,
     #[command(flatten)]
     pub(super) display: DisplayArgs,
 }
@@ -139,8 +143,35 @@ pub(super) enum Command {
         #[arg(long, value_name = "W,X,Y,Z", allow_hyphen_values = true)]
         quaternion: Option<String>,
     },
-    /// List the targets and their options
-    Targets,
+    /// List the targets and their options, or describe one
+    ///
+    /// Programs `vcutc-backend-NAME` on the PATH are listed by their names; they are only run to be described.
+    Targets {
+        /// A target; without it, the list
+        target: Option<String>,
+    },
+    /// Hold a program against the job that it was made from
+    ///
+    /// Compiles the job, reads the program as its controller would, and tells every operation that is not the job's: at its
+    /// line of the program and at its place in the job. Comments and layout may differ. Nothing is written.
+    Verify(VerifyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct VerifyArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// All files of one program, in any order
+    #[arg(required = true, value_name = "PROGRAM")]
+    pub(super) programs: Vec<String>,
+
+    /// The target that the program was written for [default: the one whose files have such names]
+    #[arg(short, long, value_name = "TARGET")]
+    pub(super) target: Option<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
 }
 
 /// A machine and the frames between its flange and the blade, its root and the work.
@@ -260,6 +291,20 @@ pub(super) struct Overrides {
     /// For jobs that see several machines, such as all cells of a shop.
     #[arg(long, value_name = "NAME")]
     pub(super) machine: Option<String>,
+}
+
+/// Where targets outside of the compiler are, and how long they may take.
+#[derive(Debug, Args)]
+pub(super) struct OutsideArgs {
+    /// Look for programs `vcutc-backend-NAME` in this folder, too; can be given several times
+    ///
+    /// Such a program is the target NAME. These folders come before those of the PATH.
+    #[arg(long, global = true, value_name = "DIR")]
+    pub(super) backend_path: Vec<String>,
+
+    /// Stop a program `vcutc-backend-NAME` that is not done after so many seconds
+    #[arg(long, global = true, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    pub(super) backend_timeout: u64,
 }
 
 /// How to talk to the user.

@@ -209,7 +209,7 @@ fn published(output: Output) -> Result<Made, Failure> {
     })
 }
 
-fn unreadable(job: &str, reason: &str) -> Failure {
+pub(super) fn unreadable(job: &str, reason: &str) -> Failure {
     let failure = Failure::new(format!("cannot read the job {job}: {reason}"));
     match Arguments::command_near(job) {
         Some(command) => failure.help(format!("did you mean the command `vcutc {command}`?")),

@@ -20,7 +20,7 @@ impl Disk {
         if job == "-" {
             Self {
                 job: STDIN_NAME.to_owned(),
-                from_stdin: Some(read_bounded(io::stdin().lock())),
+                from_stdin: Some(read_bounded(io::stdin().lock(), LARGEST_FILE)),
             }
         } else {
             Self {
@@ -45,14 +45,26 @@ impl Loader for Disk {
     }
 }
 
+/// Largest file of a program that is read, in bytes: some four million motions.
+const LARGEST_PROGRAM: u64 = 256 << 20;
+
+/// The bytes of a file of a program.
+pub(super) fn load_program(path: &str) -> Result<Vec<u8>, LoadError> {
+    load_bounded(Path::new(path), LARGEST_PROGRAM)
+}
+
 fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
+    load_bounded(path, LARGEST_FILE)
+}
+
+fn load_bounded(path: &Path, most: u64) -> Result<Vec<u8>, LoadError> {
     // Asked before opening: opening a named pipe would wait for somebody to write into it.
     let metadata = std::fs::metadata(path).map_err(|error| load_error(&error))?;
     refuse_special(&metadata)?;
-    if metadata.len() > LARGEST_FILE {
-        return Err(LoadError::TooLarge(LARGEST_FILE));
+    if metadata.len() > most {
+        return Err(LoadError::TooLarge(most));
     }
-    read_bounded(File::open(path).map_err(|error| load_error(&error))?)
+    read_bounded(File::open(path).map_err(|error| load_error(&error))?, most)
 }
 
 fn refuse_special(metadata: &Metadata) -> Result<(), LoadError> {
@@ -68,14 +80,14 @@ fn refuse_special(metadata: &Metadata) -> Result<(), LoadError> {
 }
 
 /// Reads to the end, but not beyond the limit: files can grow, and some report no length.
-fn read_bounded(reader: impl Read) -> Result<Vec<u8>, LoadError> {
+fn read_bounded(reader: impl Read, most: u64) -> Result<Vec<u8>, LoadError> {
     let mut bytes = Vec::new();
     reader
-        .take(LARGEST_FILE + 1)
+        .take(most + 1)
         .read_to_end(&mut bytes)
         .map_err(|error| load_error(&error))?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        Err(LoadError::TooLarge(LARGEST_FILE))
+    if bytes.len() as u64 > most {
+        Err(LoadError::TooLarge(most))
     } else {
         Ok(bytes)
     }
@@ -122,7 +134,7 @@ mod tests {
     #[test]
     fn a_reader_without_end_is_stopped_at_the_limit() {
         assert_eq!(
-            read_bounded(io::repeat(b' ')),
+            read_bounded(io::repeat(b' '), LARGEST_FILE),
             Err(LoadError::TooLarge(LARGEST_FILE))
         );
     }

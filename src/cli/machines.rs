@@ -6,8 +6,9 @@ mod text;
 use super::Exit;
 use super::console::{Console, Failure};
 use super::files::Disk;
+use crate::diag::Code;
+use crate::document::flaw::Flaw;
 use crate::machine::facts::{Dynamics, Facts, FkCheck};
-use crate::machine::flaw::Flaw;
 use crate::machine::sheet::{self, Sheet};
 use crate::machine::{self, FileKind, Model, Origin, catalogue};
 use crate::source::{Loader, SourceMap, text_from_bytes};
@@ -93,7 +94,10 @@ fn of_file(path: &str, kind: FileKind, console: &Console) -> Result<Description,
 fn tell(flaws: &[Flaw], path: &str, text: String, console: &Console) -> Exit {
     let mut sources = SourceMap::default();
     let file = sources.add(path, text);
-    let diagnostics: Vec<_> = flaws.iter().map(|flaw| flaw.diagnostic(file)).collect();
+    let diagnostics: Vec<_> = flaws
+        .iter()
+        .map(|flaw| flaw.diagnostic(Code::BadMachineFile, file))
+        .collect();
     console.diagnostics(&diagnostics, &sources);
     Exit::JobHasErrors
 }

@@ -7,9 +7,9 @@
 //! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
 //! | pages of `explain`, `machines`, answers of `fk` and `ik`, list of `targets`, help | standard output |
-//! | diagnostics, summary, timings, progress | standard error |
+//! | diagnostics, summary, timings, progress, what `verify` finds | standard error |
 //!
-//! A run ends with 0 when all is well, with 1 when a job has errors, and with 2 when there was nothing to judge: a
+//! A run ends with 0 when all is well, with 1 when a job has errors or a program is not its job's, and with 2 when there was nothing to judge: a
 //! wrong command line, or a file that could not be read or written. A run that does not end with 0 leaves no program
 //! behind, neither whole nor in part.
 //!
@@ -32,6 +32,7 @@ mod args;
 mod compile;
 mod console;
 mod explain;
+mod external;
 mod files;
 mod inner;
 mod joints;
@@ -41,6 +42,7 @@ mod output;
 mod place;
 mod progress;
 mod targets;
+mod verify;
 
 use args::{Arguments, Command};
 use console::Console;
@@ -71,14 +73,17 @@ impl From<Exit> for ExitCode {
 /// The targets that a run can write programs for.
 type Targets = [&'static dyn Backend];
 
-/// Runs the command line of this process with these targets.
+/// Runs the command line of this process with these targets, and those that are programs of their own.
 #[must_use]
-pub fn run(targets: &Targets) -> ExitCode {
+pub fn run(linked: &Targets) -> ExitCode {
     let arguments = match Arguments::of_process() {
         Ok(arguments) => arguments,
         Err(error) => return refuse(&error),
     };
     let console = Console::new(&arguments.display);
+    let outside = external::found(&arguments.outside);
+    let all = targets::all(linked, &outside);
+    let targets = all.as_slice();
     let exit = match &arguments.command {
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
@@ -90,7 +95,9 @@ pub fn run(targets: &Targets) -> ExitCode {
             quaternion,
         }) => kinematics::inverse(cell, pose, quaternion.as_deref(), &console),
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
-        Some(Command::Targets) => targets::list(targets, &console),
+        Some(Command::Targets { target: None }) => targets::list(linked, &outside, &console),
+        Some(Command::Targets { target: Some(target) }) => targets::describe(targets, target, &console),
+        Some(Command::Verify(verify)) => verify::verify(verify, targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),
     };
     exit.into()

@@ -122,6 +122,7 @@ const fn name(stage: Stage) -> &'static str {
         Stage::Reaching => "reaching",
         Stage::Placing => "placing",
         Stage::Emitting => "emitting",
+        Stage::Verifying => "verifying",
     }
 }
 
@@ -133,5 +134,6 @@ const fn words(stage: Stage) -> &'static str {
         Stage::Reaching => "proving that the machine reaches every pose at speed",
         Stage::Placing => "searching for the best place of the work",
         Stage::Emitting => "writing the program",
+        Stage::Verifying => "holding the program against the job",
     }
 }

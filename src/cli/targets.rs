@@ -1,30 +1,85 @@
 //! `vcutc targets`: what programs can be written, and with which options.
 
 use super::console::{Console, Failure};
+use super::external::External;
 use super::{Exit, Targets};
 use crate::diag::suggest::nearest;
 use std::fmt::Write;
-use vcutc_backend_api::backend::{Backend, OptionKind, OptionSpec};
+use vcutc_backend_api::backend::{Backend, Fault, OptionKind, OptionSpec};
+use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 
-/// Prints the list.
-pub(super) fn list(targets: &Targets, console: &Console) -> Exit {
-    console.document(&describe(targets))
+/// The targets that are linked in, then those that are programs of their own. What is linked in keeps its name.
+pub(super) fn all(linked: &Targets, outside: &[&'static External]) -> Vec<&'static dyn Backend> {
+    let mut all = linked.to_vec();
+    let used = outside.iter().filter(|external| !is_linked(linked, external));
+    all.extend(used.map(|&external| external as &'static dyn Backend));
+    all
 }
 
-/// The backend behind `--target`.
+fn is_linked(linked: &Targets, external: &External) -> bool {
+    linked.iter().any(|backend| backend.id() == external.id())
+}
+
+/// Prints the list: what is linked in with its options, what is found outside by name and place.
+pub(super) fn list(linked: &Targets, outside: &[&'static External], console: &Console) -> Exit {
+    let mut text: String = linked.iter().map(|backend| description(*backend)).collect();
+    if linked.is_empty() {
+        text.push_str("This build has no targets.\n");
+    }
+    if !outside.is_empty() {
+        text.push_str("Programs outside of the compiler (`vcutc targets NAME` describes one):\n\n");
+    }
+    for external in outside {
+        let remark = if is_linked(linked, external) {
+            "  (not used: the compiler has a target of this name)"
+        } else {
+            ""
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {}  {}{remark}", external.id(), external.path().display());
+    }
+    console.document(&text)
+}
+
+/// Prints the description of one.
+pub(super) fn describe(targets: &Targets, id: &str, console: &Console) -> Exit {
+    match find(targets, id) {
+        Ok(backend) => console.document(&description(backend)),
+        Err(failure) => console.failure(&failure),
+    }
+}
+
+/// The backend behind `--target`, which can be asked.
 pub(super) fn find(targets: &Targets, id: &str) -> Result<&'static dyn Backend, Failure> {
-    targets
+    let known = targets.iter().copied().find(|backend| backend.id() == id);
+    let backend = known.ok_or_else(|| unknown(targets, id))?;
+    match backend.ready() {
+        Ok(()) => Ok(backend),
+        Err(fault) => Err(broken(id, &fault)),
+    }
+}
+
+fn unknown(targets: &Targets, id: &str) -> Failure {
+    let failure = Failure::new(format!("there is no target `{id}`"));
+    let failure = match nearest(id, targets.iter().map(|backend| backend.id())).first() {
+        Some(near) => failure.help(format!("did you mean `--target {near}`?")),
+        None => failure,
+    };
+    failure.help(format!(
+        "targets: {}; others are programs `{PROGRAM_PREFIX}NAME` on the PATH or in a folder of `--backend-path`",
+        names(targets)
+    ))
+}
+
+fn broken(id: &str, fault: &Fault) -> Failure {
+    let failure = Failure::new(format!("the program behind target `{id}` {}", fault.what));
+    let failure = fault
+        .said
         .iter()
-        .copied()
-        .find(|backend| backend.id() == id)
-        .ok_or_else(|| {
-            let failure = Failure::new(format!("there is no target `{id}`"));
-            let failure = match nearest(id, targets.iter().map(|backend| backend.id())).first() {
-                Some(near) => failure.help(format!("did you mean `--target {near}`?")),
-                None => failure,
-            };
-            failure.help(format!("targets of this build: {}", names(targets)))
-        })
+        .fold(failure, |failure, line| failure.help(format!("it says: {line}")));
+    failure.help(format!(
+        "docs/backends.md says what `{PROGRAM_PREFIX}{id}` has to answer"
+    ))
 }
 
 /// The names of all targets in one line.
@@ -37,27 +92,24 @@ pub(super) fn names(targets: &Targets) -> String {
     }
 }
 
-fn describe(targets: &Targets) -> String {
-    let mut text = String::new();
-    for backend in targets.iter() {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}  {}", backend.id(), backend.summary());
-        match backend.options() {
-            [] => text.push_str("\n  No options.\n"),
-            options => {
-                let _ = writeln!(
-                    text,
-                    "\n  Options, in a block `{} {{ ... }}` of the machine:\n",
-                    backend.id()
-                );
-                options.iter().for_each(|spec| describe_option(&mut text, spec));
-            }
+fn description(backend: &dyn Backend) -> String {
+    let mut text = format!("{}  {}\n", backend.id(), backend.summary());
+    match backend.options() {
+        [] => text.push_str("\n  No options.\n"),
+        options => {
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "\n  Options, in a block `{} {{ ... }}` of the machine:\n",
+                backend.id()
+            );
+            options.iter().for_each(|spec| describe_option(&mut text, spec));
         }
-        text.push('\n');
     }
-    if text.is_empty() {
-        text.push_str("This build has no targets.\n");
+    if backend.reader().is_none() {
+        text.push_str("\n  Its programs are not read back: nobody here can read them.\n");
     }
+    text.push('\n');
     text
 }
 

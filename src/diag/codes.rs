@@ -169,6 +169,34 @@ codes! {
     TargetRange = "VC0606", Error, "a number that the target does not take";
     /// A machine that the target does not drive.
     WrongMachine = "VC0607", Error, "a machine that the target does not drive";
+    /// A file with the habits of a machine that is no such file.
+    BadProfile = "VC0608", Error, "a profile that does not say what it should";
+    /// A target that is a program of its own, which did not do its work.
+    OutsideProgram = "VC0609", Error, "a target's own program that failed";
+
+    /// An operation of a program that is not the job's.
+    ChangedOperation = "VC0701", Error, "an operation that a program does in another way";
+    /// An operation that a program lacks.
+    MissingOperation = "VC0702", Error, "an operation that is missing from a program";
+    /// Something that a program does beside its job.
+    AddedOperation = "VC0703", Error, "something in a program that its job does not ask for";
+    /// Statements in another order.
+    OtherOrder = "VC0704", Error, "statements of a program in another order";
+    /// A setting that is not the one that was written.
+    OtherSetting = "VC0705", Error, "a setting of a program that differs";
+    /// A statement whose effect is not known.
+    UnknownStatement = "VC0706", Error, "a statement that is not understood";
+    /// Text that is no statement.
+    UnreadableStatement = "VC0707", Error, "text in a program that is no statement";
+
+    /// A program that breaks a rule of the process.
+    ProgramRule = "VC0708", Error, "a program that moves the blade as it must not";
+    /// A program whose cuts are wrong.
+    ProgramCuts = "VC0709", Error, "a program that cuts into the part or leaves chips";
+    /// A program that its machine does not carry out.
+    ProgramReach = "VC0710", Error, "a program that its machine cannot carry out as written";
+    /// A program that was not checked further.
+    ChecksLeftOut = "VC0711", Warning, "checks of a program that were left out";
 
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";

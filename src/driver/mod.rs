@@ -11,6 +11,7 @@ use crate::plan::{self, PlannedJob};
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
+use crate::readback::{Astray, Written};
 use crate::sema;
 use crate::sim::report::Report;
 use crate::sim::timing::timing;
@@ -19,7 +20,7 @@ use crate::summary::summary;
 use crate::syntax::ast::Ast;
 use crate::verdict;
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError};
-use vcutc_backend_api::bundle::Sink;
+use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::motion::MotionFault;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
@@ -54,6 +55,8 @@ pub enum Stage {
     Placing,
     /// Writing the program.
     Emitting,
+    /// Holding a program against its job.
+    Verifying,
 }
 
 /// What came of a run.
@@ -235,9 +238,29 @@ fn motions_broken(faults: &[MotionFault]) -> Vec<(Option<OpId>, String)> {
 /// # Errors
 /// Diagnostics when the job has no machine, or the target cannot say the program, or the sink's own words.
 pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Result<(), EmitFailure> {
-    let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
+    let Some(written) = write(outcome, backend)? else {
         return Ok(());
     };
+    for (name, bytes) in written.bundle.files() {
+        let taken = sink.file(name).and_then(|()| sink.write(bytes));
+        taken.map_err(|error| EmitFailure::Sink(error.0))?;
+    }
+    Ok(())
+}
+
+/// The program of an outcome as a backend writes it, read back and found to be the same, with the place of every op in the
+/// text. An outcome without a program has none.
+///
+/// # Errors
+/// As for [`emit`].
+pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>, EmitFailure> {
+    let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
+        return Ok(None);
+    };
+    if let Err(fault) = backend.ready() {
+        let failed = target::failed(backend.id(), &fault, job.name_span);
+        return Err(EmitFailure::Diagnostics(vec![failed]));
+    }
     let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
     let Some(reached) = compiled.program.reached() else {
         return Err(EmitFailure::Diagnostics(vec![target::without_machine(
@@ -255,18 +278,30 @@ pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Re
     let emission = backend
         .check(&reached.program, &options)
         .map_err(|issues| refused(&issues))?;
-    emission.write(sink).map_err(|error| match error {
+    let mut bundle = Bundle::default();
+    emission.write(&mut bundle).map_err(|error| match error {
         EmitError::Sink(error) => EmitFailure::Sink(error.0),
-        EmitError::Internal(what) => EmitFailure::Diagnostics(vec![
-            Diagnostic::new(
-                Code::Internal,
-                what,
-                job.name_span,
-                "while writing this job's program",
-            )
-            .help("nothing was written; please report the job together with this message"),
-        ]),
-    })
+        EmitError::Internal(what) => EmitFailure::Diagnostics(vec![not_written(job, what, &[])]),
+    })?;
+    drop(emission);
+    Written::read_back(&reached.program, backend, options, bundle)
+        .map(Some)
+        .map_err(|Astray(notes)| {
+            let what = "the program that was written does not say what it was made from";
+            EmitFailure::Diagnostics(vec![not_written(job, what, &notes)])
+        })
+}
+
+/// A program that was not written although nothing is wrong with the job.
+fn not_written(job: &CheckedJob, what: &str, notes: &[String]) -> Diagnostic {
+    let diagnostic = Diagnostic::new(
+        Code::Internal,
+        what,
+        job.name_span,
+        "while writing this job's program",
+    );
+    let diagnostic = notes.iter().fold(diagnostic, Diagnostic::note);
+    diagnostic.help("nothing was written; please report the job together with this message")
 }
 
 /// Why no files were written.

@@ -4,12 +4,17 @@ use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
 use crate::machine::Model;
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use vcutc_backend_api::backend::{
-    Backend, BackendIssue, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
+    Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
 };
 use vcutc_backend_api::ir::{Action, AxisKind, MachineKind, Maker, OpId, Program};
+use vcutc_backend_api::profile::Profile;
+use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 use vcutc_backend_api::verify::VerifiedProgram;
+
+/// The option that a profile can set too.
+const DECIMALS: &str = "decimals";
 
 /// Blocks in the machine that are meant for a target that does not exist.
 pub(super) fn unknown_targets(job: &CheckedJob, targets: &[&'static dyn Backend]) -> Vec<Diagnostic> {
@@ -43,12 +48,16 @@ fn unknown_target(block: &TargetOptions, known: &[&str]) -> Diagnostic {
 pub(super) fn options(job: &CheckedJob, backend: &dyn Backend) -> Result<Options, Vec<Diagnostic>> {
     let specs = backend.options();
     let mut options = Options::defaults(specs);
+    let Some(block) = block(job.machine.as_ref(), backend.id()) else {
+        return Ok(options);
+    };
     let mut diagnostics = Vec::new();
-    let blocks = job.machine.iter().flat_map(|machine| &machine.targets);
-    for given in blocks
-        .filter(|block| block.target == backend.id())
-        .flat_map(|block| &block.given)
-    {
+    // What the job gives itself is set over what its profile says, and that over the default.
+    if let Some(profile) = &block.profile {
+        diagnostics.extend(set_decimals(&mut options, specs, block, profile));
+        options = options.with_profile(profile.node.clone());
+    }
+    for given in &block.given {
         match specs.iter().find(|spec| spec.key == given.key) {
             Some(spec) => {
                 if let Err(allowed) = set(&mut options, spec, &given.value) {
@@ -63,6 +72,36 @@ pub(super) fn options(job: &CheckedJob, backend: &dyn Backend) -> Result<Options
     } else {
         Err(diagnostics)
     }
+}
+
+/// The block of a machine for a target.
+fn block<'m>(machine: Option<&'m Machine>, target: &str) -> Option<&'m TargetOptions> {
+    machine?.targets.iter().find(|block| block.target == target)
+}
+
+/// Sets the option `decimals` to what the profile says, where the target has that option. Where it has none, it is for the target
+/// to say that it cannot follow.
+fn set_decimals(
+    options: &mut Options,
+    specs: &'static [OptionSpec],
+    block: &TargetOptions,
+    profile: &Spanned<Profile>,
+) -> Option<Diagnostic> {
+    let spec = specs.iter().find(|spec| spec.key == DECIMALS)?;
+    let decimals = profile.node.decimals?;
+    let value = OptionValue::Integer(u32::from(decimals));
+    let allowed = options.set(spec, value).err()?;
+    if block.given.iter().any(|given| given.key == DECIMALS) {
+        return None;
+    }
+    let message = format!(
+        "target `{}` takes {allowed} for `{DECIMALS}`, and the profile says {decimals}",
+        block.target
+    );
+    let diagnostic = Diagnostic::new(Code::BadOption, message, profile.span, "this profile");
+    Some(diagnostic.help(format!(
+        "give the block a `{DECIMALS}` of its own, which goes before the profile's"
+    )))
 }
 
 fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(), String> {
@@ -214,7 +253,7 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
         BackendIssue::Profile { key, why } => Diagnostic::new(
             Code::BadOption,
             format!("target `{target}` cannot do what the profile's `{key}` asks: {why}"),
-            option_span(job.machine.as_ref(), target, "profile").unwrap_or(machine),
+            profile_span(job.machine.as_ref(), target).unwrap_or(machine),
             "this profile",
         ),
         BackendIssue::Unsupported { op, what } => Diagnostic::new(
@@ -224,6 +263,10 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             "needed by this operation",
         )
         .help("choose another target, or leave this to a job of its own"),
+        BackendIssue::Failed(fault) => {
+            let place = fault.op.map_or(job.name_span, |op| place_of(job, program, op));
+            failed(target, fault, place)
+        }
         BackendIssue::OutOfRange {
             op,
             what,
@@ -243,6 +286,19 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
         .note(format!("{what} may be {allowed}"))
         .help(format!("change the job so that {what} is {allowed}")),
     }
+}
+
+/// An outside program that did not do its work.
+pub(super) fn failed(target: &str, fault: &Fault, place: Span) -> Diagnostic {
+    let message = format!("the program behind target `{target}` {}", fault.what);
+    let diagnostic = Diagnostic::new(Code::OutsideProgram, message, place, "asked to write this");
+    let said = fault.said.iter();
+    said.fold(diagnostic, |diagnostic, line| {
+        diagnostic.note(format!("it says: {line}"))
+    })
+    .help(format!(
+        "nothing was written; tell the authors of `{PROGRAM_PREFIX}{target}`, the job is not at fault"
+    ))
 }
 
 /// A program that no machine is to carry out.
@@ -323,11 +379,13 @@ fn home_of_axes(model: &Model) -> String {
 }
 
 fn option_span(machine: Option<&Machine>, target: &str, key: &str) -> Option<Span> {
-    let blocks = machine?.targets.iter().filter(|block| block.target == target);
-    blocks
-        .flat_map(|block| &block.given)
-        .find(|given| given.key == key)
-        .map(|given| given.value_span)
+    let mut given = block(machine, target)?.given.iter();
+    given.find(|given| given.key == key).map(|given| given.value_span)
+}
+
+fn profile_span(machine: Option<&Machine>, target: &str) -> Option<Span> {
+    let profile = block(machine, target)?.profile.as_ref();
+    profile.map(|profile| profile.span)
 }
 
 /// Where the machine's value of that kind stands; kinds begin with a word for the field they come from.

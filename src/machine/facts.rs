@@ -1,7 +1,7 @@
 //! What people want to know of a machine besides what is computed with: sources, disagreements, published poses, masses.
 
-use super::flaw::Flaw;
-use super::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Table};
+use crate::document::flaw::Flaw;
+use crate::document::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Table};
 use crate::kinematics::{Joints, Mechanism};
 use core::ops::Range;
 use glam::DVec3;

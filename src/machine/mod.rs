@@ -4,14 +4,13 @@
 pub mod catalogue;
 pub mod facts;
 mod five_axis;
-pub mod flaw;
+pub mod habits;
 mod robot;
 pub mod sheet;
-mod table;
 pub mod urdf;
 
+use crate::document::flaw::Flaw;
 use crate::kinematics::Mechanism;
-use flaw::Flaw;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 
 /// A machine as the compiler needs it, wherever its description came from.

@@ -3,9 +3,9 @@
 //! Angles are the controller's own. Lengths follow Brandstötter, Angerer, Hofbaur 2014 as in [`Opw`].
 
 use super::facts::Sources;
-use super::flaw::Flaw;
 use super::sheet::{Body, Form};
-use super::table::{ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_RATE, Table};
+use crate::document::flaw::Flaw;
+use crate::document::table::{ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_RATE, Table};
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};

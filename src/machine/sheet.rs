@@ -5,11 +5,11 @@
 //! and one for five-axis machines; the key `kind` says which.
 
 use super::facts::{self, Facts, FkCheck, Sources};
-use super::flaw::Flaw;
-use super::table::{MASS, Table};
 use super::{Model, five_axis, robot};
+use crate::document::flaw::Flaw;
+use crate::document::table::{MASS, Table};
+use crate::document::{self, Wording};
 use crate::kinematics::Mechanism;
-use toml::de::DeTable;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 
 /// A machine with what is known about it.
@@ -82,61 +82,21 @@ const COMMON_KEYS: &[&str] = &[
     "confidence",
 ];
 
-/// Largest sheet in bytes. Those of the catalogue are below 10 000.
-const LARGEST: usize = 1 << 18;
-
-/// Most flaws of one sheet that are told.
-const MOST_FLAWS: usize = 20;
+/// How messages speak of sheets.
+const WORDING: Wording = Wording {
+    name: "sheet",
+    looks: "`c2_mm = 1350.0` below headings such as `[opw]`",
+};
 
 /// Reads a sheet.
 ///
 /// # Errors
-/// What is wrong with it, in the order of the text; the first [`MOST_FLAWS`] of it.
+/// What is wrong with it, in the order of the text; the first [`document::MOST_FLAWS`] of it.
 pub fn parse(text: &str) -> Result<Sheet, Vec<Flaw>> {
-    if text.len() > LARGEST {
-        return Err(vec![too_large(text.len())]);
-    }
-    let (root, errors) = DeTable::parse_recoverable(text);
-    let mut flaws: Vec<Flaw> = errors.iter().map(|error| unreadable(error, text)).collect();
-    // What could be read of a broken file would only add complaints about what seems to be missing.
-    let sheet = if flaws.is_empty() {
-        read(root.get_ref(), &mut flaws)
-    } else {
-        None
-    };
-    match sheet {
-        Some(sheet) if flaws.is_empty() => Ok(sheet),
-        Some(_) | None => {
-            flaws.sort_by_key(|flaw| (flaw.span.start, flaw.span.end));
-            flaws.truncate(MOST_FLAWS);
-            Err(flaws)
-        }
-    }
+    document::parse(text, WORDING, read)
 }
 
-fn too_large(size: usize) -> Flaw {
-    let (size, most) = (size / 1000, LARGEST / 1000);
-    Flaw::new(
-        0..0,
-        format!("the sheet has {size} kB, at most {most} kB are read"),
-        "too large",
-    )
-}
-
-fn unreadable(error: &toml::de::Error, text: &str) -> Flaw {
-    let span = error.span().unwrap_or(0..0);
-    let end = span.end.min(text.len());
-    let reason = error.message().lines().next().unwrap_or_default();
-    Flaw::new(
-        span.start.min(end)..end,
-        format!("the sheet is not TOML: {reason}"),
-        "cannot be read",
-    )
-    .help("a sheet has lines such as `c2_mm = 1350.0` below headings such as `[opw]`")
-}
-
-fn read<'t>(root: &'t DeTable<'t>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
-    let root = Table::root(root);
+fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
     let kind = if root.has("kind") {
         root.word("kind", KINDS, flaws)?
     } else {

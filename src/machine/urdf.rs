@@ -20,7 +20,7 @@ mod tests;
 mod tree;
 
 use super::Model;
-use super::flaw::Flaw;
+use crate::document::flaw::Flaw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::{JointAxis, SerialArm};
 use crate::kinematics::{Mechanism, recognise};

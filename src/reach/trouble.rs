@@ -46,6 +46,18 @@ pub enum Trouble {
     Nowhere,
 }
 
+impl Trouble {
+    /// The op that is told of first; none of a machine that reaches nothing.
+    #[must_use]
+    pub const fn op(&self) -> Option<OpId> {
+        match self {
+            Self::Motion { failing, .. } | Self::NoCommonBranch { failing, .. } => Some(failing.op),
+            Self::Way { op, .. } => Some(*op),
+            Self::Nowhere => None,
+        }
+    }
+}
+
 /// A number of cuts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {

@@ -8,6 +8,7 @@
 mod arguments;
 mod blade;
 mod cell;
+mod described;
 mod dimension;
 mod eval;
 mod fields;

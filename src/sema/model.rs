@@ -1,6 +1,6 @@
 //! The model that the head of a machine's block names: one of the catalogue, or one described by a file.
 
-use super::files::{not_loaded, text_of};
+use super::described;
 use super::heads::MACHINES;
 use super::machine::Head;
 use super::names::did_you_mean;
@@ -8,7 +8,7 @@ use super::report::{Checked, Reports};
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
 use crate::machine::{self, FileKind, Model, Origin, catalogue};
-use crate::source::{Span, Spanned, join_path};
+use crate::source::{Spanned, join_path};
 use std::sync::Arc;
 use vcutc_backend_api::ir::MachineKind;
 
@@ -73,48 +73,11 @@ fn from_file(kind: FileKind, model: Spanned<&str>, session: &mut Session<'_>) ->
     if let Some(known) = session.machines.get(&path) {
         return known.clone();
     }
-    let machine = read_file(kind, &path, model, session);
+    let machine = described::read(&path, model.span, session, Code::BadMachineFile, |text| {
+        machine::read(model.node, kind, text).map(Arc::new)
+    });
     session.machines.insert(path, machine.clone());
     machine
-}
-
-fn read_file(
-    kind: FileKind,
-    path: &str,
-    model: Spanned<&str>,
-    session: &mut Session<'_>,
-) -> Checked<Arc<Model>> {
-    let bytes = session
-        .loader
-        .load(path)
-        .map_err(|error| session.reports.push(not_loaded(&model.span, path, &error)))?;
-    let (file, fault) = text_of(session, path, bytes, Some(model.span));
-    if let Some(reported) = fault {
-        return Err(reported);
-    }
-    let text = session.sources.get(file).map_or("", |file| file.text.as_str());
-    match machine::read(model.node, kind, text) {
-        Ok(machine) => Ok(Arc::new(machine)),
-        Err(flaws) => {
-            let told =
-                |flaw: &machine::flaw::Flaw| flaw.diagnostic(file).and(model.span, "the file is named here");
-            let found: Vec<Diagnostic> = flaws.iter().map(told).collect();
-            match session.reports.append(found) {
-                Some(reported) => Err(reported),
-                None => Err(session.reports.push(unexplained(path, model.span))),
-            }
-        }
-    }
-}
-
-/// A reader that refuses a file without saying why.
-fn unexplained(path: &str, named_at: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::Internal,
-        format!("`{path}` is refused without a reason"),
-        named_at,
-        "the file is named here",
-    )
 }
 
 fn wrong_kind(head: &Head<'_>, is: MachineKind) -> Diagnostic {

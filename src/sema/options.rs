@@ -1,5 +1,6 @@
 //! Options for targets, such as `krl { ... }` in a machine: evaluated here, held against the target later.
 
+use super::described;
 use super::dimension::Dimension;
 use super::eval::Scope;
 use super::fields::{curve_words, head_span};
@@ -8,10 +9,15 @@ use super::report::{Checked, Reported};
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{GivenOption, GivenValue, TargetOptions};
-use crate::source::{Span, Spanned};
+use crate::machine::habits;
+use crate::source::{Span, Spanned, join_path};
 use crate::syntax::ast::{Block, Entry, Expr};
 use std::collections::BTreeMap;
+use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::units::Length;
+
+/// The key of a file with the machine's habits. No target has an option of this name.
+const PROFILE: &str = "profile";
 
 /// The options for all targets of a machine.
 pub(crate) fn read(
@@ -39,7 +45,12 @@ pub(crate) fn read(
         }
         first.insert(target.clone(), span);
         match one(block, scope, session) {
-            Ok(given) => targets.push(TargetOptions { target, span, given }),
+            Ok((given, profile)) => targets.push(TargetOptions {
+                target,
+                span,
+                given,
+                profile,
+            }),
             Err(reported) => fault = Some(reported),
         }
     }
@@ -49,14 +60,19 @@ pub(crate) fn read(
     }
 }
 
-fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Vec<GivenOption>> {
+/// The options of one block, and its profile.
+type Given = (Vec<GivenOption>, Option<Spanned<Profile>>);
+
+fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Given> {
     let mut first: BTreeMap<&str, Span> = BTreeMap::new();
     let mut options = Vec::new();
+    let mut named = None;
     let mut fault = None;
     for entry in &block.entries {
-        let option = match entry {
+        let done = match entry {
             Entry::Field { name, value, .. } => match first.insert(&name.node, name.span) {
-                None => option(name, value, scope, session),
+                None if name.node == PROFILE => profile(value, session).map(|found| named = Some(found)),
+                None => option(name, value, scope, session).map(|option| options.push(option)),
                 Some(earlier) => {
                     let diagnostic = Diagnostic::new(
                         Code::FieldTwice,
@@ -73,15 +89,40 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Ve
             Entry::Curve { curve, span } => Err(misplaced(curve_words(curve), *span, session)),
             Entry::Block(inner) => Err(misplaced("a block", head_span(inner), session)),
         };
-        match option {
-            Ok(option) => options.push(option),
-            Err(reported) => fault = Some(reported),
+        if let Err(reported) = done {
+            fault = Some(reported);
         }
     }
     match fault {
         Some(reported) => Err(reported),
-        None => Ok(options),
+        None => Ok((options, named)),
     }
+}
+
+/// The habits in the file that a text names, relative to the file in which the text stands.
+fn profile(value: &Spanned<Expr>, session: &mut Session<'_>) -> Checked<Spanned<Profile>> {
+    let Expr::Text(name) = &value.node else {
+        let diagnostic = Diagnostic::new(
+            Code::WrongKind,
+            "`profile` takes the name of a file in quotes",
+            value.span,
+            "this is no text",
+        );
+        return Err(session
+            .reports
+            .push(diagnostic.help("write it as in `profile = \"gantry.toml\"`")));
+    };
+    let path = join_path(session.sources.name(value.span.file), name);
+    if !session.profiles.contains_key(&path) {
+        let profile = described::read(&path, value.span, session, Code::BadProfile, habits::parse);
+        session.profiles.insert(path.clone(), profile);
+    }
+    let profile = session
+        .profiles
+        .get(&path)
+        .cloned()
+        .unwrap_or(Ok(Profile::default()))?;
+    Ok(Spanned::new(profile, value.span))
 }
 
 fn misplaced(what: &str, span: Span, session: &mut Session<'_>) -> Reported {

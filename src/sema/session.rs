@@ -5,6 +5,7 @@ use crate::machine::Model;
 use crate::source::{FileId, Loader, SourceMap, Span};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use vcutc_backend_api::profile::Profile;
 
 /// One run.
 pub(crate) struct Session<'a> {
@@ -18,6 +19,8 @@ pub(crate) struct Session<'a> {
     damaged: BTreeMap<FileId, Reported>,
     /// Machines read so far, by name of the catalogue or path of the file: a shop may put one arm into several cells.
     pub(crate) machines: BTreeMap<String, Checked<Arc<Model>>>,
+    /// Profiles read so far, by path: the cells of a shop may share one.
+    pub(crate) profiles: BTreeMap<String, Checked<Profile>>,
     /// Set when definitions may be missing because a file could not be had or read in full.
     incomplete: Option<Reported>,
 }
@@ -31,6 +34,7 @@ impl<'a> Session<'a> {
             reports: Reports::default(),
             damaged: BTreeMap::new(),
             machines: BTreeMap::new(),
+            profiles: BTreeMap::new(),
             incomplete: None,
         }
     }

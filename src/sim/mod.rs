@@ -8,6 +8,7 @@
 
 pub mod prove;
 pub mod report;
+pub mod slit;
 pub mod surface;
 #[cfg(test)]
 mod tests;

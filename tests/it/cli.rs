@@ -4,8 +4,13 @@ mod gallery;
 mod jobs;
 mod kinematics;
 mod machines;
+#[cfg(unix)]
+mod outside;
 mod place;
+mod profiles;
 mod refusals;
+#[cfg(feature = "krl")]
+mod verify;
 
 use std::fs;
 use std::io::Write;

@@ -14,6 +14,12 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "the planner keeps every cut out of the part; the proof is there to find its mistakes",
     ),
     (
+        Code::OutsideProgram,
+        "tests/it/cli/outside.rs",
+        "what_is_no_program_is_not_written",
+        "it takes a program beside the job",
+    ),
+    (
         Code::Internal,
         "src/driver/mod.rs",
         "a_program_that_breaks_a_rule_is_the_compilers_fault",
@@ -24,13 +30,13 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
 #[test]
 fn every_code_has_a_failing_example() {
     // By their names: one of them is no text.
-    let folders = ["tests/check/err", "tests/process/err"];
+    let folders = ["tests/check/err", "tests/process/err", "tests/verify"];
     let entries = folders
         .iter()
         .flat_map(|folder| fs::read_dir(root().join(folder)).unwrap());
     let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let examples: BTreeSet<String> = names
-        .filter(|name| name.ends_with(".vcut"))
+        .filter(|name| name.starts_with("VC") && (name.ends_with(".vcut") || name.ends_with(".diff")))
         .filter_map(|name| Some(name.get(..6)?.to_owned()))
         .collect();
     let tested: BTreeSet<&str> = WITHOUT_A_JOB.iter().map(|(code, ..)| code.number()).collect();

@@ -7,6 +7,7 @@
     reason = "tests read files, start the compiler, and stop at the first surprise"
 )]
 
+mod backends_page;
 mod check;
 #[cfg(feature = "cli")]
 mod cli;
@@ -22,6 +23,8 @@ mod jobs;
 mod kinematics;
 #[cfg(feature = "krl")]
 mod krl_text;
+#[cfg(feature = "krl")]
+mod mutations;
 mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]
@@ -43,3 +46,5 @@ mod status;
 mod syntax;
 mod third_party;
 mod tidy;
+#[cfg(feature = "krl")]
+mod verify;

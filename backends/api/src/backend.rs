@@ -13,6 +13,7 @@ use crate::profile::Profile;
 use crate::readback::Reader;
 use crate::units::Length;
 use crate::verify::Capabilities;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// One output dialect.
@@ -28,6 +29,14 @@ pub trait Backend: Sync {
 
     /// The options it takes.
     fn options(&self) -> &'static [OptionSpec];
+
+    /// Whether it can be asked at all. Backends that are linked in can; one that is a program of its own may be broken.
+    ///
+    /// # Errors
+    /// What it did when it was asked.
+    fn ready(&self) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// Who reads its programs back; none when nobody can, and then nothing checks what was written.
     fn reader(&self) -> Option<&dyn Reader>;
@@ -122,10 +131,26 @@ pub enum BackendIssue {
         /// What is allowed, as text.
         allowed: String,
     },
+    /// The program behind the dialect did not do its work. Only programs outside of the compiler can fail so
+    /// ([`crate::protocol`]).
+    Failed(Fault),
+}
+
+/// What a program outside of the compiler did instead of its work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where, if about one op.
+    pub op: Option<OpId>,
+    /// What it did, such as `ended with exit status 3`.
+    pub what: String,
+    /// What it said itself, line by line.
+    pub said: Vec<String>,
 }
 
 /// What sets a machine apart from those that a dialect drives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum MachineMismatch {
     /// Its kind.
     Kind,

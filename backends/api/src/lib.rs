@@ -47,6 +47,7 @@ pub mod motion;
 pub mod namer;
 pub mod number;
 pub mod profile;
+pub mod protocol;
 pub mod readback;
 pub mod script;
 pub mod stroke;

@@ -11,16 +11,30 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Profile {
     /// Lines put at the head of the main program as they are, behind what the dialect itself demands there.
+    #[cfg_attr(
+        feature = "schema",
+        schemars(inner(length(max = 120), regex(pattern = r"^[ -~]*$")))
+    )]
     pub header: Vec<String>,
     /// Lines put at the end of the main program as they are, before the word that ends it.
+    #[cfg_attr(
+        feature = "schema",
+        schemars(inner(length(max = 120), regex(pattern = r"^[ -~]*$")))
+    )]
     pub footer: Vec<String>,
     /// Extension of the main program's file, without the dot.
+    #[cfg_attr(feature = "schema", schemars(regex(pattern = r"^[A-Za-z0-9]{1,8}$")))]
     pub extension: Option<String>,
     /// Decimals of lengths in mm.
+    #[cfg_attr(feature = "schema", schemars(range(min = 3, max = 6)))]
     pub decimals: Option<u8>,
     /// How blocks are numbered, where a dialect numbers them and leaves it open.
     pub line_numbers: Option<LineNumbers>,
     /// Names that programs must not take on this machine, whatever their case.
+    #[cfg_attr(
+        feature = "schema",
+        schemars(inner(regex(pattern = r"^[A-Za-z_][A-Za-z0-9_]{0,63}$")))
+    )]
     pub reserved: Vec<String>,
 }
 
@@ -30,8 +44,10 @@ pub struct Profile {
 #[serde(deny_unknown_fields)]
 pub struct LineNumbers {
     /// The first.
+    #[cfg_attr(feature = "schema", schemars(range(max = 99_999_999)))]
     pub start: u32,
     /// From one to the next; positive.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 10_000)))]
     pub step: u32,
 }
 

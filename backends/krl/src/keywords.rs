@@ -28,9 +28,33 @@ const RULES: NameRules = NameRules {
     reserved: RESERVED,
 };
 
-/// The name of the main program for a job of that name.
-pub(crate) fn main_name(job: &str) -> String {
-    Namer::new(RULES).name(job)
+/// The name of the main program for a job of that name, in so many parts, on a machine that keeps some names for itself.
+pub(crate) fn main_name(job: &str, parts: usize, reserved: &[String]) -> String {
+    let mut namer = Namer::new(RULES);
+    namer.avoid(reserved);
+    let mut name = namer.name(job);
+    // A name that is kept may be that of a part of one main program, so these are more than enough.
+    for _ in reserved {
+        if !has_kept_part(&name, parts, reserved) {
+            break;
+        }
+        name = namer.name(job);
+    }
+    name
+}
+
+/// Whether one of the parts would bear a name that the machine keeps.
+fn has_kept_part(main: &str, parts: usize, reserved: &[String]) -> bool {
+    let starts_alike = |kept: &&String| {
+        kept.get(..main.len())
+            .is_some_and(|start| start.eq_ignore_ascii_case(main))
+    };
+    let alike: Vec<_> = reserved.iter().filter(starts_alike).collect();
+    let is_kept = |part| {
+        let name = part_name(main, part);
+        alike.iter().any(|kept| kept.eq_ignore_ascii_case(&name))
+    };
+    parts > 1 && !alike.is_empty() && (1..=parts).any(is_kept)
 }
 
 /// The name of a part, counted from 1.
@@ -86,7 +110,7 @@ mod tests {
 
     #[test]
     fn the_longest_part_name_just_fits() {
-        let main = main_name(&"x".repeat(100));
+        let main = main_name(&"x".repeat(100), 1, &[]);
         assert_eq!(main.len(), LONGEST_MAIN_NAME);
         assert_eq!(part_name(&main, MOST_PARTS).len(), LONGEST_NAME);
         assert_eq!(part_name("rib", 7), "rib_p007");
@@ -95,14 +119,22 @@ mod tests {
     #[test]
     fn names_of_the_controller_are_avoided() {
         for name in ["lin", "Bas", "SPS", "xvc_home", "con", "Spline"] {
-            assert_eq!(main_name(name), format!("VC_{name}"));
+            assert_eq!(main_name(name, 1, &[]), format!("VC_{name}"));
         }
+    }
+
+    #[test]
+    fn names_that_the_machine_keeps_are_avoided_for_parts_as_well() {
+        let kept = ["RIB".to_owned(), "rib_2_P003".to_owned()];
+        assert_eq!(main_name("rib", 1, &kept), "rib_2");
+        assert_eq!(main_name("rib", 2, &kept), "rib_2");
+        assert_eq!(main_name("rib", 3, &kept), "rib_3");
     }
 
     proptest! {
         #[test]
         fn any_job_name_gives_a_module_name(job in ".{0,40}") {
-            let name = main_name(&job);
+            let name = main_name(&job, 1, &[]);
             prop_assert!(!name.is_empty() && name.len() <= LONGEST_MAIN_NAME);
             prop_assert!(name.starts_with(|c: char| c.is_ascii_alphabetic()));
             prop_assert!(name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'));

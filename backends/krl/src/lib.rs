@@ -41,6 +41,11 @@
 //! on the branch that its straight moves are proven on, which a `LIN` from wherever the arm stands would not.
 //! It is a pose and not axis values, so that with frames that the controller keeps it is the pose of the part before it.
 //!
+//! # Reading
+//!
+//! [`read::KrlReader`] tells what a program does, whoever wrote it; [`read::syntax`] has the statements of a text with their
+//! places, for other readers of KRL.
+//!
 //! # Machines
 //!
 //! KUKA robots with six rotary axes and a spherical wrist: S and T are defined for those.
@@ -61,11 +66,14 @@ mod keywords;
 mod limits;
 mod module;
 mod options;
+mod profile;
+pub mod read;
 
 use crate::attitude::Attitudes;
 use crate::body::Source;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{LINES_PER_PART, OPTIONS, Settings};
+use crate::read::KrlReader;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
@@ -113,7 +121,7 @@ impl Backend for Krl {
     }
 
     fn reader(&self) -> Option<&dyn Reader> {
-        None
+        Some(&KrlReader)
     }
 
     fn check<'p>(
@@ -125,7 +133,12 @@ impl Backend for Krl {
         let parts = split(&program.program().ops, settings.lines_per_part, |lead| {
             lead.lines(LINES_OF_A_RATE)
         });
-        let cell = limits::check(program, &parts)?;
+        let issues = profile::issues(options.profile(), program.program().cell.as_ref());
+        let cell = match limits::check(program, &parts) {
+            Ok(cell) if issues.is_empty() => cell,
+            Ok(_) => return Err(issues),
+            Err(more) => return Err(more.into_iter().chain(issues).collect()),
+        };
         if parts.len() > MOST_PARTS {
             return Err(vec![too_many_parts(parts.len())]);
         }
@@ -164,7 +177,7 @@ impl Emission for KrlEmission<'_> {
             settings: &self.settings,
             attitudes: &attitudes,
         };
-        let name = main_name(&program.name);
+        let name = main_name(&program.name, self.parts.len(), &self.settings.profile.reserved);
         module::write(source, &name, &self.parts, &mut Text::new(sink, LAYOUT))
     }
 }

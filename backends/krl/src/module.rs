@@ -24,7 +24,7 @@ fn whole(source: Source<'_>, name: &str, part: &Part, text: &mut Text<'_>) -> Wr
     header(source, text)?;
     initialise(source, text)?;
     body::write(source, part, text)?;
-    text.line("END")?;
+    footer(source, text)?;
     data(source, name, needs_home(source, part), text)
 }
 
@@ -47,7 +47,7 @@ fn split(source: Source<'_>, main: &str, parts: &[Part], text: &mut Text<'_>) ->
         }
         text.line(&format!("{name}( )"))?;
     }
-    text.line("END")?;
+    footer(source, text)?;
     data(source, main, Home::Unused, text)?;
     let mut before: Option<&str> = None;
     for (number, (name, part)) in (1..).zip(names.iter().zip(parts)) {
@@ -112,14 +112,26 @@ fn marks(source: Source<'_>, text: &mut Text<'_>) -> Written {
     Ok(text.comment("&COMMENT ", &source.program.name)?)
 }
 
-/// Comments at the head of the main module.
+/// Comments at the head of the main module, and the lines that its machine wants there: in front of what resets all that
+/// motions depend on.
 fn header(source: Source<'_>, text: &mut Text<'_>) -> Written {
     text.comment("; job ", &source.program.name)?;
     text.comment("; machine ", &source.cell.name)?;
     for line in source.settings.header {
         text.comment("; ", line)?;
     }
+    for line in &source.settings.profile.header {
+        text.line(line)?;
+    }
     Ok(())
+}
+
+/// The end of the main routine, with the lines that its machine wants there.
+fn footer(source: Source<'_>, text: &mut Text<'_>) -> Written {
+    for line in &source.settings.profile.footer {
+        text.line(line)?;
+    }
+    Ok(text.line("END")?)
 }
 
 /// Everything that motions depend on. `BAS (#INITMOV,0 )` resets all of it, so it comes first [K-QG].

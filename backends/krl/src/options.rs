@@ -6,6 +6,7 @@
 use core::num::NonZeroU32;
 use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
 use vcutc_backend_api::number::FixedDecimal;
+use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::units::Length;
 
 const DECIMALS: &str = "decimals";
@@ -132,6 +133,8 @@ pub(crate) struct Settings<'p> {
     pub(crate) angles: FixedDecimal,
     /// Longest body of a part, when there is a limit.
     pub(crate) lines_per_part: Option<NonZeroU32>,
+    /// The habits of the machine.
+    pub(crate) profile: &'p Profile,
     /// Comment lines at the head.
     pub(crate) header: &'p [String],
     /// Rounding of corners in the air, when wanted.
@@ -153,6 +156,7 @@ impl<'p> Settings<'p> {
             lengths: FixedDecimal::new(decimals),
             angles: FixedDecimal::new(decimals.saturating_add(1)),
             lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
+            profile: options.profile(),
             header: options.lines(HEADER),
             approximation: (approximation > Length::ZERO).then_some(approximation),
             planner: match options.choice(MOTION) {

@@ -57,12 +57,14 @@ mod limits;
 mod module;
 mod options;
 mod orient;
+mod read;
 mod speeds;
 
 use crate::body::Source;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{LINES_PER_PART, OPTIONS, Settings};
 use crate::orient::Quaternion;
+use crate::read::RapidReader;
 use crate::speeds::Speeds;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
@@ -107,7 +109,7 @@ impl Backend for Rapid {
     }
 
     fn reader(&self) -> Option<&dyn Reader> {
-        None
+        Some(&RapidReader)
     }
 
     fn check<'p>(

@@ -11,12 +11,13 @@ use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::findings::{Findings, Number};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, AxisKind, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, Program, RateId, Ready,
-    Registered,
+    Action, AxisKind, AxisValues, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, Program, RateId,
+    Ready, Registered,
 };
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::profile::PROFILE_DECIMALS;
 use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::wrist::{TOO_FAR, turn};
 
 /// Largest coordinate, in mm. A `num` is a single precision number [A-KER]: up to here it keeps half a micrometre, and no
 /// robot reaches half as far.
@@ -83,6 +84,7 @@ pub(crate) fn check<'p>(
     reserved(settings, cell, &program.program().name, parts, &mut findings);
     machine(cell, &mut findings);
     ops(program, &mut findings);
+    turns(program, &mut findings);
     findings.result().map(|()| cell)
 }
 
@@ -298,6 +300,28 @@ fn ops(program: &ReachableProgram, findings: &mut Findings) {
                 let what = "a tool change within the program";
                 findings.tell(what, BackendIssue::Unsupported { op: id, what });
             }
+        }
+    }
+}
+
+/// The controller refuses to turn a wrist far in one move; the motion has waypoints for that.
+fn turns(program: &ReachableProgram, findings: &mut Findings) {
+    let motion = program.motion();
+    let mut waypoints = motion.waypoints.iter().peekable();
+    let mut before: Option<AxisValues> = None;
+    for ((op, of), end) in program.verified().ops().zip(&motion.ends) {
+        let mut points = Vec::new();
+        while let Some(waypoint) = waypoints.next_if(|waypoint| waypoint.op == op) {
+            points.push(waypoint.axes);
+        }
+        points.push(*end);
+        for point in points {
+            let goes_far = before.is_some_and(|before| turn(&before, &point) >= TOO_FAR);
+            if goes_far && !matches!(of.action, Action::Home | Action::AxisTravel { .. }) {
+                let what = "a move that turns an axis of the wrist by 90 deg or more at once";
+                findings.tell(what, BackendIssue::Unsupported { op, what });
+            }
+            before = Some(point);
         }
     }
 }

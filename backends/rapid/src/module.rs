@@ -2,12 +2,13 @@
 
 use crate::body::{self, NO_EXTERNAL_AXES, Source, joints};
 use crate::keywords::{AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine};
+use crate::options::zone_members;
 use crate::orient::Quaternion;
 use crate::speeds::{EXTERNAL, RATE_OF_NOTHING};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Action, Load, Op, RateId, Registered, Site};
-use vcutc_backend_api::script::{Part, Text, Written, trimmed_text};
+use vcutc_backend_api::script::{Part, Text, Written};
 use vcutc_backend_api::units::Length;
 
 /// The modes that moves depend on. A task that is started anew has them, one that is started at a part may not.
@@ -285,12 +286,12 @@ fn number(start: &str, number: u32, value: f64, text: &mut Text<'_>) -> Written 
     Ok(text.line(";")?)
 }
 
-/// All seven members, in the proportions of ABB's own z1: reorientation and external axes start to be rounded where the tip
-/// does, turns a tenth of it in degrees.
+/// All seven members.
 fn zone(distance: Length, text: &mut Text<'_>) -> Written {
-    let mm = distance.to_mm();
-    let (path, turn) = (trimmed_text(mm), trimmed_text(mm / 10.0));
-    Ok(text.line(&format!(
-        "  CONST zonedata {ZONE}:=[FALSE,{path},{path},{path},{turn},{path},{turn}];"
-    ))?)
+    text.put(format!("  CONST zonedata {ZONE}:=[FALSE").as_bytes());
+    for member in zone_members(distance) {
+        text.put(b",");
+        text.trimmed(member)?;
+    }
+    Ok(text.line("];")?)
 }

@@ -1,6 +1,7 @@
 //! Sheets with one fault each, small sheets of users, and sheets meant to do harm.
 
 use super::*;
+use crate::document::{LARGEST, MOST_FLAWS};
 use crate::kinematics::opw::Coupling;
 use proptest::prelude::*;
 use vcutc_backend_api::ir::AxisKind;

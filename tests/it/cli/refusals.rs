@@ -42,7 +42,7 @@ fn an_unknown_target_is_answered_with_the_known_ones() {
     assert_snapshot!(run.stderr, @r"
     error: there is no target `klr`
       help: did you mean `--target krl`?
-      help: targets of this build: krl
+      help: targets: krl; others are programs `vcutc-backend-NAME` on the PATH or in a folder of `--backend-path`
     ");
 }
 
@@ -52,7 +52,7 @@ fn a_target_like_no_other_is_answered_without_a_guess() {
     assert_eq!(run.code, Some(2));
     assert_snapshot!(run.stderr, @r"
     error: there is no target `fanuc`
-      help: targets of this build: krl
+      help: targets: krl; others are programs `vcutc-backend-NAME` on the PATH or in a folder of `--backend-path`
     ");
 }
 

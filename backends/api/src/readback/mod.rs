@@ -14,6 +14,9 @@
 mod essence;
 mod judge;
 mod retrace;
+#[cfg(test)]
+#[cfg(feature = "testkit")]
+mod tests;
 
 pub use essence::essence;
 pub use judge::{Judge, Mismatch, Moment, rotary_way};
@@ -25,9 +28,11 @@ use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{AxisValues, Cell, Switch};
 use crate::motion::Branch;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
+use serde::{Deserialize, Serialize};
 
 /// A file of a program.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ProgramFile {
     /// Its name, without folders.
     pub name: String,
@@ -68,7 +73,8 @@ pub struct Sources<'a> {
 }
 
 /// A stretch of bytes in a file of a program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Place {
     /// Place of the file in [`Sources::files`].
     pub file: u32,
@@ -79,7 +85,8 @@ pub struct Place {
 }
 
 /// A statement of a program, comments apart.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Statement {
     /// Where it stands.
     pub place: Place,
@@ -88,7 +95,9 @@ pub struct Statement {
 }
 
 /// What a statement says.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Says {
     /// The machine does something.
     Deed(Deed),
@@ -109,7 +118,9 @@ pub enum Says {
 }
 
 /// Which frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum FrameRole {
     /// The blade seen from the flange ([`Cell::tool`]).
     Tool,
@@ -118,7 +129,9 @@ pub enum FrameRole {
 }
 
 /// What a frame is set to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum FrameSetting {
     /// By value.
     Value(Frame),
@@ -127,7 +140,9 @@ pub enum FrameSetting {
 }
 
 /// What the machine does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Deed {
     /// All axes go to these values, arriving together.
     Axes(AxisValues),
@@ -156,7 +171,8 @@ pub enum Deed {
 }
 
 /// A pose as dialects say it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Target {
     /// Where the tip is, in W.
     pub tip: Point3,
@@ -165,7 +181,9 @@ pub struct Target {
 }
 
 /// How the blade is held.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Held {
     /// By the orientation of T in W, and the way to stand where that is said.
     Orientation(Orientation, Option<Stance>),
@@ -175,11 +193,15 @@ pub enum Held {
 
 /// A way to stand in the numbers of a dialect: KRL's status and turn, RAPID's confdata. What they mean is the dialect's
 /// affair; equal numbers are the same way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
 pub struct Stance(pub [i32; 4]);
 
 /// How fast a motion goes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Pace {
     /// Speed of the tip and rate of turning, whichever takes longer.
     Speeds {
@@ -197,7 +219,9 @@ pub enum Pace {
 }
 
 /// How a motion ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum End {
     /// At a standstill on the point.
     Exact,
@@ -206,7 +230,8 @@ pub enum End {
 }
 
 /// How far what a dialect prints may be from what it was given: half a unit of the last place.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Grain {
     /// Of each coordinate and of each linear axis.
     pub length: Length,
@@ -225,7 +250,9 @@ pub struct Grain {
 }
 
 /// Whether a dialect's programs set a frame or leave it to who sets up the machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Frames {
     /// Every part sets tool and base before its first motion.
     InProgram,

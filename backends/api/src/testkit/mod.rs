@@ -10,7 +10,7 @@ mod pretend_five_axis;
 mod recipe;
 
 pub use conformance::{conformance, conformance_with};
-pub use pretend::{axes, blade_in_work, reachable};
+pub use pretend::{axes, axes_at, blade_in_work, reachable};
 pub use pretend_five_axis::five_axes;
 pub use recipe::{CellRecipe, Crossing, Passes, Recipe};
 

@@ -164,7 +164,8 @@ fn orientation(program: &Program, id: crate::ir::OrientationId) -> Orientation {
 }
 
 /// The axes that hold the blade there, those of A and C as near as may be to where they were.
-fn axes_at(tip: Point3, held: Orientation, wrist: Wrist, before: AxisValues) -> AxisValues {
+#[must_use]
+pub fn axes_at(tip: Point3, held: Orientation, wrist: Wrist, before: AxisValues) -> AxisValues {
     let Zyx { a, b, c } = held.to_zyx();
     let turn = match wrist {
         Wrist::Positive => 0.0,

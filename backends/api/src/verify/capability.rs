@@ -1,7 +1,11 @@
 //! What a program may need of a dialect.
 
+use serde::{Deserialize, Serialize};
+
 /// Something a program may need and a dialect may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Capability {
     /// Straight moves with a turning blade.
     LinearMove,

@@ -310,6 +310,11 @@ impl<'a> Control<'a> {
         match (self.context.settings.dialect.axis_pace(), self.motion) {
             (AxisPace::Rapid, Some(Motion::Rapid)) => {}
             (AxisPace::Rapid, _) => return expected("`G0` with coordinates of the machine"),
+            (AxisPace::InverseTime, Some(Motion::AtFeed))
+                if self.modes.feed != Some(FeedMode::InverseTime) =>
+            {
+                return expected("`G93` before a motion of all axes");
+            }
             (AxisPace::InverseTime | AxisPace::Path, Some(Motion::AtFeed)) => {
                 self.speed(order)?;
             }

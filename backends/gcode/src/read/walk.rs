@@ -4,7 +4,7 @@ use super::codes::{Found, Given, Role, essences};
 use super::control::{Control, given};
 use super::lines::{self, Code, Span, Style};
 use super::order::{Context, Flow, Order, Routine, Trouble};
-use super::tongue::{self, Tongue};
+use super::tongue::{self, Heads, Tongue};
 use crate::axes;
 use crate::options::Settings;
 use vcutc_backend_api::readback::{Deed, Place, ProgramFile, Says, Sources, Statement, essence};
@@ -283,12 +283,22 @@ impl<'t> Walk<'t, '_> {
                 .code
                 .ok()
                 .and_then(|code| self.tongue.order(code, self.context).ok());
-            let is_end = matches!(
-                order.and_then(|order| order.flow),
-                Some(Flow::Tape | Flow::End | Flow::Close(_))
-            );
+            let is_end = match order.and_then(|order| order.flow) {
+                Some(Flow::Tape | Flow::End) => true,
+                Some(Flow::Close(routine)) => self.is_own(script, routine),
+                Some(
+                    Flow::Head(_) | Flow::PartHead(_) | Flow::Call(_) | Flow::Return | Flow::ReturnFrom(_),
+                )
+                | None => false,
+            };
             self.tell(line.place, if is_end { Says::Setting } else { Says::Unknown });
         }
+    }
+
+    /// Whether a routine is that of a file.
+    fn is_own(&self, script: usize, routine: Routine<'_>) -> bool {
+        let own = self.scripts.get(script).and_then(|script| script.routine);
+        own.is_some_and(|own| own.is(routine))
     }
 
     fn next_of(&mut self, script: usize) -> Option<Line<'t>> {
@@ -370,6 +380,22 @@ impl<'t> Walk<'t, '_> {
             before
         });
         let says = self.control.carry_out(&order)?;
+        let is_main = self.stack.len() == 1;
+        let needs_head = match self.tongue.heads() {
+            Heads::None => false,
+            Heads::OfParts => !is_main,
+            Heads::All => true,
+        };
+        match order.flow {
+            Some(Flow::Tape | Flow::Head(_) | Flow::PartHead(_)) => {}
+            Some(Flow::Call(_) | Flow::Return | Flow::ReturnFrom(_) | Flow::Close(_) | Flow::End) | None => {
+                if needs_head && begun == Some(false) {
+                    return Err(Trouble::Expected(
+                        "the name of the file, at its beginning".to_owned(),
+                    ));
+                }
+            }
+        }
         match order.flow {
             None => Ok((says, Onward::Next)),
             Some(flow) => self.flow(script, flow, begun.unwrap_or(true), &order),
@@ -384,8 +410,7 @@ impl<'t> Walk<'t, '_> {
         order: &Order<'_>,
     ) -> Result<(Says, Onward), Trouble> {
         let is_main = self.stack.len() == 1;
-        let own = self.scripts.get(script).and_then(|script| script.routine);
-        let is_own = |routine: Routine<'_>| own.is_some_and(|own| own.is(routine));
+        let is_own = |routine: Routine<'_>| self.is_own(script, routine);
         if order.feed.is_some() {
             return Err(Trouble::Expected("nothing else in the block".to_owned()));
         }

@@ -6,7 +6,10 @@
     reason = "a test that meets the unexpected should stop"
 )]
 
+mod by_hand;
 mod dialect;
+mod hostile;
+mod mutations;
 mod read_back;
 mod refusals;
 mod snapshots;

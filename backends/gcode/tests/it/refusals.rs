@@ -23,6 +23,7 @@ fn told(issues: &[BackendIssue]) -> Vec<&str> {
             BackendIssue::MissingMachineField { field, .. } => field,
             BackendIssue::OptionConflict { key, .. } | BackendIssue::Profile { key, .. } => key,
             BackendIssue::Unsupported { what, .. } | BackendIssue::OutOfRange { what, .. } => what,
+            BackendIssue::Failed(_) => "fault",
         })
         .collect()
 }

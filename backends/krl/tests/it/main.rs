@@ -11,7 +11,10 @@ mod support;
 
 mod dialect;
 mod never;
+mod oddities;
 mod parts;
+mod profile;
+mod read_back;
 mod refusals;
 mod round_trip;
 mod snapshots;

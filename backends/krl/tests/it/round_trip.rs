@@ -47,6 +47,7 @@ fn cell() -> impl Strategy<Value = CellRecipe> {
     )
         .prop_map(|(tool, base, load, home, ultrasonic, ready)| CellRecipe {
             maker: vcutc_backend_api::ir::Maker::Kuka,
+            kind: vcutc_backend_api::ir::MachineKind::Robot,
             tool,
             base,
             load,
@@ -86,7 +87,7 @@ fn process() -> impl Strategy<Value = Recipe> {
         )
 }
 
-fn recipe() -> impl Strategy<Value = Recipe> {
+pub(crate) fn recipe() -> impl Strategy<Value = Recipe> {
     (
         process(),
         cell(),
@@ -110,7 +111,7 @@ fn recipe() -> impl Strategy<Value = Recipe> {
 }
 
 /// Values for all options.
-fn values() -> impl Strategy<Value = Vec<(&'static str, OptionValue)>> {
+pub(crate) fn values() -> impl Strategy<Value = Vec<(&'static str, OptionValue)>> {
     (
         3..=6_u32,
         prop_oneof![Just(0), 1..60_u32, Just(2500)],

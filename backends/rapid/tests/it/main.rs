@@ -10,4 +10,8 @@
 mod support;
 
 mod dialect;
+mod edits;
+mod never;
+mod refusals;
+mod round_trip;
 mod snapshots;

@@ -6,6 +6,7 @@ use crate::machine::peak_memory;
 use std::path::PathBuf;
 use vcutc::kinematics::batch::{Answers, BranchAnswers};
 use vcutc_backend_api::bundle::Bundle;
+use vcutc_backend_api::readback::program_files;
 use vcutc_benches::contour::{self, Axes, Height, Polygons};
 use vcutc_benches::emission::{self, Folder, Lines};
 use vcutc_benches::jobs;
@@ -129,10 +130,13 @@ fn emission(text: &str) -> Vec<(&'static str, f64)> {
         to_files(way);
         emission::assert_same_files(&bundle, &path);
     }
-    let [memory, backend, formatted, finished] = medians(|| {
+    let files = program_files(&bundle);
+    let [memory, read, retrace, backend, formatted, finished] = medians(|| {
         let (memory, ()) = time(|| stages::emit(&program, &options, &mut Discard::default()));
+        let (read, _) = time(|| stages::read(&program, &options, &files));
+        let (retrace, ()) = time(|| stages::retrace(&program, &options, &files));
         let [backend, formatted, finished] = ways.map(to_files);
-        [memory, backend, formatted, finished]
+        [memory, read, retrace, backend, formatted, finished]
     });
     remove(&path);
     vec![
@@ -144,6 +148,8 @@ fn emission(text: &str) -> Vec<(&'static str, f64)> {
             bundle.files().iter().map(|(_, bytes)| bytes.len()).sum::<usize>() as f64,
         ),
         ("memory", memory),
+        ("read", read),
+        ("retrace", retrace),
         ("backend", backend),
         ("formatted", formatted),
         ("finished", finished),

@@ -32,6 +32,8 @@ pub(crate) fn print() {
     print_memory(&memory);
     println!("\n### Writing the same files\n");
     print_emission(&emission);
+    println!("\n### Reading them back\n");
+    print_reading(&emission);
     println!("\n### Machined contour, ns per cut\n");
     print_contour(&contour);
     println!("\n### Inverse kinematics, ns per pose\n");
@@ -112,6 +114,12 @@ fn goals(
             "files against writing the finished bytes",
             2.5,
             emission["backend"] / emission["finished"],
+            "x",
+        ),
+        at_most(
+            "reading the files against formatting them, in memory",
+            2.0,
+            emission["read"] / emission["memory"],
             "x",
         ),
         at_least(
@@ -267,6 +275,27 @@ fn print_emission(emission: &Figures) {
             time / moves,
             bytes / time * 1e3,
             time / emission["finished"]
+        );
+    }
+}
+
+fn print_reading(emission: &Figures) {
+    let [lines, moves, bytes] = ["lines", "moves", "bytes"].map(|name| emission[name]);
+    println!("| way | ns per line | ns per motion | MB/s | times formatting them |");
+    println!("|---|---|---|---|---|");
+    let ways = [
+        ("memory", "formatted, bytes discarded"),
+        ("read", "read, statements discarded"),
+        ("retrace", "read, and held against the program"),
+    ];
+    for (name, title) in ways {
+        let time = emission[name];
+        println!(
+            "| {title} | {:.0} | {:.0} | {:.0} | {:.2} |",
+            time / lines,
+            time / moves,
+            bytes / time * 1e3,
+            time / emission["memory"]
         );
     }
 }

@@ -3,7 +3,7 @@
 //! A coordinate without a point may be read in thousandths of a mm, as a parameter says [F-30], so it is refused. One M code is
 //! what a block may have without other parameters.
 
-use super::{Tongue, WorkOffset, american_g, seconds};
+use super::{Heads, Tongue, WorkOffset, american_g, seconds};
 use crate::read::lines::{self, Code, Style};
 use crate::read::order::{
     Act, Context, Coordinates, Flow, Habit, Mode, Once, Order, Parsed, Routine, Tcp, Trouble, expected,
@@ -35,6 +35,10 @@ impl Tongue for Fanuc {
 
     fn exact(&self) -> &'static str {
         "G61"
+    }
+
+    fn heads(&self) -> Heads {
+        Heads::All
     }
 
     fn endings(&self) -> [&'static str; 2] {

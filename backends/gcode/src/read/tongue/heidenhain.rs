@@ -3,7 +3,7 @@
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
 
-use super::{Tongue, WorkOffset, seconds, stem};
+use super::{Heads, Tongue, WorkOffset, seconds, stem};
 use crate::dialect::FeedMode;
 use crate::read::lines::Style;
 use crate::read::order::{
@@ -39,6 +39,10 @@ impl Tongue for Heidenhain {
 
     fn exact(&self) -> &'static str {
         "R0"
+    }
+
+    fn heads(&self) -> Heads {
+        Heads::All
     }
 
     fn endings(&self) -> [&'static str; 2] {

@@ -3,7 +3,7 @@
 //! What switches the kinematics is given by the job ([`codes`](crate::read::codes)), so nothing here says that the tip is
 //! controlled. `G61` stops at corners only, and `M62` switches with the next motion, so neither is what is needed.
 
-use super::{Tongue, WorkOffset, american_g, rounding, seconds, stem};
+use super::{Heads, Tongue, WorkOffset, american_g, rounding, seconds, stem};
 use crate::read::lines::Style;
 use crate::read::order::{
     Act, Context, Coordinates, Flow, Habit, Mode, Order, Parsed, Routine, Trouble, expected,
@@ -39,6 +39,10 @@ impl Tongue for LinuxCnc {
 
     fn exact(&self) -> &'static str {
         "G61.1"
+    }
+
+    fn heads(&self) -> Heads {
+        Heads::OfParts
     }
 
     fn endings(&self) -> [&'static str; 2] {

@@ -39,6 +39,9 @@ pub(super) trait Tongue: Sync {
     /// The words behind which all is stopped at a standstill, for messages.
     fn exact(&self) -> &'static str;
 
+    /// Which files begin with their name.
+    fn heads(&self) -> Heads;
+
     /// What ends the program and a part, for messages.
     fn endings(&self) -> [&'static str; 2];
 
@@ -56,6 +59,14 @@ pub(super) enum WorkOffset {
     Said,
     /// The operator.
     Preset,
+}
+
+/// Which files begin with their name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Heads {
+    None,
+    OfParts,
+    All,
 }
 
 /// How the dialect of some options is read.

@@ -3,7 +3,7 @@
 //! Besides letters with numbers it has words, values behind `=`, and labels. A word that stands alone and is none of the
 //! control's is the name of a part.
 
-use super::{Tongue, WorkOffset, rounding, seconds, standard_g, stem};
+use super::{Heads, Tongue, WorkOffset, rounding, seconds, standard_g, stem};
 use crate::read::lines::Style;
 use crate::read::order::{
     Act, Context, Coordinates, Flow, Habit, Mode, Once, Order, Parsed, Routine, Tcp, Trouble, expected,
@@ -47,6 +47,10 @@ impl Tongue for Sinumerik {
 
     fn exact(&self) -> &'static str {
         "G60"
+    }
+
+    fn heads(&self) -> Heads {
+        Heads::None
     }
 
     fn endings(&self) -> [&'static str; 2] {

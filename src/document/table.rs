@@ -1,41 +1,41 @@
-//! Reading a TOML table of a sheet, with a flaw for everything that does not fit.
+//! Reading a TOML table of a sheet or a profile, with a flaw for everything that does not fit.
 //!
 //! A [`Table`] is told the keys that its form has and reports others; after that each value is asked for by key. What is missing or faulty comes back as `None`, and faults are among the [`Flaw`]s then: a reader
 //! goes on to the end, so that one run shows all of them.
 
 use super::flaw::Flaw;
 use crate::diag::suggest::nearest;
-use core::ops::Range;
+use core::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Numbers of one kind: their unit, and the span of values that can mean something.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Measure {
+pub(crate) struct Measure {
     /// Unit, with which keys end too.
-    pub(super) unit: &'static str,
+    pub(crate) unit: &'static str,
     /// Smallest.
-    pub(super) min: f64,
+    pub(crate) min: f64,
     /// Largest.
-    pub(super) max: f64,
+    pub(crate) max: f64,
 }
 
 /// Lengths and coordinates.
-pub(super) const LENGTH: Measure = measure("mm", -100_000.0, 100_000.0);
+pub(crate) const LENGTH: Measure = measure("mm", -100_000.0, 100_000.0);
 /// Angles of axes and offsets.
-pub(super) const ANGLE: Measure = measure("deg", -720.0, 720.0);
+pub(crate) const ANGLE: Measure = measure("deg", -720.0, 720.0);
 /// Rates of rotary axes.
-pub(super) const TURNING_RATE: Measure = measure("deg/s", 0.001, 100_000.0);
+pub(crate) const TURNING_RATE: Measure = measure("deg/s", 0.001, 100_000.0);
 /// Accelerations of rotary axes.
-pub(super) const TURNING_ACCELERATION: Measure = measure("deg/s2", 0.001, 10_000_000.0);
+pub(crate) const TURNING_ACCELERATION: Measure = measure("deg/s2", 0.001, 10_000_000.0);
 /// Rates of linear axes.
-pub(super) const SLIDING_RATE: Measure = measure("mm/s", 0.001, 1_000_000.0);
+pub(crate) const SLIDING_RATE: Measure = measure("mm/s", 0.001, 1_000_000.0);
 /// Accelerations of linear axes.
-pub(super) const SLIDING_ACCELERATION: Measure = measure("mm/s2", 0.001, 100_000_000.0);
+pub(crate) const SLIDING_ACCELERATION: Measure = measure("mm/s2", 0.001, 100_000_000.0);
 /// Masses.
-pub(super) const MASS: Measure = measure("kg", 0.0, 1_000_000.0);
+pub(crate) const MASS: Measure = measure("kg", 0.0, 1_000_000.0);
 /// Pure numbers from -1 to 1.
-pub(super) const SHARE: Measure = measure("", -1.0, 1.0);
+pub(crate) const SHARE: Measure = measure("", -1.0, 1.0);
 
 const fn measure(unit: &'static str, min: f64, max: f64) -> Measure {
     Measure { unit, min, max }
@@ -56,8 +56,10 @@ const MOST_UNKNOWN: usize = 10;
 
 /// A table that is being read.
 #[derive(Clone)]
-pub(super) struct Table<'t> {
-    /// How the sheet writes it, such as `[opw]`; empty for the sheet as a whole.
+pub(crate) struct Table<'t> {
+    /// What it is a table of, such as `sheet`.
+    document: &'static str,
+    /// How the document writes it, such as `[opw]`; empty for the document as a whole.
     title: String,
     /// Where complaints about the table as a whole point.
     span: Range<usize>,
@@ -65,9 +67,10 @@ pub(super) struct Table<'t> {
 }
 
 impl<'t> Table<'t> {
-    /// The sheet as a whole, whatever keys it has.
-    pub(super) const fn root(entries: &'t DeTable<'t>) -> Self {
+    /// The document as a whole, whatever keys it has.
+    pub(crate) const fn root(entries: &'t DeTable<'t>, document: &'static str) -> Self {
         Self {
+            document,
             title: String::new(),
             span: 0..0,
             entries,
@@ -75,7 +78,7 @@ impl<'t> Table<'t> {
     }
 
     /// Reports keys other than these.
-    pub(super) fn allow(&self, known: &[&str], flaws: &mut Vec<Flaw>) {
+    pub(crate) fn allow(&self, known: &[&str], flaws: &mut Vec<Flaw>) {
         let unknown = self
             .entries
             .keys()
@@ -86,7 +89,7 @@ impl<'t> Table<'t> {
 
     fn unknown(&self, key: &str, span: Range<usize>, known: &[&str]) -> Flaw {
         let holder = if self.title.is_empty() {
-            "a sheet".to_owned()
+            format!("a {}", self.document)
         } else {
             format!("`{}`", self.title)
         };
@@ -108,12 +111,12 @@ impl<'t> Table<'t> {
 
     /// Where complaints about the table as a whole point.
     #[must_use]
-    pub(super) fn span(&self) -> Range<usize> {
+    pub(crate) fn span(&self) -> Range<usize> {
         self.span.clone()
     }
 
     /// Reports those of these keys that the table lacks. Each comes with a line that would do.
-    pub(super) fn require(&self, lines: &[(&str, &str)], flaws: &mut Vec<Flaw>) {
+    pub(crate) fn require(&self, lines: &[(&str, &str)], flaws: &mut Vec<Flaw>) {
         let lacking: Vec<_> = lines.iter().filter(|(key, _)| self.get(key).is_none()).collect();
         if lacking.is_empty() {
             return;
@@ -122,7 +125,7 @@ impl<'t> Table<'t> {
         let keys = list(lacking.iter().map(|(key, _)| format!("`{key}`")).collect());
         let lines = list(lacking.iter().map(|(_, line)| format!("`{line}`")).collect());
         let holder = if self.title.is_empty() {
-            "the sheet".to_owned()
+            format!("the {}", self.document)
         } else {
             format!("`{}`", self.title)
         };
@@ -142,13 +145,13 @@ impl<'t> Table<'t> {
 
     /// Whether the key is there.
     #[must_use]
-    pub(super) fn has(&self, key: &str) -> bool {
+    pub(crate) fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
     }
 
     /// Where the value of a key stands.
     #[must_use]
-    pub(super) fn span_of(&self, key: &str) -> Range<usize> {
+    pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
         self.get(key).map_or_else(|| self.span(), Spanned::span)
     }
 
@@ -160,17 +163,18 @@ impl<'t> Table<'t> {
     }
 
     /// The table under a key, which has these keys.
-    pub(super) fn table(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Option<Self> {
+    pub(crate) fn table(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Option<Self> {
         let table = self.loose_table(key, flaws)?;
         table.allow(known, flaws);
         Some(table)
     }
 
     /// The table under a key, whatever it holds: sections that only people read.
-    pub(super) fn loose_table(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<Self> {
+    pub(crate) fn loose_table(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<Self> {
         let value = self.get(key)?;
         match value.get_ref() {
             DeValue::Table(entries) => Some(Self {
+                document: self.document,
                 title: self.path(key),
                 span: value.span(),
                 entries,
@@ -183,12 +187,13 @@ impl<'t> Table<'t> {
     }
 
     /// The tables under a key that stands in double brackets; empty when there is none.
-    pub(super) fn tables(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Vec<Self> {
+    pub(crate) fn tables(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Vec<Self> {
         let mut tables = Vec::new();
         for value in self.elements(key, "tables in double brackets", flaws) {
             match value.get_ref() {
                 DeValue::Table(entries) => {
                     let table = Self {
+                        document: self.document,
                         title: format!("[{}]", self.path(key)),
                         span: value.span(),
                         entries,
@@ -203,12 +208,18 @@ impl<'t> Table<'t> {
     }
 
     /// The text under a key.
-    pub(super) fn text(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<&'t str> {
+    pub(crate) fn text(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<&'t str> {
         text(key, "a text in quotes", self.get(key)?, flaws)
     }
 
     /// The texts under a key: a list, or a single one.
-    pub(super) fn texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<String> {
+    pub(crate) fn texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<String> {
+        let texts = self.placed_texts(key, flaws).into_iter();
+        texts.map(|(text, _)| text.to_owned()).collect()
+    }
+
+    /// The same, each with where it stands.
+    pub(crate) fn placed_texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<(&'t str, Range<usize>)> {
         let single = self
             .get(key)
             .filter(|value| matches!(value.get_ref(), DeValue::String(_)));
@@ -217,13 +228,12 @@ impl<'t> Table<'t> {
             None => self.elements(key, "a list of texts", flaws),
         };
         all.iter()
-            .filter_map(|value| text(key, "texts in quotes", value, flaws))
-            .map(str::to_owned)
+            .filter_map(|value| Some((text(key, "texts in quotes", value, flaws)?, value.span())))
             .collect()
     }
 
     /// The names in a list under a key.
-    pub(super) fn names(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<&'t str> {
+    pub(crate) fn names(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<&'t str> {
         let mut names = Vec::new();
         for value in self.elements(key, "a list of names", flaws) {
             match value.get_ref() {
@@ -235,7 +245,7 @@ impl<'t> Table<'t> {
     }
 
     /// The word under a key, one of a few.
-    pub(super) fn word<T: Copy>(&self, key: &str, words: &[(&str, T)], flaws: &mut Vec<Flaw>) -> Option<T> {
+    pub(crate) fn word<T: Copy>(&self, key: &str, words: &[(&str, T)], flaws: &mut Vec<Flaw>) -> Option<T> {
         let given = self.text(key, flaws)?;
         if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == given) {
             return Some(*meaning);
@@ -255,7 +265,7 @@ impl<'t> Table<'t> {
     }
 
     /// `true` or `false` under a key.
-    pub(super) fn truth(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<bool> {
+    pub(crate) fn truth(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<bool> {
         let value = self.get(key)?;
         match value.get_ref() {
             DeValue::Boolean(truth) => Some(*truth),
@@ -266,13 +276,35 @@ impl<'t> Table<'t> {
         }
     }
 
+    /// The whole number under a key, within this range.
+    pub(crate) fn whole(&self, key: &str, range: RangeInclusive<u32>, flaws: &mut Vec<Flaw>) -> Option<u32> {
+        let (min, max) = (f64::from(*range.start()), f64::from(*range.end()));
+        let number = self.number(key, measure("", min, max), flaws)?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "within the range of the type, and what has a fraction is refused"
+        )]
+        let whole = number as u32;
+        if f64::from(whole) == number {
+            return Some(whole);
+        }
+        let flaw = Flaw::new(
+            self.span_of(key),
+            format!("`{key}` takes a whole number, not {number}"),
+            "not a whole number",
+        );
+        flaws.push(flaw.help(format!("write `{key} = {whole}`")));
+        None
+    }
+
     /// The number under a key.
-    pub(super) fn number(&self, key: &str, measure: Measure, flaws: &mut Vec<Flaw>) -> Option<f64> {
+    pub(crate) fn number(&self, key: &str, measure: Measure, flaws: &mut Vec<Flaw>) -> Option<f64> {
         number(key, self.get(key)?, measure, flaws)
     }
 
     /// A fixed count of numbers under a key.
-    pub(super) fn numbers<const N: usize>(
+    pub(crate) fn numbers<const N: usize>(
         &self,
         key: &str,
         measure: Measure,
@@ -282,7 +314,7 @@ impl<'t> Table<'t> {
     }
 
     /// A fixed count of ranges `[min, max]` under a key, each at most `widest` wide.
-    pub(super) fn ranges<const N: usize>(
+    pub(crate) fn ranges<const N: usize>(
         &self,
         key: &str,
         measure: Measure,
@@ -299,7 +331,7 @@ impl<'t> Table<'t> {
     }
 
     /// A range `[min, max]` under a key, at most `widest` wide.
-    pub(super) fn range(
+    pub(crate) fn range(
         &self,
         key: &str,
         measure: Measure,

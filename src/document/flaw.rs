@@ -39,11 +39,11 @@ impl Flaw {
         self
     }
 
-    /// What people get to see, when the description is that file.
+    /// What people get to see under a code, when the description is that file.
     #[must_use]
-    pub fn diagnostic(&self, file: FileId) -> Diagnostic {
+    pub fn diagnostic(&self, code: Code, file: FileId) -> Diagnostic {
         let span = Span::of_bytes(file, self.span.clone());
-        let diagnostic = Diagnostic::new(Code::BadMachineFile, &*self.message, span, &*self.label);
+        let diagnostic = Diagnostic::new(code, &*self.message, span, &*self.label);
         match &self.help {
             Some(help) => diagnostic.help(help),
             None => diagnostic,

@@ -1,0 +1,456 @@
+//! Programs told faithfully are followed to their end; told wrongly in one place, they are left right there.
+
+use super::{
+    Deed, Departure, DepartureKind, End, FrameRole, FrameSetting, Frames, Grain, Held, Judge, Mismatch, Pace,
+    Place, Reader, Retrace, Retraced, Says, Sources, Stance, Statement, Target,
+};
+use crate::backend::Options;
+use crate::geometry::{Orientation, Point3};
+use crate::ir::{Action, AxisValues, OpId, Program, Ready, Switch};
+use crate::motion::{Branch, Motion, ReachableProgram, Waypoint, Wrist, pose_after};
+use crate::stroke::Stroke;
+use crate::testkit::{Crossing, Recipe, axes_at, blade_in_work, reachable, samples};
+use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
+use crate::verify::verify;
+use proptest::prelude::*;
+
+/// A dialect that says everything, and prints three decimals.
+struct Plain;
+
+const GRAIN: Grain = Grain {
+    length: Length::mm(0.0005),
+    attitude: Angle::rad(1e-5),
+    axis: Angle::rad(1e-5),
+    speed: Speed::mm_per_s(0.0005),
+    rate: AngularSpeed::rad_per_s(1e-5),
+    per_minute: 0.0005,
+    time: Duration::s(0.0005),
+};
+
+impl Reader for Plain {
+    fn recognises(&self, _file: &str) -> bool {
+        true
+    }
+    fn grain(&self, _options: &Options) -> Grain {
+        GRAIN
+    }
+    fn frames(&self) -> Frames {
+        Frames::InProgram
+    }
+    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance> {
+        let Branch::Arm { wrist, .. } = branch else {
+            return None;
+        };
+        Some(Stance([
+            i32::from(wrist == Wrist::Negative),
+            i32::from(axes.0[3] < 0.0),
+            0,
+            0,
+        ]))
+    }
+    fn read(&self, _sources: Sources<'_>, _heed: &mut dyn FnMut(Statement)) {}
+}
+
+fn target(program: &ReachableProgram, op: OpId, tip: Point3, orientation: Orientation) -> Target {
+    let axes = program.axes_after(op).unwrap();
+    let stance = Plain.stance(program.branch_after(op).unwrap(), axes);
+    Target {
+        tip,
+        held: Held::Orientation(orientation, stance),
+    }
+}
+
+/// What the ops of a program say, put as deeds.
+fn told(reachable: &ReachableProgram) -> Vec<Deed> {
+    let program = reachable.program();
+    let cell = program.cell.as_ref().unwrap();
+    let mut at = None;
+    let mut deeds = Vec::new();
+    for (id, op) in (0..).map(OpId).zip(&program.ops) {
+        let before = at;
+        at = pose_after(at, &op.action);
+        let target = || {
+            let (tip, held) = at.unwrap();
+            target(reachable, id, tip, program.orientations[held.0 as usize])
+        };
+        deeds.push(match op.action {
+            Action::Home => Deed::Axes(cell.home.unwrap()),
+            Action::AxisTravel { .. } => Deed::AxesToPose(target()),
+            Action::Ultrasonic { state } => Deed::Switch {
+                output: cell.ultrasonic.unwrap(),
+                state,
+            },
+            Action::AwaitReady => match cell.ready {
+                Ready::Input(input) => Deed::AwaitInput(input),
+                Ready::After(time) => Deed::Wait(time),
+            },
+            Action::Dwell { time } => Deed::Wait(time),
+            Action::Travel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. } => {
+                let stroke = Stroke::of(program, before.unwrap(), &op.action).unwrap();
+                Deed::Straight {
+                    to: target(),
+                    pace: Pace::Speeds {
+                        tip: stroke.feed,
+                        turn: stroke.rate,
+                    },
+                    end: End::Exact,
+                }
+            }
+            Action::ToolChange { .. } => panic!("no sample changes its tool"),
+        });
+    }
+    deeds
+}
+
+fn frames(program: &Program) -> Vec<Says> {
+    let cell = program.cell.as_ref().unwrap();
+    let frames = [(FrameRole::Tool, cell.tool), (FrameRole::Base, cell.base)];
+    let says = frames.map(|(role, placed)| {
+        let value = FrameSetting::Value(placed.frame);
+        Says::Frame(role, placed.number.map_or(value, FrameSetting::Number))
+    });
+    says.to_vec()
+}
+
+fn retraced(reachable: &ReachableProgram, says: Vec<Says>) -> Result<Retraced, Departure> {
+    let mut retrace = Retrace::new(Judge::new(reachable, &Plain, GRAIN), Plain.frames());
+    for (start, says) in (0..).zip(says) {
+        let end = start + 1;
+        let place = Place { file: 0, start, end };
+        retrace.heed(&Statement { place, says });
+    }
+    retrace.finish()
+}
+
+/// The frames, and then deeds.
+fn whole(reachable: &ReachableProgram, deeds: impl IntoIterator<Item = Deed>) -> Vec<Says> {
+    let deeds = deeds.into_iter().map(Says::Deed);
+    frames(reachable.program()).into_iter().chain(deeds).collect()
+}
+
+fn sample() -> ReachableProgram {
+    let recipe = Recipe {
+        operations: 2,
+        crossing: Crossing::ByAxes,
+        dwell: Some(Duration::s(0.25)),
+        ..Recipe::default()
+    };
+    reachable(verify(recipe.program()).unwrap()).unwrap()
+}
+
+#[test]
+fn faithful_programs_are_followed_op_by_op() {
+    for (name, program) in samples().unwrap() {
+        let deeds = told(&program);
+        let count = deeds.len();
+        let retraced = retraced(&program, whole(&program, deeds)).unwrap();
+        let starts: Vec<u32> = retraced.places.iter().map(|place| place.start).collect();
+        assert_eq!(starts, (2..).take(count).collect::<Vec<u32>>(), "{name}");
+    }
+}
+
+#[test]
+fn a_dropped_deed_is_missed_unless_nothing_would_change() {
+    let program = sample();
+    let deeds = told(&program);
+    for drop in 0..deeds.len() {
+        let mut shorter = deeds.clone();
+        shorter.remove(drop);
+        let departure = retraced(&program, whole(&program, shorter)).unwrap_err();
+        assert!(
+            departure.op.is_some_and(|op| op.0 as usize >= drop),
+            "{departure:?}"
+        );
+    }
+}
+
+#[test]
+fn swapped_deeds_are_noticed_unless_they_are_equal() {
+    let program = sample();
+    let deeds = told(&program);
+    for first in 1..deeds.len() {
+        let mut swapped = deeds.clone();
+        swapped.swap(first - 1, first);
+        if swapped != deeds {
+            let departure = retraced(&program, whole(&program, swapped)).unwrap_err();
+            assert!(departure.op.unwrap().0 as usize >= first - 1);
+        }
+    }
+}
+
+#[test]
+fn one_deed_more_is_one_too_many() {
+    let program = sample();
+    let deeds = told(&program);
+    for repeated in 0..deeds.len() {
+        let mut longer = deeds.clone();
+        longer.insert(repeated, deeds[repeated]);
+        assert!(retraced(&program, whole(&program, longer)).is_err(), "{repeated}");
+    }
+    let after = deeds.iter().copied().chain([deeds[0]]);
+    let departure = retraced(&program, whole(&program, after)).unwrap_err();
+    assert_eq!((departure.op, departure.what), (None, DepartureKind::More));
+}
+
+/// At the head of a part the state of the machine may be said once more, and nothing else.
+#[test]
+fn parts_restate_what_holds() {
+    let program = sample();
+    let deeds = told(&program);
+    let ops = &program.program().ops;
+    let retracted = |op: &crate::ir::Op| matches!(op.action, Action::Retract { .. });
+    let cut = ops.iter().position(retracted).unwrap() + 1;
+    let (before, after) = deeds.split_at(cut);
+    let pose = {
+        let op = OpId(u32::try_from(cut).unwrap() - 1);
+        let at = program.program().ops[..cut]
+            .iter()
+            .fold(None, |at, op| pose_after(at, &op.action));
+        let (tip, held) = at.unwrap();
+        Deed::AxesToPose(target(
+            &program,
+            op,
+            tip,
+            program.program().orientations[held.0 as usize],
+        ))
+    };
+    let cell = program.program().cell.as_ref().unwrap();
+    let on = Deed::Switch {
+        output: cell.ultrasonic.unwrap(),
+        state: Switch::On,
+    };
+    let off = Deed::Switch {
+        output: cell.ultrasonic.unwrap(),
+        state: Switch::Off,
+    };
+    let Ready::After(time) = cell.ready else { panic!() };
+    let with = |part: Option<Says>, restated: &[Deed]| {
+        let mut says = whole(&program, before.iter().copied());
+        let begins = part.is_some();
+        says.extend(part);
+        if begins {
+            says.extend(frames(program.program()));
+        }
+        says.extend(restated.iter().chain(after).copied().map(Says::Deed));
+        retraced(&program, says).is_ok()
+    };
+    let begins = || Some(Says::PartBegins);
+    assert!(with(begins(), &[]));
+    assert!(with(begins(), &[pose, on, Deed::Wait(time)]));
+    assert!(!with(None, &[pose]));
+    assert!(!with(begins(), &[off]));
+    assert!(!with(begins(), &[Deed::Wait(time * 2.0)]));
+    assert!(!with(begins(), &[deeds[1]]));
+}
+
+#[test]
+fn frames_come_first_and_have_their_values() {
+    let program = sample();
+    let deeds: Vec<Says> = told(&program).into_iter().map(Says::Deed).collect();
+    let frames = frames(program.program());
+    let kind = |says: Vec<Says>| retraced(&program, says).map_err(|departure| departure.what);
+    let without_base = frames.iter().take(1).chain(&deeds).cloned().collect();
+    assert_eq!(kind(without_base), Err(DepartureKind::NoFrame(FrameRole::Base)));
+    let Says::Frame(_, tool) = frames[0].clone() else {
+        panic!()
+    };
+    let moved = match tool {
+        FrameSetting::Value(mut frame) => {
+            frame.origin.z += 0.002;
+            FrameSetting::Value(frame)
+        }
+        FrameSetting::Number(_) => panic!(),
+    };
+    for setting in [moved, FrameSetting::Number(1)] {
+        let says = [Says::Frame(FrameRole::Tool, setting)];
+        let says = says
+            .into_iter()
+            .chain(frames.clone())
+            .chain(deeds.clone())
+            .collect();
+        assert_eq!(kind(says), Err(DepartureKind::Frame(FrameRole::Tool)));
+    }
+}
+
+#[test]
+fn what_is_not_understood_is_never_passed_over() {
+    let program = sample();
+    for says in [
+        Says::Unknown,
+        Says::Unreadable {
+            expected: "a number".to_owned(),
+        },
+    ] {
+        let mut all = whole(&program, told(&program));
+        all.insert(7, says);
+        let departure = retraced(&program, all).unwrap_err();
+        assert_eq!(departure.what, DepartureKind::NotUnderstood);
+        assert_eq!(departure.place.unwrap().start, 7);
+    }
+}
+
+/// The way of a long turn may be said in steps, at its waypoints and nowhere else.
+#[test]
+fn waypoints_are_passed_in_their_order() {
+    let program = sample();
+    let ops = &program.program().ops;
+    let turn = ops
+        .iter()
+        .position(|op| matches!(op.action, Action::Turn { .. }))
+        .unwrap();
+    let at = ops[..turn].iter().fold(None, |at, op| pose_after(at, &op.action));
+    let stroke = Stroke::of(program.program(), at.unwrap(), &ops[turn].action).unwrap();
+    let op = OpId(u32::try_from(turn).unwrap());
+    let (before, after) = (
+        program.axes_after(OpId(op.0 - 1)).unwrap(),
+        program.axes_after(op).unwrap(),
+    );
+    let Some(Branch::Arm { wrist, .. }) = program.branch_after(op) else {
+        panic!()
+    };
+    let waypoint = |done: f64| {
+        let frame = stroke.frame_at(program.program(), done).unwrap();
+        let near = AxisValues(core::array::from_fn(|axis| {
+            before.0[axis] + (after.0[axis] - before.0[axis]) * done
+        }));
+        Waypoint {
+            op,
+            done,
+            frame,
+            axes: axes_at(frame.origin, frame.orientation, wrist, near),
+        }
+    };
+    let motion = Motion {
+        waypoints: vec![waypoint(0.3), waypoint(0.6)],
+        ..program.motion().clone()
+    };
+    let program = ReachableProgram::assemble(program.verified().clone(), motion, &blade_in_work).unwrap();
+    let deeds = told(&program);
+    let Deed::Straight { pace, .. } = deeds[turn] else {
+        panic!()
+    };
+    let step = |waypoint: &Waypoint| Deed::Straight {
+        to: Target {
+            tip: waypoint.frame.origin,
+            held: Held::Orientation(
+                waypoint.frame.orientation,
+                Plain.stance(program.branch_after(op).unwrap(), waypoint.axes),
+            ),
+        },
+        pace,
+        end: End::Exact,
+    };
+    let steps: Vec<Deed> = program.motion().waypoints.iter().map(step).collect();
+    let with = |steps: &[Deed]| {
+        let mut deeds = deeds.clone();
+        deeds.splice(turn..turn, steps.iter().copied());
+        retraced(&program, whole(&program, deeds)).is_ok()
+    };
+    assert!(with(&steps));
+    assert!(with(&[]));
+    assert!(!with(&[steps[1], steps[0]]));
+    assert!(!with(&[steps[0], steps[0]]));
+}
+
+/// Each number of a deed that the op says.
+fn nudged(deed: Deed, which: usize, by: f64) -> Option<Deed> {
+    let tip = |target: Target| {
+        let mut target = target;
+        let coordinate = match which {
+            0 => &mut target.tip.x,
+            1 => &mut target.tip.y,
+            2 => &mut target.tip.z,
+            _ => return None,
+        };
+        *coordinate += by * GRAIN.length.to_mm();
+        Some(target)
+    };
+    match deed {
+        Deed::Axes(mut values) => {
+            *values.0.get_mut(which)? += by * GRAIN.axis.to_rad();
+            Some(Deed::Axes(values))
+        }
+        Deed::AxesToPose(target) => tip(target).map(Deed::AxesToPose),
+        Deed::Straight { to, pace, end } => match (which, pace) {
+            (0..=2, _) => tip(to).map(|to| Deed::Straight { to, pace, end }),
+            (
+                3,
+                Pace::Speeds {
+                    tip: Some(speed),
+                    turn,
+                },
+            ) => Some(Deed::Straight {
+                to,
+                pace: Pace::Speeds {
+                    tip: Some(speed + GRAIN.speed * by),
+                    turn,
+                },
+                end,
+            }),
+            _ => None,
+        },
+        Deed::Wait(time) => (which == 0).then(|| Deed::Wait(time + GRAIN.time * by)),
+        Deed::Switch { .. } | Deed::AwaitInput(_) => None,
+    }
+}
+
+proptest! {
+    /// Half a unit of the last place is rounding; a whole one is another number.
+    #[test]
+    fn numbers_are_held_to_what_is_printed(
+        place in any::<proptest::sample::Index>(),
+        which in 0_usize..6,
+        within in -1.0..1.0_f64,
+        beyond in prop_oneof![-9.0..-1.1_f64, 1.1..9.0_f64],
+    ) {
+        let program = sample();
+        let mut deeds = told(&program);
+        let place = place.index(deeds.len());
+        let deed = deeds[place];
+        if let Some(near) = nudged(deed, which, within) {
+            deeds[place] = near;
+            prop_assert!(retraced(&program, whole(&program, deeds.clone())).is_ok());
+        }
+        if let Some(far) = nudged(deed, which, beyond) {
+            deeds[place] = far;
+            let departure = retraced(&program, whole(&program, deeds)).unwrap_err();
+            prop_assert_eq!(departure.op.unwrap().0 as usize, place);
+            let DepartureKind::Differs(found) = departure.what else { panic!() };
+            prop_assert!(found.iter().all(|mismatch| *mismatch != Mismatch::Kind));
+        }
+    }
+
+    /// The way between two orientations: its ends, its even pace, and both against the exponential of its axis.
+    #[test]
+    fn a_blade_turns_about_one_axis(
+        (a, b, c) in (-3.0..3.0_f64, -1.5..1.5_f64, -3.0..3.0_f64),
+        (x, y, z) in (-1.0..1.0_f64, -1.0..1.0_f64, 0.1..1.0_f64),
+        angle in 0.0..3.0_f64,
+        done in 0.0..1.0_f64,
+    ) {
+        let from = Orientation::from_zyx(crate::geometry::Zyx {
+            a: Angle::rad(a),
+            b: Angle::rad(b),
+            c: Angle::rad(c),
+        });
+        let length = (x * x + y * y + z * z).sqrt();
+        let turned = |by: f64| {
+            let (sine, cosine) = libm::sincos(by / 2.0);
+            let [w1, x1, y1, z1] = from.quaternion();
+            let [w2, x2, y2, z2] = [cosine, sine * x / length, sine * y / length, sine * z / length];
+            Orientation::from_quaternion(
+                w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
+                w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
+                w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2,
+                w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2,
+            )
+            .unwrap()
+        };
+        let on_the_way = from.towards(turned(angle), done);
+        prop_assert!(on_the_way.angle_to(turned(angle * done)).to_rad() < 1e-9);
+    }
+}

@@ -1,0 +1,245 @@
+//! Words, numbers and signs of one line.
+
+/// A place in the text of a statement. Every function leaves it where it was when what it looks for is not there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cursor<'t> {
+    text: &'t str,
+    at: usize,
+}
+
+/// Powers of ten that a double holds exactly.
+const TENS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19, 1e20, 1e21, 1e22,
+];
+
+/// Whole numbers up to here are doubles.
+const EXACT: u64 = 1 << 53;
+
+/// So many digits fit into a `u64`.
+const MOST_DIGITS: usize = 19;
+
+/// What stands where a number should.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Number {
+    /// Something else.
+    None,
+    /// A number.
+    Is(f64),
+    /// Digits that are no number, or one that is too large.
+    Bad,
+}
+
+impl<'t> Cursor<'t> {
+    pub(super) const fn new(text: &'t str) -> Self {
+        Self { text, at: 0 }
+    }
+
+    #[inline]
+    fn byte(&self, at: usize) -> Option<u8> {
+        self.text.as_bytes().get(at).copied()
+    }
+
+    /// The next byte that is no blank.
+    #[inline]
+    pub(super) fn peek(&mut self) -> Option<u8> {
+        let mut at = self.at;
+        loop {
+            match self.byte(at) {
+                Some(b' ' | b'\t' | b'\r') => at += 1,
+                other => {
+                    self.at = at;
+                    return other;
+                }
+            }
+        }
+    }
+
+    /// What is left, without the blanks before it.
+    pub(super) fn rest(&mut self) -> &'t str {
+        self.peek();
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
+    /// Goes over a sign.
+    #[inline]
+    pub(super) fn skip(&mut self, sign: u8) -> bool {
+        let is_there = self.peek() == Some(sign);
+        if is_there {
+            self.at += 1;
+        }
+        is_there
+    }
+
+    /// A name: letters, digits, `_` and `$`, not beginning with a digit.
+    #[inline]
+    pub(super) fn word(&mut self) -> Option<&'t str> {
+        let begins = self
+            .peek()
+            .is_some_and(|byte| is_of_word(byte) && !byte.is_ascii_digit());
+        begins.then(|| self.run(is_of_word))
+    }
+
+    /// The bytes from here on that are of a kind, all of them ASCII.
+    #[inline]
+    fn run(&mut self, is_of: impl Fn(u8) -> bool) -> &'t str {
+        let start = self.at;
+        let mut at = start;
+        while self.byte(at).is_some_and(&is_of) {
+            at += 1;
+        }
+        self.at = at;
+        self.text.get(start..at).unwrap_or_default()
+    }
+
+    /// Text in this kind of quotes.
+    pub(super) fn quoted(&mut self, quote: u8) -> Option<&'t str> {
+        if self.peek() != Some(quote) {
+            return None;
+        }
+        let inner = self.text.get(self.at + 1..)?;
+        let length = inner.bytes().position(|byte| byte == quote)?;
+        self.at += length + 2;
+        inner.get(..length)
+    }
+
+    /// A number without sign and point, as places of arrays have it.
+    pub(super) fn whole(&mut self) -> Option<u32> {
+        self.peek()?;
+        let before = *self;
+        let number = self.run(|byte| byte.is_ascii_digit()).parse().ok();
+        if number.is_none() {
+            *self = before;
+        }
+        number
+    }
+
+    /// A number, with its sign.
+    ///
+    /// As a whole number of at most 19 digits divided by a power of ten, which rounds once and so gives the nearest double
+    /// (Clinger, How to Read Floating Point Numbers Accurately, 1990); what is longer goes the long way.
+    #[inline]
+    pub(super) fn number(&mut self) -> Number {
+        let before = *self;
+        let negative = match self.peek() {
+            Some(sign @ (b'-' | b'+')) => {
+                self.at += 1;
+                self.peek();
+                sign == b'-'
+            }
+            _ => false,
+        };
+        let start = self.at;
+        let (whole, digits) = self.digits(0);
+        let (fraction, digits) = if self.byte(self.at) == Some(b'.') {
+            self.at += 1;
+            self.digits(digits)
+        } else {
+            (0, digits)
+        };
+        if whole + fraction == 0 {
+            *self = before;
+            return Number::None;
+        }
+        let is_plain = match self.byte(self.at) {
+            None | Some(b',' | b'}' | b' ') => true,
+            Some(_) => !self.exponent(),
+        };
+        if self
+            .byte(self.at)
+            .is_some_and(|byte| is_of_word(byte) || byte == b'.')
+        {
+            return Number::Bad;
+        }
+        let size = match TENS.get(fraction) {
+            Some(scale) if is_plain && whole + fraction <= MOST_DIGITS && digits <= EXACT => {
+                Some(digits as f64 / scale)
+            }
+            _ => self.text.get(start..self.at).and_then(|text| text.parse().ok()),
+        };
+        match size {
+            Some(size) if size.is_finite() => Number::Is(if negative { -size } else { size }),
+            _ => Number::Bad,
+        }
+    }
+
+    /// Goes over digits. Gives how many, and the number that they make behind those of another; meaningless when there are
+    /// more than fit.
+    #[inline]
+    fn digits(&mut self, before: u64) -> (usize, u64) {
+        let start = self.at;
+        let (mut at, mut number) = (start, before);
+        while let Some(digit @ b'0'..=b'9') = self.byte(at) {
+            number = number.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
+            at += 1;
+        }
+        self.at = at;
+        (at - start, number)
+    }
+
+    /// Goes over an exponent.
+    fn exponent(&mut self) -> bool {
+        if !matches!(self.byte(self.at), Some(b'E' | b'e')) {
+            return false;
+        }
+        let before = *self;
+        self.at += 1;
+        if matches!(self.byte(self.at), Some(b'-' | b'+')) {
+            self.at += 1;
+        }
+        let (digits, _) = self.digits(0);
+        let is_one = digits > 0;
+        if !is_one {
+            *self = before;
+        }
+        is_one
+    }
+}
+
+#[inline]
+const fn is_of_word(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn number(text: &str) -> Number {
+        Cursor::new(text).number()
+    }
+
+    #[test]
+    fn numbers_may_have_sign_point_and_exponent() {
+        for (text, value) in [
+            ("0", 0.0),
+            ("1.5", 1.5),
+            (".5", 0.5),
+            ("5.", 5.0),
+            ("- 2.25", -2.25),
+            ("+3,", 3.0),
+            ("1E-3}", 1e-3),
+            ("12345678901234567890.5", 12_345_678_901_234_567_890.5),
+        ] {
+            assert_eq!(number(text), Number::Is(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_none() {
+        for text in ["", "-", ".", "X", "{"] {
+            assert_eq!(number(text), Number::None, "{text}");
+        }
+        for text in ["1x", "1.2.3", "1E", "1E400", "0X1F"] {
+            assert_eq!(number(text), Number::Bad, "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_are_those_of_the_standard_library(text in "-?[0-9]{1,12}(\\.[0-9]{0,14})?") {
+            prop_assert_eq!(number(&text), Number::Is(text.parse().unwrap()));
+        }
+    }
+}

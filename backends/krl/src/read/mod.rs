@@ -1,0 +1,99 @@
+//! KRL programs read back.
+//!
+//! Reading has two halves that know nothing of each other's business. [`syntax`] turns lines into statements with places
+//! and would serve any reader of KRL. The rest carries them out as far as the programs of this crate go: routines are
+//! followed from call to call, variables, speeds and modes are kept, and every statement is told with what it does
+//! ([`Says`](vcutc_backend_api::readback::Says)).
+//!
+//! # What is understood
+//!
+//! * Modules of `.src` and `.dat`, subprograms of a file, `GLOBAL DEF`. The program is the first module that no other
+//!   calls. A routine is followed where it is called first; a second call of it is not understood, and the head of one that
+//!   nobody calls neither.
+//! * `PTP`, `LIN`, `SPTP`, `SLIN` to literals and to positions with names, whose components may be given one by one. What a
+//!   literal leaves out is what the last one said; S and T count for moves of all axes only. External axes may be given
+//!   as 0, for the arms of this crate have none.
+//! * `C_DIS` behind `LIN` and `C_SPL` behind `SLIN`. Other ways of rounding, and rounded moves of all axes, are not
+//!   understood, because nothing says how far they cut a corner.
+//! * `$VEL.CP`, `$VEL.ORI1` and `.ORI2` (equal, to count as a rate), `$TOOL` and `$BASE` by value or number, `$OUT[n]`,
+//!   `WAIT SEC`, `WAIT FOR $IN[n]`.
+//! * Modes, load, rounding distance and axis speed, where they are those of the job; anything else is not understood, nor
+//!   is a motion for which one of them was not said (the module `setup`).
+//! * Lines of the machine's profile at the head and the end of the program.
+//!
+//! Everything else is told as [`Unknown`](vcutc_backend_api::readback::Says::Unknown): nothing is guessed. Lines with `&` at
+//! the head of a file are records of the controller's editor, which counts there how often it has saved a file; they are
+//! no statements, like comments.
+
+mod controller;
+mod cursor;
+mod index;
+mod parse;
+mod profile;
+mod run;
+mod setup;
+pub mod syntax;
+mod variables;
+
+use crate::configuration::Configuration;
+use crate::options::Settings;
+use setup::half_a_unit;
+use vcutc_backend_api::backend::Options;
+use vcutc_backend_api::ir::AxisValues;
+use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::readback::{Frames, Grain, Reader, Sources, Stance, Statement};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
+
+/// The reader of KRL.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct KrlReader;
+
+/// Half of the sixth decimal, in which speeds and times end.
+const FINE: f64 = 0.5e-6;
+
+impl Reader for KrlReader {
+    fn recognises(&self, file: &str) -> bool {
+        let (_, extension) = index::stem(file);
+        ["src", "dat"]
+            .iter()
+            .any(|known| syntax::is_same_name(extension, known))
+    }
+
+    fn grain(&self, options: &Options) -> Grain {
+        let settings = Settings::read(options);
+        let angle = Angle::deg(half_a_unit(settings.angles));
+        Grain {
+            length: Length::mm(half_a_unit(settings.lengths)),
+            // A, B and C may each be off by as much, and at B = 90 deg A and C turn about the same line.
+            attitude: angle * 3.0,
+            axis: angle,
+            speed: Speed::m_per_s(FINE),
+            rate: AngularSpeed::deg_per_s(FINE),
+            per_minute: 0.0,
+            time: Duration::s(FINE),
+        }
+    }
+
+    fn frames(&self) -> Frames {
+        Frames::InProgram
+    }
+
+    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance> {
+        let Configuration { status, turn } = Configuration::of(branch, axes)?;
+        stance(status, turn)
+    }
+
+    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+        run::read(sources, heed);
+    }
+}
+
+/// Status and turn as a way to stand.
+fn stance(status: u32, turn: u32) -> Option<Stance> {
+    Some(Stance([
+        i32::try_from(status).ok()?,
+        i32::try_from(turn).ok()?,
+        0,
+        0,
+    ]))
+}

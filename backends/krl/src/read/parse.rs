@@ -1,0 +1,531 @@
+//! One line of KRL as a [`Phrase`].
+
+use super::cursor::{Cursor, Number};
+use super::syntax::{
+    Approximation, Component, Coordinates, Declaration, Field, Motion, MotionWord, Phrase, Scope, Span,
+    Target, Value, Variable, is_same_name,
+};
+
+/// How deep structures lie within structures; `LOAD` needs two.
+const DEEPEST: u32 = 4;
+
+/// Why a line is no phrase of its kind.
+enum Trouble {
+    /// Something else was expected.
+    Expected(&'static str),
+    /// It is KRL, but not of the part that is read.
+    Other,
+}
+
+type Parsed<T> = Result<T, Trouble>;
+
+const fn expected<T>(what: &'static str) -> Parsed<T> {
+    Err(Trouble::Expected(what))
+}
+
+/// The statement of a line that begins at a byte of its text: without its comment and the blanks around it.
+#[inline]
+pub(super) fn code(line: &str, start: usize) -> Option<(Span, &str)> {
+    let code = match line.find(';') {
+        Some(comment) => line.get(..before_comment(line, comment))?,
+        None => line,
+    };
+    let from = code.trim_ascii_start();
+    let start = start + (code.len() - from.len());
+    let code = from.trim_ascii_end();
+    let end = start + code.len();
+    (!code.is_empty()).then_some((Span { start, end }, code))
+}
+
+/// Where the comment begins, knowing the first `;`: one between double quotes is none.
+fn before_comment(line: &str, first: usize) -> usize {
+    if !line.get(..first).is_some_and(|before| before.contains('"')) {
+        return first;
+    }
+    let mut quoted = false;
+    let comment = line.bytes().position(|byte| {
+        quoted ^= byte == b'"';
+        byte == b';' && !quoted
+    });
+    comment.unwrap_or(line.len())
+}
+
+/// What a statement without comment is.
+#[inline]
+pub(super) fn phrase(code: &str) -> Phrase<'_> {
+    let mut cursor = Cursor::new(code);
+    let Some(word) = cursor.word() else {
+        return match code.strip_prefix('&') {
+            Some(mark) => Phrase::Mark(mark),
+            None => Phrase::Unreadable {
+                expected: "a statement of KRL",
+            },
+        };
+    };
+    match statement(word, &mut cursor) {
+        Ok(phrase) => phrase,
+        Err(Trouble::Other) => Phrase::Other(word),
+        Err(Trouble::Expected(expected)) => Phrase::Unreadable { expected },
+    }
+}
+
+#[inline]
+fn statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+    if let Some(motion) = motion_word(word) {
+        return Ok(Phrase::Motion(Motion {
+            word: motion,
+            target: target(cursor)?,
+            approximation: approximation(cursor)?,
+        }));
+    }
+    match Keyword::of(word) {
+        Some(keyword) => keyword_statement(keyword, cursor),
+        None => plain_statement(word, cursor),
+    }
+}
+
+#[inline]
+fn motion_word(word: &str) -> Option<MotionWord> {
+    let words = [
+        ("LIN", MotionWord::Lin),
+        ("SLIN", MotionWord::Slin),
+        ("PTP", MotionWord::Ptp),
+        ("SPTP", MotionWord::Sptp),
+        ("LIN_REL", MotionWord::LinRel),
+        ("SLIN_REL", MotionWord::SlinRel),
+        ("PTP_REL", MotionWord::PtpRel),
+        ("SPTP_REL", MotionWord::SptpRel),
+    ];
+    words
+        .into_iter()
+        .find_map(|(name, motion)| is_same_name(word, name).then_some(motion))
+}
+
+/// Words that begin statements, motions apart.
+#[derive(Clone, Copy)]
+enum Keyword {
+    Def,
+    Global,
+    End,
+    DefDat,
+    EndDat,
+    Ext,
+    Decl,
+    Bas,
+    Wait,
+    Halt,
+    /// Of statements that are not described.
+    Other,
+}
+
+impl Keyword {
+    fn of(word: &str) -> Option<Self> {
+        let words = [
+            ("DEF", Self::Def),
+            ("GLOBAL", Self::Global),
+            ("END", Self::End),
+            ("DEFDAT", Self::DefDat),
+            ("ENDDAT", Self::EndDat),
+            ("EXT", Self::Ext),
+            ("DECL", Self::Decl),
+            ("BAS", Self::Bas),
+            ("WAIT", Self::Wait),
+            ("HALT", Self::Halt),
+        ];
+        let described = words
+            .into_iter()
+            .find_map(|(name, keyword)| is_same_name(word, name).then_some(keyword));
+        described.or_else(|| {
+            let is_known = OTHERS.iter().any(|name| is_same_name(word, name));
+            is_known.then_some(Self::Other)
+        })
+    }
+}
+
+/// Words that begin statements which are not described [K-QG].
+#[rustfmt::skip]
+const OTHERS: [&str; 52] = [
+    "ANIN", "ANOUT", "BRAKE", "CASE", "CCLOSE", "CHANNEL", "CIRC", "CIRC_REL", "CONFIRM", "CONST", "CONTINUE", "COPEN",
+    "CREAD", "CWRITE", "DEFAULT", "DEFFCT", "DIGIN", "ELSE", "ENDFCT", "ENDFOR", "ENDIF", "ENDLOOP", "ENDSPLINE",
+    "ENDSWITCH", "ENDWHILE", "ENUM", "ERR_RAISE", "EXIT", "EXTFCT", "EXTFCTP", "EXTP", "FOR", "GOTO", "IF", "IMPORT",
+    "INTERRUPT", "LOOP", "PULSE", "REPEAT", "RESUME", "RETURN", "SCIRC", "SCIRC_REL", "SIGNAL", "SPL", "SPL_REL",
+    "SPLINE", "STRUC", "SWITCH", "TRIGGER", "UNTIL", "WHILE",
+];
+
+/// Types that need no `DECL`; files also leave it out before positions.
+const TYPES: [&str; 11] = [
+    "AXIS", "BOOL", "CHAR", "E3AXIS", "E3POS", "E6AXIS", "E6POS", "FRAME", "INT", "POS", "REAL",
+];
+
+fn keyword_statement<'t>(keyword: Keyword, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+    let phrase = match keyword {
+        Keyword::Def => def(cursor, Scope::Module)?,
+        Keyword::Global => return global(cursor),
+        Keyword::End => Phrase::End,
+        Keyword::DefDat => {
+            let name = name(cursor)?;
+            let scope = match cursor.word() {
+                Some(word) if is_same_name(word, "PUBLIC") => Scope::Global,
+                Some(_) => return expected("`PUBLIC` or the end of the line"),
+                None => Scope::Module,
+            };
+            Phrase::DefDat { name, scope }
+        }
+        Keyword::EndDat => Phrase::EndDat,
+        Keyword::Ext => {
+            let name = name(cursor)?;
+            arguments(cursor)?;
+            Phrase::Ext { name }
+        }
+        Keyword::Decl => match cursor.word() {
+            Some(word) if is_same_name(word, "GLOBAL") => {
+                let kind = name(cursor)?;
+                declaration(kind, Scope::Global, cursor)?
+            }
+            Some(kind) => declaration(kind, Scope::Module, cursor)?,
+            None => return expected("a type behind `DECL`"),
+        },
+        Keyword::Bas => bas(cursor)?,
+        Keyword::Wait => wait(cursor)?,
+        Keyword::Halt => Phrase::Halt,
+        Keyword::Other => return Err(Trouble::Other),
+    };
+    at_end(cursor)?;
+    Ok(phrase)
+}
+
+fn global<'t>(cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+    let phrase = match cursor.word() {
+        Some(word) if is_same_name(word, "DEF") => def(cursor, Scope::Global)?,
+        Some(word) if is_same_name(word, "DECL") => {
+            let kind = name(cursor)?;
+            declaration(kind, Scope::Global, cursor)?
+        }
+        Some(word) if Keyword::of(word).is_some() => return Err(Trouble::Other),
+        Some(kind) => declaration(kind, Scope::Global, cursor)?,
+        None => return expected("what is global"),
+    };
+    at_end(cursor)?;
+    Ok(phrase)
+}
+
+fn def<'t>(cursor: &mut Cursor<'t>, scope: Scope) -> Parsed<Phrase<'t>> {
+    let name = name(cursor)?;
+    arguments(cursor)?;
+    Ok(Phrase::Def { name, scope })
+}
+
+/// `(...)`: what stands between the brackets, blanks apart.
+fn arguments<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {
+    if !cursor.skip(b'(') {
+        return expected("`(`");
+    }
+    let rest = cursor.rest();
+    let Some(inner) = rest.strip_suffix(')') else {
+        return expected("`)` at the end of the line");
+    };
+    *cursor = Cursor::new("");
+    Ok(inner.trim_ascii())
+}
+
+fn bas<'t>(cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+    let mut inner = Cursor::new(arguments(cursor)?);
+    if !inner.skip(b'#') {
+        return Err(Trouble::Other);
+    }
+    let command = name(&mut inner)?;
+    let value = if inner.skip(b',') {
+        match inner.number() {
+            Number::Is(value) => Some(value),
+            Number::Bad => return expected("a number"),
+            Number::None => return Err(Trouble::Other),
+        }
+    } else {
+        None
+    };
+    at_end(&mut inner)?;
+    Ok(Phrase::Bas { command, value })
+}
+
+fn wait<'t>(cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+    match cursor.word() {
+        Some(word) if is_same_name(word, "SEC") => match cursor.number() {
+            Number::Is(seconds) => Ok(Phrase::WaitSec(seconds)),
+            Number::Bad => expected("seconds"),
+            Number::None => Err(Trouble::Other),
+        },
+        Some(word) if is_same_name(word, "FOR") => match cursor.word() {
+            Some(name) if !is_same_name(name, "NOT") => Ok(Phrase::WaitFor(variable(name, cursor)?)),
+            Some(_) | None => Err(Trouble::Other),
+        },
+        Some(_) | None => expected("`SEC` or `FOR` behind `WAIT`"),
+    }
+}
+
+/// Statements that begin with a name of one's own: declarations, calls, assignments.
+fn plain_statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+    let phrase = match cursor.peek() {
+        Some(b'(') => Phrase::Call {
+            name: word,
+            arguments: arguments(cursor)?,
+        },
+        Some(b'=' | b'.' | b'[') => {
+            let to = variable(word, cursor)?;
+            if !cursor.skip(b'=') {
+                return expected("`=`");
+            }
+            let value = value(cursor, DEEPEST)?;
+            Phrase::Assignment { to, value }
+        }
+        // A label, where GOTO leads.
+        Some(b':') => return Err(Trouble::Other),
+        Some(byte) if byte.is_ascii_alphabetic() || matches!(byte, b'_' | b'$') => {
+            if !TYPES.iter().any(|name| is_same_name(word, name)) {
+                return expected("a statement of KRL");
+            }
+            declaration(word, Scope::Module, cursor)?
+        }
+        Some(_) | None => return expected("`(` or `=` behind a name"),
+    };
+    at_end(cursor)?;
+    Ok(phrase)
+}
+
+fn declaration<'t>(kind: &'t str, scope: Scope, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+    if Keyword::of(kind).is_some() {
+        return Err(Trouble::Other);
+    }
+    let name = name(cursor)?;
+    let name = variable(name, cursor)?;
+    let value = if cursor.skip(b'=') {
+        Some(value(cursor, DEEPEST)?)
+    } else {
+        None
+    };
+    let mut further = "";
+    if value.is_none() && cursor.skip(b',') {
+        further = cursor.rest();
+        further_names(cursor)?;
+    }
+    Ok(Phrase::Declaration(Declaration {
+        scope,
+        kind,
+        name,
+        value,
+        further,
+    }))
+}
+
+/// Goes over names with commas between them.
+fn further_names(cursor: &mut Cursor<'_>) -> Parsed<()> {
+    loop {
+        let name = name(cursor)?;
+        variable(name, cursor)?;
+        if !cursor.skip(b',') {
+            return Ok(());
+        }
+    }
+}
+
+fn name<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {
+    cursor.word().ok_or(Trouble::Expected("a name"))
+}
+
+/// The place and the field behind a name.
+fn variable<'t>(name: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Variable<'t>> {
+    let mut index = None;
+    if cursor.skip(b'[') {
+        // `TEXT[]`, `GRID[1,2]` and `POINTS[I]` are KRL as well.
+        index = Some(cursor.whole().ok_or(Trouble::Other)?);
+        if !cursor.skip(b']') {
+            return Err(Trouble::Other);
+        }
+    }
+    let mut field = None;
+    if cursor.skip(b'.') {
+        field = Some(self::name(cursor)?);
+    }
+    match cursor.peek() {
+        // A field of a field, or of a place in a field.
+        Some(b'.' | b'[') => Err(Trouble::Other),
+        _ => Ok(Variable { name, index, field }),
+    }
+}
+
+#[inline]
+fn target<'t>(cursor: &mut Cursor<'t>) -> Parsed<Target<'t>> {
+    if cursor.peek() == Some(b'{') {
+        return match coordinates(cursor)? {
+            Some(coordinates) => Ok(Target::Literal(coordinates)),
+            None => expected("X, Y, Z, A, B, C, S, T, or axes A1 to A6, E1 to E6"),
+        };
+    }
+    match cursor.word() {
+        Some(name) => Ok(Target::Variable(variable(name, cursor)?)),
+        None => expected("a target"),
+    }
+}
+
+#[inline]
+fn approximation(cursor: &mut Cursor<'_>) -> Parsed<Option<Approximation>> {
+    let words = [
+        ("C_DIS", Approximation::Distance),
+        ("C_ORI", Approximation::Orientation),
+        ("C_PTP", Approximation::Axes),
+        ("C_SPL", Approximation::Spline),
+        ("C_VEL", Approximation::Speed),
+    ];
+    let found = match cursor.word() {
+        None => None,
+        Some(word) => match words.into_iter().find(|(name, _)| is_same_name(word, name)) {
+            Some((_, approximation)) => Some(approximation),
+            None if is_same_name(word, "WITH") => return Err(Trouble::Other),
+            None => return expected("`C_DIS` or its like, or the end of the line"),
+        },
+    };
+    // `PTP ... C_PTP C_DIS`, `SLIN ... WITH $VEL.CP=...`, `LIN P1:P2`.
+    at_end(cursor)?;
+    Ok(found)
+}
+
+fn value<'t>(cursor: &mut Cursor<'t>, depth: u32) -> Parsed<Value<'t>> {
+    let value = match cursor.peek() {
+        Some(b'{') => match coordinates(cursor)? {
+            Some(coordinates) => Value::Coordinates(coordinates),
+            None => structure(cursor, depth)?,
+        },
+        Some(b'#') => {
+            cursor.skip(b'#');
+            Value::Enum(name(cursor)?)
+        }
+        Some(b'"') => Value::Text(cursor.quoted(b'"').ok_or(Trouble::Expected("`\"`"))?),
+        Some(b'\'') => Value::Number(bits(cursor).ok_or(Trouble::Expected("a number such as 'B101'"))?),
+        Some(b'(') => return Err(Trouble::Other),
+        Some(_) => match cursor.number() {
+            Number::Is(number) => Value::Number(number),
+            Number::Bad => return expected("a number"),
+            Number::None => match cursor.word() {
+                Some(word) if is_same_name(word, "TRUE") => Value::Bool(true),
+                Some(word) if is_same_name(word, "FALSE") => Value::Bool(false),
+                Some(word) if is_same_name(word, "NOT") => return Err(Trouble::Other),
+                Some(word) => Value::Variable(variable(word, cursor)?),
+                // `-XP1.X`
+                None if matches!(cursor.peek(), Some(b'-' | b'+')) => return Err(Trouble::Other),
+                None => return expected("a value"),
+            },
+        },
+        None => return expected("a value"),
+    };
+    Ok(value)
+}
+
+/// `'B101'` or `'HFF'`.
+fn bits(cursor: &mut Cursor<'_>) -> Option<f64> {
+    let text = cursor.quoted(b'\'')?.trim_ascii();
+    let (radix, digits) = match text.split_at_checked(1)? {
+        ("B" | "b", digits) => (2, digits),
+        ("H" | "h", digits) => (16, digits),
+        _ => return None,
+    };
+    u32::from_str_radix(digits.trim_ascii(), radix)
+        .ok()
+        .map(f64::from)
+}
+
+/// `{E6POS: X 1.0,Y 2.0}` of known components only; none, and nothing read, when it is another structure.
+#[inline]
+fn coordinates(cursor: &mut Cursor<'_>) -> Parsed<Option<Coordinates>> {
+    let mut inner = *cursor;
+    inner.skip(b'{');
+    let mut coordinates = Coordinates::default();
+    let mut first = true;
+    loop {
+        let Some(word) = inner.word() else {
+            return expected("the name of a component");
+        };
+        if first && inner.skip(b':') {
+            first = false;
+            continue;
+        }
+        first = false;
+        let Some(component) = Component::named(word) else {
+            return Ok(None);
+        };
+        let number = match inner.number() {
+            Number::Is(number) => number,
+            Number::Bad => return expected("a number"),
+            Number::None => match inner.peek() {
+                Some(b'\'') => bits(&mut inner).ok_or(Trouble::Expected("a number such as 'B101'"))?,
+                // A variable or a structure.
+                Some(b'{') => return Ok(None),
+                Some(byte) if byte.is_ascii_alphabetic() || matches!(byte, b'$' | b'(' | b'-' | b'+') => {
+                    return Err(Trouble::Other);
+                }
+                _ => return expected("a number"),
+            },
+        };
+        if coordinates.has(component) {
+            return expected("each component once");
+        }
+        coordinates.set(component, number);
+        if inner.skip(b'}') {
+            *cursor = inner;
+            return Ok(Some(coordinates));
+        }
+        separator(&mut inner)?;
+    }
+}
+
+/// What stands between two fields, or arithmetic.
+#[inline]
+fn separator(cursor: &mut Cursor<'_>) -> Parsed<()> {
+    if cursor.skip(b',') {
+        return Ok(());
+    }
+    match cursor.peek() {
+        Some(b'+' | b'-' | b'*' | b'/') => Err(Trouble::Other),
+        _ => expected("`,` or `}`"),
+    }
+}
+
+fn structure<'t>(cursor: &mut Cursor<'t>, depth: u32) -> Parsed<Value<'t>> {
+    let Some(depth) = depth.checked_sub(1) else {
+        return Err(Trouble::Other);
+    };
+    cursor.skip(b'{');
+    let mut fields = Vec::new();
+    loop {
+        let mut name = self::name(cursor)?;
+        if fields.is_empty() && cursor.skip(b':') {
+            name = self::name(cursor)?;
+        }
+        // `TQ_NAME[] "..."`
+        if cursor.skip(b'[') && !cursor.skip(b']') {
+            return Err(Trouble::Other);
+        }
+        let value = value(cursor, depth)?;
+        fields.push(Field { name, value });
+        if cursor.skip(b'}') {
+            return Ok(Value::Structure(fields));
+        }
+        separator(cursor)?;
+    }
+}
+
+/// Nothing may follow; an operator makes it arithmetic.
+fn at_end(cursor: &mut Cursor<'_>) -> Parsed<()> {
+    match cursor.peek() {
+        None => Ok(()),
+        Some(b'+' | b'-' | b'*' | b'/' | b'=' | b'<' | b'>' | b':') => Err(Trouble::Other),
+        Some(_) => {
+            let operators = [
+                "AND", "OR", "EXOR", "NOT", "B_AND", "B_OR", "B_EXOR", "B_NOT", "C_DIS", "C_ORI", "C_VEL",
+                "WITH",
+            ];
+            match cursor.word() {
+                Some(word) if operators.iter().any(|name| is_same_name(word, name)) => Err(Trouble::Other),
+                Some(_) | None => expected("the end of the line"),
+            }
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! What motions depend on besides their targets: modes, speeds, load, rounding.
+//!
+//! `BAS (#INITMOV,0 )` resets all of it to what the controller keeps, which no text tells. So a motion is only understood
+//! when everything it depends on has been said behind that; and what is said must be what the job says, because paths,
+//! rates and corners were proven for that. Another mode is not understood, even though the controller knows it.
+
+use super::syntax::{Component, Coordinates, Field, Value, Variable, is_same_name};
+use crate::options::Settings;
+use vcutc_backend_api::ir::{Cell, Load, Registered};
+use vcutc_backend_api::number::FixedDecimal;
+use vcutc_backend_api::readback::{Pace, Says};
+use vcutc_backend_api::units::{AngularSpeed, Speed};
+
+/// Decimals of speeds, distances and masses, as the writer trims them.
+const FINE: FixedDecimal = FixedDecimal::new(6);
+
+/// `$ADVANCE`: how many motions the controller looks ahead.
+const ADVANCE: f64 = 3.0;
+
+/// What the program has said so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Setup {
+    said: u32,
+    /// `$VEL.CP`.
+    tip: Option<Speed>,
+    /// `$VEL.ORI1`, the swivel of the tool axis.
+    swivel: Option<AngularSpeed>,
+    /// `$VEL.ORI2`, the turn about it.
+    twist: Option<AngularSpeed>,
+}
+
+/// Something that a motion depends on, once it has been said as it should be.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Said {
+    Start,
+    IpoMode,
+    OriType,
+    Advance,
+    Load,
+    AxisSpeed,
+    Rounding,
+}
+
+impl Said {
+    const ALL: [Self; 7] = [
+        Self::Start,
+        Self::IpoMode,
+        Self::OriType,
+        Self::Advance,
+        Self::Load,
+        Self::AxisSpeed,
+        Self::Rounding,
+    ];
+
+    const fn bit(self) -> u32 {
+        1 << self as u32
+    }
+
+    /// What to expect in front of a motion that needs it.
+    const fn missing(self) -> &'static str {
+        match self {
+            Self::Start => "`BAS (#INITMOV,0 )` at the head of the routine, before the first motion",
+            Self::IpoMode => "`$IPO_MODE=#BASE` before the first motion",
+            Self::OriType => "`$ORI_TYPE=#VAR` before the first motion",
+            Self::Advance => "`$ADVANCE=3` before the first motion",
+            Self::Load => "the job's `$LOAD` before the first motion",
+            Self::AxisSpeed => {
+                "`BAS (#VEL_PTP,n )` before the first move of all axes, with the job's home speed"
+            }
+            Self::Rounding => "`$APO.CDIS` before the first rounded corner, with the job's approximation",
+        }
+    }
+}
+
+/// What needs the setup.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Need {
+    /// A move of all axes.
+    Axes,
+    /// A straight move that ends on its point.
+    Straight,
+    /// A straight move that is rounded.
+    Rounded,
+}
+
+/// What the job says.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    pub(super) cell: &'a Cell,
+    pub(super) settings: &'a Settings<'a>,
+}
+
+impl Setup {
+    /// Behind `BAS (#INITMOV,0 )`.
+    pub(super) fn started() -> Self {
+        Self {
+            said: Said::Start.bit(),
+            ..Self::default()
+        }
+    }
+
+    /// What is missing for a motion.
+    pub(super) fn missing(&self, need: Need, wanted: Wanted<'_>) -> Option<&'static str> {
+        let always = Said::Start.bit() | Said::IpoMode.bit() | Said::OriType.bit() | Said::Advance.bit();
+        let load = match wanted.cell.load {
+            Some(_) => Said::Load.bit(),
+            None => 0,
+        };
+        let own = match need {
+            Need::Axes => Said::AxisSpeed.bit(),
+            Need::Straight => 0,
+            Need::Rounded => Said::Rounding.bit(),
+        };
+        let missing = (always | load | own) & !self.said;
+        if missing == 0 {
+            return None;
+        }
+        let first = Said::ALL.into_iter().find(|said| missing & said.bit() != 0);
+        first.map(Said::missing)
+    }
+
+    /// The speeds of a straight move. The rate of turning counts when both of its parts are the same.
+    pub(super) fn pace(&self) -> Pace {
+        let turn = match (self.swivel, self.twist) {
+            (Some(swivel), Some(twist)) if swivel == twist => Some(swivel),
+            (_, _) => None,
+        };
+        Pace::Speeds { tip: self.tip, turn }
+    }
+
+    fn note(&mut self, said: Said, is_as_it_should: bool) -> Says {
+        if is_as_it_should {
+            self.said |= said.bit();
+            Says::Setting
+        } else {
+            self.said &= !said.bit();
+            Says::Unknown
+        }
+    }
+
+    /// `BAS (#VEL_PTP,n )`.
+    pub(super) fn axis_speed(&mut self, percent: Option<f64>, wanted: Wanted<'_>) -> Says {
+        let should = f64::from(wanted.settings.home_speed);
+        self.note(Said::AxisSpeed, percent == Some(should))
+    }
+
+    /// An assignment to one of the variables that motions depend on; none when it is to another.
+    pub(super) fn assign(
+        &mut self,
+        to: &Variable<'_>,
+        value: &Value<'_>,
+        wanted: Wanted<'_>,
+    ) -> Option<Says> {
+        let says = if to.is_field("$VEL", "CP") {
+            let speed = positive(value).map(Speed::m_per_s);
+            self.tip = speed;
+            said_or_unknown(speed.is_some())
+        } else if to.is_field("$VEL", "ORI1") {
+            self.swivel = positive(value).map(AngularSpeed::deg_per_s);
+            said_or_unknown(self.swivel.is_some())
+        } else if to.is_field("$VEL", "ORI2") {
+            self.twist = positive(value).map(AngularSpeed::deg_per_s);
+            said_or_unknown(self.twist.is_some())
+        } else if to.is("$VEL") {
+            said_or_unknown(self.speeds(value).is_some())
+        } else if to.is("$IPO_MODE") {
+            self.note(Said::IpoMode, is_word(value, "BASE"))
+        } else if to.is("$ORI_TYPE") {
+            self.note(Said::OriType, is_word(value, "VAR"))
+        } else if to.is("$ADVANCE") {
+            self.note(Said::Advance, *value == Value::Number(ADVANCE))
+        } else if to.is_field("$APO", "CDIS") {
+            let should = wanted.settings.approximation;
+            let is = should.is_some_and(|should| is_number(value, should.to_mm(), FINE));
+            self.note(Said::Rounding, is)
+        } else if to.is("$LOAD") {
+            let is = wanted.cell.load.as_ref();
+            let is = is.is_some_and(|should| is_load(value, should, wanted.settings));
+            self.note(Said::Load, is)
+        } else {
+            return None;
+        };
+        Some(says)
+    }
+
+    /// `$VEL={CP 0.2,ORI1 200.0,ORI2 200.0}`.
+    fn speeds(&mut self, value: &Value<'_>) -> Option<()> {
+        let Value::Structure(fields) = value else {
+            return None;
+        };
+        for Field { name, value } in fields {
+            let value = positive(value)?;
+            if is_same_name(name, "CP") {
+                self.tip = Some(Speed::m_per_s(value));
+            } else if is_same_name(name, "ORI1") {
+                self.swivel = Some(AngularSpeed::deg_per_s(value));
+            } else if is_same_name(name, "ORI2") {
+                self.twist = Some(AngularSpeed::deg_per_s(value));
+            } else {
+                return None;
+            }
+        }
+        Some(())
+    }
+}
+
+const fn said_or_unknown(is_known: bool) -> Says {
+    if is_known { Says::Setting } else { Says::Unknown }
+}
+
+/// A number that a controller takes for a speed.
+fn positive(value: &Value<'_>) -> Option<f64> {
+    match value {
+        Value::Number(value) if *value > 0.0 => Some(*value),
+        Value::Number(_)
+        | Value::Bool(_)
+        | Value::Enum(_)
+        | Value::Text(_)
+        | Value::Coordinates(_)
+        | Value::Structure(_)
+        | Value::Variable(_) => None,
+    }
+}
+
+fn is_word(value: &Value<'_>, word: &str) -> bool {
+    matches!(value, Value::Enum(is) if is_same_name(is, word))
+}
+
+/// Whether a value is a number as printed in a format.
+fn is_number(value: &Value<'_>, should: f64, format: FixedDecimal) -> bool {
+    matches!(value, Value::Number(is) if is_near(*is, should, format))
+}
+
+fn is_near(is: f64, should: f64, format: FixedDecimal) -> bool {
+    let rounding = 1e-9 * should.abs().max(1.0);
+    (is - should).abs() <= half_a_unit(format) * (1.0 + 1e-6) + rounding
+}
+
+/// Half a unit of the last decimal of a format.
+pub(super) fn half_a_unit(format: FixedDecimal) -> f64 {
+    0.5 / f64::from(10_u32.pow(u32::from(format.decimals())))
+}
+
+fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>) -> bool {
+    match (should, value) {
+        (Registered::Number(should), Value::Variable(variable)) => {
+            variable.index_in("LOAD_DATA") == Some(*should)
+        }
+        (Registered::Value(should), Value::Structure(fields)) => match fields.as_slice() {
+            [mass, centre, inertia] => {
+                let of = |field: &Field<'_>, name| is_same_name(field.name, name);
+                let centre_of_mass = match &centre.value {
+                    Value::Coordinates(is) => is_centre(is, should, settings.lengths),
+                    _ => false,
+                };
+                let no_inertia = match &inertia.value {
+                    Value::Coordinates(is) => is.all(Component::TIP) == Some([0.0; 3]),
+                    _ => false,
+                };
+                of(mass, "M")
+                    && of(centre, "CM")
+                    && of(inertia, "J")
+                    && is_number(&mass.value, should.mass.to_kg(), FINE)
+                    && centre_of_mass
+                    && no_inertia
+            }
+            _ => false,
+        },
+        (Registered::Number(_) | Registered::Value(_), _) => false,
+    }
+}
+
+fn is_centre(is: &Coordinates, should: &Load, lengths: FixedDecimal) -> bool {
+    let Load { centre, .. } = should;
+    let tip = is.all(Component::TIP);
+    let near = tip.is_some_and(|tip| {
+        tip.into_iter()
+            .zip([centre.x, centre.y, centre.z])
+            .all(|(is, should)| is_near(is, should, lengths))
+    });
+    near && is.all(Component::ANGLES) == Some([0.0; 3])
+}

@@ -1,0 +1,196 @@
+//! Named positions and frames, and who sees them.
+
+use super::syntax::{Component, Coordinates, Declaration, Scope, Value, Variable, is_same_name};
+use std::collections::BTreeMap;
+
+/// Where a name is known. A controller looks in this order.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    /// In one routine.
+    Routine(usize),
+    /// In one module, by its name in upper case.
+    Module(String),
+    /// Everywhere.
+    All,
+}
+
+/// Who asks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asker<'t> {
+    /// The routine, unless it is a data list.
+    pub(super) routine: Option<usize>,
+    /// The module's name.
+    pub(super) module: &'t str,
+}
+
+impl Asker<'_> {
+    fn places(self) -> impl Iterator<Item = Place> {
+        let own = self.routine.map(Place::Routine);
+        let module = Place::Module(self.module.to_ascii_uppercase());
+        own.into_iter().chain([module, Place::All])
+    }
+
+    fn own(self) -> Place {
+        match self.routine {
+            Some(routine) => Place::Routine(routine),
+            None => Place::Module(self.module.to_ascii_uppercase()),
+        }
+    }
+}
+
+/// What a statement about variables came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// It is known from now on.
+    Known,
+    /// It is not of the part of KRL that is read.
+    Unknown,
+}
+
+/// All positions and frames that have names.
+#[derive(Debug, Default)]
+pub(super) struct Variables {
+    values: BTreeMap<(Place, String), Coordinates>,
+}
+
+impl Variables {
+    /// The value of a variable, as it is now.
+    pub(super) fn get(&self, asker: Asker<'_>, variable: &Variable<'_>) -> Option<Coordinates> {
+        if variable.index.is_some() || variable.field.is_some() {
+            return None;
+        }
+        let name = variable.name.to_ascii_uppercase();
+        let mut places = asker.places();
+        places.find_map(|place| self.values.get(&(place, name.clone())).copied())
+    }
+
+    /// Takes a declaration. Only positions and frames are kept; numbers, texts and the data of inline forms move nothing by
+    /// themselves, and who uses one is not understood.
+    pub(super) fn declare(&mut self, asker: Asker<'_>, declaration: &Declaration<'_>) -> Outcome {
+        let Declaration {
+            scope,
+            kind,
+            name,
+            ref value,
+            ..
+        } = *declaration;
+        if name.name.starts_with('$') || name.field.is_some() {
+            return Outcome::Unknown;
+        }
+        let Some(shape) = Shape::of(kind) else {
+            return Outcome::Unknown;
+        };
+        let value = match (shape.components(), value) {
+            (None, _) => return Outcome::Known,
+            (Some(_), None) => Coordinates::default(),
+            (Some(components), Some(value)) => match self.value(asker, value) {
+                Some(value) if is_of(&value, components) => value,
+                Some(_) | None => return Outcome::Unknown,
+            },
+        };
+        let own = name.index.is_none().then_some(name.name);
+        for name in own.into_iter().chain(declaration.further_names()) {
+            let place = match scope {
+                Scope::Module => asker.own(),
+                Scope::Global => Place::All,
+            };
+            self.values.insert((place, name.to_ascii_uppercase()), value);
+        }
+        Outcome::Known
+    }
+
+    /// Takes an assignment to a variable that was declared.
+    pub(super) fn assign(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>) -> Outcome {
+        let new = self.value(asker, value);
+        let name = to.name.to_ascii_uppercase();
+        let mut places = asker.places();
+        let place = places.find(|place| self.values.contains_key(&(place.clone(), name.clone())));
+        let old = place.and_then(|place| self.values.get_mut(&(place, name)));
+        let (Some(old), None) = (old, to.index) else {
+            return Outcome::Unknown;
+        };
+        match (to.field, value, new) {
+            (Some(field), Value::Number(number), _) => match Component::named(field) {
+                Some(component) => old.set(component, *number),
+                None => return Outcome::Unknown,
+            },
+            // What the literal leaves out the variable keeps.
+            (None, _, Some(new)) => {
+                for component in Component::ALL {
+                    if let Some(value) = new.get(component) {
+                        old.set(component, value);
+                    }
+                }
+            }
+            (Some(_) | None, _, _) => return Outcome::Unknown,
+        }
+        Outcome::Known
+    }
+
+    /// The coordinates that a value stands for.
+    pub(super) fn value(&self, asker: Asker<'_>, value: &Value<'_>) -> Option<Coordinates> {
+        match value {
+            Value::Coordinates(coordinates) => Some(*coordinates),
+            Value::Variable(variable) => self.get(asker, variable),
+            Value::Number(_) | Value::Bool(_) | Value::Enum(_) | Value::Text(_) | Value::Structure(_) => None,
+        }
+    }
+}
+
+/// What a type is made of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    Pose,
+    Axes,
+    /// Nothing that is kept.
+    Other,
+}
+
+impl Shape {
+    fn of(kind: &str) -> Option<Self> {
+        let kinds = [
+            ("E6POS", Self::Pose),
+            ("POS", Self::Pose),
+            ("FRAME", Self::Pose),
+            ("E3POS", Self::Pose),
+            ("E6AXIS", Self::Axes),
+            ("AXIS", Self::Axes),
+            ("E3AXIS", Self::Axes),
+            ("INT", Self::Other),
+            ("REAL", Self::Other),
+            ("BOOL", Self::Other),
+            ("CHAR", Self::Other),
+            ("FDAT", Self::Other),
+            ("PDAT", Self::Other),
+            ("LDAT", Self::Other),
+            ("LOAD", Self::Other),
+        ];
+        kinds
+            .into_iter()
+            .find_map(|(name, shape)| is_same_name(kind, name).then_some(shape))
+    }
+
+    const fn components(self) -> Option<&'static [Component]> {
+        const POSE: [Component; 8] = [
+            Component::X,
+            Component::Y,
+            Component::Z,
+            Component::A,
+            Component::B,
+            Component::C,
+            Component::S,
+            Component::T,
+        ];
+        match self {
+            Self::Pose => Some(&POSE),
+            Self::Axes => Some(&Component::AXES),
+            Self::Other => None,
+        }
+    }
+}
+
+/// Whether a value is made of these components, and external axes.
+fn is_of(value: &Coordinates, components: &[Component]) -> bool {
+    let mut given = Component::ALL.iter().filter(|&&component| value.has(component));
+    given.all(|component| components.contains(component) || Component::EXTERNAL.contains(component))
+}

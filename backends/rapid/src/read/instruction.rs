@@ -1,0 +1,274 @@
+//! What an instruction of RAPID does, or that nobody here knows.
+//!
+//! Moves are known in the form in which programs for this machine may have them: by literal or named targets, with the tool
+//! and the work object of the job, at speeds that are said, under modes that are said. Whatever is meant otherwise
+//! (another tool, `ConfL\Off`, an offset) is not told as a move, since it would lead elsewhere than the text says.
+
+use super::data::{Datum, SpeedData, View, Zone};
+use super::sentence::{Optional, Value};
+use crate::options::{READY_SIGNAL, Settings, ULTRASONIC_SIGNAL};
+use vcutc_backend_api::ir::{Cell, Ready, Switch};
+use vcutc_backend_api::readback::{Deed, End, Held, Pace, Says, Stance, Target};
+use vcutc_backend_api::units::{AngularSpeed, Duration, Speed};
+
+/// How far members of a zone may be from those of the job, in mm or deg: they are printed with six decimals.
+const SAME_ZONE: f64 = 1e-6;
+
+/// The modes that are said to hold. What is not said is what a program before this one left behind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Modes {
+    /// `ConfJ\On`.
+    conf_j: bool,
+    /// `ConfL\On`.
+    conf_l: bool,
+    /// `SingArea\Off`.
+    sing_area: bool,
+}
+
+impl Modes {
+    const fn are_said(self) -> bool {
+        self.conf_j && self.conf_l && self.sing_area
+    }
+}
+
+/// An instruction with its arguments. Names are in upper case.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Instruction<'s> {
+    pub(super) name: &'s str,
+    pub(super) required: &'s [Value],
+    pub(super) optional: &'s [Optional],
+}
+
+/// For whom instructions are read.
+#[derive(Clone, Copy)]
+pub(super) struct Machine<'a> {
+    pub(super) cell: &'a Cell,
+    pub(super) settings: &'a Settings<'a>,
+}
+
+/// Whether somebody knows an instruction of that name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Known {
+    Yes,
+    No,
+}
+
+impl Machine<'_> {
+    /// What an instruction says, and whether its name is known at all. Modes that it sets are kept.
+    pub(super) fn says(
+        &self,
+        instruction: Instruction<'_>,
+        view: View<'_>,
+        modes: &mut Modes,
+    ) -> (Says, Known) {
+        let deed = match instruction.name {
+            "MOVEL" | "MOVEJ" | "MOVEABSJ" if !modes.are_said() => None,
+            "MOVEL" => self.straight(instruction, view),
+            "MOVEJ" => self.axes_to_pose(instruction, view),
+            "MOVEABSJ" => self.axes(instruction, view),
+            "SETDO" => self.switch(instruction),
+            "WAITDI" => self.await_input(instruction),
+            "WAITTIME" => wait(instruction, view),
+            "CONFJ" => return (mode(instruction, "ON", &mut modes.conf_j), Known::Yes),
+            "CONFL" => return (mode(instruction, "ON", &mut modes.conf_l), Known::Yes),
+            "SINGAREA" => return (mode(instruction, "OFF", &mut modes.sing_area), Known::Yes),
+            "ACCSET" => return (full(instruction, view, 100.0), Known::Yes),
+            // The largest speed as a new program has it [A-INS], or more.
+            "VELSET" => return (full(instruction, view, 5000.0), Known::Yes),
+            "TPERASE" | "TPWRITE" => return (Says::Setting, Known::Yes),
+            _ => return (Says::Unknown, Known::No),
+        };
+        (deed.map_or(Says::Unknown, Says::Deed), Known::Yes)
+    }
+
+    fn straight(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
+        let [target, speed, zone, tool] = instruction.required else {
+            return None;
+        };
+        let rest = self.frames(instruction.optional, tool, view)?;
+        Some(Deed::Straight {
+            to: robtarget(target, view)?,
+            pace: pace(view.speed(speed)?, &rest, view)?,
+            end: self.end(view.zone(zone)?)?,
+        })
+    }
+
+    fn axes_to_pose(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
+        let [target, speed, zone, tool] = instruction.required else {
+            return None;
+        };
+        let rest = self.frames(instruction.optional, tool, view)?;
+        (rest.is_empty() && self.is_axis_pace(speed, zone, view)).then_some(())?;
+        Some(Deed::AxesToPose(robtarget(target, view)?))
+    }
+
+    fn axes(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
+        let [target, speed, zone, tool] = instruction.required else {
+            return None;
+        };
+        let rest = self.frames(instruction.optional, tool, view)?;
+        let without_offsets =
+            matches!(rest.as_slice(), [only] if only.name == "NOEOFFS" && only.value.is_none());
+        (without_offsets && self.is_axis_pace(speed, zone, view)).then_some(())?;
+        Some(Deed::Axes(view.jointtarget(target)?))
+    }
+
+    /// The optional arguments besides `\WObj`, when tool and work object are those that the program declares, whose values are
+    /// told where they are declared, or those of the controller that the job means.
+    fn frames<'o>(
+        &self,
+        optional: &'o [Optional],
+        tool: &Value,
+        view: View<'_>,
+    ) -> Option<Vec<&'o Optional>> {
+        let (named, rest): (Vec<_>, Vec<_>) = optional.iter().partition(|argument| argument.name == "WOBJ");
+        let [
+            Optional {
+                value: Some(Value::Name(work_object)),
+                ..
+            },
+        ] = named.as_slice()
+        else {
+            return None;
+        };
+        let Value::Name(tool) = tool else { return None };
+        let is_tool = match view.find(tool) {
+            Some(datum) => *datum == Datum::Tool,
+            None => {
+                self.cell.tool.number.is_some() && tool.eq_ignore_ascii_case(&self.settings.tool(self.cell))
+            }
+        };
+        let is_work_object = match view.find(work_object) {
+            Some(datum) => *datum == Datum::WorkObject,
+            None => {
+                self.cell.base.number.is_some()
+                    && work_object.eq_ignore_ascii_case(&self.settings.work_object(self.cell))
+            }
+        };
+        (is_tool && is_work_object).then_some(rest)
+    }
+
+    /// Moves of all axes stop at their ends, and go as fast as the job says.
+    fn is_axis_pace(&self, speed: &Value, zone: &Value, view: View<'_>) -> bool {
+        let tip = view.speed(speed).map(|speed| speed.tip);
+        tip == Some(f64::from(self.settings.home_speed)) && view.zone(zone) == Some(Zone::Fine)
+    }
+
+    /// A corner may be rounded in the zone that the job asks for, and in no other.
+    fn end(&self, zone: Zone) -> Option<End> {
+        match zone {
+            Zone::Fine => Some(End::Exact),
+            Zone::Fly(members) => {
+                let asked = crate::options::zone_members(self.settings.approximation?);
+                let is_asked = members
+                    .iter()
+                    .zip(asked)
+                    .all(|(is, should)| (is - should).abs() <= SAME_ZONE);
+                is_asked.then_some(End::Rounded)
+            }
+        }
+    }
+
+    fn switch(&self, instruction: Instruction<'_>) -> Option<Deed> {
+        let ([Value::Name(signal), value], []) = (instruction.required, instruction.optional) else {
+            return None;
+        };
+        let state = match value {
+            Value::Number(1.0) => Switch::On,
+            Value::Number(0.0) => Switch::Off,
+            Value::Name(name) if name == "HIGH" => Switch::On,
+            Value::Name(name) if name == "LOW" => Switch::Off,
+            Value::Number(_) | Value::Name(_) | Value::Text(_) | Value::List(_) | Value::Other => {
+                return None;
+            }
+        };
+        let output = match self.settings.given(ULTRASONIC_SIGNAL) {
+            Some(name) => self.cell.ultrasonic.filter(|_| signal.eq_ignore_ascii_case(name)),
+            None => numbered(signal, "DO"),
+        };
+        Some(Deed::Switch {
+            output: output?,
+            state,
+        })
+    }
+
+    fn await_input(&self, instruction: Instruction<'_>) -> Option<Deed> {
+        let ([Value::Name(signal), value], []) = (instruction.required, instruction.optional) else {
+            return None;
+        };
+        let is_high = match value {
+            Value::Number(number) => *number == 1.0,
+            Value::Name(name) => name == "HIGH",
+            Value::Text(_) | Value::List(_) | Value::Other => false,
+        };
+        let input = match (self.settings.given(READY_SIGNAL), self.cell.ready) {
+            (Some(name), Ready::Input(number)) => Some(number).filter(|_| signal.eq_ignore_ascii_case(name)),
+            (Some(_), Ready::After(_)) => None,
+            (None, _) => numbered(signal, "DI"),
+        };
+        is_high.then_some(Deed::AwaitInput(input?))
+    }
+}
+
+/// The number behind the start of a signal's name, as the writer puts it there.
+fn numbered(signal: &str, start: &str) -> Option<u32> {
+    let digits = signal.strip_prefix(start)?;
+    let number: u32 = digits.parse().ok()?;
+    (number.to_string() == digits).then_some(number)
+}
+
+fn robtarget(value: &Value, view: View<'_>) -> Option<Target> {
+    let target = view.robtarget(value)?;
+    Some(Target {
+        tip: target.tip,
+        held: Held::Orientation(target.held, Some(Stance(target.conf))),
+    })
+}
+
+/// How fast a move goes: as its speeddata says, but for `\V`, a tip speed in its place, or `\T`, the time it takes.
+fn pace(speed: SpeedData, rest: &[&Optional], view: View<'_>) -> Option<Pace> {
+    let speeds = |tip: f64| Pace::Speeds {
+        tip: Some(Speed::mm_per_s(tip)),
+        turn: Some(AngularSpeed::deg_per_s(speed.turn)),
+    };
+    match rest {
+        [] => Some(speeds(speed.tip)),
+        [Optional { name, value }] => {
+            let number = view.number(value.as_ref()?).filter(|number| *number > 0.0)?;
+            match name.as_str() {
+                "V" => Some(speeds(number)),
+                "T" => Some(Pace::PerMinute(60.0 / number)),
+                _ => None,
+            }
+        }
+        [_, _, ..] => None,
+    }
+}
+
+fn wait(instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
+    let ([time], []) = (instruction.required, instruction.optional) else {
+        return None;
+    };
+    let seconds = view.number(time).filter(|seconds| *seconds >= 0.0)?;
+    Some(Deed::Wait(Duration::s(seconds)))
+}
+
+/// A mode is known in the one form that programs have.
+fn mode(instruction: Instruction<'_>, wanted: &str, holds: &mut bool) -> Says {
+    let is_wanted = matches!(
+        (instruction.required, instruction.optional),
+        ([], [only]) if only.name == wanted && only.value.is_none()
+    );
+    *holds = is_wanted;
+    if is_wanted { Says::Setting } else { Says::Unknown }
+}
+
+/// `AccSet` and `VelSet` that take nothing away.
+fn full(instruction: Instruction<'_>, view: View<'_>, second: f64) -> Says {
+    let ([one, other], []) = (instruction.required, instruction.optional) else {
+        return Says::Unknown;
+    };
+    let is_full =
+        view.number(one) == Some(100.0) && view.number(other).is_some_and(|number| number >= second);
+    if is_full { Says::Setting } else { Says::Unknown }
+}

@@ -1,0 +1,314 @@
+//! Reads programs of RAPID back: modules, the data they declare, and what `main` does with them.
+//!
+//! The way of a text: [`mod@lex`] finds words and signs, [`piece`] the stretches of statements, [`program`] the modules with
+//! their data and routines. Then the routines are followed from `main` on, call by call; every statement on the way is read by
+//! [`mod@sentence`] and told in the terms of [`instruction`]. The list of modules ([`mod@list`]) says what is loaded.
+//!
+//! Understood is the part of the language that programs for cutting need, in any layout, with literal or named data. All
+//! else is told as unknown: conditions, loops, arithmetic, other tools, other modes. A routine that is called a second time
+//! is unknown too, since its statements would be carried out twice.
+
+mod data;
+mod instruction;
+mod lex;
+mod list;
+mod piece;
+mod program;
+mod sentence;
+
+use crate::options::Settings;
+use crate::orient::GRAIN_RAD;
+use data::{View, seen_from};
+use instruction::{Instruction, Known, Machine, Modes};
+use piece::{Piece, PieceKind, pieces};
+use program::Program;
+use sentence::{Sentence, sentence};
+use std::collections::BTreeSet;
+use vcutc_backend_api::backend::Options;
+use vcutc_backend_api::confdata::confdata;
+use vcutc_backend_api::ir::AxisValues;
+use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::profile::Profile;
+use vcutc_backend_api::readback::{Frames, Grain, Place, Reader, Says, Sources, Stance, Statement, essence};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
+
+/// Decimals of numbers that lose their trailing zeros.
+const TRIMMED_DECIMALS: u8 = 6;
+
+/// Extensions of modules and lists.
+const EXTENSIONS: [&str; 5] = ["mod", "modx", "sys", "sysx", "pgf"];
+
+/// The reader of RAPID.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RapidReader;
+
+impl Reader for RapidReader {
+    fn recognises(&self, file: &str) -> bool {
+        let extension = file
+            .rsplit_once('.')
+            .map(|(_, extension)| extension.to_ascii_lowercase());
+        extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()))
+    }
+
+    fn grain(&self, options: &Options) -> Grain {
+        let settings = Settings::read(options);
+        let trimmed = half_unit(TRIMMED_DECIMALS);
+        Grain {
+            length: Length::mm(half_unit(settings.lengths.decimals())),
+            attitude: Angle::rad(GRAIN_RAD),
+            axis: Angle::deg(half_unit(settings.angles.decimals())),
+            speed: Speed::mm_per_s(trimmed),
+            rate: AngularSpeed::deg_per_s(trimmed),
+            per_minute: trimmed,
+            time: Duration::s(trimmed),
+        }
+    }
+
+    /// Every move names its frames, and those that the program declares are told once, for all of its parts.
+    fn frames(&self) -> Frames {
+        Frames::OnMachine
+    }
+
+    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance> {
+        confdata(branch, &axes).map(Stance)
+    }
+
+    fn says_waypoints(&self) -> bool {
+        true
+    }
+
+    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+        let settings = Settings::read(sources.options);
+        let machine = Machine {
+            cell: sources.cell,
+            settings: &settings,
+        };
+        let program = Program::of(sources.files, machine);
+        let told = program
+            .modules
+            .iter()
+            .map(|module| vec![Told::Not; module.pieces.len()]);
+        let mut teller = Teller {
+            told: told.collect(),
+            own: lines_of(settings.profile),
+            machine,
+            program,
+            heed,
+        };
+        teller.known_beforehand();
+        teller.follow();
+        teller.never_carried_out();
+    }
+}
+
+/// Half a unit of the last of so many decimals.
+fn half_unit(decimals: u8) -> f64 {
+    (0..decimals).fold(0.5, |unit, _| unit / 10.0)
+}
+
+/// The statements that the profile of the machine puts into programs, without their layout.
+fn lines_of(profile: &Profile) -> BTreeSet<String> {
+    let lines = profile.header.iter().chain(&profile.footer);
+    lines
+        .flat_map(|line| {
+            let all = pieces(line).all.into_iter();
+            all.map(|piece| essence(piece.text(line))).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// Whether a piece was told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Told {
+    Not,
+    Already,
+}
+
+/// A routine that is being followed.
+struct Running {
+    routine: usize,
+    /// The piece to come, in its module.
+    next: usize,
+}
+
+struct Teller<'a, 'h> {
+    program: Program<'a>,
+    machine: Machine<'a>,
+    /// Which pieces were told, by module.
+    told: Vec<Vec<Told>>,
+    /// Statements of the machine's profile.
+    own: BTreeSet<String>,
+    heed: &'h mut dyn FnMut(Statement),
+}
+
+impl Teller<'_, '_> {
+    /// Tells a piece of a file.
+    fn place(&mut self, file: u32, piece: Piece, says: Says) {
+        let Piece { start, end, .. } = piece;
+        (self.heed)(Statement {
+            place: Place { file, start, end },
+            says,
+        });
+    }
+
+    /// Tells a piece of a module; whether it had not been told yet.
+    fn tell(&mut self, module: usize, piece: usize, says: Says) -> bool {
+        let flag = self.told.get_mut(module).and_then(|told| told.get_mut(piece));
+        let is_new = flag.is_some_and(|flag| core::mem::replace(flag, Told::Already) == Told::Not);
+        if is_new && let Some(of) = self.program.modules.get(module) {
+            let file = of.file;
+            if let Some(&stretch) = of.pieces.get(piece) {
+                self.place(file, stretch, says);
+            }
+        }
+        is_new
+    }
+
+    /// Lists, declarations, and the frames of modules.
+    fn known_beforehand(&mut self) {
+        for list in core::mem::take(&mut self.program.lists) {
+            for (piece, says) in list.told {
+                self.place(list.file, piece, says);
+            }
+        }
+        for module in 0..self.program.modules.len() {
+            let says = self
+                .program
+                .modules
+                .get_mut(module)
+                .map(|module| core::mem::take(&mut module.says));
+            for (piece, says) in says.into_iter().flatten() {
+                self.tell(module, piece, says);
+            }
+        }
+    }
+
+    /// Follows the program from its entry to its end.
+    fn follow(&mut self) {
+        let mut modes = Modes::default();
+        let mut stack = Vec::new();
+        if let Some(main) = self.program.main() {
+            stack.extend(self.enter(main, Says::Setting));
+        }
+        while let Some(running) = stack.last_mut() {
+            let Some(routine) = self.program.routines.get(running.routine) else {
+                break;
+            };
+            let (module, number, place) = (routine.module, running.routine, running.next);
+            if place >= routine.pieces.end {
+                stack.pop();
+                continue;
+            }
+            running.next += 1;
+            if let Some(called) = self.step(module, number, place, &mut modes) {
+                modes = Modes::default();
+                stack.extend(self.enter(called, Says::PartBegins));
+            }
+        }
+    }
+
+    /// Tells the header of a routine; what to follow, unless it was followed before.
+    fn enter(&mut self, routine: usize, says: Says) -> Option<Running> {
+        let of = self.program.routines.get(routine)?;
+        let (module, header) = (of.module, of.pieces.start);
+        let next = header + 1;
+        self.tell(module, header, says)
+            .then_some(Running { routine, next })
+    }
+
+    /// Whether a routine can be followed from here.
+    fn is_fresh(&self, routine: usize) -> bool {
+        let fresh = self.program.routines.get(routine).and_then(|of| {
+            let told = self.told.get(of.module)?.get(of.pieces.start)?;
+            Some(of.plain && !of.pieces.is_empty() && *told == Told::Not)
+        });
+        fresh == Some(true)
+    }
+
+    /// Tells a piece of a routine; the routine that it calls.
+    fn step(&mut self, module: usize, routine: usize, place: usize, modes: &mut Modes) -> Option<usize> {
+        let of = self.program.modules.get(module)?;
+        let piece = *of.pieces.get(place)?;
+        let text = piece.text(of.text);
+        let mut called = None;
+        let says = match piece.kind {
+            PieceKind::EndRoutine => Says::Setting,
+            PieceKind::Broken => Says::Unreadable {
+                expected: "`;`".to_owned(),
+            },
+            PieceKind::Statement => match sentence(text) {
+                Ok(Sentence::Declaration { .. }) => Says::Setting,
+                Ok(Sentence::Assignment { name }) => {
+                    self.program.data.forget(seen_from(module, Some(routine)), &name);
+                    Says::Unknown
+                }
+                Ok(Sentence::Instruction {
+                    name,
+                    required,
+                    optional,
+                }) => match self.program.routine(&name, module) {
+                    Some(other) if self.is_fresh(other) && required.is_empty() && optional.is_empty() => {
+                        called = Some(other);
+                        Says::Setting
+                    }
+                    Some(_) => Says::Unknown,
+                    None => {
+                        let view = View {
+                            data: &self.program.data,
+                            module,
+                            routine: Some(routine),
+                        };
+                        let instruction = Instruction {
+                            name: &name,
+                            required: &required,
+                            optional: &optional,
+                        };
+                        match self.machine.says(instruction, view, modes) {
+                            (_, Known::No) => self.own_or_unknown(text),
+                            (says, Known::Yes) => says,
+                        }
+                    }
+                },
+                Err(expected) => Says::Unreadable { expected },
+            },
+            PieceKind::Control => self.own_or_unknown(text),
+            PieceKind::OldHead
+            | PieceKind::Module
+            | PieceKind::EndModule
+            | PieceKind::Routine
+            | PieceKind::OtherRoutine => Says::Unknown,
+        };
+        self.tell(module, place, says);
+        called
+    }
+
+    /// What the machine's profile puts into programs is known; nothing else is.
+    fn own_or_unknown(&self, text: &str) -> Says {
+        if self.own.contains(&essence(text)) {
+            Says::Setting
+        } else {
+            Says::Unknown
+        }
+    }
+
+    /// Routines that nobody calls, and modules that are not loaded.
+    fn never_carried_out(&mut self) {
+        for module in 0..self.told.len() {
+            let count = self.told.get(module).map_or(0, Vec::len);
+            for piece in 0..count {
+                let kind = self
+                    .program
+                    .modules
+                    .get(module)
+                    .and_then(|of| of.pieces.get(piece));
+                let says = match kind.map(|piece| piece.kind) {
+                    Some(PieceKind::Broken) => Says::Unreadable {
+                        expected: "`;`".to_owned(),
+                    },
+                    Some(_) | None => Says::Setting,
+                };
+                self.tell(module, piece, says);
+            }
+        }
+    }
+}

@@ -1,0 +1,423 @@
+//! A program as its modules: which are loaded, what data they declare, and which routines they have.
+
+use super::data::{Data, Datum, Scope, View};
+use super::instruction::Machine;
+use super::list::{Entry, entries};
+use super::piece::{Piece, PieceKind, Pieces, pieces};
+use super::sentence::{Sentence, Value, sentence};
+use crate::keywords::MAIN;
+use core::ops::Range;
+use std::collections::{BTreeMap, BTreeSet};
+use vcutc_backend_api::ir::Registered;
+use vcutc_backend_api::readback::{FrameRole, FrameSetting, ProgramFile, Says};
+
+/// A file with a module.
+#[derive(Debug)]
+pub(super) struct Module<'t> {
+    pub(super) file: u32,
+    pub(super) text: &'t str,
+    pub(super) pieces: Vec<Piece>,
+    /// What pieces say that are known before the program runs.
+    pub(super) says: BTreeMap<usize, Says>,
+}
+
+/// A procedure.
+#[derive(Debug)]
+pub(super) struct Routine {
+    pub(super) module: usize,
+    /// Whether other modules cannot call it.
+    pub(super) local: bool,
+    /// Whether it takes no arguments.
+    pub(super) plain: bool,
+    /// Its place in the module's pieces, header and end included.
+    pub(super) pieces: Range<usize>,
+}
+
+/// A file with a list of modules.
+#[derive(Debug)]
+pub(super) struct List {
+    pub(super) file: u32,
+    pub(super) told: Vec<(Piece, Says)>,
+}
+
+/// A whole program.
+#[derive(Debug, Default)]
+pub(super) struct Program<'t> {
+    pub(super) lists: Vec<List>,
+    pub(super) modules: Vec<Module<'t>>,
+    pub(super) routines: Vec<Routine>,
+    /// Places in that list, by name.
+    named: BTreeMap<String, Vec<usize>>,
+    pub(super) data: Data,
+    /// Names that moves use for tools and work objects.
+    used: BTreeSet<String>,
+    /// Names of modules seen so far.
+    names: BTreeSet<String>,
+}
+
+/// What is being read.
+#[derive(Clone, Copy)]
+enum Within {
+    Nothing,
+    Module,
+    Routine { index: Option<usize>, start: usize },
+}
+
+impl<'t> Program<'t> {
+    /// Reads the files of a program.
+    pub(super) fn of(files: &'t [ProgramFile], machine: Machine<'_>) -> Self {
+        let mut program = Self::default();
+        let loaded = program.lists(files);
+        for (number, file) in (0..).zip(files).filter(|(_, file)| !is_list(&file.name)) {
+            let Pieces { all, used } = pieces(&file.text);
+            let mut module = Module {
+                file: number,
+                text: &file.text,
+                pieces: all,
+                says: BTreeMap::new(),
+            };
+            let stem = file
+                .name
+                .rsplit_once('.')
+                .map_or(file.name.as_str(), |(stem, _)| stem);
+            if loaded
+                .as_ref()
+                .is_none_or(|names| names.contains(&file.name.to_ascii_uppercase()))
+            {
+                program.used.extend(used);
+                program.structure(&mut module, stem);
+            }
+            program.modules.push(module);
+        }
+        program.frames(machine);
+        program
+    }
+
+    /// Reads the lists; the files that they name, in upper case. Without a list all files are loaded.
+    fn lists(&mut self, files: &[ProgramFile]) -> Option<BTreeSet<String>> {
+        let there: BTreeSet<String> = files.iter().map(|file| file.name.to_ascii_uppercase()).collect();
+        let mut named: Option<BTreeSet<String>> = None;
+        for (number, file) in (0..).zip(files).filter(|(_, file)| is_list(&file.name)) {
+            let is_first = named.is_none();
+            let names = named.get_or_insert_default();
+            let mut says = |entry: &Entry| match (entry.piece.kind, &entry.module) {
+                (PieceKind::Broken, _) => Says::Unreadable {
+                    expected: "a list of modules, `<Program> <Module>NAME.mod</Module> </Program>`"
+                        .to_owned(),
+                },
+                _ if !is_first => Says::Unknown,
+                (_, Some(module)) => {
+                    let name = module.to_ascii_uppercase();
+                    let is_there = there.contains(&name) && names.insert(name);
+                    if is_there { Says::Setting } else { Says::Unknown }
+                }
+                (_, None) => Says::Setting,
+            };
+            let told = entries(&file.text).into_iter();
+            let told = told.map(|entry| (entry.piece, says(&entry))).collect();
+            self.lists.push(List { file: number, told });
+        }
+        named
+    }
+
+    /// Finds the routines and data of a module that is loaded.
+    fn structure(&mut self, module: &mut Module<'t>, stem: &str) {
+        let index = self.modules.len();
+        let mut within = Within::Nothing;
+        let mut header = None;
+        for place in 0..module.pieces.len() {
+            let Some(&piece) = module.pieces.get(place) else {
+                break;
+            };
+            let (says, next) = match (piece.kind, within) {
+                (PieceKind::OldHead, Within::Nothing) if place == 0 => (Some(Says::Setting), within),
+                (PieceKind::Module, Within::Nothing) if header.is_none() => {
+                    header = Some(place);
+                    (
+                        Some(self.module_header(piece.text(module.text), stem)),
+                        Within::Module,
+                    )
+                }
+                (_, Within::Nothing) => (Some(expected("MODULE, and nothing before or behind it")), within),
+                (PieceKind::EndModule, Within::Module) => (Some(Says::Setting), Within::Nothing),
+                (PieceKind::Routine, Within::Module) => {
+                    let (says, routine) = self.routine_header(piece.text(module.text), index);
+                    (
+                        says,
+                        Within::Routine {
+                            index: routine,
+                            start: place,
+                        },
+                    )
+                }
+                (PieceKind::OtherRoutine, Within::Module) => (
+                    Some(Says::Setting),
+                    Within::Routine {
+                        index: None,
+                        start: place,
+                    },
+                ),
+                (PieceKind::Statement, Within::Module) => {
+                    let scope = Scope::Module(index);
+                    (Some(self.declaration(piece.text(module.text), scope)), within)
+                }
+                (PieceKind::Control, Within::Module) => (Some(Says::Unknown), within),
+                (PieceKind::Broken, Within::Module) => (Some(expected("`;`")), within),
+                (PieceKind::OldHead | PieceKind::Module | PieceKind::EndRoutine, Within::Module) => {
+                    (Some(expected("a declaration, PROC or ENDMODULE")), within)
+                }
+                (PieceKind::EndRoutine, Within::Routine { index, start }) => {
+                    if let Some(routine) = index.and_then(|index| self.routines.get_mut(index)) {
+                        routine.pieces = start..place + 1;
+                    }
+                    (None, Within::Module)
+                }
+                (
+                    PieceKind::OldHead
+                    | PieceKind::Module
+                    | PieceKind::EndModule
+                    | PieceKind::Routine
+                    | PieceKind::OtherRoutine,
+                    Within::Routine { .. },
+                ) => (Some(expected("ENDPROC")), within),
+                (
+                    PieceKind::Statement,
+                    Within::Routine {
+                        index: Some(routine), ..
+                    },
+                ) => (self.local_declaration(piece.text(module.text), routine), within),
+                (PieceKind::Statement | PieceKind::Control | PieceKind::Broken, Within::Routine { .. }) => {
+                    (None, within)
+                }
+            };
+            if let Some(says) = says {
+                module.says.insert(place, says);
+            }
+            within = next;
+        }
+        match (within, header) {
+            (Within::Nothing, Some(_)) => {}
+            (_, Some(header)) => {
+                module
+                    .says
+                    .insert(header, expected("ENDMODULE at the end of this module"));
+            }
+            (_, None) => {}
+        }
+    }
+
+    /// A module must be called like its file, and no two alike.
+    fn module_header(&mut self, text: &str, stem: &str) -> Says {
+        let words: Vec<&str> = text
+            .split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+            .collect();
+        let name = words.iter().filter(|word| !word.is_empty()).nth(1);
+        let name = name.map(|name| name.to_ascii_uppercase()).unwrap_or_default();
+        if name == stem.to_ascii_uppercase() && self.names.insert(name) {
+            Says::Setting
+        } else {
+            Says::Unknown
+        }
+    }
+
+    /// A routine's header; its number, if it can be called. A routine that has a name twice is not.
+    fn routine_header(&mut self, text: &str, module: usize) -> (Option<Says>, Option<usize>) {
+        let upper = text.to_ascii_uppercase();
+        let (local, rest) = match upper.trim_start().strip_prefix("LOCAL") {
+            Some(rest) => (true, rest),
+            None => (false, upper.as_str()),
+        };
+        let rest = rest.trim_start().strip_prefix("PROC").unwrap_or_default();
+        let Some((name, parameters)) = rest.split_once('(') else {
+            return (Some(expected("a name and `()`")), None);
+        };
+        let name = name.trim().to_owned();
+        let is_name = !name.is_empty() && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_');
+        let clashes = self
+            .named(&name)
+            .any(|(_, other)| other.module == module || !(other.local || local));
+        if !is_name || clashes {
+            return (Some(Says::Unknown), None);
+        }
+        let number = self.routines.len();
+        self.named.entry(name).or_default().push(number);
+        let inner = parameters.trim_end().strip_suffix(')');
+        self.routines.push(Routine {
+            module,
+            local,
+            plain: inner.is_some_and(|inner| inner.trim().is_empty()),
+            pieces: 0..0,
+        });
+        (None, Some(number))
+    }
+
+    /// A declaration of a module.
+    fn declaration(&mut self, text: &str, module: Scope) -> Says {
+        match sentence(text) {
+            Ok(Sentence::Declaration {
+                local,
+                kind,
+                name,
+                value,
+            }) => {
+                let scope = if local { module } else { Scope::Task };
+                self.declare(scope, &kind, name, value)
+            }
+            Ok(Sentence::Assignment { .. } | Sentence::Instruction { .. }) => {
+                expected("a declaration or PROC")
+            }
+            Err(what) => Says::Unreadable { expected: what },
+        }
+    }
+
+    /// A declaration of a routine; none when the statement is no declaration.
+    fn local_declaration(&mut self, text: &str, routine: usize) -> Option<Says> {
+        let starts = ["CONST", "VAR", "PERS"];
+        let begins = |word: &&str| {
+            text.get(..word.len())
+                .is_some_and(|start| start.eq_ignore_ascii_case(word))
+        };
+        if !starts.iter().any(|word| begins(&word)) {
+            return None;
+        }
+        match sentence(text) {
+            Ok(Sentence::Declaration {
+                kind, name, value, ..
+            }) => Some(self.declare(Scope::Routine(routine), &kind, name, value)),
+            Ok(Sentence::Assignment { .. } | Sentence::Instruction { .. }) | Err(_) => None,
+        }
+    }
+
+    fn declare(&mut self, scope: Scope, kind: &str, name: String, value: Option<Value>) -> Says {
+        let datum = match value {
+            Some(value) if KINDS.contains(&kind) => Datum::Value(value),
+            Some(_) | None => Datum::Unclear,
+        };
+        if self.data.declare(scope, &name, datum) {
+            Says::Setting
+        } else {
+            self.data.declare(scope, &name, Datum::Unclear);
+            Says::Unknown
+        }
+    }
+
+    /// Tells the frames of the tools and work objects that moves use, where they are declared.
+    fn frames(&mut self, machine: Machine<'_>) {
+        for index in 0..self.modules.len() {
+            let Some(module) = self.modules.get(index) else {
+                break;
+            };
+            let mut found = Vec::new();
+            for (&place, says) in &module.says {
+                let Some(piece) = module.pieces.get(place).filter(|_| *says == Says::Setting) else {
+                    continue;
+                };
+                if piece.kind != PieceKind::Statement {
+                    continue;
+                }
+                if let Ok(Sentence::Declaration {
+                    local,
+                    kind,
+                    name,
+                    value: Some(value),
+                }) = sentence(piece.text(module.text))
+                    && self.used.contains(&name)
+                {
+                    let view = View {
+                        data: &self.data,
+                        module: index,
+                        routine: None,
+                    };
+                    let scope = if local { Scope::Module(index) } else { Scope::Task };
+                    match kind.as_str() {
+                        "TOOLDATA" => {
+                            let says = tool(&value, view, machine);
+                            found.push((place, scope, name, Datum::Tool, says));
+                        }
+                        "WOBJDATA" => {
+                            let frame = view.work_object(&value);
+                            let says =
+                                frame.map(|frame| Says::Frame(FrameRole::Base, FrameSetting::Value(frame)));
+                            found.push((place, scope, name, Datum::WorkObject, says));
+                        }
+                        _ => {}
+                    }
+                }
+            }
+            for (place, scope, name, datum, says) in found {
+                let datum = if says.is_some() { datum } else { Datum::Unclear };
+                self.data.declare(scope, &name, datum);
+                if let Some(module) = self.modules.get_mut(index) {
+                    module.says.insert(place, says.unwrap_or(Says::Unknown));
+                }
+            }
+        }
+    }
+
+    /// The routines of a name, in upper case, with their numbers.
+    fn named(&self, name: &str) -> impl Iterator<Item = (usize, &Routine)> {
+        let numbers = self.named.get(name).into_iter().flatten();
+        numbers.filter_map(|&number| Some((number, self.routines.get(number)?)))
+    }
+
+    /// The routine that a module calls by a name, in upper case.
+    pub(super) fn routine(&self, name: &str, module: usize) -> Option<usize> {
+        let own = self.named(name).find(|(_, routine)| routine.module == module);
+        let seen = || self.named(name).find(|(_, routine)| !routine.local);
+        own.or_else(seen).map(|(number, _)| number)
+    }
+
+    /// The routine that a task begins with.
+    pub(super) fn main(&self) -> Option<usize> {
+        let name = MAIN.to_ascii_uppercase();
+        let main = self
+            .named(&name)
+            .find(|(_, routine)| !routine.local && routine.plain);
+        main.map(|(number, _)| number)
+    }
+}
+
+/// Types whose values are understood, and those of frames, which are looked at once all are known.
+const KINDS: [&str; 11] = [
+    "NUM",
+    "POS",
+    "ORIENT",
+    "POSE",
+    "ROBTARGET",
+    "JOINTTARGET",
+    "SPEEDDATA",
+    "ZONEDATA",
+    "LOADDATA",
+    "CONFDATA",
+    "EXTJOINT",
+];
+
+fn expected(what: &str) -> Says {
+    Says::Unreadable {
+        expected: what.to_owned(),
+    }
+}
+
+/// Whether a file is a list of modules.
+fn is_list(name: &str) -> bool {
+    name.rsplit_once('.')
+        .is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("pgf"))
+}
+
+/// The frame of a tool that carries what the job says.
+fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Says> {
+    let (frame, load) = view.tool(value)?;
+    let Some(Registered::Value(should)) = machine.cell.load else {
+        return None;
+    };
+    let length = super::half_unit(machine.settings.lengths.decimals());
+    let near = |is: f64, should: f64, grain: f64| (is - should).abs() <= grain * (1.0 + 1e-6);
+    let is_load = near(
+        load.mass.to_kg(),
+        should.mass.to_kg(),
+        super::half_unit(super::TRIMMED_DECIMALS),
+    ) && near(load.centre.x, should.centre.x, length)
+        && near(load.centre.y, should.centre.y, length)
+        && near(load.centre.z, should.centre.z, length);
+    is_load.then_some(Says::Frame(FrameRole::Tool, FrameSetting::Value(frame)))
+}

@@ -1,0 +1,162 @@
+//! What an outside program says that it is, held against what a backend may be.
+
+use super::fault::{fault, line};
+use vcutc_backend_api::backend::{Fault, OptionKind, OptionSpec};
+use vcutc_backend_api::protocol::{DescribedKind, DescribedOption, Description, Driven, Reads};
+use vcutc_backend_api::verify::Capabilities;
+
+/// Most options of a program, and most words of a choice.
+const MOST_OPTIONS: usize = 64;
+
+/// The key under which a job names a profile: no option can have it.
+const PROFILE: &str = "profile";
+
+/// Finest count of decimals: doubles have no more.
+const MOST_DECIMALS: u32 = 15;
+
+/// A program that can be asked to write.
+#[derive(Debug)]
+pub(super) struct Described {
+    pub(super) summary: &'static str,
+    pub(super) capabilities: Capabilities,
+    pub(super) options: &'static [OptionSpec],
+    pub(super) machines: Vec<Driven>,
+    pub(super) drives: &'static str,
+    pub(super) reads: Option<Reads>,
+}
+
+/// Keeps a text to the end of the process. The trait of backends speaks of texts that are part of the compiler; those of an
+/// outside program are kept once for its description, and for the few problems of its one reply.
+pub(super) fn kept(text: &str) -> &'static str {
+    Box::leak(line(text).into_boxed_str())
+}
+
+/// The description of the program of that name.
+///
+/// # Errors
+/// The first thing that does not fit.
+pub(super) fn described(name: &str, description: Description) -> Result<Described, Fault> {
+    let refused = |what: String| Err(fault(what));
+    if description.id != name {
+        let id = line(&description.id);
+        return refused(format!(
+            "says that its id is `{id}`, but its file is named for `{name}`"
+        ));
+    }
+    if description.summary.trim().is_empty() || description.drives.trim().is_empty() {
+        return refused("describes itself without `summary` or `drives`".to_owned());
+    }
+    if description.machines.is_empty() {
+        return refused("names no machines that it drives".to_owned());
+    }
+    if description.options.len() > MOST_OPTIONS {
+        return refused(format!("has more than {MOST_OPTIONS} options"));
+    }
+    let mut specs: Vec<OptionSpec> = Vec::new();
+    for option in &description.options {
+        let spec = spec(option)?;
+        if specs.iter().any(|known| known.key == spec.key) {
+            return refused(format!("has the option `{}` twice", spec.key));
+        }
+        specs.push(spec);
+    }
+    if let Some(reads) = &description.reads {
+        readable(reads, &specs)?;
+    }
+    let capabilities = description.capabilities.iter();
+    Ok(Described {
+        summary: kept(&description.summary),
+        capabilities: capabilities.fold(Capabilities::NONE, |all, &one| all.with(one)),
+        options: Box::leak(specs.into_boxed_slice()),
+        machines: description.machines,
+        drives: kept(&description.drives),
+        reads: description.reads,
+    })
+}
+
+fn spec(option: &DescribedOption) -> Result<OptionSpec, Fault> {
+    let key = line(&option.key);
+    let refused = |what: &str| Err(fault(format!("has an option `{key}` {what}")));
+    if !is_name(&option.key) {
+        return refused("whose key is no name (letters a to z, digits and `_`, a letter first)");
+    }
+    if option.key == PROFILE {
+        return refused("which is the key under which jobs name a profile");
+    }
+    if option.help.trim().is_empty() {
+        return refused("without help");
+    }
+    let kind = match &option.kind {
+        &DescribedKind::Integer { min, max, default } => OptionKind::Integer { min, max, default },
+        &DescribedKind::Length { min, max, default } => OptionKind::Length { min, max, default },
+        DescribedKind::Lines => OptionKind::Lines,
+        DescribedKind::Text => OptionKind::Text,
+        DescribedKind::Choice { of } => {
+            if of.is_empty() || of.len() > MOST_OPTIONS || !of.iter().all(|word| is_name(word)) {
+                return refused("whose words are none, too many, or no names");
+            }
+            let words: Vec<&'static str> = of.iter().map(|word| kept(word)).collect();
+            OptionKind::Choice {
+                of: Box::leak(words.into_boxed_slice()),
+            }
+        }
+    };
+    if !is_sound(kind) {
+        return refused("whose default is not in its range");
+    }
+    Ok(OptionSpec {
+        key: kept(&option.key),
+        kind,
+        help: kept(&option.help),
+    })
+}
+
+fn is_sound(kind: OptionKind) -> bool {
+    match kind {
+        OptionKind::Integer { min, max, default } => (min..=max).contains(&default),
+        OptionKind::Length { min, max, default } => (min..=max).contains(&default),
+        OptionKind::Lines | OptionKind::Text | OptionKind::Choice { .. } => true,
+    }
+}
+
+/// Whether a job can write a word as a name.
+pub(super) fn is_name(word: &str) -> bool {
+    const MOST: usize = 40;
+    let rest = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
+    word.len() <= MOST
+        && word.starts_with(|letter: char| letter.is_ascii_lowercase())
+        && word.chars().all(rest)
+}
+
+fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
+    if reads.extensions.is_empty() {
+        return Err(fault("reads files, but names no extension of theirs"));
+    }
+    let grain = &reads.grain;
+    let values = [
+        grain.length.to_mm(),
+        grain.attitude.to_rad(),
+        grain.axis.to_rad(),
+        grain.speed.to_mm_per_s(),
+        grain.rate.to_rad_per_s(),
+        grain.per_minute,
+        grain.time.to_s(),
+    ];
+    if values.iter().any(|value| !(value.is_finite() && *value >= 0.0)) {
+        return Err(fault("prints with a grain below zero"));
+    }
+    let Some(key) = &reads.decimals else {
+        return Ok(());
+    };
+    let counts_decimals = specs.iter().any(|spec| {
+        spec.key == key && matches!(spec.kind, OptionKind::Integer { max, .. } if max <= MOST_DECIMALS)
+    });
+    if counts_decimals {
+        Ok(())
+    } else {
+        let key = line(key);
+        Err(fault(format!(
+            "counts decimals by `{key}`, which is no whole-number option up to {MOST_DECIMALS}"
+        )))
+    }
+}

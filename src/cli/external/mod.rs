@@ -1,0 +1,405 @@
+//! Targets that are programs of their own: `vcutc-backend-NAME`, looked for in the folders of `--backend-path` and then on the
+//! PATH. The protocol is [`vcutc_backend_api::protocol`]; `docs/backends.md` teaches it.
+//!
+//! An [`External`] is a [`Backend`] like any other, so that the rest of the compiler does not know the difference. It runs its
+//! program when it is first asked for something that only the program knows; listing the names runs nothing. What the
+//! program answers is checked here, and what is amiss becomes [`BackendIssue::Failed`].
+
+mod answer;
+mod description;
+mod fault;
+mod process;
+
+use super::args::OutsideArgs;
+use description::{Described, described, is_name};
+use fault::{fault, line};
+use process::{Limits, ask};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::Duration;
+use vcutc_backend_api::backend::{
+    Backend, BackendIssue, Emission, EmitError, Fault, MachineMismatch, OptionSpec, Options,
+};
+use vcutc_backend_api::bundle::Sink;
+use vcutc_backend_api::exchange::Exchange;
+use vcutc_backend_api::ir::{AxisValues, Cell, OpId};
+use vcutc_backend_api::motion::{Branch, ReachableProgram};
+use vcutc_backend_api::protocol::{
+    Ask, Description, Emit, Emitted, PROGRAM_PREFIX, PROTOCOL_VERSION, Read, ReadBack, Request,
+    branch_as_stance, values,
+};
+use vcutc_backend_api::readback::{
+    Frames, Grain, Place, ProgramFile, Reader, Says, Sources, Stance, Statement,
+};
+use vcutc_backend_api::units::{self, Angle, AngularSpeed, Length, Speed};
+use vcutc_backend_api::verify::{Capabilities, Capability};
+
+/// Largest description, in bytes.
+const LARGEST_DESCRIPTION: usize = 1 << 20;
+
+/// Largest program with its account of ops, in bytes: some millions of lines.
+const LARGEST_REPLY: usize = 1 << 28;
+
+/// A target that is a program outside of the compiler.
+#[derive(Debug)]
+pub(super) struct External {
+    name: &'static str,
+    path: PathBuf,
+    time: Duration,
+    described: OnceLock<Result<Described, Fault>>,
+}
+
+/// The programs that can be found, by their names; of several with one name the first that is found.
+pub(super) fn found(args: &OutsideArgs) -> Vec<&'static External> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders = args
+        .backend_path
+        .iter()
+        .map(PathBuf::from)
+        .chain(std::env::split_paths(&path));
+    let mut found: Vec<External> = Vec::new();
+    for folder in folders {
+        for (name, path) in programs(&folder) {
+            if !found.iter().any(|known| known.name == name) {
+                found.push(External::new(
+                    &name,
+                    path,
+                    Duration::from_secs(args.backend_timeout),
+                ));
+            }
+        }
+    }
+    found.sort_by_key(|external| external.name);
+    // They are targets of this process, as those that are linked in.
+    found
+        .into_iter()
+        .map(|external| &*Box::leak(Box::new(external)))
+        .collect()
+}
+
+/// The programs of a folder, in the order of their names. Folders that cannot be read have none: the PATH names many.
+fn programs(folder: &Path) -> Vec<(String, PathBuf)> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut programs: Vec<(String, PathBuf)> = entries
+        .filter_map(|entry| {
+            let name = target_of(entry.file_name().to_str()?)?.to_owned();
+            entry.path().is_file().then(|| (name, entry.path()))
+        })
+        .collect();
+    programs.sort();
+    programs
+}
+
+/// The target whose program has that file name.
+fn target_of(file: &str) -> Option<&str> {
+    let name = file.strip_prefix(PROGRAM_PREFIX)?;
+    let name = if cfg!(windows) {
+        let (stem, ending) = name.rsplit_once('.')?;
+        let starts = ["exe", "cmd", "bat"]
+            .iter()
+            .any(|known| ending.eq_ignore_ascii_case(known));
+        starts.then_some(stem)?
+    } else {
+        name
+    };
+    is_name(name).then_some(name)
+}
+
+impl External {
+    fn new(name: &str, path: PathBuf, time: Duration) -> Self {
+        Self {
+            name: Box::leak(name.to_owned().into_boxed_str()),
+            path,
+            time,
+            described: OnceLock::new(),
+        }
+    }
+
+    /// Where its program is.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn described(&self) -> Result<&Described, &Fault> {
+        let description = self.described.get_or_init(|| {
+            let description: Description = self.ask(Ask::Describe, LARGEST_DESCRIPTION)?;
+            described(self.name, description)
+        });
+        description.as_ref()
+    }
+
+    fn ask<T: DeserializeOwned>(&self, ask_for: Ask<'_>, reply: usize) -> Result<T, Fault> {
+        let request = Request {
+            protocol: PROTOCOL_VERSION,
+            compiler: Cow::Borrowed(env!("CARGO_PKG_VERSION")),
+            ask: ask_for,
+        };
+        let question =
+            serde_json::to_vec(&request).map_err(|error| fault(format!("cannot be asked: {error}")))?;
+        let limits = Limits {
+            time: self.time,
+            reply,
+        };
+        understood(&ask(&self.path, question, limits)?)
+    }
+
+    fn write(
+        &self,
+        program: &ReachableProgram,
+        options: &Options,
+    ) -> Result<Vec<ProgramFile>, Vec<BackendIssue>> {
+        let described = self
+            .described()
+            .map_err(|fault| vec![BackendIssue::Failed(fault.clone())])?;
+        let refused: Vec<_> = wrong_machine(described, program.program().cell.as_ref())
+            .into_iter()
+            .chain(missing(described, program))
+            .collect();
+        if !refused.is_empty() {
+            return Err(refused);
+        }
+        let emit = Emit {
+            program: Exchange::of(program.program(), Some(program.motion())),
+            options: values(options),
+            profile: Cow::Borrowed(options.profile()),
+        };
+        let emitted: Emitted = self
+            .ask(Ask::Emit(emit), LARGEST_REPLY)
+            .map_err(|fault| vec![BackendIssue::Failed(fault.clone())])?;
+        answer::files(emitted, program.program().ops.len(), described)
+    }
+}
+
+/// A reply in this protocol.
+fn understood<T: DeserializeOwned>(reply: &[u8]) -> Result<T, Fault> {
+    /// What every reply has, whatever its version.
+    #[derive(Deserialize)]
+    struct Versioned {
+        protocol: u32,
+    }
+    let other = |error: serde_json::Error| {
+        let error = line(&error.to_string());
+        Fault {
+            said: vec![beginning(reply)],
+            ..fault(format!("answers something else than the protocol says: {error}"))
+        }
+    };
+    let Versioned { protocol } = serde_json::from_slice(reply).map_err(other)?;
+    if protocol != PROTOCOL_VERSION {
+        return Err(fault(format!(
+            "speaks version {protocol} of the protocol, this compiler version {PROTOCOL_VERSION}"
+        )));
+    }
+    serde_json::from_slice(reply).map_err(other)
+}
+
+/// What a reply looks like.
+fn beginning(reply: &[u8]) -> String {
+    const MOST: usize = 80;
+    let start = reply.get(..reply.len().min(MOST)).unwrap_or_default();
+    match line(&String::from_utf8_lossy(start)).as_str() {
+        "" => "(nothing)".to_owned(),
+        start => format!("{start} ..."),
+    }
+}
+
+fn wrong_machine(described: &Described, cell: Option<&Cell>) -> Option<BackendIssue> {
+    let cell = cell?;
+    let of_kind = || {
+        described
+            .machines
+            .iter()
+            .filter(|driven| driven.kind == cell.kind)
+    };
+    let mismatch = if of_kind().next().is_none() {
+        MachineMismatch::Kind
+    } else if of_kind().any(|driven| driven.makers.is_empty() || driven.makers.contains(&cell.maker)) {
+        return None;
+    } else {
+        MachineMismatch::Maker
+    };
+    Some(BackendIssue::WrongMachine {
+        mismatch,
+        drives: described.drives,
+    })
+}
+
+/// The first op for each capability that the program lacks.
+fn missing(described: &Described, program: &ReachableProgram) -> Vec<BackendIssue> {
+    let missing = program.verified().needs().missing_from(described.capabilities);
+    missing
+        .map(|capability| BackendIssue::Unsupported {
+            op: OpId(0),
+            what: capability.words(),
+        })
+        .collect()
+}
+
+impl Backend for External {
+    fn id(&self) -> &'static str {
+        self.name
+    }
+
+    fn summary(&self) -> &'static str {
+        self.described().map_or("", |described| described.summary)
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        match self.described() {
+            Ok(described) => described.capabilities,
+            // Nothing is lacking then but the program itself, which `ready` and `check` tell.
+            Err(_) => Capability::ALL
+                .into_iter()
+                .fold(Capabilities::NONE, Capabilities::with),
+        }
+    }
+
+    fn options(&self) -> &'static [OptionSpec] {
+        self.described().map_or(&[], |described| described.options)
+    }
+
+    fn ready(&self) -> Result<(), Fault> {
+        self.described().map(|_| ()).map_err(Fault::clone)
+    }
+
+    fn reader(&self) -> Option<&dyn Reader> {
+        let reads = self.described().ok()?.reads.is_some();
+        reads.then_some(self)
+    }
+
+    fn check<'p>(
+        &self,
+        program: &'p ReachableProgram,
+        options: &'p Options,
+    ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
+        Ok(Box::new(Written(self.write(program, options)?)))
+    }
+}
+
+/// Files that are there already.
+struct Written(Vec<ProgramFile>);
+
+impl Emission for Written {
+    fn write(&self, sink: &mut dyn Sink) -> Result<(), EmitError> {
+        for file in &self.0 {
+            sink.file(&file.name)?;
+            sink.write(file.text.as_bytes())?;
+        }
+        Ok(())
+    }
+}
+
+/// How finely a program prints that cannot be asked: what it writes is not read.
+const EXACT: Grain = Grain {
+    length: Length::ZERO,
+    attitude: Angle::ZERO,
+    axis: Angle::ZERO,
+    speed: Speed::ZERO,
+    rate: AngularSpeed::ZERO,
+    per_minute: 0.0,
+    time: units::Duration::ZERO,
+};
+
+impl Reader for External {
+    fn recognises(&self, file: &str) -> bool {
+        let Some((_, extension)) = file.rsplit_once('.') else {
+            return false;
+        };
+        let reads = self
+            .described()
+            .ok()
+            .and_then(|described| described.reads.as_ref());
+        let known = reads.into_iter().flat_map(|reads| &reads.extensions);
+        known
+            .into_iter()
+            .any(|known| known.eq_ignore_ascii_case(extension))
+    }
+
+    fn grain(&self, options: &Options) -> Grain {
+        let reads = self
+            .described()
+            .ok()
+            .and_then(|described| described.reads.as_ref());
+        reads.map_or(EXACT, |reads| match &reads.decimals {
+            Some(key) => divided(&reads.grain, options.integer(key)),
+            None => reads.grain,
+        })
+    }
+
+    fn frames(&self) -> Frames {
+        let reads = self
+            .described()
+            .ok()
+            .and_then(|described| described.reads.as_ref());
+        reads.map_or(Frames::OnMachine, |reads| reads.frames)
+    }
+
+    fn stance(&self, branch: Branch, _axes: AxisValues) -> Option<Stance> {
+        Some(branch_as_stance(branch))
+    }
+
+    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+        let read = Read {
+            files: Cow::Borrowed(sources.files),
+            cell: Cow::Borrowed(sources.cell),
+            options: values(sources.options),
+            profile: Cow::Borrowed(sources.options.profile()),
+        };
+        let told = self
+            .ask(Ask::Read(read), LARGEST_REPLY)
+            .and_then(|told: ReadBack| {
+                match told
+                    .statements
+                    .iter()
+                    .find(|statement| !is_there(statement.place, sources.files))
+                {
+                    Some(Statement { place, .. }) => Err(fault(format!(
+                        "reads bytes {} to {} of file {}, which are not there",
+                        place.start, place.end, place.file
+                    ))),
+                    None => Ok(told.statements),
+                }
+            });
+        match told {
+            Ok(statements) => statements.into_iter().for_each(heed),
+            Err(fault) => heed(unread(self.name, &fault)),
+        }
+    }
+}
+
+/// Whether a place is one of the text of a file, from letter to letter.
+fn is_there(place: Place, files: &[ProgramFile]) -> bool {
+    let file = files.get(place.file as usize);
+    file.is_some_and(|file| file.text.get(place.start as usize..place.end as usize).is_some())
+}
+
+/// What a reader tells that could not read at all.
+fn unread(name: &str, fault: &Fault) -> Statement {
+    Statement {
+        place: Place {
+            file: 0,
+            start: 0,
+            end: 0,
+        },
+        says: Says::Unreadable {
+            expected: format!("what the program behind `{name}` would read (it {})", fault.what),
+        },
+    }
+}
+
+/// A grain divided by ten to some power.
+fn divided(grain: &Grain, decimals: u32) -> Grain {
+    let by = (0..decimals).fold(1.0, |power, _| power * 10.0);
+    Grain {
+        length: grain.length / by,
+        attitude: grain.attitude / by,
+        axis: grain.axis / by,
+        speed: grain.speed / by,
+        rate: grain.rate / by,
+        per_minute: grain.per_minute / by,
+        time: grain.time / by,
+    }
+}

@@ -1,0 +1,160 @@
+//! `vcutc verify JOB PROGRAM...`: a program held against the job that it was made from.
+
+use super::args::VerifyArgs;
+use super::console::{Console, Failure, Summary};
+use super::files::{Disk, load_program};
+use super::progress::Progress;
+use super::{Exit, Targets, compile, targets};
+use crate::diag::has_errors;
+use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage};
+use crate::readback::{Fresh, Reference, Verdict};
+use std::path::Path;
+use vcutc_backend_api::backend::Backend;
+use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
+
+/// Compares and tells.
+pub(super) fn verify(args: &VerifyArgs, targets: &Targets, console: &Console) -> Exit {
+    let ready = program(&args.programs)
+        .and_then(|files| Ok((target(args.target.as_deref(), &files, targets)?, files)));
+    let ((backend, reader), files) = match ready {
+        Ok(ready) => ready,
+        Err(failure) => return console.failure(&failure),
+    };
+    let disk = Disk::around(&args.job);
+    let mut progress = Progress::start(console.shows_progress());
+    let request = Request {
+        path: disk.job(),
+        loader: &disk,
+        overrides: &args.overrides.set,
+        machine: args.overrides.machine.as_deref(),
+        targets,
+    };
+    let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
+        Ok(outcome) => outcome,
+        Err(RequestError::Unreadable(reason)) => {
+            drop(progress);
+            return console.failure(&compile::unreadable(&args.job, &reason));
+        }
+    };
+    progress.enter(Stage::Verifying);
+    let verdict = compared(&mut outcome, backend, reader, &files, &args.programs);
+    let timings = progress.finish();
+    let verdict = match verdict {
+        Ok(verdict) => verdict,
+        Err(failure) => {
+            console.diagnostics(&outcome.diagnostics, &outcome.sources);
+            return console.failure(&failure);
+        }
+    };
+    outcome.diagnostics.extend(verdict.diagnostics);
+    console.diagnostics(&outcome.diagnostics, &outcome.sources);
+    let exit = if has_errors(&outcome.diagnostics) {
+        Exit::JobHasErrors
+    } else {
+        Exit::Success
+    };
+    console.summary(&Summary {
+        job: disk.job(),
+        diagnostics: &outcome.diagnostics,
+        lines: &verdict.lines,
+        reach: None,
+        files: &[],
+        remark: None,
+        timings: &timings,
+    });
+    exit
+}
+
+/// Holds the files against the outcome's program. A job with errors has none; its errors are the verdict.
+fn compared(
+    outcome: &mut Outcome,
+    backend: &dyn Backend,
+    reader: &dyn Reader,
+    files: &[ProgramFile],
+    shown: &[String],
+) -> Result<Verdict, Failure> {
+    let written = match driver::write(outcome, backend) {
+        Ok(Some(written)) => written,
+        Ok(None) => return Ok(Verdict::default()),
+        Err(EmitFailure::Diagnostics(diagnostics)) => {
+            return Ok(Verdict {
+                diagnostics,
+                ..Verdict::default()
+            });
+        }
+        Err(EmitFailure::Sink(reason)) => return Err(Failure::new(reason)),
+    };
+    let reached = outcome
+        .compiled
+        .as_ref()
+        .and_then(|compiled| compiled.program.reached());
+    let fresh = Fresh::of(
+        outcome.job.as_ref(),
+        outcome.plan.as_ref(),
+        reached,
+        &written,
+        reader,
+    );
+    let fresh = fresh.ok_or_else(|| Failure::new("the job has no program to compare with"))?;
+    Ok(Reference::new(fresh).verify(files, shown, &mut outcome.sources))
+}
+
+/// The files of the program.
+fn program(paths: &[String]) -> Result<Vec<ProgramFile>, Failure> {
+    let mut files: Vec<ProgramFile> = Vec::with_capacity(paths.len());
+    for path in paths {
+        let name = Path::new(path).file_name().unwrap_or_default();
+        let name = name.to_string_lossy().into_owned();
+        if files.iter().any(|file| file.name.eq_ignore_ascii_case(&name)) {
+            return Err(Failure::new(format!("two files are called {name}"))
+                .help("give the files of one program, each once"));
+        }
+        let bytes = load_program(path)
+            .map_err(|reason| Failure::new(format!("cannot read the program {path}: {reason}")))?;
+        files.push(ProgramFile {
+            name,
+            text: decoded(&bytes),
+        });
+    }
+    Ok(files)
+}
+
+type Readable = (&'static dyn Backend, &'static dyn Reader);
+
+/// The target that wrote the files: the one that was given, or the only one that knows their names.
+fn target(given: Option<&str>, files: &[ProgramFile], targets: &Targets) -> Result<Readable, Failure> {
+    let readable = |backend: &'static dyn Backend| Some((backend, backend.reader()?));
+    if let Some(id) = given {
+        let backend = targets::find(targets, id)?;
+        return readable(backend)
+            .ok_or_else(|| Failure::new(format!("programs of target `{id}` cannot be read back")));
+    }
+    let knows_all = |(_, reader): &Readable| files.iter().all(|file| reader.recognises(&file.name));
+    let known: Vec<_> = targets
+        .iter()
+        .filter_map(|&backend| readable(backend))
+        .filter(knows_all)
+        .collect();
+    let names: Vec<_> = files.iter().map(|file| file.name.as_str()).collect();
+    let names = names.join(", ");
+    match known.as_slice() {
+        [only] => Ok(*only),
+        [] => Err(
+            Failure::new(format!("no target is known by files such as {names}")).help(format!(
+                "give the target with --target (targets: {})",
+                targets::names(targets)
+            )),
+        ),
+        several => {
+            let ids: Vec<_> = several.iter().map(|(backend, _)| backend.id()).collect();
+            Err(Failure::new(format!(
+                "several targets write files such as {names}: {}",
+                ids.join(", ")
+            ))
+            .help(format!(
+                "give one of them, such as --target {}",
+                ids.first().unwrap_or(&"krl")
+            )))
+        }
+    }
+}

@@ -1,0 +1,486 @@
+//! What a program that is not the job's would do: the rules of the process, the contour, and the reach of the machine, told
+//! at the lines of the program.
+//!
+//! The same proofs as for a fresh program are run on the one that was rebuilt from the statements. Those of chips and reach
+//! need a program that keeps the rules; that no cut enters the part is looked at in any case.
+
+use super::differences::{Scene, asked, place_in};
+use super::rebuild::{Obstacle, Rebuilt};
+use super::wording::op_words;
+use crate::diag::{Code, Diagnostic};
+use crate::machine::Model;
+use crate::plan::PlannedJob;
+use crate::plan::parameters::show;
+use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
+use crate::reach_verdict;
+use crate::sim::prove::{CutFault, Finding};
+use crate::sim::report::report;
+use crate::sim::slit::{Entry, deepest, edge};
+use crate::sim::timing::timing;
+use crate::source::Span;
+use crate::verdict;
+use std::collections::BTreeMap;
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Site};
+use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::readback::{Deed, Judge, Mismatch, Moment, Reader, Says};
+use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
+
+/// What is needed to prove a program that was read.
+#[derive(Clone, Copy)]
+pub(super) struct Bench<'b> {
+    pub(super) scene: &'b Scene<'b>,
+    pub(super) plan: &'b PlannedJob,
+    pub(super) model: &'b Model,
+    pub(super) reader: &'b dyn Reader,
+}
+
+impl Bench<'_> {
+    /// Everything that is wrong with what the program would do.
+    pub(super) fn findings(&self, rebuilt: Rebuilt) -> Vec<Diagnostic> {
+        let scene = self.scene;
+        if rebuilt.program == *scene.judge.reachable().program() {
+            return self.stances(&rebuilt, None);
+        }
+        let read = Read {
+            bench: *self,
+            poses: poses(&rebuilt.program),
+            proven: poses(scene.judge.reachable().program()),
+            rebuilt: &rebuilt,
+        };
+        let mut found: Vec<Diagnostic> = read.entries().into_iter().chain(read.halves()).collect();
+        match verify(rebuilt.program.clone()) {
+            Err(faults) => found.extend(read.rules(&faults)),
+            Ok(verified) => {
+                let is_told = !found.is_empty();
+                found.extend(read.contour(&verified, is_told));
+                found.extend(read.reach(verified));
+            }
+        }
+        found
+    }
+
+    /// Ways to stand as the program says them that are not those that were proven.
+    fn stances(&self, rebuilt: &Rebuilt, reached: Option<&Reached>) -> Vec<Diagnostic> {
+        let proven = reached.map_or_else(|| self.scene.judge.reachable(), |reached| &reached.program);
+        let judge = Judge::new(proven, self.reader, self.scene.grain);
+        let poses = poses(&rebuilt.program);
+        let said = (0..).map(OpId).zip(&rebuilt.origins).zip(poses);
+        let other = said.filter_map(|((op, &given), (at, _))| {
+            let deed = deed(self.scene, given)?;
+            let mismatches = judge.mismatches(Moment { op, at }, deed);
+            let stands = |found: &&Mismatch| matches!(found, Mismatch::Stance { .. } | Mismatch::Axis { .. });
+            mismatches.iter().find(stands).map(|_| (op, given))
+        });
+        let other: Vec<_> = other.collect();
+        let Some(&(op, given)) = other.first() else {
+            return Vec::new();
+        };
+        let diagnostic = Diagnostic::new(
+            Code::ProgramReach,
+            format!(
+                "{}: the way to stand that the program states is not the one that was proven",
+                op_words(&rebuilt.program, op)
+            ),
+            self.span(given),
+            "stated here",
+        )
+        .note("with the program's own way to stand, nobody knows whether the axes stay within their limits")
+        .help("restore the line, or compile the job again");
+        vec![and_more(diagnostic, other.len() - 1)]
+    }
+
+    fn span(&self, given: usize) -> Span {
+        place_in(self.scene.given, self.scene.sources, given).unwrap_or(self.scene.job.name_span)
+    }
+}
+
+/// Why nothing of this was looked at.
+pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
+    let (given, why, label) = match obstacle {
+        Obstacle::NotUnderstood(given) => (
+            given,
+            "nobody knows what this statement does",
+            "could do anything",
+        ),
+        Obstacle::OtherFrame(given) => (
+            given,
+            "the program sets a frame that is not the job's, and nobody knows where the work is then",
+            "not the job's frame",
+        ),
+        Obstacle::TooManyKinds(given) => (
+            given,
+            "it has more speeds or postures than any program of this compiler",
+            "one too many",
+        ),
+    };
+    let span = place_in(scene.given, scene.sources, given).unwrap_or(scene.job.name_span);
+    Diagnostic::new(
+        Code::ChecksLeftOut,
+        "what the program does to the part, and whether the machine reaches it, was not checked",
+        span,
+        label,
+    )
+    .note(why)
+    .help("mend this line first, then verify again")
+}
+
+fn deed<'s>(scene: &'s Scene<'_>, given: usize) -> Option<&'s Deed> {
+    match &scene.given.statements.get(given)?.says {
+        Says::Deed(deed) => Some(deed),
+        Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. } => None,
+    }
+}
+
+/// The poses in front of and behind an op.
+type Ends = (Option<Pose>, Option<Pose>);
+
+/// The poses in front of and behind every op.
+fn poses(program: &Program) -> Vec<Ends> {
+    let mut at = None;
+    let both = program.ops.iter().map(|op| {
+        let before = at;
+        at = pose_after(at, &op.action);
+        (before, at)
+    });
+    both.collect()
+}
+
+fn and_more(diagnostic: Diagnostic, others: usize) -> Diagnostic {
+    match others {
+        0 => diagnostic,
+        1 => diagnostic.note("it is so in one more line"),
+        _ => diagnostic.note(format!("it is so in {others} more lines")),
+    }
+}
+
+/// A program as it was read, on the bench.
+struct Read<'r> {
+    bench: Bench<'r>,
+    rebuilt: &'r Rebuilt,
+    poses: Vec<Ends>,
+    /// The same of the fresh program.
+    proven: Vec<Ends>,
+}
+
+/// A cut of a program: its op, how its blade is held, and from where to where its tip goes.
+#[derive(Clone, Copy)]
+struct CutAt {
+    op: OpId,
+    site: Site,
+    flank: Flank,
+    from: Pose,
+    to: Pose,
+}
+
+impl Read<'_> {
+    fn program(&self) -> &Program {
+        &self.rebuilt.program
+    }
+
+    fn span(&self, op: OpId) -> Span {
+        let given = self.rebuilt.origins.get(op.0 as usize).copied();
+        self.bench.span(given.unwrap_or(usize::MAX))
+    }
+
+    /// A diagnostic at the line of an op, with the job's operation as the other party.
+    fn at(&self, code: Code, message: String, op: OpId, label: impl Into<String>) -> Diagnostic {
+        let asked = asked(self.bench.scene.job, self.program(), Some(op));
+        Diagnostic::new(code, message, self.span(op), label).and(asked, "part of this")
+    }
+
+    fn cuts(&self) -> impl Iterator<Item = CutAt> {
+        let ops = (0..).map(OpId).zip(&self.program().ops).zip(&self.poses);
+        ops.filter_map(|((id, op), &(from, to))| {
+            let Action::Cut { flank, .. } = op.action else {
+                return None;
+            };
+            Some(CutAt {
+                op: id,
+                site: op.site,
+                flank,
+                from: from?,
+                to: to?,
+            })
+        })
+    }
+
+    /// Whether a cut is one of the job's, as it was proven.
+    fn is_proven(&self, cut: &CutAt) -> bool {
+        let partner = self.rebuilt.partners.get(cut.op.0 as usize).copied().flatten();
+        let Some(id) = partner else { return false };
+        let fresh = self.bench.scene.judge.reachable().program();
+        let held = |program: &Program, (_, held): Pose| program.orientations.get(held.0 as usize).copied();
+        let Some(&(Some(from), Some(to))) = self.proven.get(id.0 as usize) else {
+            return false;
+        };
+        (from.0, to.0) == (cut.from.0, cut.to.0) && held(fresh, to) == held(self.program(), cut.to)
+    }
+
+    /// The cut that goes deepest into the part.
+    fn entries(&self) -> Option<Diagnostic> {
+        let bounds = verdict::bounds(self.bench.plan);
+        let mut worst: Option<(CutAt, Entry)> = None;
+        let mut count = 0_usize;
+        for cut in self.cuts().filter(|cut| !self.is_proven(cut)) {
+            let found = self.entry(&bounds, &cut);
+            let Some(entry) = found else { continue };
+            count += 1;
+            if worst.is_none_or(|(_, worst)| entry.depth > worst.depth) {
+                worst = Some((cut, entry));
+            }
+        }
+        let (cut, entry) = worst?;
+        let message = format!(
+            "{} enters the part by {} mm",
+            op_words(self.program(), cut.op),
+            show(entry.depth.to_mm())
+        );
+        let label = format!("deepest at x {} mm, z {} mm", show(entry.at.x), show(entry.at.z));
+        let diagnostic = self
+            .at(Code::ProgramCuts, message, cut.op, label)
+            .and(self.bench.scene.job.profile_span, "the part")
+            .help("restore the line: this would cut into the part");
+        Some(and_more(diagnostic, count - 1))
+    }
+
+    fn entry(&self, bounds: &[crate::sim::prove::Bound<'_>], cut: &CutAt) -> Option<Entry> {
+        let program = self.program();
+        // A cut that belongs to nothing is held against the first operation's bound.
+        let operation = cut
+            .site
+            .operation()
+            .map_or(0, |operation| usize::from(operation.0));
+        let bound = bounds.get(operation)?;
+        let blade = &program.operations.get(operation)?.blade;
+        let held = *program.orientations.get(cut.to.1.0 as usize)?;
+        deepest(bound, edge(blade, held), cut.from.0, cut.to.0)
+    }
+
+    /// A V whose flanks do not have the same tip.
+    fn halves(&self) -> Option<Diagnostic> {
+        let mut first: BTreeMap<(u16, u32, u32), (CutAt, Point3)> = BTreeMap::new();
+        let mut worst: Option<(CutAt, f64)> = None;
+        let mut count = 0_usize;
+        for cut in self.cuts() {
+            let Site::Cut {
+                operation,
+                layer,
+                cut: number,
+            } = cut.site
+            else {
+                continue;
+            };
+            let key = (operation.0, layer.get(), number.get());
+            let Some((other, tip)) = first.get(&key) else {
+                first.insert(key, (cut, cut.to.0));
+                continue;
+            };
+            let apart = libm::hypot(tip.x - cut.to.0.x, tip.z - cut.to.0.z);
+            if other.flank != cut.flank && apart > SAME_TIP {
+                count += 1;
+                let changed = if self.is_proven(&cut) { *other } else { cut };
+                if worst.is_none_or(|(_, worst)| apart > worst) {
+                    worst = Some((changed, apart));
+                }
+            }
+        }
+        let (cut, apart) = worst?;
+        let message = format!(
+            "{} and the other flank of its V do not meet: their tips are {} mm apart",
+            op_words(self.program(), cut.op),
+            show(apart)
+        );
+        let diagnostic = self
+            .at(Code::ProgramCuts, message, cut.op, "its chip is not cut free")
+            .help("let both flanks have the same x and z");
+        Some(and_more(diagnostic, count - 1))
+    }
+
+    /// Each broken rule once, at its first place.
+    fn rules(&self, faults: &[Fault]) -> Vec<Diagnostic> {
+        let mut told: Vec<(Rule, usize, Diagnostic)> = Vec::new();
+        for fault in faults {
+            if let Some((_, count, _)) = told.iter_mut().find(|(rule, ..)| *rule == fault.rule) {
+                *count += 1;
+                continue;
+            }
+            let op = fault.op.unwrap_or(OpId(u32::MAX));
+            let words = rule_words(fault.rule);
+            let message = match fault.op {
+                Some(op) => format!("{}: {words}", op_words(self.program(), op)),
+                None => words.to_owned(),
+            };
+            told.push((
+                fault.rule,
+                0,
+                self.at(Code::ProgramRule, message, op, rule_label(fault.rule)),
+            ));
+        }
+        let left_out =
+            "because of this, whether chips come free and the machine reaches everything was not checked";
+        let told = told.into_iter().enumerate();
+        told.map(|(index, (_, others, diagnostic))| {
+            let diagnostic = and_more(diagnostic, others).help("restore the line, or compile the job again");
+            match index {
+                0 => diagnostic.note(left_out),
+                _ => diagnostic,
+            }
+        })
+        .collect()
+    }
+
+    /// Chips that are not freed, and what stays on the part.
+    fn contour(&self, verified: &VerifiedProgram, is_told: bool) -> Vec<Diagnostic> {
+        let plan = self.bench.plan;
+        let replay = verdict::replay(plan, verified);
+        let findings = replay.findings.clone();
+        let mut found: Vec<Diagnostic> = findings
+            .iter()
+            .filter_map(|(count, finding)| self.finding(count, &finding, is_told))
+            .collect();
+        if found.is_empty() && !is_told {
+            let report = report(replay, plan.stock, &plan.profile, timing(verified));
+            let excess = verdict::scallop_excess(plan, &report);
+            found.extend(excess.map(|(_, asked, limit)| {
+                let span = asked.limits.scallop.and_then(|limit| limit.span);
+                let height = show(report.scallop.height.to_mm());
+                let message = format!(
+                    "{height} mm of material stay on the part at x {} mm, the limit is {} mm",
+                    show(report.scallop.peak.x),
+                    show(limit.to_mm())
+                );
+                Diagnostic::new(
+                    Code::ProgramCuts,
+                    message,
+                    self.bench.span(usize::MAX),
+                    "when the program ends",
+                )
+                .and(span.unwrap_or(asked.head_span), "the limit")
+                .help("restore the changed cuts")
+            }));
+        }
+        found
+    }
+
+    fn finding(&self, count: usize, finding: &Finding, is_told: bool) -> Option<Diagnostic> {
+        let site = Site::Cut {
+            operation: finding.operation,
+            layer: finding.layer,
+            cut: finding.cut,
+        };
+        let cut = self.cuts().filter(|cut| cut.site == site).last()?;
+        let place = op_words(self.program(), cut.op);
+        let (message, label) = match finding.fault {
+            CutFault::NotFreed { needed, available } => (
+                format!(
+                    "{place} needs {} mm of edge, the blade has {} mm",
+                    show(needed.to_mm()),
+                    show(available.to_mm())
+                ),
+                "its chip is not cut free".to_owned(),
+            ),
+            CutFault::Blocked { at } => (
+                format!("above {place}, uncut material stands in the way of the blade"),
+                format!("the blade meets it at x {} mm, z {} mm", show(at.x), show(at.z)),
+            ),
+            // The slits of changed cuts have been told already, and are the same.
+            CutFault::Overcut { .. } if is_told => return None,
+            CutFault::Overcut { at, depth } => (
+                format!("{place} enters the part by {} mm", show(depth.to_mm())),
+                format!("deepest at x {} mm, z {} mm", show(at.x), show(at.z)),
+            ),
+        };
+        let diagnostic = self
+            .at(Code::ProgramCuts, message, cut.op, label)
+            .help("restore the changed lines before this one, or compile the job again");
+        Some(and_more(diagnostic, count.saturating_sub(1)))
+    }
+
+    fn reach(&self, verified: VerifiedProgram) -> Vec<Diagnostic> {
+        match solve(verified, self.bench.model, &LEAST_CLEARANCE, Changes::InTheAir) {
+            Ok(reached) => match reached.report.changes.first() {
+                Some(&op) => vec![self.needs_change(op)],
+                None => self.bench.stances(self.rebuilt, Some(&reached)),
+            },
+            Err(Unreached::Unreachable(unreachable)) => self.unreachable(&unreachable).into_iter().collect(),
+            Err(Unreached::Rules(_) | Unreached::Motion(_)) => vec![Diagnostic::new(
+                Code::ProgramReach,
+                "whether the machine reaches everything could not be proven",
+                self.bench.span(usize::MAX),
+                "of this program",
+            )],
+        }
+    }
+
+    fn needs_change(&self, op: OpId) -> Diagnostic {
+        let message = format!(
+            "{}: no one way to stand carries the motions before and behind it",
+            op_words(self.program(), op)
+        );
+        self.at(
+            Code::ProgramReach,
+            message,
+            op,
+            "the arm would have to change its posture on this straight way",
+        )
+        .help("restore the changed lines, or compile the job again")
+    }
+
+    /// The words of the proof, at the line of the program.
+    fn unreachable(&self, unreachable: &Unreachable) -> Option<Diagnostic> {
+        let scene = self.bench.scene;
+        let words = reach_verdict::in_words(scene.job, unreachable)?;
+        let op = unreachable.trouble.op();
+        let span = op.map_or_else(|| self.bench.span(usize::MAX), |op| self.span(op));
+        let mut diagnostic = Diagnostic::new(Code::ProgramReach, words.message, span, "with this line");
+        diagnostic.secondary.push(words.primary);
+        diagnostic.secondary.extend(words.secondary);
+        diagnostic.notes = words.notes;
+        Some(diagnostic.help("restore the line, or change the job so that it asks for this"))
+    }
+}
+
+/// Tips of the two flanks of a V may be apart by this, in mm: what three decimals leave.
+const SAME_TIP: f64 = 1.1e-3;
+
+/// A broken rule in the words of the process.
+const fn rule_words(rule: Rule) -> &'static str {
+    match rule {
+        Rule::Version | Rule::TableReference | Rule::HomeAngles | Rule::Axes => {
+            "the program does something that this machine does not have"
+        }
+        Rule::Number => "a speed or a time of the program is zero or less",
+        Rule::KnownStart => "a straight motion begins where nobody knows",
+        Rule::AmbiguousTurn => "the blade turns by nearly half a revolution, and either way round would do",
+        Rule::AirMoveThroughStock => "the blade enters the stock outside of a cut",
+        Rule::TurnInStock => "the blade turns within the stock",
+        Rule::CutAcrossStock => "the cut does not run along y through the whole stock",
+        Rule::CutPosture => "the blade is held so that it does not make this flank",
+        Rule::SilentCut => "the blade cuts without vibrating",
+        Rule::ReadyNotAwaited => "the blade cuts before the generator is known to run",
+        Rule::Ending => "the program does not end at home with the generator off",
+        Rule::CutPair => "a V is not made of one left and one right flank",
+        Rule::Order => "cuts, layers or operations are not in the order in which they were proven",
+    }
+}
+
+const fn rule_label(rule: Rule) -> &'static str {
+    match rule {
+        Rule::AirMoveThroughStock | Rule::TurnInStock => "through the stock",
+        Rule::SilentCut | Rule::ReadyNotAwaited => "without vibration, or too early",
+        Rule::Ending => "the program ends here",
+        Rule::Version
+        | Rule::TableReference
+        | Rule::Number
+        | Rule::Axes
+        | Rule::KnownStart
+        | Rule::HomeAngles
+        | Rule::AmbiguousTurn
+        | Rule::CutAcrossStock
+        | Rule::CutPosture
+        | Rule::CutPair
+        | Rule::Order => "in this line",
+    }
+}

@@ -1,0 +1,512 @@
+//! The steps between two programs as diagnostics: at their places in the given program, with the place in the job that
+//! asks for something else.
+
+use super::steps::Step;
+use super::told::Told;
+use super::wording::{deed_words, kind_words, mismatch_words, op_words, pace_words};
+use crate::diag::{Code, Diagnostic};
+use crate::job::{CheckedJob, Machine, Operation};
+use crate::source::{FileId, Span};
+use vcutc_backend_api::ir::{Action, OpId, Program};
+use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::readback::{FrameRole, Grain, Judge, Mismatch, Moment, Place, Says};
+use vcutc_backend_api::stroke::Pose;
+
+/// So many differences are told one by one.
+const MOST_IN_FULL: usize = 20;
+
+/// Most characters of a statement that a message repeats.
+const LONGEST_QUOTE: usize = 120;
+
+/// Two programs, and the job that one of them was made from.
+pub(super) struct Scene<'s> {
+    pub(super) job: &'s CheckedJob,
+    pub(super) judge: Judge<'s>,
+    pub(super) grain: Grain,
+    pub(super) fresh: &'s Told<'s>,
+    /// For every fresh statement the op that it says.
+    pub(super) owners: &'s [Option<OpId>],
+    pub(super) given: &'s Told<'s>,
+    /// The files of the given program among the sources.
+    pub(super) sources: &'s [FileId],
+}
+
+/// What differs.
+pub(super) struct Differences {
+    /// The first of them in full.
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// How many there are of each code.
+    pub(super) counts: Vec<(Code, usize)>,
+}
+
+impl Differences {
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.counts.iter().map(|(_, count)| count).sum()
+    }
+}
+
+/// Puts what differs into words.
+pub(super) fn differences(scene: &Scene<'_>, steps: &[Step]) -> Differences {
+    let mut teller = Teller {
+        scene,
+        poses: poses_before(scene.judge.reachable().program()),
+        diagnostics: Vec::new(),
+        counts: Vec::new(),
+        after_effects: AfterEffects::default(),
+    };
+    for &step in steps {
+        teller.step(step);
+    }
+    teller.settle();
+    if scene.given.beyond > 0 {
+        teller.too_long();
+    }
+    teller.count_the_rest();
+    Differences {
+        diagnostics: teller.diagnostics,
+        counts: teller.counts,
+    }
+}
+
+/// The pose in front of every op.
+pub(super) fn poses_before(program: &Program) -> Vec<Option<Pose>> {
+    let mut at = None;
+    let before = program.ops.iter().map(|op| {
+        let before = at;
+        at = pose_after(at, &op.action);
+        before
+    });
+    before.collect()
+}
+
+struct Teller<'s> {
+    scene: &'s Scene<'s>,
+    poses: Vec<Option<Pose>>,
+    diagnostics: Vec<Diagnostic>,
+    counts: Vec<(Code, usize)>,
+    after_effects: AfterEffects,
+}
+
+/// Statements that read the same and do something else, because of a difference before them: the setting that was told
+/// last, or when none was, whatever was told last.
+#[derive(Default)]
+struct AfterEffects {
+    /// The diagnostic of the cause, as far as it is told in full.
+    cause: Option<usize>,
+    is_setting: bool,
+    count: usize,
+    first: Option<String>,
+}
+
+impl Teller<'_> {
+    fn step(&mut self, step: Step) {
+        match step {
+            Step::Same { fresh, given } => self.same(fresh, given),
+            Step::Changed { fresh, given } => {
+                let diagnostic = self.changed(fresh, given);
+                self.tell(diagnostic);
+            }
+            Step::Moved { fresh, given } => {
+                let diagnostic = self.moved(fresh, given);
+                self.tell(diagnostic);
+            }
+            Step::Missing { fresh, given } => {
+                let diagnostic = self.missing(fresh, given);
+                self.tell(diagnostic);
+            }
+            Step::Added { given, .. } => {
+                let diagnostic = self.added(given);
+                self.tell(diagnostic);
+            }
+        }
+    }
+
+    fn tell(&mut self, diagnostic: Diagnostic) {
+        let is_setting = diagnostic.code == Code::OtherSetting;
+        match self.counts.iter_mut().find(|(code, _)| *code == diagnostic.code) {
+            Some((_, count)) => *count += 1,
+            None => self.counts.push((diagnostic.code, 1)),
+        }
+        let is_shown = self.told() <= MOST_IN_FULL;
+        if is_setting || !self.after_effects.is_setting {
+            self.settle();
+            self.after_effects = AfterEffects {
+                cause: is_shown.then_some(self.diagnostics.len()),
+                is_setting,
+                ..AfterEffects::default()
+            };
+        }
+        if is_shown {
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn told(&self) -> usize {
+        self.counts.iter().map(|(_, count)| count).sum()
+    }
+
+    /// Adds to a difference what it brings about.
+    fn settle(&mut self) {
+        let effects = core::mem::take(&mut self.after_effects);
+        let cause = effects.cause.and_then(|cause| self.diagnostics.get_mut(cause));
+        let (Some(cause), Some(first)) = (cause, effects.first) else {
+            return;
+        };
+        let others = match effects.count {
+            1 => String::new(),
+            2 => ", and one more line is affected".to_owned(),
+            count => format!(", and {} more lines are affected", count - 1),
+        };
+        cause
+            .notes
+            .push(format!("this changes what follows: {first}{others}"));
+    }
+
+    fn same(&mut self, fresh: usize, given: usize) {
+        let (Some(should), Some(is)) = (
+            self.says(self.scene.fresh, fresh),
+            self.says(self.scene.given, given),
+        ) else {
+            return;
+        };
+        if is == should {
+            return;
+        }
+        match is {
+            // What is at fault stands before it; nothing before it was told, so this is.
+            Says::Deed(_) | Says::Frame(..) | Says::Setting | Says::PartBegins if !self.counts.is_empty() => {
+                self.after_effects.count += 1;
+                if self.after_effects.first.is_none() {
+                    self.after_effects.first = Some(self.after_effect(fresh, should, is));
+                }
+            }
+            Says::Deed(_)
+            | Says::Frame(..)
+            | Says::Setting
+            | Says::PartBegins
+            | Says::Unknown
+            | Says::Unreadable { .. } => {
+                let diagnostic = self.changed(fresh, given);
+                self.tell(diagnostic);
+            }
+        }
+    }
+
+    fn after_effect(&self, fresh: usize, should: &Says, is: &Says) -> String {
+        let words = self.owner(fresh).map_or_else(
+            || kind_words(should).to_owned(),
+            |op| op_words(self.scene.judge.reachable().program(), op),
+        );
+        let what = match (should, is, self.mismatches(fresh, is).first()) {
+            (_, _, Some(mismatch)) => Some(self.in_words(mismatch)),
+            (Says::Deed(should), Says::Deed(is), None) => match (pace_words(is), pace_words(should)) {
+                (Some(is), Some(should)) if is != should => Some(format!("{is} instead of {should}")),
+                (_, _) => None,
+            },
+            (_, _, None) => None,
+        };
+        match what {
+            Some(what) => format!("{words}: {what}"),
+            None => format!("{words} is not the same any more"),
+        }
+    }
+
+    fn changed(&self, fresh: usize, given: usize) -> Diagnostic {
+        let (should, is) = (
+            self.says(self.scene.fresh, fresh),
+            self.says(self.scene.given, given),
+        );
+        let span = self.span(given);
+        let owner = self.owner(fresh);
+        let asked = self.asked(owner);
+        let diagnostic = match (is, should, owner) {
+            (Some(Says::Unknown), _, _) => self.not_understood(given),
+            (Some(Says::Unreadable { expected }), _, _) => self.unreadable(given, expected),
+            (Some(is), Some(Says::Deed(_)), Some(op)) => {
+                let program = self.scene.judge.reachable().program();
+                let mismatches = self.mismatches(fresh, is);
+                let what = match (mismatches.first(), is) {
+                    (Some(Mismatch::Kind), Says::Deed(deed)) => format!("instead, {}", deed_words(deed)),
+                    (Some(mismatch), Says::Deed(_)) => self.in_words(mismatch),
+                    (None, Says::Deed(_)) => {
+                        "written otherwise, by no more than the rounding of its numbers".to_owned()
+                    }
+                    (_, Says::Frame(..) | Says::Setting | Says::PartBegins) => {
+                        format!("{} stands in its place", kind_words(is))
+                    }
+                    (_, Says::Unknown | Says::Unreadable { .. }) => "not understood".to_owned(),
+                };
+                let message = format!("{}: {what}", op_words(program, op));
+                let more = mismatches.iter().skip(1);
+                let diagnostic =
+                    Diagnostic::new(Code::ChangedOperation, message, span, "not what the job asks for")
+                        .and(self.speed_or(asked, op, mismatches.first()), "asked for here");
+                more.fold(diagnostic, |diagnostic, mismatch| {
+                    diagnostic.note(self.in_words(mismatch))
+                })
+            }
+            (Some(is), Some(should), _) => {
+                let code = match should {
+                    Says::Deed(_) => Code::ChangedOperation,
+                    Says::Frame(..)
+                    | Says::Setting
+                    | Says::PartBegins
+                    | Says::Unknown
+                    | Says::Unreadable { .. } => Code::OtherSetting,
+                };
+                let what = match (should, is) {
+                    (Says::Deed(_), Says::Deed(deed)) => {
+                        format!("where a part restates what holds, {}", deed_words(deed))
+                    }
+                    (_, _) => format!("{} differs from what the compiler writes", kind_words(should)),
+                };
+                let diagnostic = Diagnostic::new(code, what, span, "reads differently");
+                match self.frame_span(should) {
+                    Some(frame) => diagnostic.and(frame, "the job's own value"),
+                    None => diagnostic,
+                }
+            }
+            (None, _, _) | (_, None, _) => self.added(given),
+        };
+        diagnostic.fix(
+            "put back what the compiler writes, or change the job so that it asks for this",
+            span,
+            self.scene.fresh.text(fresh),
+        )
+    }
+
+    fn moved(&self, fresh: usize, given: usize) -> Diagnostic {
+        let program = self.scene.judge.reachable().program();
+        let what = match (self.owner(fresh), self.says(self.scene.fresh, fresh)) {
+            (Some(op), _) => op_words(program, op),
+            (None, Some(says)) => kind_words(says).to_owned(),
+            (None, None) => "a statement".to_owned(),
+        };
+        let diagnostic = Diagnostic::new(
+            Code::OtherOrder,
+            format!("{what} comes in another place"),
+            self.span(given),
+            "the compiler writes this elsewhere",
+        )
+        .and(self.asked(self.owner(fresh)), "the order follows from this");
+        let diagnostic = match fresh.checked_sub(1) {
+            Some(before) => {
+                let before = quote(self.scene.fresh.text(before));
+                diagnostic.note(format!("it belongs behind `{before}`"))
+            }
+            None => diagnostic.note("it belongs first"),
+        };
+        diagnostic.help("move the line back, or compile the job again")
+    }
+
+    fn missing(&self, fresh: usize, given: usize) -> Diagnostic {
+        let text = quote(self.scene.fresh.text(fresh));
+        let program = self.scene.judge.reachable().program();
+        let owner = self.owner(fresh);
+        let (code, what) = match (owner, self.says(self.scene.fresh, fresh)) {
+            (Some(op), _) => (Code::MissingOperation, op_words(program, op)),
+            (None, Some(Says::Deed(deed))) => (Code::MissingOperation, deed_words(deed)),
+            (None, Some(says)) => (Code::OtherSetting, kind_words(says).to_owned()),
+            (None, None) => (Code::OtherSetting, "a statement".to_owned()),
+        };
+        let (span, label) = match self.scene.given.statements.get(given) {
+            Some(_) => (self.span(given), "it belongs in front of this"),
+            None => (self.span(given), "the program ends here"),
+        };
+        Diagnostic::new(code, format!("{what} is missing"), span, label)
+            .and(self.asked(owner), "asked for here")
+            .note(format!("the compiler writes `{text}` here"))
+            .help(format!(
+                "put `{text}` back, or change the job so that it is not needed"
+            ))
+    }
+
+    fn added(&self, given: usize) -> Diagnostic {
+        let span = self.span(given);
+        match self.says(self.scene.given, given) {
+            Some(Says::Unknown) => self.not_understood(given),
+            Some(Says::Unreadable { expected }) => self.unreadable(given, expected),
+            Some(Says::Deed(deed)) => Diagnostic::new(
+                Code::AddedOperation,
+                format!("the job asks for nothing of the kind: {}", deed_words(deed)),
+                span,
+                "added to the program",
+            )
+            .and(self.scene.job.name_span, "the job")
+            .help("take this line out, or change the job so that it asks for it"),
+            Some(says) => Diagnostic::new(
+                Code::OtherSetting,
+                format!("{} that the compiler does not write", kind_words(says)),
+                span,
+                "added to the program",
+            )
+            .help("take this line out"),
+            None => Diagnostic::new(Code::OtherSetting, "a statement more", span, "here"),
+        }
+    }
+
+    fn not_understood(&self, given: usize) -> Diagnostic {
+        Diagnostic::new(
+            Code::UnknownStatement,
+            format!("nobody knows what `{}` does", quote(self.scene.given.text(given))),
+            self.span(given),
+            "not a statement that the compiler writes or knows",
+        )
+        .help("take it out, or move it into a program of its own that calls this one")
+    }
+
+    fn unreadable(&self, given: usize, expected: &str) -> Diagnostic {
+        Diagnostic::new(
+            Code::UnreadableStatement,
+            format!("this is no statement of the target's language: {expected} is expected"),
+            self.span(given),
+            format!("expected {expected}"),
+        )
+        .help("mend the line, or compile the job again")
+    }
+
+    fn too_long(&mut self) {
+        let given = self.scene.given.statements.len().saturating_sub(1);
+        let (held, beyond) = (self.scene.given.statements.len(), self.scene.given.beyond);
+        let diagnostic = Diagnostic::new(
+            Code::AddedOperation,
+            format!("the program goes on for {beyond} statements that no program of this job has"),
+            self.span(given),
+            format!("compared up to here, {held} statements"),
+        )
+        .help("give the files of one program of this job only");
+        self.tell(diagnostic);
+    }
+
+    /// Says how many differences are not told one by one.
+    fn count_the_rest(&mut self) {
+        let more = self.told().saturating_sub(MOST_IN_FULL);
+        if more == 0 {
+            return;
+        }
+        let counts: Vec<_> = self
+            .counts
+            .iter()
+            .map(|(code, count)| format!("{count} of {}", code.number()))
+            .collect();
+        if let Some(last) = self.diagnostics.last_mut() {
+            last.notes.push(format!(
+                "{more} more differences are not shown; in all there are {}",
+                counts.join(", ")
+            ));
+        }
+    }
+
+    fn says<'t>(&self, told: &'t Told<'_>, index: usize) -> Option<&'t Says> {
+        told.statements.get(index).map(|statement| &statement.says)
+    }
+
+    fn owner(&self, fresh: usize) -> Option<OpId> {
+        self.scene.owners.get(fresh).copied().flatten()
+    }
+
+    /// In what a statement is not the op that a fresh one says.
+    fn mismatches(&self, fresh: usize, is: &Says) -> Vec<Mismatch> {
+        let (Some(op), Says::Deed(deed)) = (self.owner(fresh), is) else {
+            return Vec::new();
+        };
+        let at = self.poses.get(op.0 as usize).copied().flatten();
+        self.scene.judge.mismatches(Moment { op, at }, deed)
+    }
+
+    fn in_words(&self, mismatch: &Mismatch) -> String {
+        mismatch_words(mismatch, self.scene.judge.reachable().program().cell.as_ref())
+    }
+
+    /// Where a statement of the given program stands; behind the last one where there is none.
+    fn span(&self, given: usize) -> Span {
+        place_in(self.scene.given, self.scene.sources, given).unwrap_or(self.scene.job.name_span)
+    }
+
+    /// Where in the job an op is asked for.
+    fn asked(&self, op: Option<OpId>) -> Span {
+        asked(self.scene.job, self.scene.judge.reachable().program(), op)
+    }
+
+    /// Where the job says a speed, if that is what differs.
+    fn speed_or(&self, asked: Span, op: OpId, mismatch: Option<&Mismatch>) -> Span {
+        let program = self.scene.judge.reachable().program();
+        let machine = self.scene.job.machine.as_ref();
+        let Some(found) = program.ops.get(op.0 as usize) else {
+            return asked;
+        };
+        let operation = found.site.operation();
+        let vcut = operation.and_then(|operation| {
+            let Operation::RoughVcut(vcut) = self.scene.job.operations.get(usize::from(operation.0))?;
+            Some(vcut)
+        });
+        let span = match (mismatch, found.action) {
+            (Some(Mismatch::Feed { .. }), Action::Cut { .. }) => vcut.and_then(|vcut| vcut.cut_feed.span),
+            (Some(Mismatch::Feed { .. }), _) => vcut.and_then(|vcut| vcut.travel_feed.span),
+            (Some(Mismatch::Rate { .. }), _) => vcut.and_then(|vcut| vcut.reorient_rate.span),
+            (Some(Mismatch::Output { .. }), _) => machine
+                .and_then(|machine| machine.ultrasonic)
+                .and_then(|output| output.span),
+            (Some(Mismatch::Input { .. }), _) | (_, Action::AwaitReady) => {
+                machine.and_then(|machine| machine.ready.span)
+            }
+            (_, Action::Home) => machine
+                .and_then(|machine| machine.home)
+                .and_then(|home| home.span),
+            (_, _) => None,
+        };
+        span.unwrap_or(asked)
+    }
+
+    fn frame_span(&self, says: &Says) -> Option<Span> {
+        let of = |machine: &Machine| match says {
+            Says::Frame(FrameRole::Tool, _) => machine.tool.span,
+            Says::Frame(FrameRole::Base, _) => machine.base.span,
+            Says::Deed(_) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. } => {
+                None
+            }
+        };
+        self.scene.job.machine.as_ref().and_then(of)
+    }
+}
+
+/// Where a statement of a given program stands; behind the last one where there is none of that number.
+pub(super) fn place_in(given: &Told<'_>, sources: &[FileId], index: usize) -> Option<Span> {
+    let span = |place: Place| {
+        let file = *sources.get(place.file as usize)?;
+        Some(Span {
+            file,
+            start: place.start,
+            end: place.end,
+        })
+    };
+    match given.statements.get(index) {
+        Some(statement) => span(statement.place),
+        None => match given.statements.last() {
+            Some(statement) => span(statement.place).map(Span::after),
+            None => sources.first().map(|&file| Span::of_bytes(file, 0..0)),
+        },
+    }
+}
+
+/// Where in the job an op is asked for: its operation, or the job as a whole.
+pub(super) fn asked(job: &CheckedJob, program: &Program, op: Option<OpId>) -> Span {
+    let op = op.and_then(|op| program.ops.get(op.0 as usize));
+    let operation = op
+        .and_then(|op| op.site.operation())
+        .and_then(|operation| job.operations.get(usize::from(operation.0)));
+    match operation {
+        Some(Operation::RoughVcut(vcut)) => vcut.head_span,
+        None => job.name_span,
+    }
+}
+
+/// A statement as messages repeat it: on one line, and not too long.
+fn quote(text: &str) -> String {
+    let line: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(LONGEST_QUOTE) {
+        Some((end, _)) => format!("{}...", line.get(..end).unwrap_or_default()),
+        None => line,
+    }
+}

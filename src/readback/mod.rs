@@ -1,0 +1,221 @@
+//! Programs read back: what a backend wrote, and files that people may have changed since.
+//!
+//! * [`Written`] is a program as its backend wrote it. It is read again at once and followed op by op; what comes out
+//!   differently is never handed on.
+//! * [`Reference::verify`] holds the files of a program against the one that its job compiles to now. Both are read by the same reader
+//!   and their statements aligned; every difference that is not one of layout or comments is told at its place in the
+//!   files, with the place in the job that asks for something else.
+//!
+//! Nothing here knows a dialect: a reader tells statements, and texts are compared by their essence. A difference in the
+//! essence is always told, also where a number differs by less than its rounding.
+
+mod checks;
+mod differences;
+mod rebuild;
+mod steps;
+mod told;
+mod wording;
+mod written;
+
+pub use written::{Astray, Written};
+
+use crate::diag::Diagnostic;
+use crate::job::CheckedJob;
+use crate::plan::PlannedJob;
+use crate::reach::solve::{Reached, rig};
+use crate::source::{FileId, SourceMap};
+use checks::{Bench, left_out};
+use differences::{Scene, differences};
+use rebuild::rebuild;
+use steps::{Step, steps};
+use told::Told;
+use vcutc_backend_api::ir::{Cell, OpId};
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
+
+/// A job's program as it is written now, and who can read it.
+#[derive(Clone, Copy)]
+pub struct Fresh<'a> {
+    /// The job.
+    pub job: &'a CheckedJob,
+    /// Its plan.
+    pub plan: &'a PlannedJob,
+    /// Its program.
+    pub program: &'a ReachableProgram,
+    /// The machine.
+    pub cell: &'a Cell,
+    /// What was written.
+    pub written: &'a Written,
+    /// Where each op stands in it.
+    pub places: &'a [Place],
+    /// Who reads the dialect.
+    pub reader: &'a dyn Reader,
+}
+
+impl<'a> Fresh<'a> {
+    /// Of a job that got as far as a program that could be read back.
+    #[must_use]
+    pub fn of(
+        job: Option<&'a CheckedJob>,
+        plan: Option<&'a PlannedJob>,
+        reached: Option<&'a Reached>,
+        written: &'a Written,
+        reader: &'a dyn Reader,
+    ) -> Option<Self> {
+        let program = &reached?.program;
+        Some(Self {
+            job: job?,
+            plan: plan?,
+            program,
+            cell: program.program().cell.as_ref()?,
+            written,
+            places: written.places.as_deref()?,
+            reader,
+        })
+    }
+}
+
+/// What came of holding a program against its job.
+#[derive(Debug, Default)]
+pub struct Verdict {
+    /// What differs and what is wrong, in the order of the program.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The result for people, a line each.
+    pub lines: Vec<String>,
+}
+
+/// Programs may have so many times the statements of a fresh one, and [`STATEMENTS_MORE`] more, before the rest is only
+/// counted.
+const STATEMENTS_TIMES: usize = 4;
+const STATEMENTS_MORE: usize = 100_000;
+
+/// A fresh program, read and ready to be compared with others.
+pub struct Reference<'a> {
+    fresh: Fresh<'a>,
+    told: Told<'a>,
+    /// For every statement the op that it says.
+    owners: Vec<Option<OpId>>,
+}
+
+impl<'a> Reference<'a> {
+    /// Reads the fresh program.
+    #[must_use]
+    pub fn new(fresh: Fresh<'a>) -> Self {
+        let told = read(fresh, &fresh.written.files, usize::MAX);
+        let owners = told.owners(fresh.places, fresh.program.program());
+        Self { fresh, told, owners }
+    }
+
+    /// Holds the files of a program against the fresh one. `shown` are the names of the files as people see them; the files
+    /// are added to `sources`, so that diagnostics can point into them.
+    #[must_use]
+    pub fn verify(&self, given: &[ProgramFile], shown: &[String], sources: &mut SourceMap) -> Verdict {
+        let named = given.iter().enumerate();
+        let ids: Vec<_> = named
+            .map(|(index, file)| sources.add(shown.get(index).unwrap_or(&file.name), file.text.clone()))
+            .collect();
+        let is = self.read(given);
+        let scene = self.scene(&is, &ids);
+        let steps = steps(&self.told, &is);
+        let found = differences(&scene, &steps);
+        let count = found.count();
+        let mut lines = self.lines(&is, count, given);
+        let mut diagnostics = found.diagnostics;
+        if count > 0 {
+            let wrong = self.checked(&scene, &steps);
+            if wrong.is_empty() {
+                lines.push(SOUND.to_owned());
+            }
+            diagnostics.extend(wrong);
+        }
+        Verdict { diagnostics, lines }
+    }
+
+    /// How many differences [`Self::verify`] tells of, without the checks of what they do.
+    #[must_use]
+    pub fn differences(&self, given: &[ProgramFile]) -> usize {
+        let is = self.read(given);
+        differences(&self.scene(&is, &[]), &steps(&self.told, &is)).count()
+    }
+
+    fn read<'f>(&self, files: &'f [ProgramFile]) -> Told<'f>
+    where
+        'a: 'f,
+    {
+        let most = self.told.statements.len() * STATEMENTS_TIMES + STATEMENTS_MORE;
+        read(self.fresh, files, most)
+    }
+
+    fn scene<'s>(&'s self, given: &'s Told<'s>, sources: &'s [FileId]) -> Scene<'s> {
+        let Fresh {
+            job,
+            program,
+            written,
+            reader,
+            ..
+        } = self.fresh;
+        let grain = reader.grain(&written.options);
+        Scene {
+            job,
+            judge: Judge::new(program, reader, grain),
+            grain,
+            fresh: &self.told,
+            owners: &self.owners,
+            given,
+            sources,
+        }
+    }
+
+    fn lines(&self, is: &Told<'_>, differences: usize, given: &[ProgramFile]) -> Vec<String> {
+        let read = format!(
+            "{} statements read, {} as compiled",
+            is.statements.len() + is.beyond,
+            self.told.statements.len()
+        );
+        let result = match differences {
+            0 if is_byte_for_byte(&self.fresh.written.files, given) => {
+                "the same program, byte for byte".to_owned()
+            }
+            0 => "the same program; layout or comments differ".to_owned(),
+            1 => "1 difference".to_owned(),
+            count => format!("{count} differences"),
+        };
+        vec![read, result]
+    }
+
+    /// What is wrong with what a program that differs would do.
+    fn checked(&self, scene: &Scene<'_>, steps: &[Step]) -> Vec<Diagnostic> {
+        let Some(machine) = &self.fresh.job.machine else {
+            return Vec::new();
+        };
+        let rig = rig(&machine.model, self.fresh.cell);
+        match rebuild(scene, steps, &rig) {
+            Ok(rebuilt) => Bench {
+                scene,
+                plan: self.fresh.plan,
+                model: &machine.model,
+                reader: self.fresh.reader,
+            }
+            .findings(rebuilt),
+            Err(obstacle) => vec![left_out(scene, obstacle)],
+        }
+    }
+}
+
+/// What is told of a program that differs and is right all the same.
+const SOUND: &str =
+    "as it is, the program frees every chip, stays out of the part, and is within reach of the machine";
+
+fn read<'f>(fresh: Fresh<'f>, files: &'f [ProgramFile], most: usize) -> Told<'f> {
+    let sources = Sources {
+        files,
+        cell: fresh.cell,
+        options: &fresh.written.options,
+    };
+    Told::read(fresh.reader, sources, most)
+}
+
+fn is_byte_for_byte(fresh: &[ProgramFile], given: &[ProgramFile]) -> bool {
+    let is_there = |file: &ProgramFile| given.iter().any(|given| given.text == file.text);
+    fresh.len() == given.len() && fresh.iter().all(is_there)
+}

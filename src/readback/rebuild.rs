@@ -1,0 +1,539 @@
+//! From what a program was read to do back to a program of ops, so that it can be proven like any other.
+//!
+//! Statements that read as they should keep the exact values of their ops. Others take the values as read, and are the kind
+//! of op that they act like: a straight move along y through the stock with the blade held still is a cut, one that only
+//! turns the blade is a turn, any other goes through the air, and must prove that it does.
+
+use super::differences::{Scene, poses_before};
+use super::steps::Step;
+use crate::reach::rig::Rig;
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
+use vcutc_backend_api::ir::{
+    Action, AxisKind, AxisValues, Cell, FeedId, Flank, Op, OpId, OrientationId, Program, RateId, Ready, Site,
+    Switch,
+};
+use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::readback::{Deed, FrameRole, Held, Mismatch, Moment, Pace, Says, Target, rotary_way};
+use vcutc_backend_api::script::Generator;
+use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
+
+/// A program as it was read.
+pub(super) struct Rebuilt {
+    pub(super) program: Program,
+    /// For every op the statement of the given program that it came from.
+    pub(super) origins: Vec<usize>,
+    /// For every op that of the fresh program in whose place it stands.
+    pub(super) partners: Vec<Option<OpId>>,
+}
+
+/// Why a program cannot be rebuilt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Obstacle {
+    /// A statement, by its number, is not understood.
+    NotUnderstood(usize),
+    /// A statement sets a frame that is not the job's.
+    OtherFrame(usize),
+    /// It says more postures or speeds than are compared.
+    TooManyKinds(usize),
+}
+
+/// Most entries of each table: no program of a job has so many.
+const MOST_KINDS: usize = 4096;
+
+/// Rebuilds the given program of a scene.
+///
+/// # Errors
+/// The first statement that stands in the way.
+pub(super) fn rebuild(scene: &Scene<'_>, steps: &[Step], rig: &Rig<'_>) -> Result<Rebuilt, Obstacle> {
+    let fresh = scene.judge.reachable().program();
+    let mut builder = Builder {
+        scene,
+        rig,
+        poses: poses_before(fresh),
+        program: Program {
+            ops: Vec::with_capacity(fresh.ops.len()),
+            ..fresh.clone()
+        },
+        origins: Vec::new(),
+        partners: Vec::new(),
+        at: None,
+        axes: None,
+        site: Site::Program,
+        generator: Generator::Off,
+    };
+    for &step in steps {
+        match step {
+            Step::Same { fresh, given } | Step::Changed { fresh, given } => {
+                builder.statement(Some((fresh, Order::Kept)), given)?;
+            }
+            Step::Moved { fresh, given } => builder.statement(Some((fresh, Order::Lost)), given)?,
+            Step::Added { given, .. } => builder.statement(None, given)?,
+            Step::Missing { .. } => {}
+        }
+    }
+    Ok(Rebuilt {
+        program: builder.program,
+        origins: builder.origins,
+        partners: builder.partners,
+    })
+}
+
+/// Whether a statement stands where it stood.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Order {
+    Kept,
+    Lost,
+}
+
+struct Builder<'b> {
+    scene: &'b Scene<'b>,
+    rig: &'b Rig<'b>,
+    /// The poses in front of the ops of the fresh program.
+    poses: Vec<Option<Pose>>,
+    program: Program,
+    origins: Vec<usize>,
+    partners: Vec<Option<OpId>>,
+    at: Option<Pose>,
+    /// Where the rotary axes are, where the dialect says it.
+    axes: Option<AxisValues>,
+    site: Site,
+    generator: Generator,
+}
+
+/// The op in whose place a deed stands, and what differs.
+#[derive(Clone)]
+struct Partner {
+    id: OpId,
+    op: Op,
+    differs: Vec<Mismatch>,
+}
+
+impl Partner {
+    fn differs_in(&self, is_such: impl Fn(&Mismatch) -> bool) -> bool {
+        self.differs.iter().any(is_such)
+    }
+}
+
+impl Builder<'_> {
+    fn statement(&mut self, partner: Option<(usize, Order)>, given: usize) -> Result<(), Obstacle> {
+        let Some(is) = self.scene.given.statements.get(given) else {
+            return Ok(());
+        };
+        let should = partner.and_then(|(fresh, _)| self.scene.fresh.statements.get(fresh));
+        let reads_as_it_should = should.is_some_and(|should| should.says == is.says);
+        match &is.says {
+            Says::Setting | Says::PartBegins => Ok(()),
+            Says::Frame(role, setting) => {
+                let cell = self.program.cell.as_ref();
+                let job = cell.map(|cell| match role {
+                    FrameRole::Tool => cell.tool,
+                    FrameRole::Base => cell.base,
+                });
+                if job.is_some_and(|job| self.scene.judge.is_frame(setting, &job)) {
+                    Ok(())
+                } else {
+                    Err(Obstacle::OtherFrame(given))
+                }
+            }
+            Says::Deed(deed) => {
+                let owner = partner.and_then(|(fresh, _)| self.scene.owners.get(fresh).copied().flatten());
+                let order = partner.map_or(Order::Lost, |(_, order)| order);
+                // A restatement, or a point on the way of an op.
+                if owner.is_none() && reads_as_it_should && order == Order::Kept {
+                    return Ok(());
+                }
+                let partner = owner.and_then(|id| self.partner(id, deed));
+                self.deed(deed, partner, given)
+            }
+            Says::Unknown | Says::Unreadable { .. } => Err(Obstacle::NotUnderstood(given)),
+        }
+    }
+
+    fn partner(&self, id: OpId, deed: &Deed) -> Option<Partner> {
+        let op = *self.scene.judge.reachable().program().ops.get(id.0 as usize)?;
+        let at = self.poses.get(id.0 as usize).copied().flatten();
+        let differs = self.scene.judge.mismatches(Moment { op: id, at }, deed);
+        Some(Partner { id, op, differs })
+    }
+
+    fn deed(&mut self, deed: &Deed, partner: Option<Partner>, given: usize) -> Result<(), Obstacle> {
+        let (id, site) = match &partner {
+            Some(partner) => (Some(partner.id), partner.op.site),
+            None => (None, self.site),
+        };
+        // One that does another kind of thing is no model for what it does.
+        let partner = partner.filter(|partner| !partner.differs_in(|found| matches!(found, Mismatch::Kind)));
+        let action = match deed {
+            Deed::Axes(axes) => Some(self.axes(axes, partner.as_ref(), given)?),
+            Deed::AxesToPose(target) => {
+                let (to, orientation) = self.pose(target, partner.as_ref(), given)?;
+                Some(Action::AxisTravel { to, orientation })
+            }
+            Deed::Straight { to, pace, .. } => {
+                let pose = self.pose(to, partner.as_ref(), given)?;
+                let speeds = self.speeds(pose, to, *pace, partner.as_ref(), given)?;
+                self.note_axes(to);
+                Some(self.straight(pose, speeds, partner.as_ref()))
+            }
+            Deed::Switch { output, state } => self.switch(*output, *state),
+            Deed::AwaitInput(input) => self.await_input(*input),
+            Deed::Wait(time) => self.wait(*time, partner.as_ref()),
+        };
+        if let Some(action) = action {
+            self.site = site;
+            self.at = pose_after(self.at, &action);
+            self.program.ops.push(Op { site, action });
+            self.origins.push(given);
+            self.partners.push(id);
+        }
+        Ok(())
+    }
+
+    fn note_axes(&mut self, target: &Target) {
+        if let Held::Rotary(rotary) = target.held {
+            self.axes = Some(rotary);
+        }
+    }
+
+    /// A move of all axes: home, or to the pose that they give.
+    fn axes(
+        &mut self,
+        axes: &AxisValues,
+        partner: Option<&Partner>,
+        given: usize,
+    ) -> Result<Action, Obstacle> {
+        self.axes = Some(*axes);
+        if let Some(Partner { op, differs, .. }) = partner
+            && differs.is_empty()
+        {
+            return Ok(op.action);
+        }
+        if self.is_home(axes) {
+            return Ok(Action::Home);
+        }
+        let blade = Frame::from(self.rig.blade_in_work(&axes.0));
+        let orientation = self.orientation(blade.orientation, given)?;
+        Ok(Action::AxisTravel {
+            to: blade.origin,
+            orientation,
+        })
+    }
+
+    fn is_home(&self, axes: &AxisValues) -> bool {
+        let ops = &self.scene.judge.reachable().program().ops;
+        let home = ops.iter().position(|op| op.action == Action::Home);
+        let home = home.and_then(|home| u32::try_from(home).ok()).map(OpId);
+        home.is_some_and(|op| {
+            let moment = Moment { op, at: None };
+            self.scene.judge.mismatches(moment, &Deed::Axes(*axes)).is_empty()
+        })
+    }
+
+    /// The pose of a target: exact where it is that of its partner within what is printed.
+    fn pose(&mut self, target: &Target, partner: Option<&Partner>, given: usize) -> Result<Pose, Obstacle> {
+        let exact = partner.and_then(|partner| {
+            let before = self.poses.get(partner.id.0 as usize).copied().flatten();
+            Some((partner, pose_after(before, &partner.op.action)?))
+        });
+        let tip = match exact {
+            Some((partner, (tip, _)))
+                if !partner.differs_in(|found| matches!(found, Mismatch::Tip { .. })) =>
+            {
+                tip
+            }
+            Some(_) | None => target.tip,
+        };
+        let is_of_attitude =
+            |found: &Mismatch| matches!(found, Mismatch::Attitude { .. } | Mismatch::Axis { .. });
+        let held = match exact {
+            Some((partner, (_, held))) if !partner.differs_in(is_of_attitude) => held,
+            Some(_) | None => {
+                let orientation = match target.held {
+                    Held::Orientation(orientation, _) => orientation,
+                    Held::Rotary(rotary) => Frame::from(self.rig.blade_in_work(&rotary.0)).orientation,
+                };
+                self.orientation(orientation, given)?
+            }
+        };
+        Ok((tip, held))
+    }
+
+    /// The entry of the table that is this orientation within what is printed, or a new one.
+    fn orientation(&mut self, orientation: Orientation, given: usize) -> Result<OrientationId, Obstacle> {
+        let grain = self.scene.grain.attitude.to_rad() + SAME_ATTITUDE;
+        let known = &mut self.program.orientations;
+        let found = known
+            .iter()
+            .position(|known| known.angle_to(orientation).to_rad() <= grain);
+        let index = match found {
+            Some(index) => index,
+            None if known.len() < MOST_KINDS => {
+                known.push(orientation);
+                known.len() - 1
+            }
+            None => return Err(Obstacle::TooManyKinds(given)),
+        };
+        u32::try_from(index)
+            .map(OrientationId)
+            .map_err(|_| Obstacle::TooManyKinds(given))
+    }
+
+    fn feed(&mut self, feed: Speed, given: usize) -> Result<FeedId, Obstacle> {
+        let grain = self.scene.grain.speed.to_mm_per_s() + SAME_SPEED;
+        let is_known = |known: &Speed| (known.to_mm_per_s() - feed.to_mm_per_s()).abs() <= grain;
+        number(&mut self.program.feeds, feed, is_known)
+            .map(FeedId)
+            .ok_or(Obstacle::TooManyKinds(given))
+    }
+
+    fn rate(&mut self, rate: AngularSpeed, given: usize) -> Result<RateId, Obstacle> {
+        let grain = self.scene.grain.rate.to_rad_per_s() + SAME_SPEED;
+        let is_known = |known: &AngularSpeed| (known.to_rad_per_s() - rate.to_rad_per_s()).abs() <= grain;
+        number(&mut self.program.rates, rate, is_known)
+            .map(RateId)
+            .ok_or(Obstacle::TooManyKinds(given))
+    }
+
+    /// The speeds of a straight motion: those of its partner where they are the same within what is printed.
+    fn speeds(
+        &mut self,
+        to: Pose,
+        target: &Target,
+        pace: Pace,
+        partner: Option<&Partner>,
+        given: usize,
+    ) -> Result<(FeedId, RateId), Obstacle> {
+        let is_of_speed = |found: &Mismatch| {
+            matches!(
+                found,
+                Mismatch::Feed { .. } | Mismatch::Rate { .. } | Mismatch::Time { .. }
+            )
+        };
+        let asked = partner
+            .filter(|partner| !partner.differs_in(is_of_speed))
+            .map_or((None, None), |partner| speeds_of(&partner.op.action));
+        let (feed, rate) = self.as_read(to, target, pace);
+        let feed = match (asked.0, feed) {
+            (Some(feed), _) => feed,
+            (None, Some(feed)) => self.feed(feed, given)?,
+            (None, None) => FeedId(0),
+        };
+        let rate = match (asked.1, rate) {
+            (Some(rate), _) => rate,
+            (None, Some(rate)) => self.rate(rate, given)?,
+            (None, None) => RateId(0),
+        };
+        Ok((feed, rate))
+    }
+
+    /// The speeds that a pace comes to between here and a pose, as far as it decides them.
+    fn as_read(&self, to: Pose, target: &Target, pace: Pace) -> (Option<Speed>, Option<AngularSpeed>) {
+        if let Pace::Speeds { tip, turn } = pace {
+            return (tip, turn);
+        }
+        let Some((from, held)) = self.at else {
+            return (None, None);
+        };
+        let length = from.distance(to.0);
+        let turn = match (self.held(held), self.held(to.1)) {
+            (Some(from), Some(to)) => from.angle_to(to),
+            (_, _) => Angle::ZERO,
+        };
+        let duration = match pace {
+            Pace::Speeds { .. } => return (None, None),
+            Pace::Tip(feed) => {
+                let duration = length / feed;
+                let turns = turn > Angle::ZERO && duration > Duration::ZERO && duration.is_finite();
+                return (Some(feed), turns.then(|| turn / duration));
+            }
+            Pace::PerMinute(times) => Duration::s(60.0 / times),
+            Pace::Rotary(rate) => Angle::rad(self.rotary_way(target)) / rate,
+        };
+        let moves = |amount: f64| amount > 0.0 && duration.is_finite() && duration > Duration::ZERO;
+        (
+            moves(length.to_mm()).then(|| length / duration),
+            moves(turn.to_rad()).then(|| turn / duration),
+        )
+    }
+
+    fn rotary_way(&self, target: &Target) -> f64 {
+        let cell = self.program.cell.as_ref();
+        let kinds = cell.iter().flat_map(|cell| &cell.axes).map(|axis| axis.kind);
+        match (target.held, self.axes) {
+            (Held::Rotary(to), Some(from)) => rotary_way(kinds, &only_rotary(cell, &from), &to),
+            (Held::Orientation(..) | Held::Rotary(_), _) => 0.0,
+        }
+    }
+
+    fn held(&self, id: OrientationId) -> Option<Orientation> {
+        self.program.orientations.get(id.0 as usize).copied()
+    }
+
+    fn straight(&self, pose: Pose, speeds: (FeedId, RateId), partner: Option<&Partner>) -> Action {
+        let (to, orientation) = pose;
+        let (feed, rate) = speeds;
+        let travel = Action::Travel {
+            to,
+            orientation,
+            feed,
+            rate,
+        };
+        let Some((from, held)) = self.at else {
+            return travel;
+        };
+        let keeps_attitude = held == orientation;
+        match partner.map(|partner| partner.op.action) {
+            Some(Action::Cut { flank, .. }) if keeps_attitude => Action::Cut { flank, to, feed },
+            Some(Action::Approach { .. }) if keeps_attitude => Action::Approach { to, feed },
+            Some(Action::Retract { .. }) if keeps_attitude => Action::Retract { to, feed },
+            Some(Action::Turn { .. }) if from == to => Action::Turn {
+                to: orientation,
+                rate,
+            },
+            Some(
+                Action::Cut { .. }
+                | Action::Approach { .. }
+                | Action::Retract { .. }
+                | Action::Turn { .. }
+                | Action::Travel { .. }
+                | Action::Home
+                | Action::AxisTravel { .. }
+                | Action::Ultrasonic { .. }
+                | Action::AwaitReady
+                | Action::Dwell { .. }
+                | Action::ToolChange { .. },
+            ) => travel,
+            None if keeps_attitude && self.is_through_stock(from, to) => Action::Cut {
+                flank: self.flank(orientation),
+                to,
+                feed,
+            },
+            None if from == to => Action::Turn {
+                to: orientation,
+                rate,
+            },
+            None => travel,
+        }
+    }
+
+    /// Whether a straight way runs along y through the whole stock, below its top.
+    fn is_through_stock(&self, from: Point3, to: Point3) -> bool {
+        let stock = self.program.stock;
+        let along_y = (to.x - from.x).abs() < SAME_PLACE && (to.z - from.z).abs() < SAME_PLACE;
+        along_y
+            && from.y.min(to.y) <= SAME_PLACE
+            && from.y.max(to.y) >= stock.depth.to_mm() - SAME_PLACE
+            && from.z < stock.height.to_mm() - SAME_PLACE
+    }
+
+    /// The flank that a posture cuts: the shank leans to its side.
+    fn flank(&self, orientation: OrientationId) -> Flank {
+        let leans_left = self.held(orientation).is_some_and(|held| {
+            let [[_, _, along_x], ..] = held.matrix();
+            -along_x < 0.0
+        });
+        if leans_left { Flank::Left } else { Flank::Right }
+    }
+
+    /// A switch of the generator; other outputs do nothing to the blade.
+    fn switch(&mut self, output: u32, state: Switch) -> Option<Action> {
+        let cell = self.program.cell.as_ref()?;
+        if cell.ultrasonic != Some(output) {
+            return None;
+        }
+        match (state, self.generator) {
+            (Switch::On, Generator::Off) => self.generator = Generator::Starting,
+            (Switch::Off, Generator::Starting | Generator::Running) => self.generator = Generator::Off,
+            // It is so already.
+            (Switch::On, Generator::Starting | Generator::Running) | (Switch::Off, Generator::Off) => {
+                return None;
+            }
+        }
+        Some(Action::Ultrasonic { state })
+    }
+
+    fn await_input(&mut self, input: u32) -> Option<Action> {
+        let cell = self.program.cell.as_ref()?;
+        (cell.ready == Ready::Input(input)).then(|| self.now_running())?
+    }
+
+    fn wait(&mut self, time: Duration, partner: Option<&Partner>) -> Option<Action> {
+        let cell = self.program.cell.as_ref()?;
+        let is_enough = match cell.ready {
+            Ready::Input(_) => false,
+            Ready::After(least) => time + self.scene.grain.time >= least,
+        };
+        if is_enough && self.generator == Generator::Starting {
+            return self.now_running();
+        }
+        match partner {
+            Some(Partner { op, differs, .. }) if differs.is_empty() => match op.action {
+                // A wait that stands where no generator starts up.
+                Action::AwaitReady => Some(Action::Dwell { time }),
+                action => Some(action),
+            },
+            Some(_) | None => Some(Action::Dwell { time }),
+        }
+    }
+
+    fn now_running(&mut self) -> Option<Action> {
+        if self.generator == Generator::Starting {
+            self.generator = Generator::Running;
+            Some(Action::AwaitReady)
+        } else {
+            None
+        }
+    }
+}
+
+/// Orientations nearer than this are the same, in rad, whatever a dialect prints.
+const SAME_ATTITUDE: f64 = 1e-9;
+
+/// Speeds nearer than this are the same, in mm/s and rad/s, whatever a dialect prints.
+const SAME_SPEED: f64 = 1e-9;
+
+/// Coordinates nearer than this are the same, in mm, as in the program's verifier.
+const SAME_PLACE: f64 = 1e-6;
+
+/// The place of a speed in its table, where it is put if it is not there.
+fn number<T>(table: &mut Vec<T>, value: T, is_known: impl Fn(&T) -> bool) -> Option<u16> {
+    let index = table.iter().position(is_known);
+    let index = match index {
+        Some(index) => index,
+        None if table.len() < MOST_KINDS => {
+            table.push(value);
+            table.len() - 1
+        }
+        None => return None,
+    };
+    u16::try_from(index).ok()
+}
+
+const fn speeds_of(action: &Action) -> (Option<FeedId>, Option<RateId>) {
+    match *action {
+        Action::Travel { feed, rate, .. } => (Some(feed), Some(rate)),
+        Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
+            (Some(feed), None)
+        }
+        Action::Turn { rate, .. } => (None, Some(rate)),
+        Action::Home
+        | Action::AxisTravel { .. }
+        | Action::Ultrasonic { .. }
+        | Action::AwaitReady
+        | Action::Dwell { .. }
+        | Action::ToolChange { .. } => (None, None),
+    }
+}
+
+/// Axis values with 0 for the linear axes.
+fn only_rotary(cell: Option<&Cell>, values: &AxisValues) -> AxisValues {
+    let mut rotary = *values;
+    let axes = cell.iter().flat_map(|cell| &cell.axes);
+    for (axis, value) in axes.zip(&mut rotary.0) {
+        if axis.kind == AxisKind::Linear {
+            *value = 0.0;
+        }
+    }
+    rotary
+}

@@ -1,0 +1,88 @@
+//! A program as its reader tells it: statements in the order in which they are carried out.
+
+use std::collections::BTreeMap;
+use vcutc_backend_api::ir::{OpId, Program};
+use vcutc_backend_api::readback::{Place, ProgramFile, Reader, Sources, Statement, essence};
+
+/// The statements of a program.
+pub(super) struct Told<'f> {
+    pub(super) files: &'f [ProgramFile],
+    pub(super) statements: Vec<Statement>,
+    /// How many more there are than are held.
+    pub(super) beyond: usize,
+}
+
+impl<'f> Told<'f> {
+    /// Reads a program, and keeps so many of its statements at most.
+    pub(super) fn read(reader: &dyn Reader, sources: Sources<'f>, most: usize) -> Self {
+        let mut told = Self {
+            files: sources.files,
+            statements: Vec::new(),
+            beyond: 0,
+        };
+        reader.read(sources, &mut |statement| {
+            if told.statements.len() < most {
+                told.statements.push(statement);
+            } else {
+                told.beyond += 1;
+            }
+        });
+        told
+    }
+
+    /// The text of a statement; empty where a place does not fit the files.
+    pub(super) fn text(&self, index: usize) -> &'f str {
+        self.statements
+            .get(index)
+            .map_or("", |statement| text_at(self.files, statement.place))
+    }
+
+    /// The elements to compare: equal numbers for statements of the same essence. The table is shared by both programs.
+    pub(super) fn essences(&self, known: &mut Names) -> Vec<u32> {
+        self.named(known, essence)
+    }
+
+    /// The same for statements that differ in their numbers only.
+    pub(super) fn skeletons(&self, known: &mut Names) -> Vec<u32> {
+        self.named(known, |text| {
+            let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
+            essence(text).split(is_of_number).collect()
+        })
+    }
+
+    fn named(&self, known: &mut Names, name: impl Fn(&str) -> String) -> Vec<u32> {
+        let places = 0..self.statements.len();
+        places.map(|index| known.number(name(self.text(index)))).collect()
+    }
+
+    /// For every statement the op that it says, by where the ops of a fresh program stand.
+    pub(super) fn owners(&self, places: &[Place], program: &Program) -> Vec<Option<OpId>> {
+        let mut ops = (0..).map(OpId).zip(places).take(program.ops.len()).peekable();
+        let owner = |statement: &Statement| {
+            ops.next_if(|(_, place)| **place == statement.place)
+                .map(|(op, _)| op)
+        };
+        self.statements.iter().map(owner).collect()
+    }
+}
+
+/// The text at a place.
+pub(super) fn text_at(files: &[ProgramFile], place: Place) -> &str {
+    files
+        .get(place.file as usize)
+        .and_then(|file| file.text.get(place.start as usize..place.end as usize))
+        .unwrap_or_default()
+}
+
+/// Numbers for texts, in the order in which they first come.
+#[derive(Default)]
+pub(super) struct Names {
+    numbers: BTreeMap<String, u32>,
+}
+
+impl Names {
+    fn number(&mut self, name: String) -> u32 {
+        let next = u32::try_from(self.numbers.len()).unwrap_or(u32::MAX);
+        *self.numbers.entry(name).or_insert(next)
+    }
+}

@@ -1,0 +1,220 @@
+//! Ops and what differs from them, in words with numbers.
+
+use crate::plan::parameters::show;
+use crate::reach::describe::{site_words, value_words};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, Cell, Flank, OpId, Program, Site, Switch};
+use vcutc_backend_api::readback::{Deed, DepartureKind, FrameRole, Mismatch, Pace, Says, Stance};
+
+/// An op in the words of the job: `the left flank of layer 1, cut 2`.
+pub(super) fn op_words(program: &Program, op: OpId) -> String {
+    let Some(op) = program.ops.get(op.0 as usize) else {
+        return "the program".to_owned();
+    };
+    let site = site_words(op.site);
+    let in_cut = matches!(op.site, Site::Cut { .. });
+    match op.action {
+        Action::Home => "the move home".to_owned(),
+        Action::Travel { .. } | Action::AxisTravel { .. } | Action::Approach { .. } => {
+            format!("the way to {site}")
+        }
+        Action::Retract { .. } => format!("the way up from {site}"),
+        Action::Cut { flank, .. } if in_cut => match flank {
+            Flank::Left => format!("the left flank of {site}"),
+            Flank::Right => format!("the right flank of {site}"),
+        },
+        Action::Cut { .. } => format!("a cut of {site}"),
+        Action::Turn { .. } => format!("the turn at {site}"),
+        Action::Ultrasonic { state: Switch::On } => format!("switching the generator on for {site}"),
+        Action::Ultrasonic { state: Switch::Off } => format!("switching the generator off after {site}"),
+        Action::AwaitReady => format!("waiting for the generator before {site}"),
+        Action::Dwell { .. } => format!("a wait in {site}"),
+        Action::ToolChange { .. } => format!("the tool change before {site}"),
+    }
+}
+
+/// What a deed does, in a few words.
+pub(super) fn deed_words(deed: &Deed) -> String {
+    match deed {
+        Deed::Axes(_) => "a move of all axes".to_owned(),
+        Deed::AxesToPose(target) => {
+            format!("a move of all axes that brings the tip to {}", point(target.tip))
+        }
+        Deed::Straight { to, .. } => format!("a straight move of the tip to {}", point(to.tip)),
+        Deed::Switch { output, state } => format!("output {output} is switched {}", switch(*state)),
+        Deed::AwaitInput(input) => format!("the program waits for input {input}"),
+        Deed::Wait(time) => format!("the program waits for {} s", show(time.to_s())),
+    }
+}
+
+/// What a statement is, where it is no deed.
+pub(super) const fn kind_words(says: &Says) -> &'static str {
+    match says {
+        Says::Deed(_) => "a motion, a switch or a wait",
+        Says::Frame(FrameRole::Tool, _) => "the tool frame",
+        Says::Frame(FrameRole::Base, _) => "the base frame",
+        Says::Setting => "a setting",
+        Says::PartBegins => "the beginning of a part",
+        Says::Unknown | Says::Unreadable { .. } => "a statement that is not understood",
+    }
+}
+
+/// Why a fresh program was not read back as it should be, a line each.
+pub(crate) fn departure_words(what: &DepartureKind, cell: Option<&Cell>) -> Vec<String> {
+    let one = |text: &str| vec![text.to_owned()];
+    match what {
+        DepartureKind::Differs(found) => found
+            .iter()
+            .map(|mismatch| mismatch_words(mismatch, cell))
+            .collect(),
+        DepartureKind::Ends => one("the program ends here"),
+        DepartureKind::More => one("something is done behind the last op"),
+        DepartureKind::Frame(FrameRole::Tool) => one("the tool frame has another value"),
+        DepartureKind::Frame(FrameRole::Base) => one("the base frame has another value"),
+        DepartureKind::NoFrame(FrameRole::Tool) => one("the tool frame is not set before the first motion"),
+        DepartureKind::NoFrame(FrameRole::Base) => one("the base frame is not set before the first motion"),
+        DepartureKind::NotUnderstood => one("the statement is not understood"),
+    }
+}
+
+/// A mismatch as half a sentence: `the tip ends at x 3.2 mm, the job says x 3 mm`.
+pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String {
+    match *mismatch {
+        Mismatch::Kind => "something else is done".to_owned(),
+        Mismatch::Tip { is, should } => tip(is, should),
+        Mismatch::Attitude { by } => format!(
+            "the blade is held in another way, turned by {} deg",
+            fine(by.to_deg())
+        ),
+        Mismatch::Stance { is, should } => format!(
+            "the machine is to stand in another way: with {}, the job needs {}",
+            stance(is, should),
+            stance(should, is)
+        ),
+        Mismatch::Axis { axis, is, should } => match cell.and_then(|cell| cell.axes.get(axis)) {
+            Some(axis) => {
+                let (name, is, should) = (&axis.name, value_words(axis, is), value_words(axis, should));
+                format!("{name} goes to {is}, the job says {should}")
+            }
+            None => "an axis goes elsewhere".to_owned(),
+        },
+        Mismatch::Feed { is, should } => format!(
+            "the tip goes at {}, the job says {} mm/s",
+            is.map_or("no stated speed".to_owned(), |is| format!(
+                "{} mm/s",
+                fine(is.to_mm_per_s())
+            )),
+            fine(should.to_mm_per_s())
+        ),
+        Mismatch::Rate { is, should } => {
+            let words = |rate: f64| fine(rate.to_degrees());
+            format!(
+                "the blade turns at {}, the job says {} deg/s",
+                is.map_or("no one rate".to_owned(), |is| format!(
+                    "{} deg/s",
+                    words(is.to_rad_per_s())
+                )),
+                words(should.to_rad_per_s())
+            )
+        }
+        Mismatch::Time { is, should } => format!(
+            "it takes {} s, the job says {} s",
+            fine(is.to_s()),
+            fine(should.to_s())
+        ),
+        Mismatch::NoStop => "the machine passes by without the exact stop that the job needs".to_owned(),
+        Mismatch::Output { is, should } => {
+            let wanted = should
+                .0
+                .map_or("no output".to_owned(), |number| format!("output {number}"));
+            format!(
+                "output {} is switched {}, the job says {wanted}, {}",
+                is.0,
+                switch(is.1),
+                switch(should.1)
+            )
+        }
+        Mismatch::Input { is, should } => {
+            format!("the program waits for input {is}, the job says input {should}")
+        }
+    }
+}
+
+/// Only the coordinates that differ.
+fn tip(is: Point3, should: Point3) -> String {
+    let coordinates = [
+        ("x", is.x, should.x),
+        ("y", is.y, should.y),
+        ("z", is.z, should.z),
+    ];
+    let differ: Vec<_> = coordinates
+        .into_iter()
+        .filter(|(_, is, should)| (is - should).abs() > SAME_COORDINATE)
+        .collect();
+    let words = |value: &dyn Fn(&(&str, f64, f64)) -> f64| {
+        let each = differ
+            .iter()
+            .map(|all| format!("{} {} mm", all.0, fine(value(all))));
+        each.collect::<Vec<_>>().join(", ")
+    };
+    format!(
+        "the tip ends at {}, the job says {}",
+        words(&|all| all.1),
+        words(&|all| all.2)
+    )
+}
+
+/// Coordinates nearer than this are not told apart, in mm.
+const SAME_COORDINATE: f64 = 1e-5;
+
+/// A number with decimals enough to tell it from one that differs in the last place that dialects print.
+fn fine(value: f64) -> String {
+    let text = format!("{value:.5}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    match text {
+        "-0" => "0".to_owned(),
+        text => text.to_owned(),
+    }
+}
+
+fn point(tip: Point3) -> String {
+    format!("x {} mm, y {} mm, z {} mm", show(tip.x), show(tip.y), show(tip.z))
+}
+
+/// The numbers of a stance, as many as it or the other one uses.
+fn stance(stance: Option<Stance>, other: Option<Stance>) -> String {
+    let Some(Stance(numbers)) = stance else {
+        return "no configuration".to_owned();
+    };
+    let used = |Stance(numbers): Stance| numbers.iter().rposition(|&number| number != 0);
+    let last = stance
+        .and_then(used)
+        .max(other.and_then(used))
+        .unwrap_or_default();
+    let numbers: Vec<_> = numbers.iter().take(last + 1).map(ToString::to_string).collect();
+    format!("configuration {}", numbers.join(", "))
+}
+
+const fn switch(state: Switch) -> &'static str {
+    match state {
+        Switch::On => "on",
+        Switch::Off => "off",
+    }
+}
+
+/// The speed that a statement's deed has, where deeds of the same text may have another.
+pub(super) fn pace_words(deed: &Deed) -> Option<String> {
+    let Deed::Straight { pace, .. } = deed else {
+        return None;
+    };
+    match *pace {
+        Pace::Speeds { tip, turn } => {
+            let tip = tip.map(|tip| format!("{} mm/s", fine(tip.to_mm_per_s())));
+            let turn = turn.map(|turn| format!("{} deg/s", fine(turn.to_rad_per_s().to_degrees())));
+            Some(tip.into_iter().chain(turn).collect::<Vec<_>>().join(" and "))
+        }
+        Pace::Tip(tip) => Some(format!("{} mm/s", fine(tip.to_mm_per_s()))),
+        Pace::PerMinute(times) => Some(format!("{} per minute", fine(times))),
+        Pace::Rotary(rate) => Some(format!("{} deg/s", fine(rate.to_rad_per_s().to_degrees()))),
+    }
+}

@@ -1,0 +1,77 @@
+//! A program as a backend wrote it, read back at once.
+
+use super::told::text_at;
+use super::wording::{departure_words, op_words};
+use vcutc_backend_api::backend::{Backend, Options};
+use vcutc_backend_api::bundle::Bundle;
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Retrace, Sources, program_files};
+
+/// A program as it was written.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// The options of the backend that wrote it.
+    pub options: Options,
+    /// Its files, byte for byte.
+    pub bundle: Bundle,
+    /// The same as text.
+    pub files: Vec<ProgramFile>,
+    /// Where each op stands in the text; none where nobody can read the dialect.
+    pub places: Option<Vec<Place>>,
+}
+
+/// What a program that was read back differently says: the op in question, and what is wrong, a line each.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Astray(pub Vec<String>);
+
+impl Written {
+    /// Reads what a backend wrote and follows it op by op.
+    ///
+    /// # Errors
+    /// Where it is not the program that it was made from.
+    pub fn read_back(
+        program: &ReachableProgram,
+        backend: &dyn Backend,
+        options: Options,
+        bundle: Bundle,
+    ) -> Result<Self, Astray> {
+        let files = program_files(&bundle);
+        let places = places(program, backend, &options, &files)?;
+        Ok(Self {
+            options,
+            bundle,
+            files,
+            places,
+        })
+    }
+}
+
+fn places(
+    program: &ReachableProgram,
+    backend: &dyn Backend,
+    options: &Options,
+    files: &[ProgramFile],
+) -> Result<Option<Vec<Place>>, Astray> {
+    let (Some(reader), Some(cell)) = (backend.reader(), &program.program().cell) else {
+        return Ok(None);
+    };
+    let judge = Judge::new(program, reader, reader.grain(options));
+    let mut retrace = Retrace::new(judge, reader.frames());
+    let sources = Sources { files, cell, options };
+    reader.read(sources, &mut |statement| retrace.heed(&statement));
+    match retrace.finish() {
+        Ok(retraced) => Ok(Some(retraced.places)),
+        Err(departure) => {
+            let op = departure.op.map(|op| {
+                let words = op_words(program.program(), op);
+                format!("it should say op {}, {words}", op.0)
+            });
+            let line = departure.place.map(|place| {
+                let name = files.get(place.file as usize).map_or("", |file| &file.name);
+                format!("{name} says `{}`", text_at(files, place))
+            });
+            let what = departure_words(&departure.what, Some(cell));
+            Err(Astray(op.into_iter().chain(line).chain(what).collect()))
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Files that describe something and are no jobs: machines, and the habits of machines.
+
+use super::files::{not_loaded, text_of};
+use super::report::Checked;
+use super::session::Session;
+use crate::diag::{Code, Diagnostic};
+use crate::document::flaw::Flaw;
+use crate::source::Span;
+
+/// What a file describes. Its flaws are told under a code, each with the place where the file is named.
+pub(crate) fn read<T>(
+    path: &str,
+    named_at: Span,
+    session: &mut Session<'_>,
+    code: Code,
+    parse: impl FnOnce(&str) -> Result<T, Vec<Flaw>>,
+) -> Checked<T> {
+    let bytes = session
+        .loader
+        .load(path)
+        .map_err(|error| session.reports.push(not_loaded(&named_at, path, &error)))?;
+    let (file, fault) = text_of(session, path, bytes, Some(named_at));
+    if let Some(reported) = fault {
+        return Err(reported);
+    }
+    let text = session.sources.get(file).map_or("", |file| file.text.as_str());
+    parse(text).map_err(|flaws| {
+        let told = |flaw: &Flaw| {
+            flaw.diagnostic(code, file)
+                .and(named_at, "the file is named here")
+        };
+        let found: Vec<Diagnostic> = flaws.iter().map(told).collect();
+        match session.reports.append(found) {
+            Some(reported) => reported,
+            None => session.reports.push(unexplained(path, named_at)),
+        }
+    })
+}
+
+/// A reader that refuses a file without saying why.
+fn unexplained(path: &str, named_at: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::Internal,
+        format!("`{path}` is refused without a reason"),
+        named_at,
+        "the file is named here",
+    )
+}

@@ -1,0 +1,374 @@
+//! Targets that are programs of their own: good ones, and every way not to be one.
+
+use super::jobs::RIB;
+use super::{Run, folder, json_lines, names, vcutc};
+use crate::repository::root;
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+use vcutc_backend_api::ir::Program;
+
+/// A description that is as it should be, of a program `odd`.
+const DESCRIPTION: &str = r#"{"protocol":1,"id":"odd","summary":"oddities","capabilities":["linear_move","joint_move","still_tip_turn","output","await_input","dwell"],"options":[{"key":"size","kind":"integer","min":1,"max":9,"default":2,"help":"A size."},{"key":"style","kind":"choice","of":["plain","fancy"],"help":"A style."}],"machines":[{"kind":"robot","makers":["kuka"]}],"drives":"KUKA robots"}"#;
+
+/// A folder with a job and a program `vcutc-backend-odd`.
+fn with_program(script: &str) -> TempDir {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    install(folder.path(), script);
+    folder
+}
+
+fn install(folder: &Path, script: &str) {
+    let path = folder.join("vcutc-backend-odd");
+    fs::write(&path, script).unwrap();
+    fs::set_permissions(&path, Permissions::from_mode(0o755)).unwrap();
+}
+
+/// A program that describes itself well and answers this when it is to write.
+fn answering(reply: &str) -> String {
+    format!(
+        "#!/bin/sh\ncase \"$(cat)\" in\n*'\"ask\":\"describe\"'*) cat <<'END'\n{DESCRIPTION}\nEND\n;;\n*) cat <<'END'\n{reply}\nEND\n;;\nesac\n"
+    )
+}
+
+fn compiled(folder: &Path) -> Run {
+    let args = [
+        "rib.vcut",
+        "--target",
+        "odd",
+        "--backend-path",
+        ".",
+        "-o",
+        "out",
+        "-q",
+        "--backend-timeout",
+        "20",
+    ];
+    vcutc(folder, &args)
+}
+
+/// How many ops the program of the job has.
+fn ops() -> usize {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    let run = vcutc(folder.path(), &["rib.vcut", "--emit", "ir", "-q"]);
+    let program: Program = serde_json::from_str(&run.stdout).unwrap();
+    program.ops.len()
+}
+
+/// What is said of `ops` ops that all stand in the first line of the first file.
+fn said(ops: impl Iterator<Item = usize>) -> String {
+    let said: Vec<String> = ops
+        .map(|op| format!(r#"{{"op":{op},"file":0,"line":1}}"#))
+        .collect();
+    said.join(",")
+}
+
+#[test]
+fn a_program_that_cannot_describe_itself_is_refused_before_the_job_is_read() {
+    let wrong_id = format!(
+        "#!/bin/sh\ncat <<'END'\n{}\nEND\n",
+        DESCRIPTION.replace("\"odd\"", "\"even\"")
+    );
+    let profile = format!(
+        "#!/bin/sh\ncat <<'END'\n{}\nEND\n",
+        DESCRIPTION.replace("\"size\"", "\"profile\"")
+    );
+    let default = format!(
+        "#!/bin/sh\ncat <<'END'\n{}\nEND\n",
+        DESCRIPTION.replace("\"default\":2", "\"default\":20")
+    );
+    for (script, says) in [
+        (
+            "#!/bin/sh\necho first >&2\necho oh no >&2\nexit 3\n",
+            "ended with exit status 3\n  help: it says: first\n  help: it says: oh no",
+        ),
+        ("#!/bin/sh\nkill -TERM $$\n", "was stopped (signal: 15"),
+        (
+            "#!/bin/sh\necho hello\n",
+            "answers something else than the protocol says: expected value at line 1 column 1\n  help: it says: hello ...",
+        ),
+        (
+            "#!/bin/sh\ntrue\n",
+            "answers something else than the protocol says: EOF",
+        ),
+        ("#!/bin/sh\necho '{}'\n", "missing field `protocol`"),
+        ("#!/bin/sh\necho '{\"protocol\":1}'\n", "missing field `id`"),
+        (
+            "#!/bin/sh\necho '{\"protocol\":2}'\n",
+            "speaks version 2 of the protocol, this compiler version 1",
+        ),
+        ("#!/bin/sh\nyes\n", "answers more than 1048576 bytes"),
+        ("#!/nowhere/at/all\n", "cannot be started"),
+        (
+            &wrong_id,
+            "says that its id is `even`, but its file is named for `odd`",
+        ),
+        (
+            &profile,
+            "has an option `profile` which is the key under which jobs name a profile",
+        ),
+        (&default, "has an option `size` whose default is not in its range"),
+    ] {
+        let folder = with_program(script);
+        let run = compiled(folder.path());
+        assert_eq!(run.code, Some(2), "{script}: {}", run.stderr);
+        let head = "error: the program behind target `odd` ";
+        assert!(
+            run.stderr.starts_with(head) && run.stderr.contains(says),
+            "{script}: {}",
+            run.stderr
+        );
+        assert_eq!(names(folder.path()), ["rib.vcut", "vcutc-backend-odd"]);
+    }
+}
+
+#[test]
+fn a_program_that_may_not_be_run_says_how_it_may() {
+    let folder = with_program(&answering("{}"));
+    let program = folder.path().join("vcutc-backend-odd");
+    fs::set_permissions(program, Permissions::from_mode(0o644)).unwrap();
+    let run = compiled(folder.path());
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr.contains("chmod +x ./vcutc-backend-odd"),
+        "{}",
+        run.stderr
+    );
+}
+
+/// It is stopped together with what it has started, and the compiler does not wait for either.
+#[test]
+fn a_program_that_hangs_is_stopped_with_its_children() {
+    let folder = with_program("#!/bin/sh\nsleep 1000 &\necho $! > child\nwait\n");
+    let started = Instant::now();
+    let run = vcutc(
+        folder.path(),
+        &[
+            "rib.vcut",
+            "--target",
+            "odd",
+            "--backend-path",
+            ".",
+            "--backend-timeout",
+            "1",
+        ],
+    );
+    assert!(
+        started.elapsed() < Duration::from_secs(500),
+        "the sleep is not waited for"
+    );
+    assert_eq!(run.code, Some(2));
+    assert!(run.stderr.contains("was not done within 1 s"), "{}", run.stderr);
+    let child = fs::read_to_string(folder.path().join("child")).unwrap();
+    let runs = || {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", child.trim()));
+        stat.is_ok_and(|stat| !stat.contains(") Z"))
+    };
+    let mut looks = 0;
+    while runs() && looks < 200 {
+        looks += 1;
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    assert!(!runs(), "{child} still runs");
+}
+
+#[test]
+fn what_is_no_program_is_not_written() {
+    let ops = ops();
+    let all = said(0..ops);
+    let file =
+        |name: &str| format!(r#"{{"protocol":1,"files":[{{"name":"{name}","text":"x"}}],"said":[{all}]}}"#);
+    let saying =
+        |said: &str| format!(r#"{{"protocol":1,"files":[{{"name":"a.nc","text":"x"}}],"said":[{said}]}}"#);
+    let skipped = said((0..ops).filter(|op| *op != 5));
+    let twice = format!("{all},{}", said(3..4));
+    let beyond = format!("{all},{}", said(ops..ops + 1));
+    let elsewhere = format!("{},{{\"op\":0,\"file\":0,\"line\":2}}", said(1..ops));
+    for (reply, says) in [
+        (
+            "nonsense".to_owned(),
+            "answers something else than the protocol says",
+        ),
+        (r#"{"protocol":1}"#.to_owned(), "answers without any file"),
+        (file("../a.nc"), "calls a file `../a.nc`"),
+        (file("a/b.nc"), "calls a file `a/b.nc`"),
+        (file("/tmp/a.nc"), "calls a file `/tmp/a.nc`"),
+        (file("con.nc"), "calls a file `con.nc`"),
+        (file("LPT1"), "calls a file `LPT1`"),
+        (file(".hidden"), "calls a file `.hidden`"),
+        (file(""), "calls a file ``"),
+        (
+            file(r#"a.nc","text":"x"},{"name":"A.NC"#),
+            "answers two files called `A.NC`",
+        ),
+        (saying(""), "does not say op 0, nor"),
+        (saying(&skipped), "does not say op 5\n"),
+        (saying(&twice), "says op 3 twice"),
+        (saying(&beyond), "the program has"),
+        (
+            saying(&elsewhere),
+            "says op 0 at line 2 of file 0, which is not there",
+        ),
+    ] {
+        let folder = with_program(&answering(&reply));
+        let run = compiled(folder.path());
+        assert_eq!(run.code, Some(1), "{reply}: {}", run.stderr);
+        assert!(
+            run.stderr.contains("VC0609") && run.stderr.contains(says),
+            "{reply}: {}",
+            run.stderr
+        );
+        assert!(!folder.path().join("out").exists(), "{reply}");
+    }
+    let folder = with_program(&answering(&file("a.nc")));
+    let run = compiled(folder.path());
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert_eq!(fs::read_to_string(folder.path().join("out/a.nc")).unwrap(), "x");
+}
+
+#[test]
+fn problems_become_diagnostics_at_their_places() {
+    let reply = r#"{"protocol":1,"problems":[
+        {"problem":"unsupported","op":4,"what":"cuts on Sundays"},
+        {"problem":"out_of_range","what":"output number","value":"12","allowed":"from 1 to 8"},
+        {"problem":"option_conflict","key":"size","why":"too small for this part"},
+        {"problem":"missing_machine_field","field":"ready","why":"to know when"},
+        {"problem":"profile","key":"footer","why":"there is none"},
+        {"problem":"wrong_machine","mismatch":"arm"}
+    ]}"#;
+    let folder = with_program(&answering(reply));
+    let run = vcutc(
+        folder.path(),
+        &[
+            "rib.vcut",
+            "--target",
+            "odd",
+            "--backend-path",
+            ".",
+            "--message-format",
+            "json",
+        ],
+    );
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    let codes: Vec<String> = json_lines(&run.stderr)
+        .iter()
+        .filter_map(|line| Some(line.get("code")?.as_str()?.to_owned()))
+        .collect();
+    assert_eq!(
+        codes,
+        ["VC0605", "VC0606", "VC0604", "VC0602", "VC0604", "VC0607"]
+    );
+}
+
+#[test]
+fn options_of_a_program_are_checked_like_all_others() {
+    let job = RIB.replace(
+        "output(12)\n",
+        "output(12)\n  odd { size = 10, style = fancyy, colour = 3 }\n",
+    );
+    assert_ne!(job, RIB);
+    let folder = with_program(&answering("{}"));
+    fs::write(folder.path().join("rib.vcut"), &job).unwrap();
+    let run = compiled(folder.path());
+    assert_eq!(run.code, Some(1));
+    for says in [
+        "option `size` takes a whole number from 1 to 9",
+        "one of plain, fancy",
+        "has no option `colour`",
+    ] {
+        assert!(run.stderr.contains(says), "{}", run.stderr);
+    }
+    // Another target leaves the block alone, and does not run the program.
+    install(folder.path(), "#!/bin/sh\nexit 3\n");
+    let run = vcutc(
+        folder.path(),
+        &["rib.vcut", "--target", "krl", "--backend-path", ".", "-q"],
+    );
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+}
+
+#[test]
+fn a_machine_that_a_program_does_not_drive_is_refused_without_asking_it() {
+    let abb = DESCRIPTION
+        .replace("kuka", "abb")
+        .replace("KUKA robots", "ABB robots");
+    let folder = with_program(&format!(
+        "#!/bin/sh\ncase \"$(cat)\" in\n*describe*) echo '{abb}' ;;\n*) exit 9 ;;\nesac\n"
+    ));
+    let run = compiled(folder.path());
+    assert_eq!(run.code, Some(1));
+    assert!(
+        run.stderr.contains("VC0607") && run.stderr.contains("`odd` drives ABB robots"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn programs_are_listed_by_name_and_run_only_to_be_described() {
+    let folder = with_program("#!/bin/sh\ntouch ran\nexit 3\n");
+    for other in ["vcutc-backend-krl", "vcutc-backend-Two.words", "vcutc-backend-"] {
+        fs::write(folder.path().join(other), "").unwrap();
+    }
+    let run = vcutc(folder.path(), &["targets", "--backend-path", "."]);
+    assert_eq!(run.code, Some(0));
+    let (_, outside) = run.stdout.split_once("Programs outside of the compiler").unwrap();
+    assert!(outside.contains("  odd  ./vcutc-backend-odd\n"), "{outside}");
+    assert!(
+        outside.contains("krl  ./vcutc-backend-krl  (not used"),
+        "{outside}"
+    );
+    assert!(!outside.contains("words"), "{outside}");
+    assert!(!folder.path().join("ran").exists());
+
+    install(folder.path(), &answering("{}"));
+    let run = vcutc(folder.path(), &["targets", "odd", "--backend-path", "."]);
+    assert_eq!(run.code, Some(0));
+    insta::assert_snapshot!(run.stdout);
+}
+
+/// The example in Python, as its own first lines say to use it.
+#[test]
+fn the_example_in_python_writes_a_statement_for_every_op() {
+    let folder = folder();
+    fs::write(
+        folder.path().join("rib.vcut"),
+        RIB.replace("output(12)\n", "output(12)\n  apt { profile = \"shop.toml\" }\n"),
+    )
+    .unwrap();
+    fs::write(
+        folder.path().join("shop.toml"),
+        "header = [\"PPRINT/SHOP 2\"]\ndecimals = 5\nextension = \"cl\"\n",
+    )
+    .unwrap();
+    let examples = root().join("examples/backends");
+    let run = vcutc(
+        folder.path(),
+        &[
+            "rib.vcut",
+            "--target",
+            "apt",
+            "--backend-path",
+            examples.to_str().unwrap(),
+            "-o",
+            "out",
+            "-q",
+        ],
+    );
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let text = fs::read_to_string(folder.path().join("out/rib.cl")).unwrap();
+    assert!(
+        text.starts_with("PARTNO/rib\nUNITS/MM\nPPRINT/SHOP 2\nGOHOME\n") && text.ends_with("GOHOME\nFINI\n")
+    );
+    assert_eq!(text.lines().count(), ops() + 4);
+    let first = text
+        .lines()
+        .find_map(|line| line.strip_prefix("RAPID;GOTO/"))
+        .unwrap();
+    let x = first.split(',').next().unwrap();
+    assert_eq!(x.split_once('.').unwrap().1.len(), 5, "{first}");
+}
