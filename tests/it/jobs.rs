@@ -1,13 +1,13 @@
 //! Small whole jobs: one folder each in `tests/jobs`, with everything that the compiler makes of it as files beside it.
 //!
 //! The folder of a job holds `job.vcut` and what it uses, its tree (`ast.txt`), its cuts (`plan.csv`), its intermediate
-//! program (`ir.json`), its figures (`summary.txt`) and its robot program (`krl/`). All of them are compared byte for
-//! byte, so a change anywhere in the compiler shows in a diff that people can read. With `UPDATE_JOBS=1` in the
+//! program (`ir.json`), its figures (`summary.txt`) and its robot program (`krl/`). A line `// also: MACHINE TARGET` asks for
+//! the program of another of its machines, too. All of them are compared byte for byte, so a change anywhere in the compiler shows in a diff that people can read. With `UPDATE_JOBS=1` in the
 //! environment the files are rewritten instead: read them before committing.
 
 use crate::cli::vcutc;
 use crate::krl_text;
-use crate::pipeline::{Files, compile, emit, told};
+use crate::pipeline::{Files, compile, compile_on, emit, emit_for, told};
 use crate::repository::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use vcutc::driver::Outcome;
 use vcutc::job::{Auto, Operation};
 use vcutc::plan::{PlannedOperation, TipOrigin, Way};
+use vcutc::registry;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::exchange::Exchange;
 
@@ -51,7 +52,24 @@ fn products(folder: &Path, outcome: &Outcome) -> BTreeMap<String, Vec<u8>> {
             products.insert(format!("krl/{name}"), bytes.clone());
         }
     }
+    for (machine, target) in also(folder) {
+        let outcome = compile_on(Some(&machine), JOB, &Files::of(folder));
+        let bundle = emit_for(registry::backend(&target).unwrap(), &outcome).unwrap();
+        for (name, bytes) in bundle.files() {
+            products.insert(format!("{target}/{name}"), bytes.clone());
+        }
+    }
     products
+}
+
+/// The other machines of a job whose programs are wanted, each with its target.
+fn also(folder: &Path) -> Vec<(String, String)> {
+    let text = fs::read_to_string(folder.join(JOB)).unwrap();
+    let lines = text.lines().filter_map(|line| line.strip_prefix("// also: "));
+    let pairs = lines.map(|line| line.split_once(' ').unwrap());
+    pairs
+        .map(|(machine, target)| (machine.to_owned(), target.to_owned()))
+        .collect()
 }
 
 fn has_machine(outcome: &Outcome) -> bool {

@@ -18,7 +18,7 @@ mod examples;
 mod five_axis;
 mod gcode;
 mod hostile;
-#[cfg(all(feature = "cli", feature = "krl"))]
+#[cfg(all(feature = "cli", feature = "gcode", feature = "krl", feature = "rapid"))]
 mod jobs;
 mod kinematics;
 #[cfg(feature = "krl")]

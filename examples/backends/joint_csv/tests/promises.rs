@@ -1,5 +1,7 @@
 //! What every backend promises, and what this one does with the edges of its world.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use vcutc_backend_api::backend::{Backend, BackendIssue, OptionValue, Options};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::Maker;
