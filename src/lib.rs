@@ -3,6 +3,7 @@
 mod align;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod comparison;
 pub mod diag;
 pub mod document;
 pub mod driver;

@@ -29,8 +29,10 @@
 )]
 
 mod args;
+mod batch;
 mod compile;
 mod console;
+mod differences;
 mod explain;
 mod external;
 mod files;
@@ -41,6 +43,7 @@ mod machines;
 mod output;
 mod place;
 mod progress;
+mod snapshot;
 mod targets;
 mod verify;
 
