@@ -12,6 +12,7 @@ pub mod job;
 pub mod kinematics;
 pub mod lower;
 pub mod machine;
+pub mod manifest;
 pub mod picture;
 pub mod placement;
 pub mod plan;

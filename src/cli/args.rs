@@ -97,6 +97,11 @@ fn suggest_command(mut error: clap::Error) -> clap::Error {
 pub(super) enum Command {
     /// Look for errors in jobs; write nothing
     Check(CheckArgs),
+    /// Write all programs that vcut.toml lists, or check that they are up to date
+    ///
+    /// vcut.toml is looked for in the current folder and above it. Programs are compiled side by side and told of in the
+    /// order of the list; each is written whole or not at all, and files that would not change are left alone.
+    Build(BuildArgs),
     /// Explain a diagnostic code, or list them all
     ///
     /// Every error and warning has a permanent code such as VC0203. Its page says what it means, shows a job that has
@@ -268,6 +273,21 @@ pub(super) struct CheckArgs {
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BuildArgs {
+    /// Only these: names of sections, names of jobs, or paths of job files
+    #[arg(value_name = "NAME|JOB")]
+    pub(super) programs: Vec<String>,
+
+    /// Compare with the files that are there, and write nothing
+    #[arg(long)]
+    pub(super) check: bool,
+
+    /// The list of programs [default: vcut.toml in the current folder or above it]
+    #[arg(long, value_name = "FILE")]
+    pub(super) manifest: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -53,7 +53,8 @@ pub(super) fn load_program(path: &Path) -> Result<Vec<u8>, LoadError> {
     load_bounded(path, LARGEST_PROGRAM)
 }
 
-fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
+/// The bytes of a file of ordinary size.
+pub(super) fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
     load_bounded(path, LARGEST_FILE)
 }
 
