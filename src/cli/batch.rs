@@ -115,7 +115,9 @@ fn all(units: &[Unit], fate: Fate, targets: &Targets) -> Vec<Done> {
             }
         }
     };
-    let threads = thread::available_parallelism().map_or(1, usize::from).min(units.len());
+    let threads = thread::available_parallelism()
+        .map_or(1, usize::from)
+        .min(units.len());
     thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(work);
@@ -168,7 +170,9 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
 fn same_file<'u>(units: &'u [Unit], done: &[Done]) -> Option<(&'u Unit, &'u Unit, String)> {
     let mut first: BTreeMap<String, &Unit> = BTreeMap::new();
     for (unit, done) in units.iter().zip(done) {
-        let Ok(Some((_, names))) = &done.made else { continue };
+        let Ok(Some((_, names))) = &done.made else {
+            continue;
+        };
         for name in names {
             let path = unit.folder.join(name).display().to_string();
             if let Some(earlier) = first.insert(path.to_lowercase(), unit) {
@@ -261,7 +265,7 @@ fn remark(unit: &Unit, diagnostics: &[Diagnostic], made: &Made, fate: Fate) -> S
     }
     match &made.differences {
         Some(found) => format!("{target} {}", found.in_words()),
-        None => target,
+        None => format!("program {target}"),
     }
 }
 

@@ -60,8 +60,9 @@ fn list(given: Option<&str>) -> Result<(String, String), Failure> {
     let (path, bytes) = match given {
         Some(path) => {
             let path = Disk::around(path).job().to_owned();
-            let bytes = load_file(Path::new(&path))
-                .map_err(|reason| Failure::new(format!("cannot read the list of programs {path}: {reason}")))?;
+            let bytes = load_file(Path::new(&path)).map_err(|reason| {
+                Failure::new(format!("cannot read the list of programs {path}: {reason}"))
+            })?;
             (path, bytes)
         }
         None => nearest_list()?,
@@ -151,7 +152,10 @@ impl List<'_> {
         }
         if units.len() > MOST_PROGRAMS {
             let place = self.span(&manifest.entries.first().and_then(|entry| entry.jobs.first()));
-            let message = format!("the list has {} programs, at most {MOST_PROGRAMS} are built in one run", units.len());
+            let message = format!(
+                "the list has {} programs, at most {MOST_PROGRAMS} are built in one run",
+                units.len()
+            );
             diagnostics.push(
                 Diagnostic::new(Code::BadManifest, message, place, "from here on")
                     .help("split it into several lists, and give each with --manifest"),
@@ -214,7 +218,9 @@ impl List<'_> {
         let text = pattern.value.text();
         let from_here = |path: &str| join_path(&self.path, path);
         let found = if pattern.value.is_plain() {
-            Path::new(&from_here(text)).is_file().then(|| vec![text.to_owned()])
+            Path::new(&from_here(text))
+                .is_file()
+                .then(|| vec![text.to_owned()])
         } else {
             walk(&pattern.value, &from_here).map_err(|reason| {
                 Diagnostic::new(Code::NoSuchJob, reason, self.span(&Some(pattern)), "this pattern")
@@ -229,8 +235,7 @@ impl List<'_> {
                 } else {
                     (format!("no file matches {}", from_here(text)), "matches nothing")
                 };
-                let diagnostic =
-                    Diagnostic::new(Code::NoSuchJob, message, self.span(&Some(pattern)), label);
+                let diagnostic = Diagnostic::new(Code::NoSuchJob, message, self.span(&Some(pattern)), label);
                 Err(diagnostic.help(format!("paths are relative to the folder of {FILE_NAME}")))
             }
         }
@@ -254,8 +259,14 @@ fn walk(pattern: &Pattern, from_here: &dyn Fn(&str) -> String) -> Result<Option<
                     "there are more than {MOST_NAMES} files and folders to look at for this pattern"
                 ));
             }
-            let Ok(name) = entry.file_name().into_string() else { continue };
-            let path = if folder.is_empty() { name } else { format!("{folder}/{name}") };
+            let Ok(name) = entry.file_name().into_string() else {
+                continue;
+            };
+            let path = if folder.is_empty() {
+                name
+            } else {
+                format!("{folder}/{name}")
+            };
             let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
             if is_folder && depth < DEEPEST && pattern.reaches_below(depth) {
                 open.push((path, depth + 1));

@@ -361,7 +361,9 @@ mod tests {
 
     #[test]
     fn many_files_are_told_in_one_line() {
-        let files: Vec<_> = (1..=20).map(|n| Placed::Written(format!("p{n:03}.src"))).collect();
+        let files: Vec<_> = (1..=20)
+            .map(|n| Placed::Written(format!("p{n:03}.src")))
+            .collect();
         assert_eq!(placed(&files), "wrote 20 files, p001.src to p020.src\n");
         let two = [files[0].clone(), Placed::Unchanged("p002.src".to_owned())];
         assert_eq!(placed(&two), "wrote p001.src\nunchanged: p002.src\n");

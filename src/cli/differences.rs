@@ -21,7 +21,13 @@ impl Differences {
         };
         match self.changes.len() {
             0 => format!("the program in the folder is up to date ({})", files(self.same)),
-            1 if all == 1 => "the file in the folder differs; run again without --check to write it".to_owned(),
+            1 if all == 1 => {
+                "the file in the folder differs; run again without --check to write it".to_owned()
+            }
+            1 => format!(
+                "1 of {} in the folder differs; run again without --check to write it",
+                files(all)
+            ),
             count => format!(
                 "{count} of {} in the folder differ; run again without --check to write them",
                 files(all)
@@ -89,7 +95,11 @@ fn stale(found: &Differences) -> String {
     let mut text: String = names
         .iter()
         .take(MOST_STALE)
-        .map(|name| format!("{name} is left from an earlier version; the program has no such part any more, remove it\n"))
+        .map(|name| {
+            format!(
+                "{name} is left from an earlier version; the program has no such part any more, remove it\n"
+            )
+        })
         .collect();
     if names.len() > MOST_STALE {
         text += &format!("and {} more files are left, too\n", names.len() - MOST_STALE);
@@ -137,8 +147,15 @@ fn heading(hunk: &Hunk) -> String {
         1 => format!("{}", lines.start + 1),
         length => format!("{},{length}", lines.start + 1),
     };
-    let about = hunk.about.as_ref().map_or(String::new(), |about| format!(" {about}"));
-    format!("@@ -{} +{} @@{about}", stretch(&hunk.earlier), stretch(&hunk.fresh))
+    let about = hunk
+        .about
+        .as_ref()
+        .map_or(String::new(), |about| format!(" {about}"));
+    format!(
+        "@@ -{} +{} @@{about}",
+        stretch(&hunk.earlier),
+        stretch(&hunk.fresh)
+    )
 }
 
 const HEADING: &str = "1";
@@ -213,7 +230,6 @@ const fn word(change: &Change) -> &'static str {
 }
 
 fn text_body(change: &TextChange) -> TextBody<'_> {
-    let hunk = |hunk: &'_ Hunk| -> (usize, usize) { (hunk.earlier.start + 1, hunk.fresh.start + 1) };
     TextBody {
         removed: change.removed,
         added: change.added,
@@ -223,9 +239,9 @@ fn text_body(change: &TextChange) -> TextBody<'_> {
             .hunks
             .iter()
             .map(|place| HunkBody {
-                earlier_line: hunk(place).0,
+                earlier_line: place.earlier.start + 1,
                 earlier_lines: place.earlier.len(),
-                fresh_line: hunk(place).1,
+                fresh_line: place.fresh.start + 1,
                 fresh_lines: place.fresh.len(),
                 about: place.about.as_deref(),
                 lines: place

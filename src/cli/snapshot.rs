@@ -184,7 +184,10 @@ fn warning(outcome: &Outcome, stale: &[String], folder: &Path) -> Option<Diagnos
     let (first, last) = (stale.first()?, stale.last()?);
     let (names, are) = match stale.len() {
         1 => (first.clone(), "1 file in the folder is".to_owned()),
-        2 => (format!("{first} and {last}"), "2 files in the folder are".to_owned()),
+        2 => (
+            format!("{first} and {last}"),
+            "2 files in the folder are".to_owned(),
+        ),
         count => (
             format!("{first} to {last}"),
             format!("{count} files in the folder are"),
@@ -197,10 +200,6 @@ fn warning(outcome: &Outcome, stale: &[String], folder: &Path) -> Option<Diagnos
             job.name_span,
             "the program of this job no longer has these parts",
         )
-        .help(format!(
-            "remove from {}: {}",
-            folder.display(),
-            stale.join(" ")
-        )),
+        .help(format!("remove from {}: {}", folder.display(), stale.join(" "))),
     )
 }

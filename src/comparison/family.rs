@@ -47,7 +47,9 @@ fn is_part(name: &str, main: &str, extensions: &[&str]) -> bool {
     (1..=MOST_LETTERS).contains(&letters)
         && digits.len() >= LEAST_DIGITS
         && digits.bytes().all(|byte| byte.is_ascii_digit())
-        && extensions.iter().any(|known| known.eq_ignore_ascii_case(extension))
+        && extensions
+            .iter()
+            .any(|known| known.eq_ignore_ascii_case(extension))
 }
 
 #[cfg(test)]

@@ -48,7 +48,10 @@ pub struct Sides<'a> {
 ///
 /// `about` says what the bytes at a place of the fresh file do, in a few words.
 #[must_use]
-pub fn compare(sides: Sides<'_>, about: &dyn Fn(core::ops::Range<usize>) -> Option<String>) -> Option<Change> {
+pub fn compare(
+    sides: Sides<'_>,
+    about: &dyn Fn(core::ops::Range<usize>) -> Option<String>,
+) -> Option<Change> {
     match sides.earlier {
         None => Some(Change::Missing),
         Some(earlier) if earlier == sides.fresh => None,

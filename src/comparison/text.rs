@@ -97,13 +97,20 @@ pub(super) fn change(earlier: &[u8], fresh: &[u8], about: &dyn Fn(Range<usize>) 
     }
     let mut room = MOST_LINES;
     for group in groups(&regions) {
-        let changed: usize = group.iter().map(|region| region.earlier.len() + region.fresh.len()).sum();
+        let changed: usize = group
+            .iter()
+            .map(|region| region.earlier.len() + region.fresh.len())
+            .sum();
         if room == 0 {
             change.left_out += changed;
             continue;
         }
         let hunk = hunk(group, &earlier, &fresh, about, room);
-        let shown = hunk.lines.iter().filter(|line| line.kind != LineKind::Same).count();
+        let shown = hunk
+            .lines
+            .iter()
+            .filter(|line| line.kind != LineKind::Same)
+            .count();
         change.left_out += changed - shown;
         room = room.saturating_sub(hunk.lines.len());
         change.hunks.push(hunk);
@@ -138,7 +145,9 @@ impl<'t> Lines<'t> {
     /// The bytes of some lines.
     fn bytes(&self, lines: Range<usize>) -> Range<usize> {
         let last = lines.end.saturating_sub(1);
-        let end = self.starts.get(last).map_or(0, |start| start + self.lines.get(last).map_or(0, |line| line.len()));
+        let end = self.starts.get(last).map_or(0, |start| {
+            start + self.lines.get(last).map_or(0, |line| line.len())
+        });
         let start = self.starts.get(lines.start).copied().unwrap_or(end);
         start..end.max(start)
     }

@@ -31,9 +31,9 @@ impl Annotation<'_> {
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
-        let place = self
-            .place
-            .map_or(String::new(), |(line, column)| format!(",line={line},col={column}"));
+        let place = self.place.map_or(String::new(), |(line, column)| {
+            format!(",line={line},col={column}")
+        });
         format!(
             "::{level} file={}{place},title={}::{}\n",
             property(self.file),

@@ -23,8 +23,8 @@
 //! All positions are seen from the machine frame with all axes at zero, see [`FiveAxis`].
 
 use super::facts::Sources;
-use crate::document::flaw::Flaw;
 use super::sheet::{Body, Form};
+use crate::document::flaw::Flaw;
 use crate::document::table::{
     ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_RATE, TURNING_ACCELERATION, TURNING_RATE, Table,
 };

@@ -9,8 +9,8 @@ mod robot;
 pub mod sheet;
 pub mod urdf;
 
-use crate::kinematics::Mechanism;
 use crate::document::flaw::Flaw;
+use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 
 /// A machine as the compiler needs it, wherever its description came from.

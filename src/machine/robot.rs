@@ -3,8 +3,8 @@
 //! Angles are the controller's own. Lengths follow Brandstötter, Angerer, Hofbaur 2014 as in [`Opw`].
 
 use super::facts::Sources;
-use crate::document::flaw::Flaw;
 use super::sheet::{Body, Form};
+use crate::document::flaw::Flaw;
 use crate::document::table::{ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_RATE, Table};
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};

@@ -4,11 +4,11 @@
 //! numbers come from and how far to trust them ([`Facts`]). `docs/machines.md` has the form. One form is read for robots
 //! and one for five-axis machines; the key `kind` says which.
 
-use crate::document::{self, Wording};
 use super::facts::{self, Facts, FkCheck, Sources};
+use super::{Model, five_axis, robot};
 use crate::document::flaw::Flaw;
 use crate::document::table::{MASS, Table};
-use super::{Model, five_axis, robot};
+use crate::document::{self, Wording};
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 

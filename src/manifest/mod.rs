@@ -116,7 +116,10 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Manifest> {
 
 fn entry(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Entry> {
     section.require(
-        &[(JOBS, "jobs = \"jobs/*.vcut\""), (OUTPUT, "output = \"programs\"")],
+        &[
+            (JOBS, "jobs = \"jobs/*.vcut\""),
+            (OUTPUT, "output = \"programs\""),
+        ],
         flaws,
     );
     let jobs = jobs(section, flaws);
@@ -172,7 +175,9 @@ fn targets(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<Stri
                     format!("`{TARGET}` and `{TARGETS}` say the same thing"),
                     "one of the two is enough",
                 )
-                .help(format!("put all of them into `{TARGETS}`, and leave `{TARGET}` out")),
+                .help(format!(
+                    "put all of them into `{TARGETS}`, and leave `{TARGET}` out"
+                )),
             );
             None
         }

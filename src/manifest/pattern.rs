@@ -34,7 +34,9 @@ impl Pattern {
         if text.contains(['\n', '\r']) {
             return Err("this one has a line break");
         }
-        Ok(Self { text: text.to_owned() })
+        Ok(Self {
+            text: text.to_owned(),
+        })
     }
 
     /// As it was written.
@@ -75,7 +77,10 @@ impl Pattern {
     #[must_use]
     pub fn matches(&self, path: &str) -> bool {
         let wanted: Vec<&str> = self.names().collect();
-        let given: Vec<&str> = path.split('/').filter(|name| !matches!(*name, "" | ".")).collect();
+        let given: Vec<&str> = path
+            .split('/')
+            .filter(|name| !matches!(*name, "" | "."))
+            .collect();
         all_match(
             &wanted,
             &given,

@@ -18,7 +18,10 @@ fn flaws(old: &str, new: &str) -> Vec<(String, String)> {
     let text = SMALL.replace(old, new);
     let place = |flaw: &Flaw| text.get(flaw.span.clone()).unwrap().to_owned();
     let found = parse(&text).unwrap_err();
-    found.iter().map(|flaw| (place(flaw), flaw.message.clone())).collect()
+    found
+        .iter()
+        .map(|flaw| (place(flaw), flaw.message.clone()))
+        .collect()
 }
 
 #[test]
@@ -32,8 +35,17 @@ fn a_section_says_all_there_is_to_say() {
     assert_eq!(entry.targets.len(), 2);
     assert_eq!(entry.folder("rib", "krl"), "programs/krl/rib");
     assert_eq!(entry.folder("{target}", "krl"), "programs/krl/{target}");
-    assert_eq!((entry.name.as_deref(), entry.machine.as_deref()), (Some("large"), Some("large_cell")));
-    assert_eq!((&*entry.set, &*entry.options), (&["width=90mm".to_owned()][..], &["lines_per_part=0".to_owned()][..]));
+    assert_eq!(
+        (entry.name.as_deref(), entry.machine.as_deref()),
+        (Some("large"), Some("large_cell"))
+    );
+    assert_eq!(
+        (&*entry.set, &*entry.options),
+        (
+            &["width=90mm".to_owned()][..],
+            &["lines_per_part=0".to_owned()][..]
+        )
+    );
 }
 
 #[test]
@@ -42,7 +54,11 @@ fn every_fault_is_told_at_its_place() {
         ("jobs = [", "job = [", "job"),
         ("[\"krl\", \"rapid\"]", "3", "3"),
         ("[\"krl\", \"rapid\"]", "[]", "[]"),
-        ("targets = ", "target = \"krl\"\ntargets = ", "[\"krl\", \"rapid\"]"),
+        (
+            "targets = ",
+            "target = \"krl\"\ntargets = ",
+            "[\"krl\", \"rapid\"]",
+        ),
         ("{job}", "{jbo}", "\"programs/{target}/{jbo}\""),
         ("\"rib.vcut\"", "\"/rib.vcut\"", "\"/rib.vcut\""),
         ("\"large_cell\"", "true", "true"),
@@ -53,10 +69,17 @@ fn every_fault_is_told_at_its_place() {
         assert!(found.iter().any(|(at, _)| at == place), "{new}: {found:?}");
     }
     let found = flaws("[[program]]", "[[programs]]");
-    assert!(found.iter().any(|(_, message)| message.contains("`programs`")), "{found:?}");
+    assert!(
+        found.iter().any(|(_, message)| message.contains("`programs`")),
+        "{found:?}"
+    );
     assert!(parse("").unwrap_err()[0].message.contains("no programs"));
     let twice = format!("{SMALL}{SMALL}");
-    assert!(parse(&twice).unwrap_err()[0].message.contains("two programs are called `large`"));
+    assert!(
+        parse(&twice).unwrap_err()[0]
+            .message
+            .contains("two programs are called `large`")
+    );
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What it takes to get from one program's statements to another's.
 
-use crate::align::{Pair, common};
 use super::told::{Names, Told};
+use crate::align::{Pair, common};
 use core::ops::Range;
 use std::collections::{BTreeMap, VecDeque};
 

@@ -90,19 +90,17 @@ pub fn check(
     let files = files::load(root, &mut session)?;
     let overrides = overrides::read(choices.overrides, choices.options.given, &mut session);
     let wanted = cell::wanted(choices.machine, &mut session);
-    let job = files
-        .first()
-        .map(|root| {
-            let said = Said {
-                overrides: &overrides,
-                machine: wanted.as_ref(),
-                options: options::Said {
-                    typed: choices.options,
-                    read: &overrides.options,
-                },
-            };
-            understand(root, &files, said, &mut session)
-        });
+    let job = files.first().map(|root| {
+        let said = Said {
+            overrides: &overrides,
+            machine: wanted.as_ref(),
+            options: options::Said {
+                typed: choices.options,
+                read: &overrides.options,
+            },
+        };
+        understand(root, &files, said, &mut session)
+    });
     let mut found = session.reports.into_vec();
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
     let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
@@ -141,12 +139,7 @@ struct Said<'a> {
 }
 
 /// What the files mean.
-fn understand(
-    root: &File,
-    files: &Files,
-    said: Said<'_>,
-    session: &mut Session<'_>,
-) -> Checked<CheckedJob> {
+fn understand(root: &File, files: &Files, said: Said<'_>, session: &mut Session<'_>) -> Checked<CheckedJob> {
     let all = gather::gather(files, said.overrides, session);
     let values = lets::evaluate(&all.lets, &all.names, &mut session.reports);
     let scope = Scope {

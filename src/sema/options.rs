@@ -1,5 +1,6 @@
 //! Options for targets, such as `krl { ... }` in a machine: evaluated here, held against the target later.
 
+use super::Typed;
 use super::described;
 use super::dimension::Dimension;
 use super::eval::Scope;
@@ -8,7 +9,6 @@ use super::names::Thing;
 use super::overrides::Override;
 use super::report::{Checked, Reported};
 use super::session::Session;
-use super::Typed;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{GivenOption, GivenValue, Machine, TargetOptions};
 use crate::machine::habits;

@@ -1,11 +1,14 @@
 //! The command line from outside: what it prints where, how it ends, and what it leaves on the disk.
 
+mod build;
+mod ci;
 mod gallery;
 mod jobs;
 mod kinematics;
 mod machines;
 mod place;
 mod refusals;
+mod snapshot;
 
 use std::fs;
 use std::io::Write;

@@ -24,7 +24,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("reach", &["kinematics", "machine"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),
-    ("sema", &["diag", "document", "geom", "job", "machine", "source", "syntax"]),
+    (
+        "sema",
+        &["diag", "document", "geom", "job", "machine", "source", "syntax"],
+    ),
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),

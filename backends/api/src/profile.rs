@@ -11,10 +11,16 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Profile {
     /// Lines put at the head of the main program as they are, behind what the dialect itself demands there.
-    #[cfg_attr(feature = "schema", schemars(inner(length(max = 120), regex(pattern = r"^[ -~]*$"))))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(inner(length(max = 120), regex(pattern = r"^[ -~]*$")))
+    )]
     pub header: Vec<String>,
     /// Lines put at the end of the main program as they are, before the word that ends it.
-    #[cfg_attr(feature = "schema", schemars(inner(length(max = 120), regex(pattern = r"^[ -~]*$"))))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(inner(length(max = 120), regex(pattern = r"^[ -~]*$")))
+    )]
     pub footer: Vec<String>,
     /// Extension of the main program's file, without the dot.
     #[cfg_attr(feature = "schema", schemars(regex(pattern = r"^[A-Za-z0-9]{1,8}$")))]
@@ -25,7 +31,10 @@ pub struct Profile {
     /// How blocks are numbered, where a dialect numbers them and leaves it open.
     pub line_numbers: Option<LineNumbers>,
     /// Names that programs must not take on this machine, whatever their case.
-    #[cfg_attr(feature = "schema", schemars(inner(regex(pattern = r"^[A-Za-z_][A-Za-z0-9_]{0,63}$"))))]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(inner(regex(pattern = r"^[A-Za-z_][A-Za-z0-9_]{0,63}$")))
+    )]
     pub reserved: Vec<String>,
 }
 

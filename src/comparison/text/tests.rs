@@ -98,7 +98,10 @@ fn line_ends_alone_are_told_as_such() {
 
 #[test]
 fn long_differences_are_cut_and_counted() {
-    let change = text(&numbered(3000).join("\n"), &numbered(3000).join("\n").replace("LIN", "PTP"));
+    let change = text(
+        &numbered(3000).join("\n"),
+        &numbered(3000).join("\n").replace("LIN", "PTP"),
+    );
     let shown: usize = change.hunks.iter().map(|hunk| hunk.lines.len()).sum();
     assert_eq!(shown, MOST_LINES);
     assert_eq!((change.removed, change.added), (3000, 3000));
@@ -107,7 +110,11 @@ fn long_differences_are_cut_and_counted() {
 
 #[test]
 fn a_million_lines_with_nothing_in_common_come_to_an_end() {
-    let text = |from: u32| -> String { (from..from + 300_000).map(|i| format!("{}\n", i % 70_000 + from)).collect() };
+    let text = |from: u32| -> String {
+        (from..from + 300_000)
+            .map(|i| format!("{}\n", i % 70_000 + from))
+            .collect()
+    };
     let Change::Text(change) = diff(&text(0), &text(1_000_000)) else {
         panic!("these differ");
     };
@@ -117,7 +124,9 @@ fn a_million_lines_with_nothing_in_common_come_to_an_end() {
 #[test]
 fn what_a_terminal_would_obey_is_not_shown() {
     let found = change(b"a\n", b"\x1b[2J\xff\tb\n", &|_| None);
-    let Change::Text(found) = found else { panic!("{found:?}") };
+    let Change::Text(found) = found else {
+        panic!("{found:?}")
+    };
     assert_eq!(found.hunks[0].lines[1].text, "\u{fffd}[2J\u{fffd} b");
     let long = "x".repeat(10_000);
     let found = text("a\n", &long);

@@ -1,7 +1,7 @@
 //! The elements of a URDF: links and joints with their numbers, each flaw at its place in the text.
 
-use crate::document::flaw::Flaw;
 use super::axis_in_tree;
+use crate::document::flaw::Flaw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::JointAxis;
 use core::f64::consts::TAU;

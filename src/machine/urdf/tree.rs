@@ -1,8 +1,8 @@
 //! The tree of a URDF: which joint carries which link, where the robot begins and where it ends.
 
-use crate::document::flaw::Flaw;
 use super::Flange;
 use super::elements::{self, Joint, Kind, MovingJoint, Named, shortened};
+use crate::document::flaw::Flaw;
 use crate::kinematics::pose::Pose;
 use roxmltree::Document;
 use std::collections::{BTreeMap, BTreeSet};

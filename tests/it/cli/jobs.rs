@@ -8,7 +8,7 @@ use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::verify::verify;
 
 /// A small job that compiles.
-const RIB: &str = r#"job "rib"
+pub(super) const RIB: &str = r#"job "rib"
 
 let width = 40 mm
 
