@@ -14,6 +14,7 @@ use crate::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_byt
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use vcutc_backend_api::backend::Backend;
 
 /// Most names that are looked at for one pattern. A pattern that begins high up in a disk would never end.
 const MOST_NAMES: usize = 100_000;
@@ -138,7 +139,7 @@ impl List<'_> {
                 let jobs = match self.jobs(pattern) {
                     Ok(jobs) => jobs,
                     Err(diagnostic) => {
-                        diagnostics.push(diagnostic);
+                        diagnostics.push(*diagnostic);
                         continue;
                     }
                 };
@@ -148,7 +149,12 @@ impl List<'_> {
                     }
                 }
             }
-            diagnostics.extend(backends.into_iter().filter_map(Result::err));
+            diagnostics.extend(
+                backends
+                    .into_iter()
+                    .filter_map(Result::err)
+                    .map(|diagnostic| *diagnostic),
+            );
         }
         if units.len() > MOST_PROGRAMS {
             let place = self.span(&manifest.entries.first().and_then(|entry| entry.jobs.first()));
@@ -173,7 +179,7 @@ impl List<'_> {
         entry: &Entry,
         pattern: &Placed<Pattern>,
         job: &str,
-        backend: &'static dyn vcutc_backend_api::backend::Backend,
+        backend: &'static dyn Backend,
     ) -> Unit {
         let folder = join_path(&self.path, &entry.folder(stem(job), backend.id()));
         Unit {
@@ -192,10 +198,7 @@ impl List<'_> {
         Span::of_bytes(self.file, placed.map_or(0..0, |placed| placed.span.clone()))
     }
 
-    fn backend(
-        &self,
-        target: &Placed<String>,
-    ) -> Result<&'static dyn vcutc_backend_api::backend::Backend, Diagnostic> {
+    fn backend(&self, target: &Placed<String>) -> Result<&'static dyn Backend, Box<Diagnostic>> {
         let id = &target.value;
         if let Ok(backend) = targets::find(self.targets, id) {
             return Ok(backend);
@@ -207,43 +210,48 @@ impl List<'_> {
             "not a target",
         );
         let near = nearest(id, self.targets.iter().map(|backend| backend.id()));
-        Err(match near.first() {
+        Err(Box::new(match near.first() {
             Some(near) => diagnostic.help(format!("did you mean \"{near}\"?")),
             None => diagnostic.help(format!("targets are: {}", targets::names(self.targets))),
-        })
+        }))
     }
 
     /// The files of a pattern, by their paths, in order.
-    fn jobs(&self, pattern: &Placed<Pattern>) -> Result<Vec<String>, Diagnostic> {
+    fn jobs(&self, pattern: &Placed<Pattern>) -> Result<Vec<String>, Box<Diagnostic>> {
         let text = pattern.value.text();
         let from_here = |path: &str| join_path(&self.path, path);
         let found = if pattern.value.is_plain() {
             Path::new(&from_here(text))
                 .is_file()
                 .then(|| vec![text.to_owned()])
+                .unwrap_or_default()
         } else {
             walk(&pattern.value, &from_here).map_err(|reason| {
-                Diagnostic::new(Code::NoSuchJob, reason, self.span(&Some(pattern)), "this pattern")
-                    .help("begin it with the folder that holds the jobs, such as `jobs/**/*.vcut`")
+                Box::new(
+                    Diagnostic::new(Code::NoSuchJob, reason, self.span(&Some(pattern)), "this pattern")
+                        .help("begin it with the folder that holds the jobs, such as `jobs/**/*.vcut`"),
+                )
             })?
         };
         match found {
-            Some(found) if !found.is_empty() => Ok(found.iter().map(|path| from_here(path)).collect()),
-            Some(_) | None => {
+            found if !found.is_empty() => Ok(found.iter().map(|path| from_here(path)).collect()),
+            _ => {
                 let (message, label) = if pattern.value.is_plain() {
                     (format!("there is no file {}", from_here(text)), "no such file")
                 } else {
                     (format!("no file matches {}", from_here(text)), "matches nothing")
                 };
                 let diagnostic = Diagnostic::new(Code::NoSuchJob, message, self.span(&Some(pattern)), label);
-                Err(diagnostic.help(format!("paths are relative to the folder of {FILE_NAME}")))
+                Err(Box::new(
+                    diagnostic.help(format!("paths are relative to the folder of {FILE_NAME}")),
+                ))
             }
         }
     }
 }
 
 /// Files below the root of a pattern that match it, sorted; links to folders are not followed, as they can lead in a circle.
-fn walk(pattern: &Pattern, from_here: &dyn Fn(&str) -> String) -> Result<Option<Vec<String>>, String> {
+fn walk(pattern: &Pattern, from_here: &dyn Fn(&str) -> String) -> Result<Vec<String>, String> {
     let mut found = Vec::new();
     let mut open = vec![(pattern.root(), 0)];
     let mut seen = 0_usize;
@@ -276,5 +284,5 @@ fn walk(pattern: &Pattern, from_here: &dyn Fn(&str) -> String) -> Result<Option<
         }
     }
     found.sort_unstable();
-    Ok(Some(found))
+    Ok(found)
 }

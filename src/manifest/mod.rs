@@ -115,13 +115,14 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Manifest> {
 }
 
 fn entry(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Entry> {
-    section.require(
-        &[
-            (JOBS, "jobs = \"jobs/*.vcut\""),
-            (OUTPUT, "output = \"programs\""),
-        ],
-        flaws,
-    );
+    for (key, line) in [
+        (JOBS, "jobs = \"jobs/*.vcut\""),
+        (OUTPUT, "output = \"programs\""),
+    ] {
+        if !section.has(key) {
+            flaws.push(lacks(section, key, &format!("add a line such as `{line}`")));
+        }
+    }
     let jobs = jobs(section, flaws);
     let targets = targets(section, flaws);
     let output = output(section, flaws);
@@ -158,14 +159,8 @@ fn jobs(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<Pattern
 fn targets(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<String>>> {
     match (section.has(TARGET), section.has(TARGETS)) {
         (false, false) => {
-            flaws.push(
-                Flaw::new(
-                    section.span(),
-                    format!("`[[{PROGRAM}]]` lacks `{TARGET}`"),
-                    format!("missing: `{TARGET}`"),
-                )
-                .help("add `target = \"krl\"`, or `targets = [\"krl\", \"rapid\"]`"),
-            );
+            let help = "add `target = \"krl\"`, or `targets = [\"krl\", \"rapid\"]`";
+            flaws.push(lacks(section, TARGET, help));
             None
         }
         (true, true) => {
@@ -198,6 +193,11 @@ fn targets(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<Stri
             Some(texts.into_iter().map(placed).collect())
         }
     }
+}
+
+fn lacks(section: &Table<'_>, key: &str, help: &str) -> Flaw {
+    let message = format!("`[[{PROGRAM}]]` lacks `{key}`");
+    Flaw::new(section.span(), message, format!("missing: `{key}`")).help(help)
 }
 
 fn nothing(section: &Table<'_>, key: &str, help: &str) -> Flaw {
