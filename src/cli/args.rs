@@ -62,13 +62,26 @@ impl Arguments {
     /// (`args_conflicts_with_subcommands`) would also refuse `vcutc --quiet check JOB`.
     pub(super) fn of_process() -> Result<Self, clap::Error> {
         let arguments = Self::try_parse().map_err(suggest_command)?;
+        // Behind a job every word is taken for another one.
+        let jobs = arguments.compile.jobs.iter().skip(1);
+        let has_command = jobs.filter(|word| Self::is_command(word)).count() > 0;
         match arguments.compile.first_given() {
+            Some(stray) if has_command => Err(Self::command().error(
+                ErrorKind::ArgumentConflict,
+                format!("{stray} cannot stand in front of a command"),
+            )),
             Some(stray) if arguments.command.is_some() => Err(Self::command().error(
                 ErrorKind::ArgumentConflict,
                 format!("{stray} cannot stand in front of a command"),
             )),
             Some(_) | None => Ok(arguments),
         }
+    }
+
+    fn is_command(word: &str) -> bool {
+        Self::command()
+            .get_subcommands()
+            .any(|command| command.get_name() == word)
     }
 
     /// The command that was most likely meant by a word.

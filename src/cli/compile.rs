@@ -58,8 +58,12 @@ fn units(jobs: &[String], overrides: &Overrides, product: Product) -> Result<(Ve
         Product::Program(program) => program,
         Product::Inner(..) => return Err(Failure::new("`--emit` shows one job at a time")),
         Product::Verdict { .. } => {
-            return Err(Failure::new("several jobs were given without `--target`")
-                .help("use `vcutc check JOB...` to look for errors in all of them"));
+            let failure = Failure::new("several jobs were given without `--target`");
+            let meant = jobs.first().and_then(|word| Arguments::command_near(word));
+            return Err(match meant {
+                Some(command) => failure.help(format!("did you mean the command `vcutc {command}`?")),
+                None => failure.help("use `vcutc check JOB...` to look for errors in all of them"),
+            });
         }
     };
     let Destination::Folder(folder) = &program.to else {
