@@ -3,6 +3,7 @@
 mod align;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod comparison;
 pub mod diag;
 pub mod document;
 pub mod driver;
@@ -11,6 +12,7 @@ pub mod job;
 pub mod kinematics;
 pub mod lower;
 pub mod machine;
+pub mod manifest;
 pub mod picture;
 pub mod placement;
 pub mod plan;

@@ -10,6 +10,9 @@ Examples:
   vcutc rib.vcut --target krl -o - | less Read the program without writing a file
   vcutc rib.vcut --target krl --set width=90mm --set depth=40mm
                                           The same job for another stock
+  vcutc rib.vcut --target krl -o out --check
+                                          Fail with a diff unless out holds the job's program
+  vcutc build                             Write all programs that vcut.toml lists
   vcutc check *.vcut                      Look for errors, write nothing
   vcutc explain VC0203                    Read what an error means and how to mend it
   vcutc machines                          See the machines of the catalogue
@@ -24,7 +27,7 @@ Examples:
 
 Exit status:
   0  all is well
-  1  a job has errors
+  1  a job has errors, or --check found a difference
   2  wrong usage, or a file that cannot be read or written";
 
 /// Compiler for V-shaped ultrasonic knife cutting of honeycomb core.
@@ -37,7 +40,7 @@ Exit status:
     version,
     subcommand_negates_reqs = true,
     arg_required_else_help = true,
-    override_usage = "vcutc [OPTIONS] <JOB>\n       vcutc [OPTIONS] <COMMAND>",
+    override_usage = "vcutc [OPTIONS] <JOB>...\n       vcutc [OPTIONS] <COMMAND>",
     after_help = EXAMPLES,
     after_long_help = EXAMPLES
 )]
@@ -59,13 +62,26 @@ impl Arguments {
     /// (`args_conflicts_with_subcommands`) would also refuse `vcutc --quiet check JOB`.
     pub(super) fn of_process() -> Result<Self, clap::Error> {
         let arguments = Self::try_parse().map_err(suggest_command)?;
+        // Behind a job every word is taken for another one.
+        let jobs = arguments.compile.jobs.iter().skip(1);
+        let has_command = jobs.filter(|word| Self::is_command(word)).count() > 0;
         match arguments.compile.first_given() {
+            Some(stray) if has_command => Err(Self::command().error(
+                ErrorKind::ArgumentConflict,
+                format!("{stray} cannot stand in front of a command"),
+            )),
             Some(stray) if arguments.command.is_some() => Err(Self::command().error(
                 ErrorKind::ArgumentConflict,
                 format!("{stray} cannot stand in front of a command"),
             )),
             Some(_) | None => Ok(arguments),
         }
+    }
+
+    fn is_command(word: &str) -> bool {
+        Self::command()
+            .get_subcommands()
+            .any(|command| command.get_name() == word)
     }
 
     /// The command that was most likely meant by a word.
@@ -94,6 +110,11 @@ fn suggest_command(mut error: clap::Error) -> clap::Error {
 pub(super) enum Command {
     /// Look for errors in jobs; write nothing
     Check(CheckArgs),
+    /// Write all programs that vcut.toml lists, or check that they are up to date
+    ///
+    /// vcut.toml is looked for in the current folder and above it. Programs are compiled side by side and told of in the
+    /// order of the list; each is written whole or not at all, and files that would not change are left alone.
+    Build(BuildArgs),
     /// Explain a diagnostic code, or list them all
     ///
     /// Every error and warning has a permanent code such as VC0203. Its page says what it means, shows a job that has
@@ -171,6 +192,9 @@ pub(super) struct VerifyArgs {
     pub(super) target: Option<String>,
 
     #[command(flatten)]
+    pub(super) options: TargetOptions,
+
+    #[command(flatten)]
     pub(super) overrides: Overrides,
 }
 
@@ -191,11 +215,11 @@ pub(super) struct CellArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct CompileArgs {
-    /// The job file (.vcut), or - to read it from standard input
+    /// The job file (.vcut), or - to read it from standard input; with --target there can be several
     ///
     /// Files that the job names are looked for beside it; those of a job from standard input in the current folder.
-    #[arg(required = true)]
-    pub(super) job: Option<String>,
+    #[arg(required = true, value_name = "JOB")]
+    pub(super) jobs: Vec<String>,
 
     /// Write a program for this kind of machine (see `vcutc targets`)
     ///
@@ -212,6 +236,13 @@ pub(super) struct CompileArgs {
     #[arg(short, long, value_name = "DIR|-")]
     pub(super) output: Option<String>,
 
+    /// Compare with the files that are in the folder, and write nothing
+    ///
+    /// Fails with the differences, a diff for each file, when the folder does not hold the program that the job gives
+    /// now. Parts of an earlier program that the job no longer gives are differences too.
+    #[arg(long, requires = "target")]
+    pub(super) check: bool,
+
     /// Show an inner form of the job instead of writing a program
     ///
     /// It goes to standard output, or with -o into a file of the folder. Tree and plan are shown for a job with
@@ -220,19 +251,30 @@ pub(super) struct CompileArgs {
     pub(super) emit: Option<InnerForm>,
 
     #[command(flatten)]
+    pub(super) options: TargetOptions,
+
+    #[command(flatten)]
     pub(super) overrides: Overrides,
 }
 
 impl CompileArgs {
     /// One of the arguments that were given, in the words of the user.
     fn first_given(&self) -> Option<String> {
-        let job = self.job.as_ref().map(|job| format!("the job '{job}'"));
+        let job = self.jobs.first().map(|job| format!("the job '{job}'"));
         let target = self.target.as_ref().map(|_| "--target".to_owned());
         let output = self.output.as_ref().map(|_| "--output".to_owned());
         let emit = self.emit.map(|_| "--emit".to_owned());
         let set = self.overrides.set.first().map(|_| "--set".to_owned());
         let machine = self.overrides.machine.as_ref().map(|_| "--machine".to_owned());
-        job.or(target).or(output).or(emit).or(set).or(machine)
+        let check = self.check.then(|| "--check".to_owned());
+        let option = self.options.option.first().map(|_| "--option".to_owned());
+        job.or(target)
+            .or(output)
+            .or(check)
+            .or(emit)
+            .or(option)
+            .or(set)
+            .or(machine)
     }
 }
 
@@ -244,6 +286,21 @@ pub(super) struct CheckArgs {
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BuildArgs {
+    /// Only these: names of sections, names of jobs, or paths of job files
+    #[arg(value_name = "NAME|JOB")]
+    pub(super) programs: Vec<String>,
+
+    /// Compare with the files that are there, and write nothing
+    #[arg(long)]
+    pub(super) check: bool,
+
+    /// The list of programs [default: vcut.toml in the current folder or above it]
+    #[arg(long, value_name = "FILE")]
+    pub(super) manifest: Option<String>,
 }
 
 #[derive(Debug, Args)]
@@ -293,6 +350,17 @@ pub(super) struct Overrides {
     pub(super) machine: Option<String>,
 }
 
+/// What the command line says to the target, over what the machine's block says.
+#[derive(Debug, Args)]
+pub(super) struct TargetOptions {
+    /// Set an option of the target; can be given several times
+    ///
+    /// Keys and values are those of the target's block in the machine (see `vcutc targets`), and go before what stands there:
+    /// --option lines_per_part=0, --option 'header=("; cell 4", "; rib")'. Files are looked for from the current folder.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(super) option: Vec<String>,
+}
+
 /// Where targets outside of the compiler are, and how long they may take.
 #[derive(Debug, Args)]
 pub(super) struct OutsideArgs {
@@ -334,6 +402,8 @@ pub(super) enum MessageFormat {
     Human,
     /// For programs: one JSON object a line, the last one of kind "summary"
     Json,
+    /// For GitHub Actions: as for people, and annotations for the lines of a change
+    Github,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

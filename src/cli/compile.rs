@@ -1,15 +1,17 @@
 //! `vcutc JOB` and `vcutc check JOB...`: jobs through the pipeline.
 
 use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
+use super::batch::{self, Unit};
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::inner::{self, Progressed};
 use super::output::{Destination, Headings, Output};
 use super::progress::Progress;
+use super::snapshot::{self, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
-use crate::diag::{Diagnostic, has_errors};
-use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage};
+use crate::diag::has_errors;
+use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
 use std::path::PathBuf;
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
@@ -17,7 +19,7 @@ use vcutc_backend_api::backend::Backend;
 /// What is made of a job.
 enum Product {
     /// A program.
-    Program(&'static dyn Backend, Destination),
+    Program(Program),
     /// One of its inner forms.
     Inner(InnerForm, Destination),
     /// Nothing: the job is only judged. The remark says why, where that needs saying.
@@ -27,21 +29,61 @@ enum Product {
     },
 }
 
-/// What came of making it.
-#[derive(Default)]
-struct Made {
-    files: Vec<String>,
-    diagnostics: Vec<Diagnostic>,
+/// A program to make.
+struct Program {
+    backend: &'static dyn Backend,
+    to: Destination,
+    fate: Fate,
+    options: Vec<String>,
 }
 
-/// Compiles one job.
+/// Compiles jobs: one as a whole, several side by side.
 pub(super) fn compile(args: &CompileArgs, targets: &Targets, console: &Console) -> Exit {
-    // Without a job clap has printed the help already.
-    let job = args.job.as_deref().unwrap_or_default();
-    match product(args, targets) {
-        Ok(product) => judge(job, &args.overrides, targets, &product, console),
-        Err(failure) => console.failure(&failure),
+    let product = match product(args, targets) {
+        Ok(product) => product,
+        Err(failure) => return console.failure(&failure),
+    };
+    match args.jobs.as_slice() {
+        [job] => judge(job, &args.overrides, targets, &product, console),
+        several => match units(several, &args.overrides, product) {
+            Ok((units, fate)) => batch::run(&units, fate, targets, None, console),
+            Err(failure) => console.failure(&failure),
+        },
     }
+}
+
+/// Several jobs as programs for one folder.
+fn units(jobs: &[String], overrides: &Overrides, product: Product) -> Result<(Vec<Unit>, Fate), Failure> {
+    let program = match product {
+        Product::Program(program) => program,
+        Product::Inner(..) => return Err(Failure::new("`--emit` shows one job at a time")),
+        Product::Verdict { .. } => {
+            let failure = Failure::new("several jobs were given without `--target`");
+            let meant = jobs.first().and_then(|word| Arguments::command_near(word));
+            return Err(match meant {
+                Some(command) => failure.help(format!("did you mean the command `vcutc {command}`?")),
+                None => failure.help("use `vcutc check JOB...` to look for errors in all of them"),
+            });
+        }
+    };
+    let Destination::Folder(folder) = &program.to else {
+        return Err(Failure::new("standard output takes one program")
+            .help("give a folder with `-o`, or compile one job at a time"));
+    };
+    if jobs.iter().any(|job| job == "-") {
+        return Err(Failure::new("a job from standard input is compiled by itself"));
+    }
+    let unit = |job: &String| Unit {
+        job: job.clone(),
+        backend: program.backend,
+        folder: folder.clone(),
+        set: overrides.set.clone(),
+        machine: overrides.machine.clone(),
+        options: program.options.clone(),
+        beside: String::new(),
+        asked_at: None,
+    };
+    Ok((jobs.iter().map(unit).collect(), program.fate))
 }
 
 /// Checks jobs, each on its own. The worst of them decides how the run ends.
@@ -57,10 +99,12 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
 fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
     let output = args.output.as_deref();
     match (&args.target, args.emit) {
-        (Some(target), _) => {
-            let backend = targets::find(targets, target)?;
-            Ok(Product::Program(backend, program_destination(output)))
-        }
+        (Some(target), _) => Ok(Product::Program(Program {
+            backend: targets::find(targets, target)?,
+            to: program_destination(output),
+            fate: fate(args.check, output)?,
+            options: args.options.option.clone(),
+        })),
         (None, Some(form)) => Ok(Product::Inner(form, inner_destination(output))),
         (None, None) => Ok(Product::Verdict {
             remark: Some(format!(
@@ -68,6 +112,15 @@ fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
                 targets::names(targets)
             )),
         }),
+    }
+}
+
+fn fate(check: bool, output: Option<&str>) -> Result<Fate, Failure> {
+    match (check, output) {
+        (true, Some("-")) => Err(Failure::new("`--check` compares with the files of a folder")
+            .help("give the folder with `-o`, or leave `-o` out for the current one")),
+        (true, _) => Ok(Fate::Compare),
+        (false, _) => Ok(Fate::Write),
     }
 }
 
@@ -95,6 +148,7 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
         loader: &disk,
         overrides: &overrides.set,
         machine: overrides.machine.as_deref(),
+        options: product.typed(),
         targets,
     };
     let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
@@ -116,6 +170,20 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
     }
 }
 
+impl Product {
+    /// The options of the command line for its target.
+    fn typed(&self) -> Typed<'_> {
+        match self {
+            Self::Program(program) => Typed {
+                target: program.backend.id(),
+                given: &program.options,
+                beside: "",
+            },
+            Self::Inner(..) | Self::Verdict { .. } => Typed::default(),
+        }
+    }
+}
+
 /// Tells what came of a job.
 fn tell(
     job: &str,
@@ -126,64 +194,67 @@ fn tell(
     console: &Console,
 ) -> Exit {
     outcome.diagnostics.extend_from_slice(&made.diagnostics);
-    let exit = if has_errors(&outcome.diagnostics) {
-        Exit::JobHasErrors
-    } else {
-        Exit::Success
+    let is_wrong = has_errors(&outcome.diagnostics);
+    let exit = match &made.differences {
+        Some(differences) if !differences.changes.is_empty() => Exit::JobHasErrors,
+        Some(_) | None if is_wrong => Exit::JobHasErrors,
+        Some(_) | None => Exit::Success,
     };
     console.diagnostics(&outcome.diagnostics, &outcome.sources);
+    if let Some(found) = &made.differences {
+        console.differences(job, found);
+    }
+    // Who compares wants to know what differs, not what was planned.
+    let compiled = outcome.compiled.as_ref().filter(|_| made.differences.is_none());
     console.summary(&Summary {
         job,
         diagnostics: &outcome.diagnostics,
-        lines: outcome
-            .compiled
-            .as_ref()
-            .map_or(&[], |compiled| &compiled.summary),
-        reach: outcome
-            .compiled
-            .as_ref()
-            .and_then(|compiled| compiled.figures.as_ref()),
-        files: &made.files,
-        remark: remark(product, exit),
+        lines: compiled.map_or(&[], |compiled| &compiled.summary),
+        reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
+        placed: &made.placed,
+        remark: remark(product, is_wrong, made).as_deref(),
         timings,
     });
     exit
 }
 
-/// What needs saying of files that are not there.
-fn remark(product: &Product, exit: Exit) -> Option<&str> {
-    let is_well = exit == Exit::Success;
-    match product {
-        Product::Program(..) if !is_well => Some("nothing was written"),
-        Product::Verdict { remark } if is_well => remark.as_deref(),
-        Product::Program(..) | Product::Inner(..) | Product::Verdict { .. } => None,
+/// What needs saying of files.
+fn remark(product: &Product, is_wrong: bool, made: &Made) -> Option<String> {
+    match (product, &made.differences) {
+        (Product::Program(program), _) if is_wrong => Some(match program.fate {
+            Fate::Write => "nothing was written".to_owned(),
+            Fate::Compare => "nothing was compared".to_owned(),
+        }),
+        (_, Some(found)) => Some(found.in_words()),
+        (Product::Verdict { remark }, None) if !is_wrong => remark.clone(),
+        (Product::Program(..) | Product::Inner(..) | Product::Verdict { .. }, None) => None,
     }
 }
 
 /// Makes the product of a job that got far enough for it.
 fn make(product: &Product, outcome: &Outcome, job: &str, progress: &mut Progress) -> Result<Made, Failure> {
     match product {
-        Product::Program(backend, destination) => {
+        Product::Program(program) => {
             if outcome.compiled.is_none() {
                 return Ok(Made::default());
             }
             progress.enter(Stage::Emitting);
-            write_program(*backend, destination, outcome)
+            make_program(program, outcome)
         }
         Product::Inner(form, destination) => write_inner(*form, destination, outcome, job),
         Product::Verdict { .. } => Ok(Made::default()),
     }
 }
 
-fn write_program(backend: &dyn Backend, to: &Destination, outcome: &Outcome) -> Result<Made, Failure> {
-    let mut output = Output::to(to);
-    match driver::emit(outcome, backend, &mut output) {
-        Ok(()) => published(output),
-        Err(EmitFailure::Diagnostics(diagnostics)) => Ok(Made {
+fn make_program(program: &Program, outcome: &Outcome) -> Result<Made, Failure> {
+    match snapshot::make(outcome, program.backend, &program.to, program.fate) {
+        Ok(Some((ready, _))) => ready.settle().map_err(Failure::new),
+        Ok(None) => Ok(Made::default()),
+        Err(NotReady::Diagnostics(diagnostics)) => Ok(Made {
             diagnostics,
             ..Made::default()
         }),
-        Err(EmitFailure::Sink(reason)) => Err(Failure::new(reason)),
+        Err(NotReady::Trouble(reason)) => Err(Failure::new(reason)),
     }
 }
 
@@ -202,9 +273,9 @@ fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) 
 }
 
 fn published(output: Output) -> Result<Made, Failure> {
-    let files = output.publish().map_err(Failure::new)?;
+    let placed = output.publish().map_err(Failure::new)?;
     Ok(Made {
-        files,
+        placed,
         ..Made::default()
     })
 }

@@ -5,7 +5,10 @@
 
 use super::Exit;
 use super::args::{Color, DisplayArgs, MessageFormat};
-use crate::diag::{Diagnostic, Severity, json, render};
+use super::differences;
+use super::output::Placed;
+use super::snapshot::Differences;
+use crate::diag::{Diagnostic, Severity, github, json, render};
 use crate::reach_summary::{self, ReachFigures};
 use crate::source::SourceMap;
 use anstream::AutoStream;
@@ -70,8 +73,8 @@ pub(super) struct Summary<'a> {
     pub(super) lines: &'a [String],
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
-    /// Files that were written, as people see them.
-    pub(super) files: &'a [String],
+    /// Files of its program, as people see them.
+    pub(super) placed: &'a [Placed],
     /// What else there is to say of files, or of there being none.
     pub(super) remark: Option<&'a str>,
     /// Stages with the time each took.
@@ -95,7 +98,9 @@ struct SummaryBody<'a> {
     lines: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<&'a ReachFigures>,
-    files: &'a [String],
+    files: Vec<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unchanged: Vec<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     stages: Vec<StageBody>,
 }
@@ -121,7 +126,7 @@ impl Console {
 
     /// Whether a passing progress line may be drawn (if standard error is a terminal).
     pub(super) fn shows_progress(&self) -> bool {
-        self.format == MessageFormat::Human && self.detail != Detail::DiagnosticsOnly
+        self.format != MessageFormat::Json && self.detail != Detail::DiagnosticsOnly
     }
 
     /// Whether what is asked for goes to a program, as JSON.
@@ -142,7 +147,7 @@ impl Console {
     /// Prints what was asked for to standard output, as text or as one JSON object.
     pub(super) fn answer<T: Serialize>(&self, kind: &'static str, text: &str, body: T) -> Exit {
         match self.format {
-            MessageFormat::Human => self.document(text),
+            MessageFormat::Human | MessageFormat::Github => self.document(text),
             MessageFormat::Json => self.document(&format!("{}\n", line(kind, body))),
         }
     }
@@ -155,13 +160,40 @@ impl Console {
         self.stderr(&match self.format {
             MessageFormat::Human => render::render(diagnostics, sources, self.color),
             MessageFormat::Json => json::json_lines(diagnostics, sources),
+            MessageFormat::Github => {
+                let text = render::render(diagnostics, sources, self.color);
+                text + &github::annotations(diagnostics, sources)
+            }
         });
+    }
+
+    /// Prints what sets a folder apart from the program of a job.
+    pub(super) fn differences(&self, job: &str, found: &Differences) {
+        let text = || differences::text(job, found, self.color);
+        match self.format {
+            MessageFormat::Human => self.stderr(&text()),
+            MessageFormat::Github => self.stderr(&(text() + &differences::annotations(job, found))),
+            MessageFormat::Json => {
+                for body in differences::bodies(job, found) {
+                    self.json_line("difference", body);
+                }
+            }
+        }
+    }
+
+    /// Prints what came of several programs: a line for people, an object for programs.
+    pub(super) fn total<T: Serialize>(&self, text: &str, body: T) {
+        match self.format {
+            MessageFormat::Json => self.json_line("total", body),
+            MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
+            MessageFormat::Human | MessageFormat::Github => self.stderr(text),
+        }
     }
 
     /// Prints why nothing could be judged.
     pub(super) fn failure(&self, failure: &Failure) -> Exit {
         match self.format {
-            MessageFormat::Human => {
+            MessageFormat::Human | MessageFormat::Github => {
                 self.stderr(&format!("{} {}\n", self.painted("error:"), failure.message));
                 for help in &failure.help {
                     self.stderr(&format!("  help: {help}\n"));
@@ -184,12 +216,13 @@ impl Console {
                     warnings,
                     lines: summary.lines,
                     reach: summary.reach,
-                    files: summary.files,
+                    files: summary.placed.iter().map(Placed::path).collect(),
+                    unchanged: unchanged(summary.placed),
                     stages: self.stage_bodies(summary.timings),
                 },
             ),
-            MessageFormat::Human if self.detail == Detail::DiagnosticsOnly => {}
-            MessageFormat::Human => self.human_summary(summary, errors, warnings),
+            MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
+            MessageFormat::Human | MessageFormat::Github => self.human_summary(summary, errors, warnings),
         }
     }
 
@@ -202,7 +235,7 @@ impl Console {
                 text += &format!("{stage:<10} {:>9.1} ms\n", milliseconds(*time));
             }
         }
-        text += &written(summary.files);
+        text += &placed(summary.placed);
         let remark = summary
             .remark
             .map_or(String::new(), |remark| format!("; {remark}"));
@@ -287,13 +320,25 @@ fn count(diagnostics: &[Diagnostic]) -> (usize, usize) {
     (errors, diagnostics.len() - errors)
 }
 
+fn unchanged(placed: &[Placed]) -> Vec<&str> {
+    let is_unchanged = |file: &&Placed| matches!(file, Placed::Unchanged(_));
+    placed.iter().filter(is_unchanged).map(Placed::path).collect()
+}
+
+/// What was written, then what was left alone.
+fn placed(files: &[Placed]) -> String {
+    let is_written = |file: &&Placed| matches!(file, Placed::Written(_));
+    let written: Vec<&str> = files.iter().filter(is_written).map(Placed::path).collect();
+    listed("wrote", &written) + &listed("unchanged:", &unchanged(files))
+}
+
 /// A line for each file; a program of many parts is told in one.
-fn written(files: &[String]) -> String {
+fn listed(what: &str, files: &[&str]) -> String {
     match files {
         [first, .., last] if files.len() > MOST_FILES_LISTED => {
-            format!("wrote {} files, {first} to {last}\n", files.len())
+            format!("{what} {} files, {first} to {last}\n", files.len())
         }
-        few => few.iter().map(|file| format!("wrote {file}\n")).collect(),
+        few => few.iter().map(|file| format!("{what} {file}\n")).collect(),
     }
 }
 
@@ -316,9 +361,12 @@ mod tests {
 
     #[test]
     fn many_files_are_told_in_one_line() {
-        let files: Vec<_> = (1..=20).map(|n| format!("p{n:03}.src")).collect();
-        assert_eq!(written(&files), "wrote 20 files, p001.src to p020.src\n");
-        assert_eq!(written(&files[..2]), "wrote p001.src\nwrote p002.src\n");
+        let files: Vec<_> = (1..=20)
+            .map(|n| Placed::Written(format!("p{n:03}.src")))
+            .collect();
+        assert_eq!(placed(&files), "wrote 20 files, p001.src to p020.src\n");
+        let two = [files[0].clone(), Placed::Unchanged("p002.src".to_owned())];
+        assert_eq!(placed(&two), "wrote p001.src\nunchanged: p002.src\n");
     }
 
     #[test]

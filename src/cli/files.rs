@@ -49,11 +49,12 @@ impl Loader for Disk {
 const LARGEST_PROGRAM: u64 = 256 << 20;
 
 /// The bytes of a file of a program.
-pub(super) fn load_program(path: &str) -> Result<Vec<u8>, LoadError> {
-    load_bounded(Path::new(path), LARGEST_PROGRAM)
+pub(super) fn load_program(path: &Path) -> Result<Vec<u8>, LoadError> {
+    load_bounded(path, LARGEST_PROGRAM)
 }
 
-fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
+/// The bytes of a file of ordinary size.
+pub(super) fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
     load_bounded(path, LARGEST_FILE)
 }
 

@@ -29,8 +29,11 @@
 )]
 
 mod args;
+mod batch;
+mod build;
 mod compile;
 mod console;
+mod differences;
 mod explain;
 mod external;
 mod files;
@@ -41,6 +44,7 @@ mod machines;
 mod output;
 mod place;
 mod progress;
+mod snapshot;
 mod targets;
 mod verify;
 
@@ -85,6 +89,7 @@ pub fn run(linked: &Targets) -> ExitCode {
     let all = targets::all(linked, &outside);
     let targets = all.as_slice();
     let exit = match &arguments.command {
+        Some(Command::Build(args)) => build::build(args, targets, &console),
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
         Some(Command::Place(place)) => place::place(place, targets, &console),

@@ -4,6 +4,7 @@
 //! last one is on the disk. What it guarantees:
 //!
 //! * A run that fails before the renames (a full disk, a fault in the backend) changes nothing.
+//! * A file that has the very bytes already is left alone, so that its time of change stays.
 //! * Each rename is atomic: a reader sees the old file or the new one, whole.
 //! * When a rename fails, the files renamed before it get their earlier versions back, and those that had none are
 //!   removed. Should even that fail, the message names the copy that holds the earlier version.
@@ -11,14 +12,16 @@
 //!   renames can leave a new file beside an old one, and a killed run can leave `.vcutc-*` files behind.
 
 use super::console::ignore_broken_pipe;
-use std::fs::{self, Permissions};
-use std::io::{self, BufWriter, Seek, Write};
+use std::fs::{self, File, Permissions};
+use std::io::{self, BufRead, BufReader, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, SpooledTempFile, TempPath};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 
 /// Programs up to this size wait in memory for their way to standard output, in bytes.
 const SPOOL_IN_MEMORY: usize = 8 << 20;
+/// How many bytes of two files are compared at once.
+const COMPARED_AT_ONCE: usize = 1 << 16;
 
 /// Where files go.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,6 +41,31 @@ pub(super) enum Headings {
     Omitted,
 }
 
+/// What became of a file, by its path as people see it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Placed {
+    /// It is new, or has other bytes than before.
+    Written(String),
+    /// It had these bytes already and was left alone, with the time of its last change.
+    Unchanged(String),
+}
+
+impl Placed {
+    /// Its path.
+    pub(super) fn path(&self) -> &str {
+        match self {
+            Self::Written(path) | Self::Unchanged(path) => path,
+        }
+    }
+
+    /// Its path alone.
+    pub(super) fn into_path(self) -> String {
+        match self {
+            Self::Written(path) | Self::Unchanged(path) => path,
+        }
+    }
+}
+
 /// Files on their way.
 pub(super) enum Output {
     /// Into a folder.
@@ -55,8 +83,8 @@ impl Output {
         }
     }
 
-    /// Lets the files appear, all of them or none. Returns their paths as people see them; standard output has none.
-    pub(super) fn publish(self) -> Result<Vec<String>, String> {
+    /// Lets the files appear, all of them or none. Returns what became of each; standard output has none.
+    pub(super) fn publish(self) -> Result<Vec<Placed>, String> {
         match self {
             Self::Folder(folder) => folder.publish(),
             Self::Stdout(spool) => spool.publish().map(|()| Vec::new()),
@@ -162,19 +190,49 @@ impl Folder {
         Ok(())
     }
 
-    fn publish(mut self) -> Result<Vec<String>, String> {
+    fn publish(mut self) -> Result<Vec<Placed>, String> {
         self.finish_current()?;
         let mut published = Vec::with_capacity(self.complete.len());
+        let mut placed = Vec::with_capacity(self.complete.len());
         for staged in self.complete {
-            match replace(&self.path.join(&staged.name), staged.passing) {
+            let path = self.path.join(&staged.name);
+            let shown = path.display().to_string();
+            // One that cannot be compared is replaced.
+            if same_bytes(&path, &staged.passing).unwrap_or(false) {
+                placed.push(Placed::Unchanged(shown));
+                continue;
+            }
+            placed.push(Placed::Written(shown));
+            match replace(&path, staged.passing) {
                 Ok(file) => published.push(file),
                 Err(reason) => return Err(take_back(published, reason)),
             }
         }
-        Ok(published
-            .iter()
-            .map(|file| file.path.display().to_string())
-            .collect())
+        Ok(placed)
+    }
+}
+
+/// Whether two files hold the same bytes.
+fn same_bytes(one: &Path, other: &Path) -> io::Result<bool> {
+    let (first, second) = (fs::symlink_metadata(one)?, fs::metadata(other)?);
+    if !first.is_file() || first.len() != second.len() {
+        return Ok(false);
+    }
+    let [mut one, mut other] = [
+        BufReader::with_capacity(COMPARED_AT_ONCE, File::open(one)?),
+        BufReader::with_capacity(COMPARED_AT_ONCE, File::open(other)?),
+    ];
+    loop {
+        let (left, right) = (one.fill_buf()?, other.fill_buf()?);
+        let length = left.len().min(right.len());
+        if length == 0 {
+            return Ok(left.len() == right.len());
+        }
+        if left.get(..length) != right.get(..length) {
+            return Ok(false);
+        }
+        one.consume(length);
+        other.consume(length);
     }
 }
 

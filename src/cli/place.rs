@@ -3,10 +3,10 @@
 use super::args::PlaceArgs;
 use super::console::{Console, Failure};
 use super::files::Disk;
-use super::output::{Destination, Output};
+use super::output::{Destination, Output, Placed};
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::driver::Request;
+use crate::driver::{Request, Typed};
 use crate::placement::{self, Asked, Placement, Refusal, report};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::bundle::Sink;
@@ -20,6 +20,7 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
         loader: &disk,
         overrides: &args.overrides.set,
         machine: args.overrides.machine.as_deref(),
+        options: Typed::default(),
         targets,
     };
     let asked = Asked {
@@ -81,5 +82,6 @@ fn write_map(placement: &Placement, path: &Path) -> Result<Vec<String>, String> 
     output
         .write(placement.svg().as_bytes())
         .map_err(|error| error.to_string())?;
-    output.publish()
+    let placed = output.publish()?;
+    Ok(placed.into_iter().map(Placed::into_path).collect())
 }

@@ -6,7 +6,7 @@ use super::files::{Disk, load_program};
 use super::progress::Progress;
 use super::{Exit, Targets, compile, targets};
 use crate::diag::has_errors;
-use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage};
+use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use crate::readback::{Fresh, Reference, Verdict};
 use std::path::Path;
 use vcutc_backend_api::backend::Backend;
@@ -30,6 +30,11 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         loader: &disk,
         overrides: &args.overrides.set,
         machine: args.overrides.machine.as_deref(),
+        options: Typed {
+            target: backend.id(),
+            given: &args.options.option,
+            beside: "",
+        },
         targets,
     };
     let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
@@ -61,7 +66,7 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         diagnostics: &outcome.diagnostics,
         lines: &verdict.lines,
         reach: None,
-        files: &[],
+        placed: &[],
         remark: None,
         timings: &timings,
     });
@@ -112,7 +117,7 @@ fn program(paths: &[String]) -> Result<Vec<ProgramFile>, Failure> {
             return Err(Failure::new(format!("two files are called {name}"))
                 .help("give the files of one program, each once"));
         }
-        let bytes = load_program(path)
+        let bytes = load_program(Path::new(path))
             .map_err(|reason| Failure::new(format!("cannot read the program {path}: {reason}")))?;
         files.push(ProgramFile {
             name,

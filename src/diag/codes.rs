@@ -198,6 +198,17 @@ codes! {
     /// A program that was not checked further.
     ChecksLeftOut = "VC0711", Warning, "checks of a program that were left out";
 
+    /// A list of programs that is no such list.
+    BadManifest = "VC0801", Error, "a list of programs that does not say what it should";
+    /// A list of programs with a job that is not there.
+    NoSuchJob = "VC0802", Error, "a job of a list of programs that is not there";
+    /// A list of programs with a target that is not there.
+    NoSuchTarget = "VC0803", Error, "a target of a list of programs that does not exist";
+    /// Two programs that want one file.
+    SameFile = "VC0804", Error, "two programs that would write the same file";
+    /// Parts of an earlier version of a program.
+    StaleParts = "VC0805", Warning, "parts of an earlier version of a program";
+
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";
 }

@@ -6,6 +6,7 @@
 
 mod codes;
 pub mod fix;
+pub mod github;
 pub mod json;
 pub mod position;
 pub mod render;

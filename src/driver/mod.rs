@@ -5,6 +5,8 @@
 
 mod target;
 
+pub use crate::sema::Typed;
+
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::plan::{self, PlannedJob};
@@ -36,6 +38,8 @@ pub struct Request<'a> {
     pub overrides: &'a [String],
     /// The machine to cut on, over what the job says.
     pub machine: Option<&'a str>,
+    /// Options of a target, over those of the job.
+    pub options: Typed<'a>,
     /// Targets whose options the machine may hold.
     pub targets: &'a [&'static dyn Backend],
 }
@@ -137,9 +141,14 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
         loader,
         overrides,
         machine,
+        options,
         targets,
     } = request;
-    let choices = sema::Choices { overrides, machine };
+    let choices = sema::Choices {
+        overrides,
+        machine,
+        options,
+    };
     let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
     let (ast, job) = sema::check(path, loader, choices, sources, diagnostics)
         .map_err(|error| RequestError::Unreadable(error.to_string()))?;

@@ -143,6 +143,7 @@ fn prepare(
         sema::Choices {
             overrides: request.overrides,
             machine: request.machine,
+            options: request.options,
         },
         sources,
         &mut diagnostics,

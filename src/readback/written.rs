@@ -2,8 +2,10 @@
 
 use super::told::text_at;
 use super::wording::{departure_words, op_words};
+use core::ops::Range;
 use vcutc_backend_api::backend::{Backend, Options};
 use vcutc_backend_api::bundle::Bundle;
+use vcutc_backend_api::ir::{OpId, Program};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Retrace, Sources, program_files};
 
@@ -43,6 +45,20 @@ impl Written {
             files,
             places,
         })
+    }
+}
+
+impl Written {
+    /// What the program does at a place of one of its files, in the words of the job: `the left flank of layer 1, cut 2`.
+    /// Where nothing is done at the place itself, it is what comes next in the file; none where nobody can tell.
+    #[must_use]
+    pub fn about(&self, program: &Program, file: usize, bytes: &Range<usize>) -> Option<String> {
+        let (op, _) = (0..)
+            .map(OpId)
+            .zip(self.places.as_ref()?)
+            .filter(|(_, place)| place.file as usize == file && place.end as usize > bytes.start)
+            .min_by_key(|(_, place)| place.start)?;
+        Some(op_words(program, op))
     }
 }
 

@@ -57,6 +57,19 @@ pub struct Choices<'a> {
     pub overrides: &'a [String],
     /// The name of the machine to cut on.
     pub machine: Option<&'a str>,
+    /// Options of a target, over those of its block in the machine.
+    pub options: Typed<'a>,
+}
+
+/// Options of a target as the command line gives them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Typed<'a> {
+    /// The target that they are for.
+    pub target: &'a str,
+    /// Texts of the form `key=value`.
+    pub given: &'a [String],
+    /// The file that names of files in them are relative to; empty for the current folder.
+    pub beside: &'a str,
 }
 
 /// Loads a job and everything it uses, and works out what it means.
@@ -75,11 +88,19 @@ pub fn check(
 ) -> Result<(Option<Ast>, Option<CheckedJob>), LoadError> {
     let mut session = Session::new(loader, sources);
     let files = files::load(root, &mut session)?;
-    let overrides = overrides::read(choices.overrides, &mut session);
+    let overrides = overrides::read(choices.overrides, choices.options.given, &mut session);
     let wanted = cell::wanted(choices.machine, &mut session);
-    let job = files
-        .first()
-        .map(|root| understand(root, &files, &overrides, wanted.as_ref(), &mut session));
+    let job = files.first().map(|root| {
+        let said = Said {
+            overrides: &overrides,
+            machine: wanted.as_ref(),
+            options: options::Said {
+                typed: choices.options,
+                read: &overrides.options,
+            },
+        };
+        understand(root, &files, said, &mut session)
+    });
     let mut found = session.reports.into_vec();
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
     let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
@@ -109,15 +130,17 @@ fn cut_short(found: &mut Vec<Diagnostic>) {
     }
 }
 
+/// What the command line says, read.
+#[derive(Clone, Copy)]
+struct Said<'a> {
+    overrides: &'a Overrides,
+    machine: Option<&'a Spanned<String>>,
+    options: options::Said<'a>,
+}
+
 /// What the files mean.
-fn understand(
-    root: &File,
-    files: &Files,
-    overrides: &Overrides,
-    wanted: Option<&Spanned<String>>,
-    session: &mut Session<'_>,
-) -> Checked<CheckedJob> {
-    let all = gather::gather(files, overrides, session);
+fn understand(root: &File, files: &Files, said: Said<'_>, session: &mut Session<'_>) -> Checked<CheckedJob> {
+    let all = gather::gather(files, said.overrides, session);
     let values = lets::evaluate(&all.lets, &all.names, &mut session.reports);
     let scope = Scope {
         names: &all.names,
@@ -171,7 +194,7 @@ fn understand(
     };
     let machine = cell::choose(
         cell::Said {
-            on_the_command_line: wanted,
+            on_the_command_line: said.machine,
             in_the_job: all.cell,
         },
         &all.machines,
@@ -180,6 +203,10 @@ fn understand(
         scope,
         session,
     );
+    let machine = machine.and_then(|machine| match machine {
+        Some(machine) => options::over(machine, said.options, scope, session).map(Some),
+        None => Ok(None),
+    });
     let (name, stock) = (name?, stock?);
     Ok(CheckedJob {
         name: name.node.clone(),

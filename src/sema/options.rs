@@ -1,14 +1,16 @@
 //! Options for targets, such as `krl { ... }` in a machine: evaluated here, held against the target later.
 
+use super::Typed;
 use super::described;
 use super::dimension::Dimension;
 use super::eval::Scope;
 use super::fields::{curve_words, head_span};
 use super::names::Thing;
+use super::overrides::Override;
 use super::report::{Checked, Reported};
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
-use crate::job::{GivenOption, GivenValue, TargetOptions};
+use crate::job::{GivenOption, GivenValue, Machine, TargetOptions};
 use crate::machine::habits;
 use crate::source::{Span, Spanned, join_path};
 use crate::syntax::ast::{Block, Entry, Expr};
@@ -71,7 +73,10 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Gi
     for entry in &block.entries {
         let done = match entry {
             Entry::Field { name, value, .. } => match first.insert(&name.node, name.span) {
-                None if name.node == PROFILE => profile(value, session).map(|found| named = Some(found)),
+                None if name.node == PROFILE => {
+                    let beside = session.sources.name(value.span.file).to_owned();
+                    profile(value, &beside, session).map(|found| named = Some(found))
+                }
                 None => option(name, value, scope, session).map(|option| options.push(option)),
                 Some(earlier) => {
                     let diagnostic = Diagnostic::new(
@@ -99,8 +104,59 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Gi
     }
 }
 
-/// The habits in the file that a text names, relative to the file in which the text stands.
-fn profile(value: &Spanned<Expr>, session: &mut Session<'_>) -> Checked<Spanned<Profile>> {
+/// The options of the command line.
+#[derive(Clone, Copy)]
+pub(crate) struct Said<'a> {
+    /// What they are for, as given.
+    pub(crate) typed: Typed<'a>,
+    /// The options themselves, read.
+    pub(crate) read: &'a [Override],
+}
+
+/// The machine with the options of the command line over those of its own block for the target.
+pub(crate) fn over(
+    mut machine: Machine,
+    said: Said<'_>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Machine> {
+    let Some(first) = said.read.first() else {
+        return Ok(machine);
+    };
+    let target = said.typed.target;
+    let own = machine.targets.iter().position(|block| block.target == target);
+    let mut block = match own {
+        Some(index) => machine.targets.remove(index),
+        None => TargetOptions {
+            target: target.to_owned(),
+            span: first.name.span,
+            given: Vec::new(),
+            profile: None,
+        },
+    };
+    let mut fault = None;
+    for Override { name, value } in said.read {
+        let done = if name.node == PROFILE {
+            profile(value, said.typed.beside, session).map(|profile| block.profile = Some(profile))
+        } else {
+            option(name, value, scope, session).map(|option| {
+                block.given.retain(|given| given.key != option.key);
+                block.given.push(option);
+            })
+        };
+        if let Err(reported) = done {
+            fault = Some(reported);
+        }
+    }
+    machine.targets.push(block);
+    match fault {
+        Some(reported) => Err(reported),
+        None => Ok(machine),
+    }
+}
+
+/// The habits in the file that a text names, relative to the folder of the file `beside`.
+fn profile(value: &Spanned<Expr>, beside: &str, session: &mut Session<'_>) -> Checked<Spanned<Profile>> {
     let Expr::Text(name) = &value.node else {
         let diagnostic = Diagnostic::new(
             Code::WrongKind,
@@ -112,7 +168,7 @@ fn profile(value: &Spanned<Expr>, session: &mut Session<'_>) -> Checked<Spanned<
             .reports
             .push(diagnostic.help("write it as in `profile = \"gantry.toml\"`")));
     };
-    let path = join_path(session.sources.name(value.span.file), name);
+    let path = join_path(beside, name);
     if !session.profiles.contains_key(&path) {
         let profile = described::read(&path, value.span, session, Code::BadProfile, habits::parse);
         session.profiles.insert(path.clone(), profile);

@@ -1,4 +1,4 @@
-//! `--set name=value`: a `let` of the job, given on the command line.
+//! `--set name=value` and `--option key=value`: a `let` of the job, or an option of its target, given on the command line.
 //!
 //! Each becomes a text of its own in the source map, so that a diagnostic can point into it as into any file.
 
@@ -21,14 +21,16 @@ pub(crate) struct Override {
 /// The values from the command line.
 #[derive(Default)]
 pub(crate) struct Overrides {
-    /// By name.
+    /// The `let`s by name.
     pub(crate) by_name: BTreeMap<String, Override>,
+    /// The options of the target in the order given, each key once.
+    pub(crate) options: Vec<Override>,
     /// Their texts in the source map.
     texts: BTreeSet<FileId>,
 }
 
 impl Overrides {
-    /// Turns fixes that would change a `--set` into help.
+    /// Turns fixes that would change a `--set` or `--option` into help.
     pub(crate) fn keep_fixes_to_files(&self, diagnostic: &mut Diagnostic) {
         keep_fixes_to_files(diagnostic, |file| self.texts.contains(&file));
     }
@@ -43,48 +45,90 @@ pub(crate) fn keep_fixes_to_files(diagnostic: &mut Diagnostic, is_typed: impl Fn
     diagnostic.help.extend(typed.into_iter().map(|fix| fix.title));
 }
 
-/// Reads all `--set`s.
-pub(crate) fn read(given: &[String], session: &mut Session<'_>) -> Overrides {
+/// A switch that takes a name and a value.
+struct Switch {
+    word: &'static str,
+    takes: &'static str,
+    form: &'static str,
+    example: &'static str,
+    malformed: Code,
+    twice: Code,
+}
+
+const SET: Switch = Switch {
+    word: "--set",
+    takes: "a name and a value",
+    form: "name=value",
+    example: "width=90mm",
+    malformed: Code::BadOverride,
+    twice: Code::BadOverride,
+};
+
+const OPTION: Switch = Switch {
+    word: "--option",
+    takes: "a key and a value",
+    form: "key=value",
+    example: "lines_per_part=0",
+    malformed: Code::BadOption,
+    twice: Code::FieldTwice,
+};
+
+/// Reads all `--set`s and `--option`s.
+pub(crate) fn read(sets: &[String], options: &[String], session: &mut Session<'_>) -> Overrides {
     let mut overrides = Overrides::default();
+    for read in read_switch(&SET, sets, &mut overrides.texts, session) {
+        overrides.by_name.insert(read.name.node.clone(), read);
+    }
+    overrides.options = read_switch(&OPTION, options, &mut overrides.texts, session);
+    overrides
+}
+
+/// What was given with one switch, each name once.
+fn read_switch(
+    switch: &Switch,
+    given: &[String],
+    texts: &mut BTreeSet<FileId>,
+    session: &mut Session<'_>,
+) -> Vec<Override> {
+    let mut all = Vec::new();
+    let mut first: BTreeMap<String, Span> = BTreeMap::new();
     for text in given {
-        let id = session.sources.add(format!("--set {text}"), text.clone());
-        overrides.texts.insert(id);
-        let Some(read) = parse(id, text, &mut session.reports) else {
+        let word = switch.word;
+        let id = session.sources.add(format!("{word} {text}"), text.clone());
+        texts.insert(id);
+        let Some(read) = parse(switch, id, text, &mut session.reports) else {
             continue;
         };
-        if let Some(first) = overrides.by_name.get(&read.name.node) {
+        if let Some(first) = first.get(&read.name.node) {
             let diagnostic = Diagnostic::new(
-                Code::BadOverride,
+                switch.twice,
                 format!("`{}` is set twice on the command line", read.name.node),
                 read.name.span,
                 "set here again",
             )
-            .and(first.name.span, "set here first")
-            .help("leave one of the two `--set`s out");
+            .and(*first, "set here first")
+            .help(format!("leave one of the two `{word}`s out"));
             session.reports.push(diagnostic);
             continue;
         }
-        overrides.by_name.insert(read.name.node.clone(), read);
+        first.insert(read.name.node.clone(), read.name.span);
+        all.push(read);
     }
-    overrides
+    all
 }
 
-fn parse(id: FileId, text: &str, reports: &mut Reports) -> Option<Override> {
-    let span = |start: usize, end: usize| Span {
-        file: id,
-        start: u32::try_from(start).unwrap_or(u32::MAX),
-        end: u32::try_from(end).unwrap_or(u32::MAX),
-    };
+fn parse(switch: &Switch, id: FileId, text: &str, reports: &mut Reports) -> Option<Override> {
+    let span = |start: usize, end: usize| Span::of_bytes(id, start..end);
     let (name, value) = match text.split_once('=') {
         Some((name, value)) if is_name(name.trim()) && !value.trim().is_empty() => (name, value),
         _ => {
             let diagnostic = Diagnostic::new(
-                Code::BadOverride,
-                "`--set` takes a name and a value",
+                switch.malformed,
+                format!("`{}` takes {}", switch.word, switch.takes),
                 span(0, text.len()),
-                "not of the form `name=value`",
+                format!("not of the form `{}`", switch.form),
             )
-            .help("write it like `--set width=90mm`");
+            .help(format!("write it like `{} {}`", switch.word, switch.example));
             reports.push(diagnostic);
             return None;
         }
@@ -106,7 +150,7 @@ fn parse(id: FileId, text: &str, reports: &mut Reports) -> Option<Override> {
     }
 }
 
-/// Whether a text can be the name of a `let`.
+/// Whether a text can be the name of a `let`, or the key of an option.
 fn is_name(text: &str) -> bool {
     let mut letters = text.chars();
     letters

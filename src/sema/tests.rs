@@ -1,6 +1,6 @@
 //! Tests of the checks as a whole: expressions against an independent evaluator, and jobs that try to be a burden.
 
-use super::{Choices, check};
+use super::{Choices, Typed, check};
 use crate::diag::{Code, Diagnostic, fix};
 use crate::job::{Auto, CheckedJob, Operation, Sourced};
 use crate::source::{LoadError, Loader, SourceMap};
@@ -24,6 +24,7 @@ impl Files {
         self.check_with(Choices {
             overrides: &overrides,
             machine: None,
+            options: Typed::default(),
         })
     }
 
@@ -31,6 +32,7 @@ impl Files {
         self.check_with(Choices {
             overrides: &[],
             machine: Some(machine),
+            options: Typed::default(),
         })
     }
 

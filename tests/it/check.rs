@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use vcutc::diag::render::{ColorChoice, render};
 use vcutc::diag::{Code, Diagnostic, Fix, fix};
 use vcutc::job::CheckedJob;
-use vcutc::sema::{Choices, check};
+use vcutc::sema::{Choices, Typed, check};
 use vcutc::source::{LoadError, Loader, SourceMap};
 
 /// The files of a folder, with one of them changed.
@@ -90,6 +90,7 @@ impl Case {
             Choices {
                 overrides: &self.overrides(),
                 machine: self.machine(),
+                options: Typed::default(),
             },
             &mut sources,
             &mut diagnostics,

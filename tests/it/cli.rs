@@ -1,5 +1,7 @@
 //! The command line from outside: what it prints where, how it ends, and what it leaves on the disk.
 
+mod build;
+mod ci;
 mod gallery;
 mod jobs;
 mod kinematics;
@@ -9,6 +11,7 @@ mod outside;
 mod place;
 mod profiles;
 mod refusals;
+mod snapshot;
 #[cfg(feature = "krl")]
 mod verify;
 

@@ -20,6 +20,36 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "it takes a program beside the job",
     ),
     (
+        Code::BadManifest,
+        "tests/it/cli/build.rs",
+        "a_list_with_faults_is_told_at_its_places",
+        "it is about vcut.toml",
+    ),
+    (
+        Code::NoSuchJob,
+        "tests/it/cli/build.rs",
+        "jobs_that_are_not_there_are_told",
+        "it is about vcut.toml",
+    ),
+    (
+        Code::NoSuchTarget,
+        "tests/it/cli/build.rs",
+        "a_target_that_is_not_there_is_told",
+        "it is about vcut.toml",
+    ),
+    (
+        Code::SameFile,
+        "tests/it/cli/build.rs",
+        "two_programs_for_one_file_are_refused_before_anything_is_written",
+        "it takes two jobs",
+    ),
+    (
+        Code::StaleParts,
+        "tests/it/cli/snapshot.rs",
+        "parts_of_an_earlier_version_are_named_and_left",
+        "it takes a folder with older files",
+    ),
+    (
         Code::Internal,
         "src/driver/mod.rs",
         "a_program_that_breaks_a_rule_is_the_compilers_fault",

@@ -328,7 +328,6 @@ fn every_mutant_of_every_example_is_found() {
         *counts.entry(dialect).or_default() += count;
         missed.extend(more);
     }
-    println!("mutants: {counts:?}");
     assert!(
         missed.is_empty(),
         "{} were missed:\n{}",

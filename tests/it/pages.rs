@@ -7,7 +7,7 @@ use crate::repository::root;
 use std::collections::BTreeSet;
 use std::fs;
 use vcutc::diag::{Code, has_errors};
-use vcutc::driver::{EmitFailure, Request, compile, emit};
+use vcutc::driver::{EmitFailure, Request, Typed, compile, emit};
 use vcutc::source::{LoadError, Loader};
 use vcutc_backend_api::bundle::Bundle;
 
@@ -31,6 +31,7 @@ fn codes(job: &str) -> BTreeSet<Code> {
         loader: &Page(job),
         overrides: &[],
         machine: None,
+        options: Typed::default(),
         targets: &vcutc::registry::backends(),
     };
     let outcome = compile(request, &mut |_| {}).expect("the page itself can be read");

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use vcutc::diag::render::{ColorChoice, render};
 use vcutc::diag::{Diagnostic, Fix, fix};
-use vcutc::driver::{self, EmitFailure, Outcome, Request};
+use vcutc::driver::{self, EmitFailure, Outcome, Request, Typed};
 use vcutc::registry;
 use vcutc::source::{LoadError, Loader};
 use vcutc_backend_api::backend::Backend;
@@ -56,6 +56,7 @@ pub(crate) fn compile_on(machine: Option<&str>, path: &str, files: &Files) -> Ou
         loader: files,
         overrides: &[],
         machine,
+        options: Typed::default(),
         targets: &vcutc::registry::backends(),
     };
     driver::compile(request, &mut |_| {}).unwrap()

@@ -2,7 +2,7 @@
 
 use crate::pipeline::Files;
 use vcutc::diag::Code;
-use vcutc::driver::{EmitFailure, Outcome, Request, compile, emit};
+use vcutc::driver::{EmitFailure, Outcome, Request, Typed, compile, emit};
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Emission, EmitError, OptionKind, OptionSpec, Options,
 };
@@ -84,6 +84,7 @@ fn compiled(option: &str) -> Outcome {
         loader: &files,
         overrides: &[],
         machine: None,
+        options: Typed::default(),
         targets: &[&ABLE],
     };
     compile(request, &mut |_| {}).unwrap()

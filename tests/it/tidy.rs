@@ -264,8 +264,8 @@ fn missing_on_page(number: &str, page: &str) -> Vec<&'static str> {
         ("title with the code", page.starts_with(&format!("# {number}: "))),
         ("explanation of a few sentences", words(meaning) >= 20),
         (
-            "example in a ```vcut block, or a ```krl one",
-            ["```vcut\n", "```krl\n"]
+            "example in a ```vcut block, or a ```krl or ```toml one",
+            ["```vcut\n", "```krl\n", "```toml\n"]
                 .iter()
                 .any(|block| example.contains(block)),
         ),

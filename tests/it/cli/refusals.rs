@@ -72,7 +72,7 @@ fn a_target_like_no_other_is_answered_without_a_guess() {
 fn a_mistyped_command_is_answered_with_the_right_one() {
     let run = vcutc(folder().path(), &["explian", "VC0203"]);
     assert_eq!(run.code, Some(2));
-    assert!(run.stderr.contains("'explain'"), "{}", run.stderr);
+    assert!(run.stderr.contains("`vcutc explain`"), "{}", run.stderr);
 }
 
 #[test]

@@ -48,7 +48,6 @@ fn cell() -> impl Strategy<Value = CellRecipe> {
         .prop_map(|(tool, base, load, home, ultrasonic, ready)| CellRecipe {
             kind: vcutc_backend_api::ir::MachineKind::Robot,
             maker: vcutc_backend_api::ir::Maker::Kuka,
-            kind: vcutc_backend_api::ir::MachineKind::Robot,
             tool,
             base,
             load,

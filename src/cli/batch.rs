@@ -1,0 +1,291 @@
+//! Several programs in one run: compiled side by side, told in order, each written whole or not at all.
+//!
+//! Nothing is written before all are compiled, since only then it is known whether two of them want the same file. Each job
+//! gets a thread; what its own proof does in parallel goes to the one pool that all share, so there are never more proofs at
+//! work than processors.
+
+use super::console::{Console, Failure, Summary};
+use super::files::Disk;
+use super::output::{Destination, Placed};
+use super::snapshot::{self, Fate, Made, NotReady, Ready};
+use super::{Exit, Targets, compile};
+use crate::diag::{Code, Diagnostic, has_errors};
+use crate::driver::{self, Request, RequestError, Typed};
+use crate::source::{SourceMap, Span};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::Instant;
+use vcutc_backend_api::backend::Backend;
+
+/// One program to make.
+pub(super) struct Unit {
+    /// The job's file.
+    pub(super) job: String,
+    /// Who writes the program.
+    pub(super) backend: &'static dyn Backend,
+    /// The folder that it goes to.
+    pub(super) folder: PathBuf,
+    /// As `--set`.
+    pub(super) set: Vec<String>,
+    /// As `--machine`.
+    pub(super) machine: Option<String>,
+    /// As `--option`.
+    pub(super) options: Vec<String>,
+    /// The file that names of files in options are relative to.
+    pub(super) beside: String,
+    /// Where a list of programs asks for it.
+    pub(super) asked_at: Option<Span>,
+}
+
+/// A program that was made, or why not.
+struct Done {
+    sources: SourceMap,
+    diagnostics: Vec<Diagnostic>,
+    made: Result<Option<(Ready, Vec<String>)>, Failure>,
+}
+
+/// How a program ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    Written,
+    Unchanged,
+    Different,
+    Failed,
+}
+
+/// How all of them ended.
+#[derive(Default, Serialize)]
+struct Total {
+    programs: usize,
+    written: usize,
+    unchanged: usize,
+    different: usize,
+    failed: usize,
+    seconds: f64,
+}
+
+/// Makes all programs. `list` is the text in which they are asked for.
+pub(super) fn run(
+    units: &[Unit],
+    fate: Fate,
+    targets: &Targets,
+    list: Option<&SourceMap>,
+    console: &Console,
+) -> Exit {
+    let start = Instant::now();
+    let done = all(units, fate, targets);
+    if let Some((first, second, name)) = same_file(units, &done) {
+        return refuse(first, second, &name, list, console);
+    }
+    let mut exit = Exit::Success;
+    let mut total = Total {
+        programs: units.len(),
+        ..Total::default()
+    };
+    for (unit, done) in units.iter().zip(done) {
+        let (end, ended) = settle(unit, done, fate, console);
+        match end {
+            End::Written => total.written += 1,
+            End::Unchanged => total.unchanged += 1,
+            End::Different => total.different += 1,
+            End::Failed => total.failed += 1,
+        }
+        exit = exit.max(ended);
+    }
+    total.seconds = start.elapsed().as_secs_f64();
+    console.total(&total.in_words(), &total);
+    exit
+}
+
+/// Compiles all of them, on as many threads as there are processors.
+fn all(units: &[Unit], fate: Fate, targets: &Targets) -> Vec<Done> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(BTreeMap::new());
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(unit) = units.get(index) else { return };
+            let one = make(unit, fate, targets);
+            if let Ok(mut done) = done.lock() {
+                done.insert(index, one);
+            }
+        }
+    };
+    let threads = thread::available_parallelism()
+        .map_or(1, usize::from)
+        .min(units.len());
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(work);
+        }
+    });
+    done.into_inner().unwrap_or_default().into_values().collect()
+}
+
+fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
+    let disk = Disk::around(&unit.job);
+    let request = Request {
+        path: disk.job(),
+        loader: &disk,
+        overrides: &unit.set,
+        machine: unit.machine.as_deref(),
+        options: Typed {
+            target: unit.backend.id(),
+            given: &unit.options,
+            beside: &unit.beside,
+        },
+        targets,
+    };
+    let mut outcome = match driver::compile(request, &mut |_| {}) {
+        Ok(outcome) => outcome,
+        Err(RequestError::Unreadable(reason)) => {
+            return Done {
+                sources: SourceMap::default(),
+                diagnostics: Vec::new(),
+                made: Err(compile::unreadable(&unit.job, &reason)),
+            };
+        }
+    };
+    let to = Destination::Folder(unit.folder.clone());
+    let made = match snapshot::make(&outcome, unit.backend, &to, fate) {
+        Ok(made) => Ok(made),
+        Err(NotReady::Diagnostics(diagnostics)) => {
+            outcome.diagnostics.extend(diagnostics);
+            Ok(None)
+        }
+        Err(NotReady::Trouble(reason)) => Err(Failure::new(reason)),
+    };
+    Done {
+        sources: outcome.sources,
+        diagnostics: outcome.diagnostics,
+        made,
+    }
+}
+
+/// Two programs with a file of one name in one folder, whatever its case.
+fn same_file<'u>(units: &'u [Unit], done: &[Done]) -> Option<(&'u Unit, &'u Unit, String)> {
+    let mut first: BTreeMap<String, &Unit> = BTreeMap::new();
+    for (unit, done) in units.iter().zip(done) {
+        let Ok(Some((_, names))) = &done.made else {
+            continue;
+        };
+        for name in names {
+            let path = unit.folder.join(name).display().to_string();
+            if let Some(earlier) = first.insert(path.to_lowercase(), unit) {
+                return Some((earlier, unit, path));
+            }
+        }
+    }
+    None
+}
+
+fn refuse(first: &Unit, second: &Unit, path: &str, list: Option<&SourceMap>, console: &Console) -> Exit {
+    let message = if first.job == second.job {
+        format!("{} would write {path} twice", first.job)
+    } else {
+        format!("{} and {} would both write {path}", first.job, second.job)
+    };
+    let help = "give them folders of their own, or rename one of the jobs; nothing was written";
+    if let (Some(sources), Some(first), Some(place)) = (list, first.asked_at, second.asked_at) {
+        let diagnostic = Diagnostic::new(Code::SameFile, message, place, "asked for here");
+        let diagnostic = if first == place {
+            diagnostic
+        } else {
+            diagnostic.and(first, "and here")
+        };
+        console.diagnostics(&[diagnostic.help(help)], sources);
+        return Exit::JobHasErrors;
+    }
+    console.failure(&Failure::new(message).help(help))
+}
+
+/// Lets a program take its place, and tells what came of it.
+fn settle(unit: &Unit, done: Done, fate: Fate, console: &Console) -> (End, Exit) {
+    let Done {
+        sources,
+        mut diagnostics,
+        made,
+    } = done;
+    let settled = made.and_then(|ready| {
+        ready
+            .map(|(ready, _)| ready.settle().map_err(Failure::new))
+            .transpose()
+    });
+    let made = match settled {
+        Ok(made) => made.unwrap_or_default(),
+        Err(failure) => {
+            console.diagnostics(&diagnostics, &sources);
+            return (End::Failed, console.failure(&failure));
+        }
+    };
+    diagnostics.extend_from_slice(&made.diagnostics);
+    console.diagnostics(&diagnostics, &sources);
+    if let Some(found) = &made.differences {
+        console.differences(&unit.job, found);
+    }
+    let end = end(&diagnostics, &made);
+    console.summary(&Summary {
+        job: &unit.job,
+        diagnostics: &diagnostics,
+        lines: &[],
+        reach: None,
+        placed: &made.placed,
+        remark: Some(&remark(unit, &diagnostics, &made, fate)),
+        timings: &[],
+    });
+    let exit = match end {
+        End::Written | End::Unchanged => Exit::Success,
+        End::Different | End::Failed => Exit::JobHasErrors,
+    };
+    (end, exit)
+}
+
+fn end(diagnostics: &[Diagnostic], made: &Made) -> End {
+    let differs = made.differences.as_ref().map(|found| !found.changes.is_empty());
+    match differs {
+        _ if has_errors(diagnostics) => End::Failed,
+        Some(true) => End::Different,
+        Some(false) => End::Unchanged,
+        None if made.placed.iter().any(|file| matches!(file, Placed::Written(_))) => End::Written,
+        None => End::Unchanged,
+    }
+}
+
+fn remark(unit: &Unit, diagnostics: &[Diagnostic], made: &Made, fate: Fate) -> String {
+    let target = format!("for {}", unit.backend.id());
+    if has_errors(diagnostics) {
+        return match fate {
+            Fate::Write => format!("{target} nothing was written"),
+            Fate::Compare => format!("{target} nothing was compared"),
+        };
+    }
+    match &made.differences {
+        Some(found) => format!("{target} {}", found.in_words()),
+        None => format!("program {target}"),
+    }
+}
+
+impl Total {
+    fn in_words(&self) -> String {
+        let counts = [
+            (self.written, "written"),
+            (self.unchanged, "unchanged"),
+            (self.different, "different"),
+            (self.failed, "failed"),
+        ];
+        let told: Vec<String> = counts
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, word)| format!("{count} {word}"))
+            .collect();
+        let programs = match self.programs {
+            1 => "1 program".to_owned(),
+            count => format!("{count} programs"),
+        };
+        format!("{programs}: {} ({:.1} s)\n", told.join(", "), self.seconds)
+    }
+}

@@ -1,0 +1,286 @@
+//! `vcutc build`: all programs that `vcut.toml` lists, written or compared in one run.
+
+use super::args::BuildArgs;
+use super::batch::{self, Unit};
+use super::console::{Console, Failure};
+use super::files::{Disk, load_file};
+use super::snapshot::Fate;
+use super::{Exit, Targets, targets};
+use crate::diag::suggest::nearest;
+use crate::diag::{Code, Diagnostic};
+use crate::manifest::pattern::Pattern;
+use crate::manifest::{self, Entry, FILE_NAME, Manifest, Placed};
+use crate::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_bytes};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use vcutc_backend_api::backend::Backend;
+
+/// Most names that are looked at for one pattern. A pattern that begins high up in a disk would never end.
+const MOST_NAMES: usize = 100_000;
+/// Deepest folder below the beginning of a pattern that is looked at.
+const DEEPEST: usize = 32;
+/// Most programs of one run.
+const MOST_PROGRAMS: usize = 10_000;
+/// Most folders above the current one in which the list is looked for.
+const MOST_ABOVE: usize = 64;
+
+/// Builds, or compares.
+pub(super) fn build(args: &BuildArgs, targets: &Targets, console: &Console) -> Exit {
+    let (path, text) = match list(args.manifest.as_deref()) {
+        Ok(list) => list,
+        Err(failure) => return console.failure(&failure),
+    };
+    let mut sources = SourceMap::default();
+    let file = sources.add(path.clone(), text.clone());
+    let manifest = match manifest::parse(&text) {
+        Ok(manifest) => manifest,
+        Err(flaws) => {
+            let told = flaws.iter().map(|flaw| flaw.diagnostic(Code::BadManifest, file));
+            console.diagnostics(&told.collect::<Vec<_>>(), &sources);
+            return Exit::JobHasErrors;
+        }
+    };
+    let list = List { path, file, targets };
+    let units = match list.units(&manifest) {
+        Ok(units) => units,
+        Err(diagnostics) => {
+            console.diagnostics(&diagnostics, &sources);
+            return Exit::JobHasErrors;
+        }
+    };
+    let fate = if args.check { Fate::Compare } else { Fate::Write };
+    match chosen(units, &args.programs, &list.path) {
+        Ok(units) => batch::run(&units, fate, targets, Some(&sources), console),
+        Err(failure) => console.failure(&failure),
+    }
+}
+
+/// The list's path and text: the file that was given, or the nearest one from the current folder upwards.
+fn list(given: Option<&str>) -> Result<(String, String), Failure> {
+    let (path, bytes) = match given {
+        Some(path) => {
+            let path = Disk::around(path).job().to_owned();
+            let bytes = load_file(Path::new(&path)).map_err(|reason| {
+                Failure::new(format!("cannot read the list of programs {path}: {reason}"))
+            })?;
+            (path, bytes)
+        }
+        None => nearest_list()?,
+    };
+    match text_from_bytes(bytes) {
+        Ok(text) => Ok((path, text)),
+        Err(_) => Err(Failure::new(format!("{path} is no text in UTF-8"))),
+    }
+}
+
+fn nearest_list() -> Result<(String, Vec<u8>), Failure> {
+    let mut path = FILE_NAME.to_owned();
+    for _ in 0..MOST_ABOVE {
+        match load_file(Path::new(&path)) {
+            Ok(bytes) => return Ok((path, bytes)),
+            Err(LoadError::NotFound) => path.insert_str(0, "../"),
+            Err(reason) => return Err(Failure::new(format!("cannot read {path}: {reason}"))),
+        }
+    }
+    Err(
+        Failure::new(format!("there is no {FILE_NAME} in this folder or above it"))
+            .help("write one (docs/ci.md has the form), or name it with --manifest FILE"),
+    )
+}
+
+/// What is asked for, with the job as the list names it.
+type Asked = (Unit, Option<String>);
+
+/// The units that were named on the command line; all of them when none was.
+fn chosen(units: Vec<Asked>, wanted: &[String], list: &str) -> Result<Vec<Unit>, Failure> {
+    let is_meant = |(unit, name): &Asked, word: &str| {
+        name.as_deref() == Some(word) || unit.job == join_path("", word) || stem(&unit.job) == word
+    };
+    let missing = wanted
+        .iter()
+        .find(|word| !units.iter().any(|unit| is_meant(unit, word)));
+    if let Some(word) = missing {
+        let names = units.iter().filter_map(|(_, name)| name.as_deref());
+        let jobs = units.iter().map(|(unit, _)| stem(&unit.job));
+        let known: BTreeSet<&str> = names.chain(jobs).collect();
+        let failure = Failure::new(format!("{list} has no program called `{word}`"));
+        return Err(match nearest(word, known.iter().copied()).first() {
+            Some(near) => failure.help(format!("did you mean `{near}`?")),
+            None => failure.help("give the name of a section, of a job, or the path of a job's file"),
+        });
+    }
+    let is_wanted = |unit: &Asked| wanted.is_empty() || wanted.iter().any(|word| is_meant(unit, word));
+    let chosen = units.into_iter().filter(is_wanted);
+    Ok(chosen.map(|(unit, _)| unit).collect())
+}
+
+/// The name of a job's file without folders and extension.
+fn stem(job: &str) -> &str {
+    let name = job.rsplit_once('/').map_or(job, |(_, name)| name);
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
+/// The list at hand.
+struct List<'t> {
+    path: String,
+    file: FileId,
+    targets: &'t Targets,
+}
+
+impl List<'_> {
+    /// All programs, in the order of the list; jobs of a pattern in the order of their paths.
+    fn units(&self, manifest: &Manifest) -> Result<Vec<Asked>, Vec<Diagnostic>> {
+        let mut units = Vec::new();
+        let mut diagnostics = Vec::new();
+        for entry in &manifest.entries {
+            let backends: Vec<_> = entry.targets.iter().map(|target| self.backend(target)).collect();
+            for pattern in &entry.jobs {
+                let jobs = match self.jobs(pattern) {
+                    Ok(jobs) => jobs,
+                    Err(diagnostic) => {
+                        diagnostics.push(*diagnostic);
+                        continue;
+                    }
+                };
+                for job in &jobs {
+                    for backend in backends.iter().flatten() {
+                        units.push((self.unit(entry, pattern, job, *backend), entry.name.clone()));
+                    }
+                }
+            }
+            diagnostics.extend(
+                backends
+                    .into_iter()
+                    .filter_map(Result::err)
+                    .map(|diagnostic| *diagnostic),
+            );
+        }
+        if units.len() > MOST_PROGRAMS {
+            let place = self.span(&manifest.entries.first().and_then(|entry| entry.jobs.first()));
+            let message = format!(
+                "the list has {} programs, at most {MOST_PROGRAMS} are built in one run",
+                units.len()
+            );
+            diagnostics.push(
+                Diagnostic::new(Code::BadManifest, message, place, "from here on")
+                    .help("split it into several lists, and give each with --manifest"),
+            );
+        }
+        if diagnostics.is_empty() {
+            Ok(units)
+        } else {
+            Err(diagnostics)
+        }
+    }
+
+    fn unit(
+        &self,
+        entry: &Entry,
+        pattern: &Placed<Pattern>,
+        job: &str,
+        backend: &'static dyn Backend,
+    ) -> Unit {
+        let folder = join_path(&self.path, &entry.folder(stem(job), backend.id()));
+        Unit {
+            job: job.to_owned(),
+            backend,
+            folder: PathBuf::from(if folder.is_empty() { "." } else { &folder }),
+            set: entry.set.clone(),
+            machine: entry.machine.clone(),
+            options: entry.options.clone(),
+            beside: self.path.clone(),
+            asked_at: Some(self.span(&Some(pattern))),
+        }
+    }
+
+    fn span<T>(&self, placed: &Option<&Placed<T>>) -> Span {
+        Span::of_bytes(self.file, placed.map_or(0..0, |placed| placed.span.clone()))
+    }
+
+    fn backend(&self, target: &Placed<String>) -> Result<&'static dyn Backend, Box<Diagnostic>> {
+        let id = &target.value;
+        if let Ok(backend) = targets::find(self.targets, id) {
+            return Ok(backend);
+        }
+        let diagnostic = Diagnostic::new(
+            Code::NoSuchTarget,
+            format!("there is no target `{id}`, or it does not answer"),
+            self.span(&Some(target)),
+            "not a target",
+        );
+        let near = nearest(id, self.targets.iter().map(|backend| backend.id()));
+        Err(Box::new(match near.first() {
+            Some(near) => diagnostic.help(format!("did you mean \"{near}\"?")),
+            None => diagnostic.help(format!("targets are: {}", targets::names(self.targets))),
+        }))
+    }
+
+    /// The files of a pattern, by their paths, in order.
+    fn jobs(&self, pattern: &Placed<Pattern>) -> Result<Vec<String>, Box<Diagnostic>> {
+        let text = pattern.value.text();
+        let from_here = |path: &str| join_path(&self.path, path);
+        let found = if pattern.value.is_plain() {
+            let is_there = Path::new(&from_here(text)).is_file();
+            is_there.then(|| text.to_owned()).into_iter().collect()
+        } else {
+            walk(&pattern.value, &from_here).map_err(|reason| {
+                Box::new(
+                    Diagnostic::new(Code::NoSuchJob, reason, self.span(&Some(pattern)), "this pattern")
+                        .help("begin it with the folder that holds the jobs, such as `jobs/**/*.vcut`"),
+                )
+            })?
+        };
+        match found {
+            found if !found.is_empty() => Ok(found.iter().map(|path| from_here(path)).collect()),
+            _ => {
+                let (message, label) = if pattern.value.is_plain() {
+                    (format!("there is no file {}", from_here(text)), "no such file")
+                } else {
+                    (format!("no file matches {}", from_here(text)), "matches nothing")
+                };
+                let diagnostic = Diagnostic::new(Code::NoSuchJob, message, self.span(&Some(pattern)), label);
+                Err(Box::new(
+                    diagnostic.help(format!("paths are relative to the folder of {FILE_NAME}")),
+                ))
+            }
+        }
+    }
+}
+
+/// Files below the root of a pattern that match it, sorted; links to folders are not followed, as they can lead in a circle.
+fn walk(pattern: &Pattern, from_here: &dyn Fn(&str) -> String) -> Result<Vec<String>, String> {
+    let mut found = Vec::new();
+    let mut open = vec![(pattern.root(), 0)];
+    let mut seen = 0_usize;
+    while let Some((folder, depth)) = open.pop() {
+        let path = from_here(&folder);
+        let Ok(entries) = fs::read_dir(if path.is_empty() { "." } else { &path }) else {
+            continue;
+        };
+        for entry in entries.flatten() {
+            seen += 1;
+            if seen > MOST_NAMES {
+                return Err(format!(
+                    "there are more than {MOST_NAMES} files and folders to look at for this pattern"
+                ));
+            }
+            let Ok(name) = entry.file_name().into_string() else {
+                continue;
+            };
+            let path = if folder.is_empty() {
+                name
+            } else {
+                format!("{folder}/{name}")
+            };
+            let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+            if is_folder && depth < DEEPEST && pattern.reaches_below(depth) {
+                open.push((path, depth + 1));
+            } else if !is_folder && pattern.matches(&path) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort_unstable();
+    Ok(found)
+}

@@ -1,0 +1,102 @@
+//! Lists with one fault each, and lists meant to do harm.
+
+use super::*;
+
+const SMALL: &str = r#"
+[[program]]
+name = "large"
+jobs = ["jobs/*.vcut", "rib.vcut"]
+targets = ["krl", "rapid"]
+output = "programs/{target}/{job}"
+machine = "large_cell"
+set = ["width=90mm"]
+options = "lines_per_part=0"
+"#;
+
+fn flaws(old: &str, new: &str) -> Vec<(String, String)> {
+    assert!(SMALL.contains(old));
+    let text = SMALL.replace(old, new);
+    let place = |flaw: &Flaw| text.get(flaw.span.clone()).unwrap().to_owned();
+    let found = parse(&text).unwrap_err();
+    found
+        .iter()
+        .map(|flaw| (place(flaw), flaw.message.clone()))
+        .collect()
+}
+
+#[test]
+fn a_section_says_all_there_is_to_say() {
+    let manifest = parse(SMALL).unwrap();
+    let [entry] = manifest.entries.as_slice() else {
+        panic!("{manifest:?}")
+    };
+    let jobs: Vec<_> = entry.jobs.iter().map(|job| job.value.text()).collect();
+    assert_eq!(jobs, ["jobs/*.vcut", "rib.vcut"]);
+    assert_eq!(entry.targets.len(), 2);
+    assert_eq!(entry.folder("rib", "krl"), "programs/krl/rib");
+    assert_eq!(entry.folder("{target}", "krl"), "programs/krl/{target}");
+    assert_eq!(
+        (entry.name.as_deref(), entry.machine.as_deref()),
+        (Some("large"), Some("large_cell"))
+    );
+    assert_eq!(
+        (&*entry.set, &*entry.options),
+        (
+            &["width=90mm".to_owned()][..],
+            &["lines_per_part=0".to_owned()][..]
+        )
+    );
+}
+
+#[test]
+fn every_fault_is_told_at_its_place() {
+    let cases = [
+        ("jobs = [", "job = [", "job"),
+        ("[\"krl\", \"rapid\"]", "3", "3"),
+        ("[\"krl\", \"rapid\"]", "[]", "[]"),
+        (
+            "targets = ",
+            "target = \"krl\"\ntargets = ",
+            "[\"krl\", \"rapid\"]",
+        ),
+        ("{job}", "{jbo}", "\"programs/{target}/{jbo}\""),
+        ("\"rib.vcut\"", "\"/rib.vcut\"", "\"/rib.vcut\""),
+        ("\"large_cell\"", "true", "true"),
+        ("\"large_cell\"", "\"large_cell", "\"large_cell"),
+    ];
+    for (old, new, place) in cases {
+        let found = flaws(old, new);
+        assert!(found.iter().any(|(at, _)| at == place), "{new}: {found:?}");
+    }
+    let found = flaws("[[program]]", "[[programs]]");
+    assert!(
+        found.iter().any(|(_, message)| message.contains("`programs`")),
+        "{found:?}"
+    );
+    assert!(parse("").unwrap_err()[0].message.contains("no programs"));
+    let twice = format!("{SMALL}{SMALL}");
+    assert!(
+        parse(&twice).unwrap_err()[0]
+            .message
+            .contains("two programs are called `large`")
+    );
+}
+
+#[test]
+fn hostile_lists_end_in_flaws() {
+    let hostile = [
+        "a.".repeat(100_000) + "a = 1",
+        "[[program]]\n".repeat(10_000),
+        format!("program = {}", "[".repeat(200_000)),
+        "\u{feff}\0\u{1f980}".repeat(1000),
+        "program = 3".to_owned(),
+        "x".repeat(document::LARGEST + 1),
+    ];
+    for text in hostile {
+        let found = parse(&text).unwrap_err();
+        assert!((1..=document::MOST_FLAWS).contains(&found.len()));
+        for flaw in found {
+            assert!(text.get(flaw.span.clone()).is_some(), "{flaw:?}");
+        }
+    }
+}

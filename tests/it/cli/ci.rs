@@ -1,0 +1,98 @@
+//! The page about repositories, `docs/ci.md`: its list is a list, its workflows are well formed, and their commands run.
+
+use super::jobs::RIB;
+use super::{folder, vcutc};
+use crate::repository::read;
+use std::fs;
+
+/// The blocks of a page in one language.
+fn blocks(page: &str, language: &str) -> Vec<String> {
+    let fence = format!("```{language}\n");
+    page.split(&fence)
+        .skip(1)
+        .map(|rest| rest.split("\n```").next().unwrap().to_owned() + "\n")
+        .collect()
+}
+
+/// The part of YAML that the page uses: indentation by two, keys, lists, plain values.
+fn assert_is_plain_yaml(text: &str) {
+    let mut open = vec![0];
+    for line in text.lines().filter(|line| !line.trim_start().starts_with('#')) {
+        let body = line.trim_start();
+        let depth = line.len() - body.len();
+        assert!(
+            !line.contains('\t') && depth % 2 == 0 && !body.is_empty(),
+            "{line}"
+        );
+        assert!(depth <= open.last().unwrap() + 2, "{line}");
+        let item = body.strip_prefix("- ").unwrap_or(body);
+        let has_key = item.split_once(':').is_some_and(|(key, rest)| {
+            !key.is_empty() && !key.contains(['"', '{']) && (rest.is_empty() || rest.starts_with(' '))
+        });
+        assert!(has_key || body.starts_with("- "), "{line}");
+        let extra = if body.starts_with("- ") { 2 } else { 0 };
+        open.push(depth + extra);
+    }
+}
+
+/// The commands of the compiler in workflows and consoles.
+fn commands(text: &str) -> impl Iterator<Item = Vec<&str>> {
+    text.lines().filter_map(|line| {
+        let line = line
+            .trim_start()
+            .trim_start_matches("- ")
+            .trim_start_matches("run: ")
+            .trim_start_matches("entry: ");
+        let words = line.split('#').next()?.strip_prefix("vcutc ")?;
+        Some(words.split_whitespace().collect())
+    })
+}
+
+#[test]
+fn workflows_are_well_formed_and_their_commands_run() {
+    let page = read("docs/ci.md");
+    let folder = folder();
+    let path = folder.path();
+    for job in ["rib.vcut", "jobs/left.vcut", "special/rib.vcut"] {
+        fs::create_dir_all(path.join(job).parent().unwrap()).unwrap();
+        fs::write(path.join(job), RIB).unwrap();
+    }
+    let [list] = blocks(&page, "toml").try_into().unwrap();
+    fs::write(path.join("vcut.toml"), list).unwrap();
+    assert_eq!(vcutc(path, &["build"]).code, Some(0));
+    let mut count = 0;
+    let workflows = blocks(&page, "yaml");
+    assert_eq!(workflows.len(), 3);
+    workflows.iter().for_each(|text| assert_is_plain_yaml(text));
+    for text in blocks(&page, "console").iter().chain(&workflows) {
+        for command in commands(text) {
+            let run = vcutc(path, &command);
+            assert_eq!(run.code, Some(0), "{command:?}: {}", run.stderr);
+            count += 1;
+        }
+    }
+    assert_eq!(count, 4);
+}
+
+#[test]
+fn hooks_are_those_of_the_page() {
+    let hooks = read(".pre-commit-hooks.yaml");
+    let page = read("docs/ci.md");
+    for id in hooks.lines().filter_map(|line| line.strip_prefix("- id: ")) {
+        assert!(page.contains(&format!("- id: {id}\n")), "{id}");
+    }
+    assert_is_plain_yaml(&hooks);
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    let list = "[[program]]\njobs = \"rib.vcut\"\ntarget = \"krl\"\noutput = \"out\"\n";
+    fs::write(folder.path().join("vcut.toml"), list).unwrap();
+    assert_eq!(vcutc(folder.path(), &["build"]).code, Some(0));
+    let entries: Vec<_> = commands(&hooks).collect();
+    assert_eq!(entries.len(), 2);
+    for mut entry in entries {
+        if entry == ["check"] {
+            entry.push("rib.vcut");
+        }
+        assert_eq!(vcutc(folder.path(), &entry).code, Some(0), "{entry:?}");
+    }
+}
