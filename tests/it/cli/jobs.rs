@@ -259,7 +259,8 @@ fn checking_writes_nothing_and_says_why_where_a_program_was_expected() {
     let run = vcutc(shop.path(), &["rib.vcut"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
     assert!(
-        run.stderr.contains("no --target was given (targets: gcode, krl, rapid)"),
+        run.stderr
+            .contains("no --target was given (targets: gcode, krl, rapid)"),
         "{}",
         run.stderr
     );
