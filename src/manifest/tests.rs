@@ -62,7 +62,8 @@ fn every_fault_is_told_at_its_place() {
         ("{job}", "{jbo}", "\"programs/{target}/{jbo}\""),
         ("\"rib.vcut\"", "\"/rib.vcut\"", "\"/rib.vcut\""),
         ("\"large_cell\"", "true", "true"),
-        ("\"large_cell\"", "\"large_cell", "\"large_cell"),
+        // The place is where the text should have ended.
+        ("\"large_cell\"", "\"large_cell", ""),
     ];
     for (old, new, place) in cases {
         let found = flaws(old, new);

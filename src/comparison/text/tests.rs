@@ -53,6 +53,7 @@ proptest! {
         earlier in prop::collection::vec(0_u8..6, 0..40),
         edits in prop::collection::vec((0_usize..40, 0_u8..8, any::<bool>()), 1..4),
     ) {
+        let file = |lines: &[String]| lines.iter().fold(String::new(), |text, line| text + line + "\n");
         let lines = |numbers: &[u8]| -> Vec<String> { numbers.iter().map(u8::to_string).collect() };
         let mut fresh = earlier.clone();
         for (at, value, inserts) in edits {
@@ -61,7 +62,7 @@ proptest! {
         }
         prop_assume!(earlier != fresh);
         let (earlier, fresh) = (lines(&earlier), lines(&fresh));
-        let change = text(&(earlier.join("\n") + "\n"), &(fresh.join("\n") + "\n"));
+        let change = text(&file(&earlier), &file(&fresh));
         prop_assume!(change.left_out == 0);
         prop_assert_eq!(patched(&earlier, &change), fresh);
         let kinds = |kind| change.hunks.iter().flat_map(|hunk| &hunk.lines).filter(|line| line.kind == kind).count();
