@@ -7,6 +7,7 @@ use crate::backend::BackendIssue;
 use crate::geometry::Point3;
 use crate::ir::{OpId, OperationId, Program};
 use crate::script::trimmed_text;
+use core::ops::RangeInclusive;
 use std::collections::BTreeSet;
 
 /// The problems found so far.
@@ -61,6 +62,22 @@ impl Findings {
         );
     }
 
+    /// A number in a table, or of a signal, must lie within a range.
+    pub fn number(&mut self, what: &'static str, value: u32, allowed: RangeInclusive<u32>) {
+        if allowed.contains(&value) {
+            return;
+        }
+        self.tell(
+            what,
+            BackendIssue::OutOfRange {
+                op: None,
+                what,
+                value: value.to_string(),
+                allowed: format!("{} to {}", allowed.start(), allowed.end()),
+            },
+        );
+    }
+
     /// Coordinates, called by these names, must not be farther from zero than this, in mm.
     pub fn point(&mut self, op: Option<OpId>, names: [&'static str; 3], point: Point3, farthest: f64) {
         for (what, value) in names.into_iter().zip([point.x, point.y, point.z]) {
@@ -76,6 +93,15 @@ impl Findings {
         if blade_of(usize::from(operation.0)) != blade_of(0) {
             let what = "a change of the blade within the program";
             self.tell(what, BackendIssue::Unsupported { op, what });
+        }
+    }
+
+    /// Problems that were found elsewhere.
+    #[must_use]
+    pub const fn beginning_with(issues: Vec<BackendIssue>) -> Self {
+        Self {
+            issues,
+            told: BTreeSet::new(),
         }
     }
 

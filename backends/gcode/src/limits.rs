@@ -10,12 +10,12 @@ use crate::demands;
 use crate::dialect::{AxisPace, FeedMode};
 use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
 use crate::pace::{self, Pace};
-use std::collections::BTreeSet;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
+use vcutc_backend_api::findings::{Findings, Number};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, MachineKind, OpId, OperationId, Ready};
+use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, MachineKind, OpId, Ready};
 use vcutc_backend_api::motion::{ReachableProgram, pose_after};
-use vcutc_backend_api::script::{Part, trimmed_text};
+use vcutc_backend_api::script::Part;
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
 
@@ -74,24 +74,19 @@ pub(crate) fn check<'p>(
         Err(NoWord::Spindle) => return Err(vec![spindle_without_letter()]),
         Err(NoWord::Taken(letter)) => return Err(vec![letter_taken(letter)]),
     };
-    let mut findings = Findings {
-        issues: demands::check(cell, settings),
-        told: BTreeSet::new(),
+    let mut limits = Limits {
+        found: Findings::beginning_with(demands::check(cell, settings)),
     };
-    findings.cell(cell, settings);
-    findings.parts(settings, parts);
-    findings.ops(Source {
+    limits.cell(cell, settings);
+    limits.parts(settings, parts);
+    limits.ops(Source {
         reachable: program,
         cell,
         settings,
         words: &words,
         work_in_offset: WorkInOffset::new(cell.base.frame.orientation),
     });
-    if findings.issues.is_empty() {
-        Ok(Sayable { cell, words })
-    } else {
-        Err(findings.issues)
-    }
+    limits.found.result().map(|()| Sayable { cell, words })
 }
 
 fn spindle_without_letter() -> BackendIssue {
@@ -110,82 +105,32 @@ fn letter_taken(letter: char) -> BackendIssue {
     }
 }
 
-struct Findings {
-    issues: Vec<BackendIssue>,
-    /// What was told, so that it is told once.
-    told: BTreeSet<&'static str>,
+/// What a control does not take of a program.
+struct Limits {
+    found: Findings,
 }
 
-/// A number with its unit, to be checked.
-struct Number {
-    what: &'static str,
-    value: f64,
-    unit: &'static str,
-}
-
-impl Findings {
-    fn tell(&mut self, what: &'static str, issue: BackendIssue) {
-        if self.told.insert(what) {
-            self.issues.push(issue);
-        }
-    }
-
-    /// Inlined, because it is asked for every number of every op and nearly always says yes.
-    #[inline]
-    fn range(&mut self, op: Option<OpId>, number: &Number, limits: (f64, f64)) {
-        if !(limits.0..=limits.1).contains(&number.value) {
-            self.out_of_range(op, number, limits);
-        }
-    }
-
-    #[cold]
-    fn out_of_range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
-        let &Number { what, value, unit } = number;
-        self.tell(
-            what,
-            BackendIssue::OutOfRange {
-                op,
-                what,
-                value: format!("{} {unit}", trimmed_text(value)),
-                allowed: format!("{} to {} {unit}", trimmed_text(low), trimmed_text(high)),
-            },
-        );
-    }
-
-    fn number(&mut self, what: &'static str, value: u32, [lowest, highest]: [u32; 2]) {
-        if (lowest..=highest).contains(&value) {
-            return;
-        }
-        self.tell(
-            what,
-            BackendIssue::OutOfRange {
-                op: None,
-                what,
-                value: value.to_string(),
-                allowed: format!("{lowest} to {highest}"),
-            },
-        );
-    }
-
+impl Limits {
     fn cell(&mut self, cell: &Cell, settings: &Settings<'_>) {
         let dialect = settings.dialect;
         if cell.home.is_none() {
-            self.tell("home", HOME_MISSING);
+            self.found.tell("home", HOME_MISSING);
         }
         self.tool(cell, settings);
         if let Some(number) = cell.base.number {
-            self.number("base number", number, [1, dialect.work_offsets()]);
+            self.found
+                .number("base number", number, 1..=dialect.work_offsets());
         }
         match cell.ultrasonic {
             Some(output) if settings.codes.on.is_empty() => {
-                self.number("output number", output, dialect.signals());
+                self.found.number("output number", output, dialect.signals());
             }
             Some(_) => {}
-            None => self.tell("ultrasonic", GENERATOR_MISSING),
+            None => self.found.tell("ultrasonic", GENERATOR_MISSING),
         }
         match cell.ready {
             Ready::Input(input) if settings.codes.ready.is_empty() => {
-                self.number("input number", input, dialect.signals());
+                self.found.number("input number", input, dialect.signals());
             }
             Ready::Input(_) => {}
             Ready::After(time) => self.wait(None, "time until ready", time),
@@ -197,19 +142,21 @@ impl Findings {
                       add `rate_mm_s` and `rate_deg_s` to the sheet"
                     .to_owned(),
             };
-            self.tell("rates", issue);
+            self.found.tell("rates", issue);
         }
     }
 
     /// The control knows of the tool one length, along the spindle.
     fn tool(&mut self, cell: &Cell, settings: &Settings<'_>) {
         let number = cell.tool.number.unwrap_or(settings.tool_number);
-        self.number("tool number", number, [1, settings.dialect.most_tools()]);
+        self.found
+            .number("tool number", number, 1..=settings.dialect.most_tools());
         let Point3 { x, y, z } = cell.tool.frame.origin;
         let half_a_unit = 0.5 * last_place(settings.lengths);
         for (what, value) in [("tool X", x), ("tool Y", y)] {
             let unit = "mm";
-            self.range(None, &Number { what, value, unit }, (-half_a_unit, half_a_unit));
+            self.found
+                .range(None, &Number { what, value, unit }, (-half_a_unit, half_a_unit));
         }
         self.length(None, "tool Z", z, settings);
     }
@@ -217,7 +164,8 @@ impl Findings {
     fn length(&mut self, op: Option<OpId>, what: &'static str, value: f64, settings: &Settings<'_>) {
         let farthest = settings.dialect.farthest(settings.lengths.decimals());
         let unit = "mm";
-        self.range(op, &Number { what, value, unit }, (-farthest, farthest));
+        self.found
+            .range(op, &Number { what, value, unit }, (-farthest, farthest));
     }
 
     fn parts(&mut self, settings: &Settings<'_>, parts: &[Part]) {
@@ -229,7 +177,7 @@ impl Findings {
                     "the program and its parts would go up to O{last}, and O8000 and more are the builder's"
                 ),
             };
-            self.tell("program number", issue);
+            self.found.tell("program number", issue);
         }
     }
 
@@ -238,7 +186,7 @@ impl Findings {
         let mut at = None;
         for (id, op) in source.reachable.verified().ops() {
             if let Some(operation) = op.site.operation() {
-                self.blade(source, id, operation);
+                self.found.blade(program, id, operation);
             }
             match op.action {
                 Action::Home | Action::AxisTravel { .. } => self.axes(source, id),
@@ -255,20 +203,10 @@ impl Findings {
                 Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
                 Action::ToolChange { .. } => {
                     let what = "a tool change within the program";
-                    self.tell(what, BackendIssue::Unsupported { op: id, what });
+                    self.found.tell(what, BackendIssue::Unsupported { op: id, what });
                 }
             }
             at = pose_after(at, &op.action);
-        }
-    }
-
-    /// The tool length is that of one blade, and nothing in the program would stop for another.
-    fn blade(&mut self, source: Source<'_>, id: OpId, operation: OperationId) {
-        let operations = &source.program().operations;
-        let blade_of = |place: usize| operations.get(place).map(|operation| &operation.blade);
-        if blade_of(usize::from(operation.0)) != blade_of(0) {
-            let what = "a change of the blade within the program";
-            self.tell(what, BackendIssue::Unsupported { op: id, what });
         }
     }
 
@@ -296,7 +234,8 @@ impl Findings {
         let farthest = settings.dialect.farthest(decimals);
         for &word in source.words.iter().filter(|word| word.kind == kind) {
             if let Some(value) = printed(word, axes) {
-                self.range(Some(op), &Number { what, value, unit }, (-farthest, farthest));
+                self.found
+                    .range(Some(op), &Number { what, value, unit }, (-farthest, farthest));
             }
         }
     }
@@ -330,7 +269,7 @@ impl Findings {
         };
         let smallest = SMALLEST_FEED_UNITS * last_place(source.settings.fine());
         let value = pace.feed;
-        self.range(
+        self.found.range(
             Some(op),
             &Number { what, value, unit },
             (smallest, dialect.largest_feed()),
@@ -340,6 +279,7 @@ impl Findings {
     fn wait(&mut self, op: Option<OpId>, what: &'static str, time: Duration) {
         let value = time.to_s();
         let unit = "s";
-        self.range(op, &Number { what, value, unit }, (0.0, LONGEST_WAIT_S));
+        self.found
+            .range(op, &Number { what, value, unit }, (0.0, LONGEST_WAIT_S));
     }
 }

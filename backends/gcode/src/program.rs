@@ -5,8 +5,7 @@ use crate::body::{self, Source};
 use crate::dialect::File;
 use crate::names::part_name;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Op, Site};
-use vcutc_backend_api::script::{Part, Written, trimmed_text};
+use vcutc_backend_api::script::{Part, Written, first_of, trimmed_text};
 
 /// Writes all files of a program.
 pub(crate) fn write(source: Source<'_>, name: &str, parts: &[Part], blocks: &mut Blocks<'_, '_>) -> Written {
@@ -149,23 +148,4 @@ fn closing(source: Source<'_>, file: File<'_>, blocks: &mut Blocks<'_, '_>) -> W
         blocks.line(&line)?;
     }
     Ok(())
-}
-
-/// Where a part begins, in words.
-fn first_of(op: &Op) -> String {
-    match op.site {
-        Site::Program => "from the start".to_owned(),
-        Site::Operation(operation) => format!("from operation {}", u32::from(operation.0) + 1),
-        Site::Layer { operation, layer } => {
-            format!("from operation {} layer {layer}", u32::from(operation.0) + 1)
-        }
-        Site::Cut {
-            operation,
-            layer,
-            cut,
-        } => format!(
-            "from operation {} layer {layer} cut {cut}",
-            u32::from(operation.0) + 1
-        ),
-    }
 }

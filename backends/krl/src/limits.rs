@@ -5,15 +5,15 @@
 //! would otherwise be told a million times.
 
 use crate::configuration::status;
-use std::collections::BTreeSet;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
+use vcutc_backend_api::findings::{Findings, Number};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, AxisKind, AxisValues, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, OperationId,
-    PlacedFrame, Program, RateId, Ready, Registered,
+    Action, AxisKind, AxisValues, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, PlacedFrame,
+    Program, RateId, Ready, Registered,
 };
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::script::{Part, trimmed_text};
+use vcutc_backend_api::script::Part;
 use vcutc_backend_api::units::Duration;
 
 /// Largest coordinate, in mm. KRL's `REAL` has seven digits, so beyond this a hundredth of a millimetre is lost; no
@@ -77,15 +77,11 @@ pub(crate) fn check<'p>(
     if let Some(mismatch) = mismatch(cell, program) {
         return Err(wrong(mismatch));
     }
-    let mut findings = Findings::default();
-    findings.cell(cell);
-    findings.ops(program);
-    findings.restarts(program, parts);
-    if findings.issues.is_empty() {
-        Ok(cell)
-    } else {
-        Err(findings.issues)
-    }
+    let mut limits = Limits::default();
+    limits.cell(cell);
+    limits.ops(program);
+    limits.restarts(program, parts);
+    limits.found.result().map(|()| cell)
 }
 
 /// What sets a machine apart from those that KRL programs are for.
@@ -108,77 +104,25 @@ fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> 
     (!(is_arm && has_status)).then_some(MachineMismatch::Arm)
 }
 
+/// What KRL does not take of a program.
 #[derive(Default)]
-struct Findings {
-    issues: Vec<BackendIssue>,
-    /// What was told, so that it is told once.
-    told: BTreeSet<&'static str>,
+struct Limits {
+    found: Findings,
 }
 
-/// A number with its unit, to be checked.
-struct Number {
-    what: &'static str,
-    value: f64,
-    unit: &'static str,
-}
-
-impl Findings {
-    fn tell(&mut self, what: &'static str, issue: BackendIssue) {
-        if self.told.insert(what) {
-            self.issues.push(issue);
-        }
-    }
-
-    /// Inlined, because it is asked for every number of every op and nearly always says yes.
-    #[inline]
-    fn range(&mut self, op: Option<OpId>, number: &Number, limits: (f64, f64)) {
-        let allowed = |value: f64| (limits.0..=limits.1).contains(&value);
-        if !(allowed(number.value) || allowed(as_printed(number.value))) {
-            self.out_of_range(op, number, limits);
-        }
-    }
-
-    #[cold]
-    fn out_of_range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
-        let &Number { what, value, unit } = number;
-        self.tell(
-            what,
-            BackendIssue::OutOfRange {
-                op,
-                what,
-                value: format!("{} {unit}", trimmed_text(value)),
-                allowed: format!("{} to {} {unit}", trimmed_text(low), trimmed_text(high)),
-            },
-        );
-    }
-
-    fn number(&mut self, what: &'static str, value: u32, highest: u32) {
-        if (1..=highest).contains(&value) {
-            return;
-        }
-        self.tell(
-            what,
-            BackendIssue::OutOfRange {
-                op: None,
-                what,
-                value: value.to_string(),
-                allowed: format!("1 to {highest}"),
-            },
-        );
-    }
-
+impl Limits {
     fn cell(&mut self, cell: &Cell) {
         self.home(cell.home);
         self.frame(cell.tool, ["tool X", "tool Y", "tool Z"], ("tool number", TOOLS));
         self.frame(cell.base, ["base X", "base Y", "base Z"], ("base number", BASES));
         match cell.load {
             Some(Registered::Value(load)) => self.load(load),
-            Some(Registered::Number(number)) => self.number("load number", number, TOOLS),
+            Some(Registered::Number(number)) => self.found.number("load number", number, 1..=TOOLS),
             None => {}
         }
         match cell.ultrasonic {
-            Some(output) => self.number("output number", output, SIGNALS),
-            None => self.tell("ultrasonic", GENERATOR_MISSING),
+            Some(output) => self.found.number("output number", output, 1..=SIGNALS),
+            None => self.found.tell("ultrasonic", GENERATOR_MISSING),
         }
         match cell.ready {
             Ready::Input(input) => self.input(input),
@@ -188,7 +132,7 @@ impl Findings {
 
     fn home(&mut self, home: Option<AxisValues>) {
         let Some(angles) = home else {
-            self.tell("home", HOME_MISSING);
+            self.found.tell("home", HOME_MISSING);
             return;
         };
         self.axes(None, "home angle", angles);
@@ -201,7 +145,8 @@ impl Findings {
                 value: angle.to_degrees(),
                 unit: "deg",
             };
-            self.range(op, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
+            self.found
+                .range(op, &number, (-LARGEST_AXIS_DEG, LARGEST_AXIS_DEG));
         }
     }
 
@@ -213,7 +158,7 @@ impl Findings {
     ) {
         match placed.number {
             None => self.point(None, coordinates, placed.frame.origin),
-            Some(number) => self.number(what, number, highest),
+            Some(number) => self.found.number(what, number, 1..=highest),
         }
     }
 
@@ -223,14 +168,14 @@ impl Findings {
             value: load.mass.to_kg(),
             unit: "kg",
         };
-        self.range(None, &mass, LOAD_MASS_KG);
+        self.found.range(None, &mass, LOAD_MASS_KG);
         self.point(None, ["load X", "load Y", "load Z"], load.centre);
     }
 
     fn input(&mut self, input: u32) {
-        self.number("input number", input, SIGNALS);
+        self.found.number("input number", input, 1..=SIGNALS);
         if FIXED_INPUTS.contains(&input) {
-            self.tell(
+            self.found.tell(
                 "input number",
                 BackendIssue::OutOfRange {
                     op: None,
@@ -243,20 +188,11 @@ impl Findings {
         }
     }
 
-    /// The tool frame of the machine is that of one blade, and nothing in the program would stop for another.
-    fn blade(&mut self, program: &Program, id: OpId, operation: OperationId) {
-        let blade_of = |place: usize| program.operations.get(place).map(|operation| &operation.blade);
-        if blade_of(usize::from(operation.0)) != blade_of(0) {
-            let what = "a change of the blade within the program";
-            self.tell(what, BackendIssue::Unsupported { op: id, what });
-        }
-    }
-
     fn ops(&mut self, program: &ReachableProgram) {
         let tables = program.program();
         for (id, op) in program.verified().ops() {
             if let Some(operation) = op.site.operation() {
-                self.blade(tables, id, operation);
+                self.found.blade(tables, id, operation);
             }
             match op.action {
                 Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
@@ -279,7 +215,7 @@ impl Findings {
                 Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
                 Action::ToolChange { .. } => {
                     let what = "a tool change within the program";
-                    self.tell(what, BackendIssue::Unsupported { op: id, what });
+                    self.found.tell(what, BackendIssue::Unsupported { op: id, what });
                 }
             }
         }
@@ -305,14 +241,7 @@ impl Findings {
     }
 
     fn point(&mut self, op: Option<OpId>, names: [&'static str; 3], point: Point3) {
-        for (what, value) in names.into_iter().zip([point.x, point.y, point.z]) {
-            let number = Number {
-                what,
-                value,
-                unit: "mm",
-            };
-            self.range(op, &number, (-FARTHEST_MM, FARTHEST_MM));
-        }
+        self.found.point(op, names, point, FARTHEST_MM);
     }
 
     fn feed(&mut self, op: OpId, program: &Program, feed: FeedId) {
@@ -322,7 +251,7 @@ impl Findings {
                 value: feed.to_m_per_s(),
                 unit: "m/s",
             };
-            self.range(Some(op), &number, TIP_SPEED);
+            self.found.range(Some(op), &number, TIP_SPEED);
         }
     }
 
@@ -333,7 +262,7 @@ impl Findings {
                 value: rate.to_deg_per_s(),
                 unit: "deg/s",
             };
-            self.range(Some(op), &number, RATE);
+            self.found.range(Some(op), &number, RATE);
         }
     }
 
@@ -343,11 +272,6 @@ impl Findings {
             value: time.to_s(),
             unit: "s",
         };
-        self.range(op, &number, (0.0, LONGEST_WAIT_S));
+        self.found.range(op, &number, (0.0, LONGEST_WAIT_S));
     }
-}
-
-/// A value as it will be printed at best, with six decimals: 400 deg/s kept in radians comes back a hair above 400.
-fn as_printed(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
 }

@@ -5,9 +5,9 @@ use crate::keywords::{HOME, part_name};
 use crate::options::PartNames;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Load, Op, PlacedFrame, Registered, Site};
+use vcutc_backend_api::ir::{Action, Load, PlacedFrame, Registered};
 use vcutc_backend_api::number::NotFinite;
-use vcutc_backend_api::script::{Part, Place, Text, Written, push_trimmed};
+use vcutc_backend_api::script::{Part, Place, Text, Written, first_of, push_trimmed};
 
 /// Writes all modules of a program.
 pub(crate) fn write(source: Source<'_>, name: &str, parts: &[Part], text: &mut Text<'_>) -> Written {
@@ -77,25 +77,6 @@ fn continuation(
         )?;
     }
     Ok(())
-}
-
-/// Where a part begins, in words.
-fn first_of(op: &Op) -> String {
-    match op.site {
-        Site::Program => "from the start".to_owned(),
-        Site::Operation(operation) => format!("from operation {}", u32::from(operation.0) + 1),
-        Site::Layer { operation, layer } => {
-            format!("from operation {} layer {layer}", u32::from(operation.0) + 1)
-        }
-        Site::Cut {
-            operation,
-            layer,
-            cut,
-        } => format!(
-            "from operation {} layer {layer} cut {cut}",
-            u32::from(operation.0) + 1
-        ),
-    }
 }
 
 /// The head of a `.src`.

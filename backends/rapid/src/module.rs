@@ -7,8 +7,8 @@ use crate::orient::Quaternion;
 use crate::speeds::{EXTERNAL, RATE_OF_NOTHING};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::{Frame, Point3};
-use vcutc_backend_api::ir::{Action, Load, Op, RateId, Registered, Site};
-use vcutc_backend_api::script::{Part, Text, Written};
+use vcutc_backend_api::ir::{Action, Load, RateId, Registered};
+use vcutc_backend_api::script::{Part, Text, Written, first_of};
 use vcutc_backend_api::units::Length;
 
 /// The modes that moves depend on. A task that is started anew has them, one that is started at a part may not.
@@ -109,25 +109,6 @@ fn list(main: &str, modules: &[String], text: &mut Text<'_>) -> Written {
         text.line(&format!("  <Module>{module}</Module>"))?;
     }
     Ok(text.line("</Program>")?)
-}
-
-/// Where a part begins, in words.
-fn first_of(op: &Op) -> String {
-    match op.site {
-        Site::Program => "from the start".to_owned(),
-        Site::Operation(operation) => format!("from operation {}", u32::from(operation.0) + 1),
-        Site::Layer { operation, layer } => {
-            format!("from operation {} layer {layer}", u32::from(operation.0) + 1)
-        }
-        Site::Cut {
-            operation,
-            layer,
-            cut,
-        } => format!(
-            "from operation {} layer {layer} cut {cut}",
-            u32::from(operation.0) + 1
-        ),
-    }
 }
 
 /// Comments at the head of the main module.

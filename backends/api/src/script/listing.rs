@@ -132,3 +132,23 @@ const fn speeds(action: &Action) -> (Option<FeedId>, Option<RateId>) {
         | Action::ToolChange { .. } => (None, None),
     }
 }
+
+/// Where a part begins, in words.
+#[must_use]
+pub fn first_of(op: &Op) -> String {
+    match op.site {
+        Site::Program => "from the start".to_owned(),
+        Site::Operation(operation) => format!("from operation {}", u32::from(operation.0) + 1),
+        Site::Layer { operation, layer } => {
+            format!("from operation {} layer {layer}", u32::from(operation.0) + 1)
+        }
+        Site::Cut {
+            operation,
+            layer,
+            cut,
+        } => format!(
+            "from operation {} layer {layer} cut {cut}",
+            u32::from(operation.0) + 1
+        ),
+    }
+}

@@ -8,6 +8,7 @@
 
 use super::{AxisPace, Dialect, File};
 use crate::options::Settings;
+use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::script::Layout;
 use vcutc_backend_api::units::Length;
@@ -127,8 +128,8 @@ impl Dialect for Fanuc {
         None
     }
 
-    fn signals(&self) -> [u32; 2] {
-        [0, u32::MAX]
+    fn signals(&self) -> RangeInclusive<u32> {
+        0..=u32::MAX
     }
 }
 

@@ -12,6 +12,7 @@
 
 use super::{AxisPace, Comments, Dialect, FeedMode, File, Letters, Numbering, Signs};
 use crate::options::Settings;
+use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::script::Layout;
 use vcutc_backend_api::units::Length;
@@ -167,7 +168,7 @@ impl Dialect for Heidenhain {
         Some(vec![format!("FN 20: WAIT FOR I{input}==1")])
     }
 
-    fn signals(&self) -> [u32; 2] {
-        [0, 152]
+    fn signals(&self) -> RangeInclusive<u32> {
+        0..=152
     }
 }

@@ -14,6 +14,7 @@
 
 use super::{Comments, Dialect, File, Letters, TcpCodes};
 use crate::options::Settings;
+use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::script::{Layout, trimmed_text};
 use vcutc_backend_api::units::Length;
@@ -138,7 +139,7 @@ impl Dialect for LinuxCnc {
         Some(vec![format!("M66 P{input} L3 Q86400")])
     }
 
-    fn signals(&self) -> [u32; 2] {
-        [0, 63]
+    fn signals(&self) -> RangeInclusive<u32> {
+        0..=63
     }
 }

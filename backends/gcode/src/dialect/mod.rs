@@ -9,6 +9,7 @@ mod linuxcnc;
 mod sinumerik;
 
 use crate::options::Settings;
+use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::script::Layout;
 use vcutc_backend_api::units::Length;
@@ -262,5 +263,5 @@ pub(crate) trait Dialect: Sync {
     fn await_input(&self, input: u32, label: u32) -> Option<Vec<String>>;
 
     /// Smallest and largest number of an output or input.
-    fn signals(&self) -> [u32; 2];
+    fn signals(&self) -> RangeInclusive<u32>;
 }

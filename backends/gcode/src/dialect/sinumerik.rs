@@ -9,6 +9,7 @@
 
 use super::{Comments, Dialect, File, Letters};
 use crate::options::Settings;
+use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::script::{Layout, trimmed_text};
 use vcutc_backend_api::units::Length;
@@ -121,7 +122,7 @@ impl Dialect for Sinumerik {
         )])
     }
 
-    fn signals(&self) -> [u32; 2] {
-        [1, 1024]
+    fn signals(&self) -> RangeInclusive<u32> {
+        1..=1024
     }
 }
