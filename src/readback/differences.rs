@@ -9,7 +9,7 @@ use crate::job::{CheckedJob, Machine, Operation};
 use crate::source::{FileId, Span};
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::readback::{FrameRole, Grain, Judge, Mismatch, Moment, Place, Says};
+use vcutc_backend_api::readback::{Deed, FrameRole, Grain, Judge, Mismatch, Moment, Place, Says};
 use vcutc_backend_api::stroke::Pose;
 
 /// So many differences are told one by one.
@@ -212,6 +212,11 @@ impl Teller<'_> {
         }
     }
 
+    /// The op that a statement of the fresh program, or the first one behind it that says an op, says.
+    fn next_owner(&self, fresh: usize) -> Option<OpId> {
+        self.scene.owners.iter().skip(fresh).find_map(|owner| *owner)
+    }
+
     fn changed(&self, fresh: usize, given: usize) -> Diagnostic {
         let (should, is) = (
             self.says(self.scene.fresh, fresh),
@@ -256,6 +261,14 @@ impl Teller<'_> {
                     | Says::Unreadable { .. } => Code::OtherSetting,
                 };
                 let what = match (should, is) {
+                    (Says::Deed(Deed::Straight { .. }), Says::Deed(deed)) => {
+                        // A point between the two ends of an op, where a wrist turns far.
+                        let program = self.scene.judge.reachable().program();
+                        let of = self
+                            .next_owner(fresh)
+                            .map_or_else(|| "a motion".to_owned(), |op| op_words(program, op));
+                        format!("at a point on the way of {of}: {}", deed_words(deed))
+                    }
                     (Says::Deed(_), Says::Deed(deed)) => {
                         format!("where a part restates what holds, {}", deed_words(deed))
                     }

@@ -168,7 +168,7 @@ impl<'a> Reference<'a> {
 
     fn lines(&self, is: &Told<'_>, differences: usize, given: &[ProgramFile]) -> Vec<String> {
         let read = format!(
-            "{} statements read, {} as compiled",
+            "{} statements read; the compiler writes {}",
             is.statements.len() + is.beyond,
             self.told.statements.len()
         );

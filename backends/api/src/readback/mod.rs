@@ -9,7 +9,7 @@
 //! * [`Judge`] says what is different between one op and one deed, with numbers.
 //! * [`Retrace`] takes a whole program's statements and finds the first that is not the next op, or a restatement of what holds
 //!   already at the beginning of a part.
-//! * [`essence`] is a statement without its layout: two texts of the same essence do the same.
+//! * [`essence()`] is a statement without its layout: two texts of the same essence do the same.
 
 mod essence;
 mod judge;

@@ -1,7 +1,7 @@
 //! A module's text in pieces: headers and ends of modules and routines, control flow, and statements up to their `;`.
 //!
 //! Pieces are found in one pass over the tokens and kept without them, since programs are long; who wants to know what a
-//! statement says reads its stretch of text again ([`super::sentence`]).
+//! statement says reads its stretch of text again ([`super::sentence()`]).
 
 use super::lex::{Kind, Lexer, Token};
 use std::collections::BTreeSet;
