@@ -14,24 +14,31 @@ const MOST_STALE: usize = 8;
 impl Differences {
     /// How the folder compares, as half a sentence.
     pub(super) fn in_words(&self) -> String {
-        let all = self.changes.len() + self.same;
         let files = |count: usize| match count {
             1 => "1 file".to_owned(),
             _ => format!("{count} files"),
         };
-        match self.changes.len() {
+        let is_stale = |change: &&FileChange| matches!(change.change, Change::Stale);
+        let stale = self.changes.iter().filter(is_stale).count();
+        let differ = self.changes.len() - stale;
+        let of_the_program = self.same + differ;
+        let written = match differ {
             0 => format!("the program in the folder is up to date ({})", files(self.same)),
-            1 if all == 1 => {
+            1 if of_the_program == 1 => {
                 "the file in the folder differs; run again without --check to write it".to_owned()
             }
             1 => format!(
                 "1 of {} in the folder differs; run again without --check to write it",
-                files(all)
+                files(of_the_program)
             ),
             count => format!(
                 "{count} of {} in the folder differ; run again without --check to write them",
-                files(all)
+                files(of_the_program)
             ),
+        };
+        match stale {
+            0 => written,
+            count => format!("{written}; {} of an earlier version to remove", files(count)),
         }
     }
 }

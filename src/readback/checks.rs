@@ -114,6 +114,11 @@ pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
             "it has more speeds or postures than any program of this compiler",
             "one too many",
         ),
+        Obstacle::SpeedUnknown(given) => (
+            given,
+            "how fast this motion goes is not said, or depends on the control",
+            "of unknown speed",
+        ),
     };
     let span = place_in(scene.given, scene.sources, given).unwrap_or(scene.job.name_span);
     Diagnostic::new(

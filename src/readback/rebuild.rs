@@ -36,6 +36,8 @@ pub(super) enum Obstacle {
     OtherFrame(usize),
     /// It says more postures or speeds than are compared.
     TooManyKinds(usize),
+    /// How fast a motion goes is not said, or in a way that depends on the control.
+    SpeedUnknown(usize),
 }
 
 /// Most entries of each table: no program of a job has so many.
@@ -317,14 +319,26 @@ impl Builder<'_> {
         let feed = match (asked.0, feed) {
             (Some(feed), _) => feed,
             (None, Some(feed)) => self.feed(feed, given)?,
+            (None, None) if self.moves(to) => return Err(Obstacle::SpeedUnknown(given)),
             (None, None) => FeedId(0),
         };
         let rate = match (asked.1, rate) {
             (Some(rate), _) => rate,
             (None, Some(rate)) => self.rate(rate, given)?,
+            (None, None) if self.turns(to) => return Err(Obstacle::SpeedUnknown(given)),
             (None, None) => RateId(0),
         };
         Ok((feed, rate))
+    }
+
+    /// Whether the tip is elsewhere at a pose than here.
+    fn moves(&self, to: Pose) -> bool {
+        self.at.is_some_and(|(from, _)| from != to.0)
+    }
+
+    /// Whether the blade is held otherwise at a pose than here.
+    fn turns(&self, to: Pose) -> bool {
+        self.at.is_some_and(|(_, held)| held != to.1)
     }
 
     /// The speeds that a pace comes to between here and a pose, as far as it decides them.

@@ -75,7 +75,7 @@ impl Writer {
         end
     }
 
-    /// A number without sign or exponent; an `E` behind it is a word of its own.
+    /// A number without sign; an exponent right behind it is part of it: `9E9` and `9E+09` are the same.
     fn number(&mut self, rest: &str) -> usize {
         let whole = digits(rest);
         let after = rest.get(whole..).unwrap_or_default();
@@ -96,7 +96,30 @@ impl Writer {
             self.out.push_str(fraction_digits);
         }
         self.last = Last::Number;
-        whole + fraction
+        let taken = whole + fraction;
+        taken + self.exponent(rest.get(taken..).unwrap_or_default())
+    }
+
+    /// The exponent of the number that was written last, if it has one.
+    fn exponent(&mut self, rest: &str) -> usize {
+        let Some(behind) = rest.strip_prefix(['e', 'E']) else {
+            return 0;
+        };
+        let (sign, power) = match behind.strip_prefix(['+', '-']) {
+            Some(power) => (1, power),
+            None => (0, behind),
+        };
+        let count = digits(power);
+        if count == 0 {
+            return 0;
+        }
+        self.out.push('E');
+        if behind.starts_with('-') {
+            self.out.push('-');
+        }
+        let power = power.get(..count).unwrap_or_default().trim_start_matches('0');
+        self.out.push_str(if power.is_empty() { "0" } else { power });
+        1 + sign + count
     }
 }
 
@@ -120,6 +143,7 @@ mod tests {
             ("$VEL.CP=0.20", "$vel.cp = .2"),
             ("N10 G1 X10. Y2.50 F100", "n010 g01x10y2.5f100.0"),
             ("MoveL p1, v10, fine, tool0;", "MOVEL p1,v10,fine,tool0 ;"),
+            ("[9E9,9E9]", "[9e+09, 9.0E+9]"),
         ] {
             assert_eq!(essence(one), essence(other));
         }
@@ -136,6 +160,8 @@ mod tests {
             ("\"a b\"", "\"ab\""),
             ("\"a\"", "\"A\""),
             ("X1 2", "X12"),
+            ("1E9", "1E8"),
+            ("1E-9", "1E9"),
         ] {
             assert_ne!(essence(one), essence(other), "{one} {other}");
         }
