@@ -371,6 +371,30 @@ fn programs_are_listed_by_name_and_run_only_to_be_described() {
     insta::assert_snapshot!(run.stdout);
 }
 
+/// One job and several, written and compared; with a target that has a reader nothing is said.
+#[test]
+fn a_program_that_nobody_reads_back_is_said_to_be_so() {
+    const NOTE: &str = "; not read back: target odd has no reader\n";
+    let all = said(0..ops());
+    let reply = format!(r#"{{"protocol":1,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);
+    let folder = with_program(&answering(&reply));
+    let odd = ["rib.vcut", "--target", "odd", "--backend-path", "."];
+    let list = "[[program]]\njobs = \"rib.vcut\"\ntarget = \"odd\"\noutput = \"out\"\n";
+    fs::write(folder.path().join("vcut.toml"), list).unwrap();
+    for args in [
+        &odd[..],
+        &[&odd[..], &["--check"]].concat(),
+        &["build", "--backend-path", "."],
+    ] {
+        let run = vcutc(folder.path(), args);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(run.stderr.contains(NOTE), "{}", run.stderr);
+    }
+    let run = vcutc(folder.path(), &["rib.vcut", "--target", "krl"]);
+    assert_eq!(run.code, Some(0));
+    assert!(!run.stderr.contains("not read back"), "{}", run.stderr);
+}
+
 /// The example in Python, as its own first lines say to use it.
 #[test]
 fn the_example_in_python_writes_a_statement_for_every_op() {
