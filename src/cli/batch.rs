@@ -8,7 +8,7 @@ use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::output::{Destination, Placed};
 use super::snapshot::{self, Fate, Made, NotReady, Ready};
-use super::{Exit, Targets, compile};
+use super::{Exit, Targets, compile, targets};
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{self, Request, RequestError, Typed};
 use crate::source::{SourceMap, Span};
@@ -263,9 +263,13 @@ fn remark(unit: &Unit, diagnostics: &[Diagnostic], made: &Made, fate: Fate) -> S
             Fate::Compare => format!("{target} nothing was compared"),
         };
     }
-    match &made.differences {
+    let said = match &made.differences {
         Some(found) => format!("{target} {}", found.in_words()),
         None => format!("program {target}"),
+    };
+    match targets::not_read_back(unit.backend) {
+        Some(unread) => format!("{said}; {unread}"),
+        None => said,
     }
 }
 

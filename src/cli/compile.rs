@@ -7,7 +7,7 @@ use super::files::Disk;
 use super::inner::{self, Progressed};
 use super::output::{Destination, Headings, Output};
 use super::progress::Progress;
-use super::snapshot::{self, Fate, Made, NotReady};
+use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
@@ -225,9 +225,14 @@ fn remark(product: &Product, is_wrong: bool, made: &Made) -> Option<String> {
             Fate::Write => "nothing was written".to_owned(),
             Fate::Compare => "nothing was compared".to_owned(),
         }),
-        (_, Some(found)) => Some(found.in_words()),
-        (Product::Verdict { remark }, None) if !is_wrong => remark.clone(),
-        (Product::Program(..) | Product::Inner(..) | Product::Verdict { .. }, None) => None,
+        (Product::Program(program), found) => {
+            let compared = found.as_ref().map(Differences::in_words);
+            let unread = targets::not_read_back(program.backend);
+            let words: Vec<String> = compared.into_iter().chain(unread).collect();
+            (!words.is_empty()).then(|| words.join("; "))
+        }
+        (Product::Verdict { remark }, _) if !is_wrong => remark.clone(),
+        (Product::Inner(..) | Product::Verdict { .. }, _) => None,
     }
 }
 

@@ -82,6 +82,12 @@ fn broken(id: &str, fault: &Fault) -> Failure {
     ))
 }
 
+/// What needs saying of a program that nobody here has read back.
+pub(super) fn not_read_back(backend: &dyn Backend) -> Option<String> {
+    let has_no_reader = backend.reader().is_none();
+    has_no_reader.then(|| format!("not read back: target {} has no reader", backend.id()))
+}
+
 /// The names of all targets in one line.
 pub(super) fn names(targets: &Targets) -> String {
     let names: Vec<_> = targets.iter().map(|backend| backend.id()).collect();

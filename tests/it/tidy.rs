@@ -361,6 +361,26 @@ fn files_that_are_cited_exist() {
     assert_none(&breaches);
 }
 
+/// What stands in square brackets as a letter, a hyphen and capitals is a source.
+#[test]
+fn sources_that_are_cited_are_among_the_references() {
+    let references = read("docs/references.md");
+    let mut found = Vec::new();
+    let mut count = 0;
+    for file in sources().iter().chain(&documents()) {
+        for (line, text) in (1..).zip(file.text.lines()) {
+            for key in cited_keys(text) {
+                count += 1;
+                if !references.contains(&format!("[{key}]")) {
+                    found.push(format!("{}:{line}: [{key}]", file.path));
+                }
+            }
+        }
+    }
+    assert!(count > 50, "{count} keys: are they looked for where they are?");
+    assert_none(&found);
+}
+
 fn assert_none(breaches: &[String]) {
     assert!(breaches.is_empty(), "\n{}\n", breaches.join("\n"));
 }
@@ -422,6 +442,24 @@ fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Paths below the root that stand in backquotes; patterns such as `docs/diagnostics/VCnnnn.md` are none.
+fn cited_keys(line: &str) -> impl Iterator<Item = &str> {
+    let brackets = line.split('[').skip(1).filter_map(|rest| rest.split(']').next());
+    brackets
+        .flat_map(|keys| keys.split(", "))
+        .filter(|key| match key.split_once('-') {
+            Some((maker, work)) => {
+                let is_capital = |letter: char| letter.is_ascii_uppercase();
+                maker.len() == 1
+                    && maker.starts_with(is_capital)
+                    && work.len() > 1
+                    && work
+                        .chars()
+                        .all(|letter| is_capital(letter) || letter.is_ascii_digit() || letter == 'b')
+            }
+            None => false,
+        })
+}
+
 fn cited_files(line: &str) -> impl Iterator<Item = &str> {
     let quoted = line.split('`').skip(1).step_by(2);
     quoted.filter(|text| {

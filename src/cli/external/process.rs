@@ -88,6 +88,8 @@ impl Conversation {
             Ok(_) => self.end(),
             Err(_) => None,
         };
+        // Whatever it did: what it has started may have outlived it.
+        stop(&mut self.child);
         let what = match (reply, end) {
             (Ok(reply), Some(status)) if status.success() => return Ok(reply),
             (Ok(_), Some(status)) => match status.code() {
@@ -97,7 +99,6 @@ impl Conversation {
             (Ok(_), None) => self.late(),
             (Err(what), _) => what,
         };
-        stop(&mut self.child);
         self.last_words();
         Err(Fault {
             said: last_lines(&self.said),
@@ -187,10 +188,11 @@ fn apart(command: &mut Command) {
 #[cfg(not(unix))]
 fn apart(_command: &mut Command) {}
 
-/// Stops a program and, where there are groups of processes, its children. The standard library signals single
-/// processes only, so the group is left to the command that every Unix has.
+/// Stops a program and, where there are groups of processes, its children, also those of a program that has ended: its
+/// number stays that of the group as long as one of them is left. The standard library signals single processes only, so the
+/// group is left to the command that every Unix has.
 fn stop(child: &mut Child) {
-    if cfg!(unix) && matches!(child.try_wait(), Ok(None)) {
+    if cfg!(unix) {
         let group = format!("-{}", child.id());
         let mut kill = Command::new("kill");
         kill.args(["-KILL", "--", &group]);

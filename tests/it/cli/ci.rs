@@ -2,7 +2,7 @@
 
 use super::jobs::RIB;
 use super::{folder, vcutc};
-use crate::repository::read;
+use crate::repository::{files, read, root};
 use std::fs;
 
 /// The blocks of a page in one language.
@@ -72,6 +72,33 @@ fn workflows_are_well_formed_and_their_commands_run() {
         }
     }
     assert_eq!(count, 4);
+}
+
+/// What the hook that checks jobs leaves out are the files that are none.
+#[test]
+fn the_hook_for_jobs_gets_jobs_only() {
+    let hooks = read(".pre-commit-hooks.yaml");
+    let page = read("docs/ci.md");
+    for text in [&hooks, &page] {
+        let exclude = text
+            .lines()
+            .find_map(|line| line.trim().strip_prefix("exclude: "));
+        let pattern = exclude.and_then(|said| said.split_whitespace().next());
+        assert_eq!(pattern, Some("(^|/)shop/"));
+    }
+    let is_left_out = |path: &str| path.split('/').rev().skip(1).any(|folder| folder == "shop");
+    let mut left_out = 0;
+    for file in files("examples", ".vcut") {
+        let is_job = file.text.lines().any(|line| line.starts_with("job \""));
+        assert_eq!(is_left_out(&file.path), !is_job, "{}", file.path);
+        left_out += usize::from(!is_job);
+    }
+    assert!(left_out > 0);
+    // What it leaves out would have failed.
+    let examples = root().join("examples");
+    let run = vcutc(&examples, &["check", "shop/blades.vcut"]);
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("VC0208"), "{}", run.stderr);
 }
 
 #[test]

@@ -163,7 +163,47 @@ fn a_program_that_hangs_is_stopped_with_its_children() {
     );
     assert_eq!(run.code, Some(2));
     assert!(run.stderr.contains("was not done within 1 s"), "{}", run.stderr);
-    let child = fs::read_to_string(folder.path().join("child")).unwrap();
+    assert_child_is_stopped(folder.path());
+}
+
+/// The program ends at once and its child keeps the pipe open: nobody can tell whether all of the reply is there.
+#[test]
+fn children_of_a_program_that_has_ended_are_stopped_with_the_time() {
+    let folder = with_program("#!/bin/sh\nsleep 1000 &\necho $! > child\necho '{}'\nexit 0\n");
+    let args = [
+        "rib.vcut",
+        "--target",
+        "odd",
+        "--backend-path",
+        ".",
+        "--backend-timeout",
+        "1",
+    ];
+    let run = vcutc(folder.path(), &args);
+    assert_eq!(run.code, Some(2));
+    assert!(run.stderr.contains("was not done within 1 s"), "{}", run.stderr);
+    assert_child_is_stopped(folder.path());
+}
+
+/// Whether the reply is good makes no difference: nothing of a program is left behind.
+#[test]
+fn children_of_a_program_that_has_answered_are_stopped() {
+    let all = said(0..ops());
+    let reply = format!(r#"{{"protocol":1,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);
+    let script = answering(&reply).replacen(
+        "#!/bin/sh\n",
+        "#!/bin/sh\nsleep 1000 < /dev/null > /dev/null 2>&1 &\necho $! > child\n",
+        1,
+    );
+    let folder = with_program(&script);
+    let run = compiled(folder.path());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_child_is_stopped(folder.path());
+}
+
+/// Waits for the end of the process whose number a program has written into `child`.
+fn assert_child_is_stopped(folder: &Path) {
+    let child = fs::read_to_string(folder.join("child")).unwrap();
     let runs = || {
         let stat = fs::read_to_string(format!("/proc/{}/stat", child.trim()));
         stat.is_ok_and(|stat| !stat.contains(") Z"))
@@ -329,6 +369,30 @@ fn programs_are_listed_by_name_and_run_only_to_be_described() {
     let run = vcutc(folder.path(), &["targets", "odd", "--backend-path", "."]);
     assert_eq!(run.code, Some(0));
     insta::assert_snapshot!(run.stdout);
+}
+
+/// One job and several, written and compared; with a target that has a reader nothing is said.
+#[test]
+fn a_program_that_nobody_reads_back_is_said_to_be_so() {
+    const NOTE: &str = "; not read back: target odd has no reader\n";
+    let all = said(0..ops());
+    let reply = format!(r#"{{"protocol":1,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);
+    let folder = with_program(&answering(&reply));
+    let odd = ["rib.vcut", "--target", "odd", "--backend-path", "."];
+    let list = "[[program]]\njobs = \"rib.vcut\"\ntarget = \"odd\"\noutput = \"out\"\n";
+    fs::write(folder.path().join("vcut.toml"), list).unwrap();
+    for args in [
+        &odd[..],
+        &[&odd[..], &["--check"]].concat(),
+        &["build", "--backend-path", "."],
+    ] {
+        let run = vcutc(folder.path(), args);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(run.stderr.contains(NOTE), "{}", run.stderr);
+    }
+    let run = vcutc(folder.path(), &["rib.vcut", "--target", "krl"]);
+    assert_eq!(run.code, Some(0));
+    assert!(!run.stderr.contains("not read back"), "{}", run.stderr);
 }
 
 /// The example in Python, as its own first lines say to use it.

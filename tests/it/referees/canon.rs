@@ -27,18 +27,43 @@ pub(super) enum Canon {
         /// On or off.
         on: bool,
     },
-    /// A number is put out: the sample configurations choose their kinematics by one.
-    Value {
-        /// The number of the output.
-        number: u32,
-        /// What is put out.
-        value: f64,
-    },
+    /// What X, Y, Z are is chosen.
+    Kinematics(Kinematics),
+    /// How motions end from here on is chosen.
+    Control(Control),
+    /// The blade is said to have this length, in mm.
+    ToolLength(f64),
     /// A wait, in s.
     Dwell(f64),
     /// The end of the program.
     End,
 }
+
+/// What X, Y, Z of a motion are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kinematics {
+    /// Positions of the axes.
+    Axes,
+    /// The place of the tip: tip control is on.
+    Tip,
+}
+
+/// How a motion ends that another follows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Control {
+    /// It stands still at its end.
+    ExactStop,
+    /// It goes through its end, and need not stand still.
+    ExactPath,
+    /// It may cut the corner.
+    Continuous {
+        /// By how much, in mm; infinite when not said.
+        tolerance: f64,
+    },
+}
+
+/// The output that chooses the kinematics, as in the sample configurations.
+pub(super) const KINEMATICS: u32 = 3;
 
 /// Functions that move nothing and switch nothing. The feed rate, which is followed, is not among them.
 const SETTINGS: &[&str] = &[
@@ -51,13 +76,11 @@ const SETTINGS: &[&str] = &[
     "SET_FEED_REFERENCE",
     "SET_G5X_OFFSET",
     "SET_G92_OFFSET",
-    "SET_MOTION_CONTROL_MODE",
     "SET_NAIVECAM_TOLERANCE",
     "SET_SPINDLE_MODE",
     "SET_XY_ROTATION",
     "STOP_SPINDLE_TURNING",
     "USE_LENGTH_UNITS",
-    "USE_TOOL_LENGTH_OFFSET",
 ];
 
 /// The largest motion that counts as none: half of what is printed.
@@ -78,6 +101,14 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
         let (name, arguments) = call.trim().split_once('(').ok_or_else(fault)?;
         let arguments = arguments.strip_suffix(')').ok_or_else(fault)?;
         if SETTINGS.contains(&name) {
+            continue;
+        }
+        if name == "SET_MOTION_CONTROL_MODE" {
+            canon.push(Canon::Control(control(arguments).ok_or_else(fault)?));
+            continue;
+        }
+        if name == "USE_TOOL_LENGTH_OFFSET" {
+            canon.push(Canon::ToolLength(tool_length(arguments).ok_or_else(fault)?));
             continue;
         }
         let numbers: Result<Vec<f64>, _> = arguments
@@ -101,10 +132,9 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
             }
             ("SET_AUX_OUTPUT_BIT" | "SET_MOTION_OUTPUT_BIT", &[number]) => output(number, true),
             ("CLEAR_AUX_OUTPUT_BIT" | "CLEAR_MOTION_OUTPUT_BIT", &[number]) => output(number, false),
-            ("SET_AUX_OUTPUT_VALUE" | "SET_MOTION_OUTPUT_VALUE", &[number, value]) => Canon::Value {
-                number: number as u32,
-                value,
-            },
+            ("SET_AUX_OUTPUT_VALUE", &[number, value]) if number == f64::from(KINEMATICS) => {
+                Canon::Kinematics(kinematics(value).ok_or_else(fault)?)
+            }
             ("DWELL", &[seconds]) => Canon::Dwell(seconds),
             ("PROGRAM_END", []) => Canon::End,
             _ => return Err(fault()),
@@ -116,4 +146,40 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
 fn output(number: f64, on: bool) -> Canon {
     let number = number as u32;
     Canon::Output { number, on }
+}
+
+/// The kinematics behind the value of their output.
+fn kinematics(value: f64) -> Option<Kinematics> {
+    match value {
+        0.0 => Some(Kinematics::Axes),
+        1.0 => Some(Kinematics::Tip),
+        _ => None,
+    }
+}
+
+/// A mode of control and, for one, its tolerance, where 0 stands for none.
+fn control(arguments: &str) -> Option<Control> {
+    match arguments.split_once(',') {
+        None if arguments == "CANON_EXACT_STOP" => Some(Control::ExactStop),
+        None if arguments == "CANON_EXACT_PATH" => Some(Control::ExactPath),
+        Some(("CANON_CONTINUOUS", tolerance)) => {
+            let said: f64 = tolerance.trim().parse().ok()?;
+            let tolerance = if said > 0.0 { said } else { f64::INFINITY };
+            Some(Control::Continuous { tolerance })
+        }
+        None | Some(_) => None,
+    }
+}
+
+/// The length of a tool that has nothing but a length: the third of nine numbers.
+fn tool_length(arguments: &str) -> Option<f64> {
+    let numbers: Result<Vec<f64>, _> = arguments
+        .split([',', ' '])
+        .filter(|text| !text.is_empty())
+        .map(str::parse)
+        .collect();
+    match numbers.ok()?[..] {
+        [0.0, 0.0, length, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0] => Some(length),
+        _ => None,
+    }
 }

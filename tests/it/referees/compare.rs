@@ -1,6 +1,6 @@
 //! An intermediate program against what an interpreter makes of the emitted text.
 
-use super::canon::{Canon, NOTHING, Position};
+use super::canon::{Canon, Control, Kinematics, NOTHING, Position};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, OpId, Ready, Switch};
 use vcutc_backend_api::motion::{ReachableProgram, pose_after};
@@ -19,11 +19,22 @@ pub(super) enum Deed {
         to: Position,
         /// How long it takes.
         seconds: f64,
+        /// How it ends.
+        end: End,
     },
     /// The generator is switched.
     Switch(u32, bool),
     /// A wait, in s.
     Wait(f64),
+}
+
+/// How a motion has to end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum End {
+    /// Standing still.
+    Exact,
+    /// As it likes: it leads through the air, and so does the next.
+    Free,
 }
 
 /// What has to happen by an intermediate program, with the op that asks for it. Waits for inputs are not among it: the
@@ -33,7 +44,8 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
     let cell = ir.cell.as_ref().unwrap();
     let mut at = None;
     let mut deeds = Vec::new();
-    for (id, op) in (0..).map(OpId).zip(&ir.ops) {
+    let followers = ir.ops.iter().skip(1).map(Some).chain([None]);
+    for ((id, op), next) in (0..).map(OpId).zip(&ir.ops).zip(followers) {
         let axes = program.axes_after(id).unwrap();
         let stroke = at.and_then(|from| Stroke::of(ir, from, &op.action));
         at = pose_after(at, &op.action);
@@ -44,6 +56,7 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
                     from: pose(cell, stroke.from.0, &before),
                     to: pose(cell, stroke.to.0, &axes),
                     seconds: stroke.duration().to_s(),
+                    end: end(&op.action, next.map(|next| &next.action)),
                 }
             }
             (Action::Home | Action::AxisTravel { .. }, None) => Deed::Axes(words(cell, &axes)),
@@ -60,6 +73,31 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
         deeds.push((id, deed));
     }
     deeds
+}
+
+/// How a motion has to end by what it is and what follows it. Cuts begin and end standing still, turns leave the tip where it
+/// is, outputs are switched where the motion before them ends, and an approach ends at the work.
+fn end(motion: &Action, next: Option<&Action>) -> End {
+    match (motion, next) {
+        (
+            Action::Travel { .. } | Action::Retract { .. },
+            Some(Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. }),
+        ) => End::Free,
+        (
+            Action::Home
+            | Action::Travel { .. }
+            | Action::AxisTravel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. }
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. },
+            _,
+        ) => End::Exact,
+    }
 }
 
 /// Axis values as words: each in the place of its letter, the other places at 0.
@@ -88,15 +126,21 @@ pub(super) struct Tolerance {
     pub(super) length: f64,
     /// Of angles, in degrees.
     pub(super) angle: f64,
+    /// By how much corners in the air may be cut, in mm.
+    pub(super) corners: f64,
+    /// The length of the blade, in mm.
+    pub(super) tool: f64,
 }
 
 impl Tolerance {
     /// Half a unit of the last decimal that the program has, and half of one that the interpreter prints.
-    pub(super) fn of_decimals(lengths: i32, angles: i32) -> Self {
+    pub(super) fn of_decimals(lengths: i32, angles: i32, corners: f64, tool: f64) -> Self {
         let half = |decimals: i32| 0.500_001 * 10.0_f64.powi(-decimals) + NOTHING;
         Self {
             length: half(lengths),
             angle: half(angles),
+            corners,
+            tool,
         }
     }
 
@@ -113,32 +157,109 @@ fn same_time(is: f64, should: f64) -> bool {
     (is - should).abs() <= 1e-3 * should + 1e-3
 }
 
-/// Whether a program does what it should, in the same order, and nothing else.
+/// What the machine is set to, and where it is. Nothing is known of either before a program says it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Machine {
+    at: Option<(Position, Kinematics)>,
+    kinematics: Option<Kinematics>,
+    control: Option<Control>,
+    tool: Option<f64>,
+    output: Option<(u32, bool)>,
+}
+
+impl Machine {
+    /// Whether it is set as a deed needs it: axis values mean the axes only without tip control, and tips the tip only with it,
+    /// for the right blade.
+    fn is_set_for(&self, deed: &Deed, within: Tolerance) -> bool {
+        let stands_still = self.control == Some(Control::ExactStop);
+        match deed {
+            Deed::Axes(_) => self.kinematics == Some(Kinematics::Axes) && stands_still,
+            Deed::Straight { end, .. } => {
+                let has_blade = self
+                    .tool
+                    .is_some_and(|tool| (tool - within.tool).abs() <= NOTHING);
+                let ends_well = match (end, self.control) {
+                    (End::Exact, _) => stands_still,
+                    (End::Free, Some(Control::Continuous { tolerance })) => tolerance <= within.corners,
+                    (End::Free, Some(Control::ExactStop | Control::ExactPath)) => true,
+                    (End::Free, None) => false,
+                };
+                self.kinematics == Some(Kinematics::Tip) && has_blade && ends_well
+            }
+            Deed::Switch(..) | Deed::Wait(_) => stands_still,
+        }
+    }
+
+    /// Whether this changes nothing but what the machine is set to. The length of the blade is a matter of the tip's kinematics,
+    /// so with these on the axes would jump at another.
+    fn takes_aside(&self, did: &Canon) -> bool {
+        match *did {
+            Canon::Feed { to, .. } | Canon::Traverse { to } => self.at.is_some_and(|(at, kinematics)| {
+                Some(kinematics) == self.kinematics
+                    && (0..6).all(|axis| (at[axis] - to[axis]).abs() <= NOTHING)
+            }),
+            // Outputs are off before a program begins.
+            Canon::Output { number, on } => self.output.map_or(!on, |known| known == (number, on)),
+            Canon::ToolLength(length) => {
+                self.kinematics == Some(Kinematics::Axes) || self.tool == Some(length)
+            }
+            Canon::Kinematics(_) | Canon::Control(_) => true,
+            Canon::End => self.kinematics == Some(Kinematics::Axes),
+            Canon::Dwell(_) => false,
+        }
+    }
+
+    fn after(self, did: &Canon) -> Self {
+        match *did {
+            Canon::Feed { to, .. } | Canon::Traverse { to } => Self {
+                at: self.kinematics.map(|kinematics| (to, kinematics)),
+                ..self
+            },
+            Canon::Output { number, on } => Self {
+                output: Some((number, on)),
+                ..self
+            },
+            Canon::Kinematics(kinematics) => Self {
+                kinematics: Some(kinematics),
+                ..self
+            },
+            Canon::Control(control) => Self {
+                control: Some(control),
+                ..self
+            },
+            Canon::ToolLength(length) => Self {
+                tool: Some(length),
+                ..self
+            },
+            Canon::Dwell(_) | Canon::End => self,
+        }
+    }
+}
+
+/// Whether a program does what it should, in the same order, and nothing else, with the machine set for it each time.
 ///
-/// A motion that leads nowhere and an output that is as it was already may be said again, as parts of a program do; `values`
-/// are what is put out to choose the kinematics.
+/// A motion that leads nowhere and an output that is as it was already may be said again, as parts of a program do.
 pub(super) fn compare(deeds: &[(OpId, Deed)], canon: &[Canon], within: Tolerance) -> Result<(), String> {
     let mut ahead = deeds.iter().copied().peekable();
-    let mut at: Option<Position> = None;
-    let mut output: Option<(u32, bool)> = None;
+    let mut machine = Machine::default();
     let mut has_ended = false;
     for did in canon {
         if has_ended {
             return Err(format!("{did:?} behind the end"));
         }
-        if let Some((_, deed)) = ahead.peek()
+        if let Some((id, deed)) = ahead.peek()
             && carries_out(did, deed, within)
         {
+            if !machine.is_set_for(deed, within) {
+                return Err(format!("{id:?}: {did:?} with {machine:?}"));
+            }
             let _ = ahead.next();
-        } else if !says_again(did, at.as_ref(), output) {
-            return Err(format!("{did:?} where {:?} is wanted", ahead.peek()));
+        } else if !machine.takes_aside(did) {
+            let wanted = ahead.peek();
+            return Err(format!("{did:?} with {machine:?} where {wanted:?} is wanted"));
         }
-        match *did {
-            Canon::Feed { to, .. } | Canon::Traverse { to } => at = Some(to),
-            Canon::Output { number, on } => output = Some((number, on)),
-            Canon::End => has_ended = true,
-            Canon::Dwell(_) | Canon::Value { .. } => {}
-        }
+        machine = machine.after(did);
+        has_ended = matches!(did, Canon::End);
     }
     match ahead.next() {
         Some(left) => Err(format!("{left:?} is never done")),
@@ -162,24 +283,14 @@ fn way(from: &Position, to: &Position) -> f64 {
 fn carries_out(did: &Canon, deed: &Deed, within: Tolerance) -> bool {
     match (did, deed) {
         (Canon::Feed { to, .. } | Canon::Traverse { to }, Deed::Axes(axes)) => within.is_there(to, axes),
-        (Canon::Feed { to: there, rate }, Deed::Straight { from, to, seconds }) => {
-            within.is_there(there, to) && same_time(way(from, to) / rate * 60.0, *seconds)
-        }
+        (
+            Canon::Feed { to: there, rate },
+            Deed::Straight {
+                from, to, seconds, ..
+            },
+        ) => within.is_there(there, to) && same_time(way(from, to) / rate * 60.0, *seconds),
         (Canon::Output { number, on }, Deed::Switch(output, state)) => (number, on) == (output, state),
         (Canon::Dwell(seconds), Deed::Wait(time)) => same_time(*seconds, *time),
         (_, _) => false,
-    }
-}
-
-/// Whether this changes nothing.
-fn says_again(did: &Canon, at: Option<&Position>, output: Option<(u32, bool)>) -> bool {
-    match did {
-        Canon::Feed { to, .. } | Canon::Traverse { to } => {
-            at.is_some_and(|at| (0..6).all(|axis| (at[axis] - to[axis]).abs() <= NOTHING))
-        }
-        // Outputs are off before a program begins.
-        Canon::Output { number, on } => output.map_or(!on, |known| known == (*number, *on)),
-        Canon::Value { .. } | Canon::End => true,
-        Canon::Dwell(_) => false,
     }
 }

@@ -1,7 +1,7 @@
 //! LinuxCNC's interpreter, `rs274`, as it comes with the Debian package linuxcnc-uspace.
 
-use super::canon::{self, Canon};
-use super::compare::{Deed, Tolerance, compare, deeds};
+use super::canon::{self, Canon, KINEMATICS};
+use super::compare::{Deed, End, Tolerance, compare, deeds};
 use super::is_there;
 use crate::pipeline::{compile_on, emit_for};
 use crate::shop::{Pairing, compiling, folder_for};
@@ -21,11 +21,10 @@ REMAP = M428 modalgroup=10 ngc=kinematics_of_axes
 REMAP = M429 modalgroup=10 ngc=kinematics_of_the_tip
 ";
 
-/// The output that chooses the kinematics there.
-const KINEMATICS: u32 = 3;
+/// The length of the blade, in mm. A program that relies on words from before its `G43` shows itself by it.
+const BLADE: f64 = 160.0;
 
-/// A blade of 160 mm; `rs274` counts in inches. A program that relies on words from before its `G43` shows itself by this
-/// length.
+/// That blade; `rs274` counts in inches.
 const TOOL_TABLE: &str = "T1 P1 Z6.299213\n";
 
 /// The subroutine behind one of the M codes.
@@ -123,13 +122,16 @@ fn translated((name, text): &(String, Vec<u8>), words: &[(&str, &str)]) -> (Stri
 /// Its programs are for this interpreter: nothing is replaced.
 #[test]
 fn programs_for_linuxcnc_do_what_they_should() {
-    judge_examples("linuxcnc", &[], Tolerance::of_decimals(3, 4));
+    judge_examples("linuxcnc", &[], Tolerance::of_decimals(3, 4, 2.0, BLADE));
 }
 
 /// Fanuc's words that LinuxCNC has not, with those that do the same there.
 const FANUC: &[(&str, &str)] = &[
-    // Tool-centre-point control: LinuxCNC leaves it to the kinematics, and needs the tool's length alone.
-    ("G43.4 H", "G43 H"),
+    // Tool-centre-point control: LinuxCNC has it as kinematics, beside the tool's length.
+    ("G43.4 H1", "G43 H1\nM429"),
+    ("G49", "M428\nG49"),
+    // Exact stop, which G61 is not there.
+    ("G61", "G61.1"),
     // A wait in seconds.
     ("G4 X", "G4 P"),
     // M codes of the builder, as the shop's options have them, for its output 3.
@@ -139,28 +141,34 @@ const FANUC: &[(&str, &str)] = &[
 
 #[test]
 fn programs_for_fanuc_do_what_they_should() {
-    judge_examples("fanuc", FANUC, Tolerance::of_decimals(3, 3));
+    // Its G64 says no tolerance.
+    judge_examples("fanuc", FANUC, Tolerance::of_decimals(3, 3, f64::INFINITY, BLADE));
 }
 
 /// A program written by hand in the way of the backend: home, tip control, a cut, a turn about the still tip.
 const BY_HAND: &str = "\
+M428
+G49
 G17 G21 G40 G80 G90 G94
 G61.1
 G93
 G53 G1 X300. Y200. Z-200. A0. B0. F6.
 M65 P3
 G53 G1 X310. Y200. Z-200. A-30. B40. F6.
-M429
 G43 H1
+M429
 M64 P3
 G4 P0.8
 G94
-G1 X10. Y20. Z30. A-30. B40. F6000.
+G64 P2 Q0
+G1 X10. Y20. Z50. A-30. B40. F3600.
+G61.1
+G1 Z30. F4800.
 G1 Y120. F12000.
 G93
 G1 A30. B-40. F30.
-G49
 M428
+G49
 G53 G1 X300. Y200. Z-200. A0. B0. F6.
 M65 P3
 M2
@@ -168,9 +176,18 @@ M2
 
 fn by_hand() -> Vec<(OpId, Deed)> {
     let home = [300.0, 200.0, -200.0, 0.0, 0.0, 0.0];
-    let straight = |from, to, seconds| Deed::Straight { from, to, seconds };
-    // The kinematics of the tip begin 50 mm above the first point.
-    let above = [10.0, 20.0, 80.0, -30.0, 40.0, 0.0];
+    let ending = |end| {
+        move |from, to, seconds| Deed::Straight {
+            from,
+            to,
+            seconds,
+            end,
+        }
+    };
+    let (through_air, straight) = (ending(End::Free), ending(End::Exact));
+    // The kinematics of the tip begin 30 mm above the first point.
+    let high = [10.0, 20.0, 80.0, -30.0, 40.0, 0.0];
+    let above = [10.0, 20.0, 50.0, -30.0, 40.0, 0.0];
     let begin = [10.0, 20.0, 30.0, -30.0, 40.0, 0.0];
     let end = [10.0, 120.0, 30.0, -30.0, 40.0, 0.0];
     let turned = [10.0, 120.0, 30.0, 30.0, -40.0, 0.0];
@@ -179,7 +196,8 @@ fn by_hand() -> Vec<(OpId, Deed)> {
         Deed::Axes([310.0, 200.0, -200.0, -30.0, 40.0, 0.0]),
         Deed::Switch(3, true),
         Deed::Wait(0.8),
-        straight(above, begin, 0.5),
+        through_air(high, above, 0.5),
+        straight(above, begin, 0.25),
         straight(begin, end, 0.5),
         straight(end, turned, 2.0),
         Deed::Axes(home),
@@ -190,7 +208,7 @@ fn by_hand() -> Vec<(OpId, Deed)> {
 
 fn judged(program: &str) -> Result<(), String> {
     let canon = carry_out(&[("by_hand.ngc".to_owned(), program.as_bytes().to_vec())])?;
-    compare(&by_hand(), &canon, Tolerance::of_decimals(3, 4))
+    compare(&by_hand(), &canon, Tolerance::of_decimals(3, 4, 2.0, BLADE))
 }
 
 #[test]
@@ -217,14 +235,42 @@ fn a_changed_program_is_judged_wrong() {
         ("M64 P3", "M65 P3"),
         ("G61.1", "G43.4 H1"),
         ("X10. Y20.", "X10. X20."),
+        // Tips as positions of the axes, positions of the axes as tips, the axes jumping by the length of a blade.
+        ("M429\n", ""),
+        ("M429", "M428"),
+        ("M428", "M429"),
+        ("M428\nG49\nG53", "G53"),
+        ("G43 H1\n", ""),
+        ("G43 H1\nM429", "M429\nG43 H1"),
+        ("M428\nG49\nG53", "G49\nM428\nG53"),
+        // Corners cut where the blade is at the work, or by more than the job allows.
+        ("G61.1\nG93", "G64 P5\nG93"),
+        ("G61.1\nG1 Z30.", "G1 Z30."),
+        ("G61.1\nG1 Z30.", "G61\nG1 Z30."),
+        ("G61.1\nG1 Z30. F4800.", "G61.1\nG1 Z30. F4800.\nG64 P2 Q0"),
+        ("G64 P2 Q0", "G64 P5 Q0"),
+        ("G64 P2 Q0", "G64"),
+    ];
+    let everywhere = [
+        ("M428\n", ""),
+        ("M429\n", ""),
+        ("G61.1", "G64 P5"),
+        ("G61.1\n", ""),
     ];
     for (from, to) in changes {
         let changed = BY_HAND.replacen(from, to, 1);
         assert_ne!(changed, BY_HAND);
         assert!(judged(&changed).is_err(), "{from} -> {to}");
     }
+    for (from, to) in everywhere {
+        let changed = BY_HAND.replace(from, to);
+        assert!(judged(&changed).is_err(), "{from} -> {to} everywhere");
+    }
     for (dropped, line) in lines.iter().enumerate() {
-        if [" F", "M64", "G4 ", "M2"].iter().any(|word| line.contains(word)) {
+        if [" F", "M64", "G4 ", "M2", "M429", "G43", "G61.1"]
+            .iter()
+            .any(|word| line.contains(word))
+        {
             let left = [&lines[..dropped], &lines[dropped + 1..]].concat().join("\n") + "\n";
             assert!(judged(&left).is_err(), "without {line}");
         }
