@@ -1,6 +1,7 @@
 //! Options and profiles that a dialect cannot take, or that it lacks.
 
 use crate::dialect::{Numbering, TcpCodes};
+use crate::given;
 use crate::options::{APPROXIMATION, DECIMALS, OFF_CODE, ON_CODE, READY_CODE, Settings, TCP_OFF, TCP_ON};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
@@ -12,6 +13,7 @@ pub(crate) fn check(cell: &Cell, settings: &Settings<'_>) -> Vec<BackendIssue> {
     tcp(settings, &mut issues);
     generator(cell, settings, &mut issues);
     blocks(settings, &mut issues);
+    given::check(cell, settings, &mut issues);
     profile(settings, &mut issues);
     issues
 }
@@ -68,9 +70,10 @@ fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let (dialect, codes) = (settings.dialect, settings.codes);
     let name = dialect.name();
+    let [on, off, ready] = dialect.builders_codes();
     let sides = [
-        (ON_CODE, codes.on, Switch::On, "on", "M50"),
-        (OFF_CODE, codes.off, Switch::Off, "off", "M51"),
+        (ON_CODE, codes.on, Switch::On, "on", on),
+        (OFF_CODE, codes.off, Switch::Off, "off", off),
     ];
     // One code alone would switch by two different ways.
     let any_given = !(codes.on.is_empty() && codes.off.is_empty());
@@ -97,7 +100,7 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
         Ready::Input(input) => {
             if codes.ready.is_empty() && dialect.await_input(input, 1).is_none() {
                 let why = format!(
-                    "{name} has no word that waits for input {input}; say which code does, such as `{READY_CODE} = \"M52\"`"
+                    "{name} has no word that waits for input {input}; say which code does, such as `{READY_CODE} = \"{ready}\"`"
                 );
                 issues.push(conflict(READY_CODE, why));
             }

@@ -62,6 +62,7 @@ mod blocks;
 mod body;
 mod demands;
 mod dialect;
+mod given;
 mod limits;
 mod names;
 mod options;

@@ -6,7 +6,7 @@
 //!
 //! The control has no words for digital signals: M codes are the builder's.
 
-use super::{AxisPace, Dialect, File};
+use super::{AxisPace, Dialect, File, standard_m};
 use crate::options::Settings;
 use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
@@ -126,6 +126,18 @@ impl Dialect for Fanuc {
 
     fn await_input(&self, _: u32, _: u32) -> Option<Vec<String>> {
         None
+    }
+
+    fn does_by_m(&self, code: u32) -> Option<&'static str> {
+        match code {
+            96 | 97 => Some("switches the interruption of programs"),
+            198 => Some("calls a program"),
+            _ => standard_m(code),
+        }
+    }
+
+    fn beside_m(&self) -> &'static str {
+        "PQS"
     }
 
     fn signals(&self) -> RangeInclusive<u32> {

@@ -10,7 +10,7 @@
 //! `R0` blocks stop at corners; there is no word that allows rounding at one of them and not at the next. M codes for outputs
 //! are the builder's.
 
-use super::{AxisPace, Comments, Dialect, FeedMode, File, Letters, Numbering, Signs};
+use super::{AxisPace, Comments, Dialect, FeedMode, File, Letters, Numbering, Signs, standard_m};
 use crate::options::Settings;
 use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
@@ -166,6 +166,18 @@ impl Dialect for Heidenhain {
 
     fn await_input(&self, input: u32, _: u32) -> Option<Vec<String>> {
         Some(vec![format!("FN 20: WAIT FOR I{input}==1")])
+    }
+
+    /// From M89 on the control's own codes say how it moves [H-620].
+    fn does_by_m(&self, code: u32) -> Option<&'static str> {
+        match code {
+            89..=149 | 197 | 198 => Some("changes how the control moves or calls"),
+            _ => standard_m(code),
+        }
+    }
+
+    fn beside_m(&self) -> &'static str {
+        ""
     }
 
     fn signals(&self) -> RangeInclusive<u32> {

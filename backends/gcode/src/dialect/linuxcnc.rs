@@ -12,7 +12,7 @@
 //!
 //! Checked with the interpreter of LinuxCNC 2.9.
 
-use super::{Comments, Dialect, File, Letters, TcpCodes};
+use super::{Comments, Dialect, File, Letters, TcpCodes, standard_m};
 use crate::options::Settings;
 use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
@@ -137,6 +137,28 @@ impl Dialect for LinuxCnc {
 
     fn await_input(&self, input: u32, _: u32) -> Option<Vec<String>> {
         Some(vec![format!("M66 P{input} L3 Q86400")])
+    }
+
+    /// [L-MC].
+    fn does_by_m(&self, code: u32) -> Option<&'static str> {
+        match code {
+            48..=53 => Some("switches the overrides"),
+            60 => Some("stops the program"),
+            61 => Some("changes the tool"),
+            62 | 63 | 67 => Some("switches with the next motion"),
+            70..=73 => Some("saves modes or brings them back"),
+            _ => standard_m(code),
+        }
+    }
+
+    /// `M68 E3 Q1` and `M66 E0 L0` are in the sample configurations.
+    fn beside_m(&self) -> &'static str {
+        "ELPQS"
+    }
+
+    /// M100 to M199 run what the integrator wrote.
+    fn builders_codes(&self) -> [&'static str; 3] {
+        ["M101", "M102", "M103"]
     }
 
     fn signals(&self) -> RangeInclusive<u32> {

@@ -262,6 +262,33 @@ pub(crate) trait Dialect: Sync {
     /// What waits until an input is high; none where only the builder of the machine knows. The label is new in its file.
     fn await_input(&self, input: u32, label: u32) -> Option<Vec<String>>;
 
+    /// What the control does by an M code of its own that a block of the job must not do, as the rest of a sentence; none for
+    /// the codes of builders.
+    fn does_by_m(&self, code: u32) -> Option<&'static str> {
+        standard_m(code)
+    }
+
+    /// Letters of the words that may stand beside an M code of the builder.
+    fn beside_m(&self) -> &'static str;
+
+    /// Codes as a builder may choose them, for messages: generator on, off, and ready.
+    fn builders_codes(&self) -> [&'static str; 3] {
+        ["M50", "M51", "M52"]
+    }
+
     /// Smallest and largest number of an output or input.
     fn signals(&self) -> RangeInclusive<u32>;
+}
+
+/// What M codes do on all controls.
+const fn standard_m(code: u32) -> Option<&'static str> {
+    match code {
+        0 | 1 => Some("stops the program"),
+        2 | 30 => Some("ends the program"),
+        6 => Some("changes the tool"),
+        19 => Some("turns the spindle"),
+        98 => Some("calls a program"),
+        99 => Some("ends a part"),
+        _ => None,
+    }
 }

@@ -7,7 +7,7 @@
 //! `SUPA` suppresses all offsets for one block, and with `D0` the words are positions of the axes. Outputs are written behind
 //! `STOPRE`, so that they switch where they stand and not when the block is read ahead.
 
-use super::{Comments, Dialect, File, Letters};
+use super::{Comments, Dialect, File, Letters, standard_m};
 use crate::options::Settings;
 use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
@@ -120,6 +120,18 @@ impl Dialect for Sinumerik {
         Some(vec![format!(
             "READY{label}: IF $A_IN[{input}]==FALSE GOTOB READY{label}"
         )])
+    }
+
+    fn does_by_m(&self, code: u32) -> Option<&'static str> {
+        match code {
+            17 => Some("ends a part"),
+            70 => Some("makes an axis of the spindle"),
+            _ => standard_m(code),
+        }
+    }
+
+    fn beside_m(&self) -> &'static str {
+        "HS"
     }
 
     fn signals(&self) -> RangeInclusive<u32> {

@@ -111,7 +111,7 @@ impl GivenBlock {
 pub(super) fn essences(lines: &[String], style: Style) -> Vec<String> {
     let codes = lines.iter().filter_map(|line| match style.code(line, 0) {
         Code::Is(_, code) => Some(essence(code)),
-        Code::None | Code::Open(_) | Code::Active(_) => None,
+        Code::None | Code::Broken(..) | Code::Active(_) => None,
     });
     codes.collect()
 }

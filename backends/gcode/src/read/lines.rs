@@ -14,6 +14,8 @@ pub(super) struct Span {
 pub(super) enum Style {
     /// `( )` and `;`, numbers behind N.
     Brackets,
+    /// `( )`, numbers behind N; `;` ends the block.
+    Blocks,
     /// `;`, numbers behind N. Brackets have a meaning.
     Semicolon,
     /// `;`, and lines that begin with `*`; every line has a number.
@@ -27,8 +29,8 @@ pub(super) enum Code<'t> {
     None,
     /// This, without number and outer comments.
     Is(Span, &'t str),
-    /// A comment begins and does not end.
-    Open(Span),
+    /// It is no line to the control, which expects this instead.
+    Broken(Span, &'static str),
     /// A comment that LinuxCNC carries out: it stops the program, runs another, or writes files.
     Active(Span),
 }
@@ -46,14 +48,33 @@ const ACTIVE: [&str; 8] = [
 ];
 
 /// The line that begins at a byte, and where the next one begins. None at the end of the text.
+///
+/// LF or CR LF ends a line. A CR alone ends it for some controls and is a blank to others, so it stays in the line, which it
+/// breaks.
 pub(super) fn line(text: &str, start: usize) -> Option<(&str, usize)> {
     let rest = text.get(start..)?;
     if rest.is_empty() {
         return None;
     }
-    let end = rest.bytes().position(|byte| matches!(byte, b'\n' | b'\r'));
-    let end = end.unwrap_or(rest.len());
-    Some((rest.get(..end)?, start + (end + 1).min(rest.len())))
+    let (line, next) = match rest.bytes().position(|byte| byte == b'\n') {
+        Some(end) => {
+            let line = rest.get(..end)?;
+            (line.strip_suffix('\r').unwrap_or(line), end + 1)
+        }
+        None => (rest, rest.len()),
+    };
+    Some((line, start + next))
+}
+
+/// What a line may not hold, whatever its dialect: controls end a text there, end the line, or stop.
+fn unprintable(line: &str) -> Option<&'static str> {
+    let control = line
+        .bytes()
+        .find(|byte| byte.is_ascii_control() && *byte != b'\t')?;
+    Some(match control {
+        b'\r' => "lines that end with LF or CR LF",
+        _ => "a line without control characters",
+    })
 }
 
 impl Style {
@@ -66,8 +87,10 @@ impl Style {
                 end: start + to,
             }
         };
-        let Some((from, to)) = self.bounds(line) else {
-            return Code::Open(whole());
+        let bounds = unprintable(line).map_or_else(|| self.bounds(line), Err);
+        let (from, to) = match bounds {
+            Ok(bounds) => bounds,
+            Err(expected) => return Code::Broken(whole(), expected),
         };
         if self == Self::Brackets && has_active_comment(line) {
             return Code::Active(whole());
@@ -77,8 +100,8 @@ impl Style {
         let behind = code.get(number..).unwrap_or_default();
         // A comment may stand between number and statement.
         let (inner, to) = match self.bounds(behind) {
-            Some((inner, end)) => (number + inner, number + end),
-            None => (number, code.len()),
+            Ok((inner, end)) => (number + inner, number + end),
+            Err(_) => (number, code.len()),
         };
         let code = code.get(inner..to).unwrap_or_default();
         let is_heading = self == Self::Numbered && code.starts_with('*');
@@ -92,9 +115,11 @@ impl Style {
         Code::Is(span, code)
     }
 
-    /// Where the first byte stands that is neither blank nor comment, and one past the last. None when a comment does not
-    /// end.
-    fn bounds(self, line: &str) -> Option<(usize, usize)> {
+    /// Where the first byte stands that is neither blank nor comment, and one past the last.
+    ///
+    /// # Errors
+    /// What is expected where a comment, or a block, does not end as it should.
+    fn bounds(self, line: &str) -> Result<(usize, usize), &'static str> {
         let mut first = line.len();
         let mut last = 0;
         let mut at = 0;
@@ -102,10 +127,16 @@ impl Style {
         let bytes = line.as_bytes();
         while let Some(&byte) = bytes.get(at) {
             match (self, byte) {
-                (Self::Brackets, b'(') => {
-                    let rest = bytes.get(at..)?;
-                    at += rest.iter().position(|&byte| byte == b')')? + 1;
+                (Self::Brackets | Self::Blocks, b'(') => {
+                    at += self.comment(line.get(at..).unwrap_or_default())?;
                     continue;
+                }
+                (Self::Blocks, b';') => {
+                    let behind = line.get(at + 1..).unwrap_or_default();
+                    if behind.trim_ascii().is_empty() {
+                        break;
+                    }
+                    return Err("the end of the line behind `;`, which ends a block");
                 }
                 (_, b';') if !quoted => break,
                 (Self::Semicolon, b'"') => quoted = !quoted,
@@ -117,15 +148,26 @@ impl Style {
             }
             at += 1;
         }
-        Some((first.min(last), last))
+        Ok((first.min(last), last))
+    }
+
+    /// How many bytes the comment in brackets takes with which a text begins.
+    fn comment(self, text: &str) -> Result<usize, &'static str> {
+        let length = text.find(')').ok_or("the end of the comment")?;
+        let inside = text.get(1..length).unwrap_or_default();
+        match self {
+            Self::Brackets | Self::Blocks if inside.contains('(') => Err("a comment without `(` inside"),
+            Self::Blocks if inside.contains(';') => Err("a comment without `;`, which ends a block"),
+            Self::Brackets | Self::Blocks | Self::Semicolon | Self::Numbered => Ok(length + 1),
+        }
     }
 
     /// How many bytes the number of a block takes.
     fn number(self, code: &str) -> usize {
         let digits_from = match self {
             Self::Numbered => 0,
-            Self::Brackets | Self::Semicolon if code.starts_with(['N', 'n']) => 1,
-            Self::Brackets | Self::Semicolon => return 0,
+            Self::Brackets | Self::Blocks | Self::Semicolon if code.starts_with(['N', 'n']) => 1,
+            Self::Brackets | Self::Blocks | Self::Semicolon => return 0,
         };
         let rest = code.get(digits_from..).unwrap_or_default();
         let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
@@ -160,6 +202,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    const STYLES: [Style; 4] = [Style::Brackets, Style::Blocks, Style::Semicolon, Style::Numbered];
+
     fn code(style: Style, line: &str) -> Option<&str> {
         match style.code(line, 0) {
             Code::None => None,
@@ -167,7 +211,7 @@ mod tests {
                 assert_eq!(line.get(span.start..span.end), Some(code));
                 Some(code)
             }
-            Code::Open(_) => Some("open"),
+            Code::Broken(_, expected) => Some(expected),
             Code::Active(_) => Some("active"),
         }
     }
@@ -182,7 +226,49 @@ mod tests {
             (Style::Brackets, "n010 G1 X1. (a) ; b", Some("G1 X1.")),
             (Style::Brackets, "(a) N10 (b) G1", Some("G1")),
             (Style::Brackets, "G1 (a) X1.", Some("G1 (a) X1.")),
-            (Style::Brackets, "G1 (a", Some("open")),
+            (Style::Brackets, "G1 (a", Some("the end of the comment")),
+            (
+                Style::Brackets,
+                "G1 (a (b) X1.",
+                Some("a comment without `(` inside"),
+            ),
+            (Style::Brackets, "G1 (a ; b) X1. ; (c", Some("G1 (a ; b) X1.")),
+            (
+                Style::Brackets,
+                "G1 X1. \u{0} Y2",
+                Some("a line without control characters"),
+            ),
+            (
+                Style::Brackets,
+                "G1 X1. ; \u{c}",
+                Some("a line without control characters"),
+            ),
+            (Style::Brackets, "G1\tX1.", Some("G1\tX1.")),
+            (Style::Blocks, "N10 G1 (a) X1. ; ", Some("G1 (a) X1.")),
+            (Style::Blocks, ";", None),
+            (
+                Style::Blocks,
+                "G1 X8. ; G0 Z-20.",
+                Some("the end of the line behind `;`, which ends a block"),
+            ),
+            (
+                Style::Blocks,
+                "; (words)",
+                Some("the end of the line behind `;`, which ends a block"),
+            ),
+            (
+                Style::Blocks,
+                "G1 (a; b) X8.",
+                Some("a comment without `;`, which ends a block"),
+            ),
+            (
+                Style::Blocks,
+                "G1 (a (b) X8.",
+                Some("a comment without `(` inside"),
+            ),
+            (Style::Blocks, "G1 (a", Some("the end of the comment")),
+            (Style::Semicolon, "G1 (a", Some("G1 (a")),
+            (Style::Numbered, "3 L (a) X+1", Some("L (a) X+1")),
             (Style::Brackets, "G1 ( Abort, now) X1", Some("active")),
             (Style::Brackets, "G1 X1 ;py,run()", Some("active")),
             (Style::Brackets, "(abort it)", None),
@@ -199,27 +285,40 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_as_every_system_ends_them() {
-        let text = "a\r\nb\rc\n";
+    fn lines_end_with_lf_or_cr_lf() {
+        let text = "a\r\n\r\nb\nc\r";
         let mut lines = Vec::new();
         let mut at = 0;
         while let Some((line, next)) = line(text, at) {
             lines.push(line);
             at = next;
         }
-        assert_eq!(lines, ["a", "", "b", "c"]);
+        assert_eq!(lines, ["a", "", "b", "c\r"]);
+    }
+
+    #[test]
+    fn a_cr_alone_is_read_in_two_ways() {
+        for style in STYLES {
+            for line in ["; off\rG1 X8.7", "G1 X8.7\rG1 X9", "G1 X8.7\r", "(a\r)", "\r"] {
+                assert_eq!(
+                    code(style, line),
+                    Some("lines that end with LF or CR LF"),
+                    "{line:?}"
+                );
+            }
+        }
     }
 
     proptest! {
         #[test]
         fn every_line_has_an_answer(text in any::<String>()) {
-            for style in [Style::Brackets, Style::Semicolon, Style::Numbered] {
+            for style in STYLES {
                 let mut at = 0;
                 while let Some((one, next)) = line(&text, at) {
                     prop_assert!(next > at);
                     match style.code(one, at) {
                         Code::Is(span, code) => prop_assert_eq!(text.get(span.start..span.end), Some(code)),
-                        Code::Open(span) | Code::Active(span) => prop_assert!(text.get(span.start..span.end).is_some()),
+                        Code::Broken(span, _) | Code::Active(span) => prop_assert!(text.get(span.start..span.end).is_some()),
                         Code::None => {}
                     }
                     at = next;

@@ -41,7 +41,7 @@ impl<'t> Script<'t> {
             let (span, code) = match code {
                 Code::None => continue,
                 Code::Is(span, code) => (span, Ok(code)),
-                Code::Open(span) => (span, Err(Trouble::Expected("the end of the comment".to_owned()))),
+                Code::Broken(span, expected) => (span, Err(Trouble::Expected(expected.to_owned()))),
                 Code::Active(span) => (span, Err(Trouble::Unknown)),
             };
             return Some(Line {
@@ -59,6 +59,14 @@ impl<'t> Script<'t> {
             start: byte(span.start),
             end: byte(span.end),
         }
+    }
+
+    /// Whether nothing stands in front of a place, comments and numbers neither.
+    pub(super) fn is_first(&self, place: Place) -> bool {
+        let before = usize::try_from(place.start)
+            .ok()
+            .and_then(|start| self.text.get(..start));
+        before.is_some_and(|before| before.trim_ascii().is_empty())
     }
 
     pub(super) fn end(&self) -> Place {

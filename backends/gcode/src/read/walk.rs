@@ -165,7 +165,7 @@ impl<'t> Walk<'t, '_> {
             Ok(_) if line.length > longest => Err(Trouble::Expected(format!(
                 "a line of at most {longest} characters"
             ))),
-            Ok(code) => self.understood(script, code),
+            Ok(code) => self.understood(script, line.place, code),
         };
         let is_main = self.stack.len() == 1;
         let is_setting = matches!(&understood, Ok((Says::Setting, _)));
@@ -203,7 +203,7 @@ impl<'t> Walk<'t, '_> {
         }
     }
 
-    fn understood(&mut self, script: usize, code: &'t str) -> Result<(Says, Onward), Trouble> {
+    fn understood(&mut self, script: usize, place: Place, code: &'t str) -> Result<(Says, Onward), Trouble> {
         let order = match self.given.heed(code) {
             Found::Part(Role::TcpOn | Role::TcpOff) => {
                 self.control.switch_tcp(None);
@@ -214,8 +214,9 @@ impl<'t> Walk<'t, '_> {
             Found::Nothing => self.tongue.order(code, self.context)?,
         };
         let begun = self.scripts.get_mut(script).map(|script| {
-            let before = script.begun;
-            script.begun |= order.flow != Some(Flow::Tape);
+            let is_tape = order.flow == Some(Flow::Tape);
+            let before = script.begun || (is_tape && !script.is_first(place));
+            script.begun |= !is_tape;
             before
         });
         let says = self.control.carry_out(&order)?;
@@ -271,7 +272,7 @@ impl<'t> Walk<'t, '_> {
                         self.control.restart();
                         Ok((Says::PartBegins, Onward::Enter(to)))
                     }
-                    None => Err(Trouble::Expected("the name of a part, called once".to_owned())),
+                    None => Err(Trouble::Expected(self.tongue.callable(routine))),
                 }
             }
             Flow::Return if !is_main => Ok((Says::Setting, Onward::Leave)),

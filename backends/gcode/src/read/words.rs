@@ -55,12 +55,14 @@ impl<'t> Cursor<'t> {
         loop {
             match (self.byte(self.at)?, self.style) {
                 (b' ' | b'\t', _) => self.at += 1,
-                (b'(', Style::Brackets) => {
+                (b'(', Style::Brackets | Style::Blocks) => {
                     let rest = self.text.as_bytes().get(self.at..)?;
                     let length = rest.iter().position(|&byte| byte == b')');
                     self.at += length.map_or(rest.len(), |at| at + 1);
                 }
-                (byte, Style::Brackets | Style::Semicolon | Style::Numbered) => return Some(byte),
+                (byte, Style::Brackets | Style::Blocks | Style::Semicolon | Style::Numbered) => {
+                    return Some(byte);
+                }
             }
         }
     }

@@ -9,7 +9,7 @@ use vcutc_backend_api::testkit::{Recipe, five_axis_samples};
 use vcutc_backend_api::units::{Duration, Length};
 
 /// The program of the snapshots.
-fn one_cut() -> ReachableProgram {
+pub(crate) fn one_cut() -> ReachableProgram {
     let recipe = Recipe {
         name: "Rib 12".to_owned(),
         layers: 1,
@@ -39,7 +39,7 @@ fn linuxcnc_in_small_letters_without_blanks_and_words_that_stay() {
            g43 h1\n\
            m429\n\
            g94\n\
-           x3.82 (over (here) y-15.858 z60 f30000\n\
+           x3.82 (over ; here) y-15.858 z60 f30000\n\
            z45.6\n\
            x-.475 y66.102 f12000\n\
            g93\n\
@@ -107,7 +107,11 @@ fn heidenhain_with_words_that_stay() {
 }
 
 /// The text of the place where a mutant departs.
-fn departs(dialect: &'static str, more: &[Given], edit: impl Fn(&str) -> String) -> (String, DepartureKind) {
+pub(crate) fn departs(
+    dialect: &'static str,
+    more: &[Given],
+    edit: impl Fn(&str) -> String,
+) -> (String, DepartureKind) {
     let program = one_cut();
     let mut files = program_files(&emit(&program, dialect, more));
     files[0].text = edit(&files[0].text);
@@ -174,6 +178,13 @@ fn what_no_program_has_is_not_understood() {
                 "G43.4 H1",
                 "S1000",
                 "é",
+                "; on the way\rG1 X8.7 F12000",
+                "(on\rthe way)",
+                "(on (the) way)",
+                "(on the way",
+                "G1 X8.7 % F12000",
+                "(\u{0})",
+                "; \u{c}",
             ],
         ),
         (
@@ -204,6 +215,11 @@ fn what_no_program_has_is_not_understood() {
                 "M30",
                 "G41 D1",
                 "G9",
+                "; G0 Z-20.",
+                "G1 X8. F100. ; G0 Z-20.",
+                "(on; the way)",
+                "(on (the) way)",
+                "(on\rthe way)",
             ],
         ),
         (
@@ -240,6 +256,8 @@ fn what_no_program_has_is_not_understood() {
                 "SUPA G1 X0 F1 D0",
                 "G4 S1",
                 "NO_SUCH_PART",
+                "(on the way)",
+                "; on the way\rG1 X8.7 F12000",
             ],
         ),
         (
@@ -270,6 +288,8 @@ fn what_no_program_has_is_not_understood() {
                 "LN X+0 TX+1",
                 "L X+1 M3 M8 M9",
                 "M30",
+                "(on the way)",
+                "* on the way\r17 L X+8.7 F12000",
             ],
         ),
     ];

@@ -9,6 +9,7 @@
 mod by_hand;
 mod dialect;
 mod hostile;
+mod lines;
 mod mutations;
 mod read_back;
 mod refusals;

@@ -83,7 +83,7 @@ fn codes_that_only_the_builder_knows() {
         ("heidenhain", vec![]),
     ] {
         assert_eq!(told(&issues(waits(), &needed(dialect))), should, "{dialect}");
-        let given = with(dialect, &[("ready_code", block("M52"))]);
+        let given = with(dialect, &[("ready_code", block("M152"))]);
         assert_eq!(issues(waits(), &given), [], "{dialect}");
         // This machine is ready after a time.
         assert_eq!(
@@ -115,6 +115,156 @@ fn codes_that_are_no_block() {
         told(&issues(recipe().program(), &with("fanuc", &[("on_code", two)]))),
         ["on_code"]
     );
+}
+
+/// Why the option of that name is refused, the only one that is.
+fn refused(dialect: &'static str, key: &'static str, texts: &[&str]) -> Option<String> {
+    let ready = cell(CellRecipe {
+        ready: Ready::Input(7),
+        ..CellRecipe::five_axis()
+    });
+    let lines = texts.iter().map(|&text| text.to_owned()).collect();
+    let mut given = vec![
+        ("ready_code", block("M152")),
+        ("on_code", block("M150")),
+        ("off_code", block("M151")),
+    ];
+    let needed = needed(dialect);
+    given.retain(|(key, _)| needed.iter().all(|(other, _)| key != other));
+    given.extend(needed);
+    given.retain(|(other, _)| *other != key);
+    given.push((key, OptionValue::Lines(lines)));
+    match issues(ready, &given).as_slice() {
+        [] => None,
+        [BackendIssue::OptionConflict { key: told, why }] if *told == key => Some(why.clone()),
+        more => panic!("{dialect} {key} {texts:?}: {more:?}"),
+    }
+}
+
+/// The options that a dialect takes.
+fn options_of(dialect: &str) -> &'static [&'static str] {
+    match dialect {
+        "linuxcnc" => &["tcp_on", "tcp_off", "on_code", "off_code", "ready_code"],
+        _ => &["on_code", "off_code", "ready_code"],
+    }
+}
+
+#[test]
+fn codes_that_could_do_more_than_switch() {
+    for dialect in DIALECTS {
+        for key in options_of(dialect) {
+            for text in [
+                "G0 Z-100",
+                "G91 M50",
+                "M50 G91",
+                "G0 X5",
+                "L X+0 M91",
+                "L X+0",
+                "/M50",
+                "(M50)",
+                "M429 (x",
+                "M429 (x)",
+                "M50 ; on",
+                "M50 M60",
+                "M50.1",
+                "M50 X1",
+                "M50 F1",
+                "N10 M50",
+                "M1=50",
+                "M#1",
+                "S100",
+                "%",
+                "O100",
+                "o<x> call",
+                "CALL PGM X",
+                "TRAFOOF",
+                "US_ON",
+                "$A_OUT[3]=1",
+            ] {
+                let why = refused(dialect, key, &[text]).unwrap_or_default();
+                assert!(why.contains("not one M code"), "{dialect} {key} {text}: {why}");
+            }
+            for text in ["M0", "M00", "M01", "M2", "M30", "M6", "M06", "M19", "M98", "M99"] {
+                let why = refused(dialect, key, &[text]).unwrap_or_default();
+                assert!(why.contains(" on "), "{dialect} {key} {text}: {why}");
+            }
+            for text in ["M250", "m0250", " M 250 "] {
+                assert_eq!(refused(dialect, key, &[text]), None, "{dialect} {key} {text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn codes_and_words_that_a_dialect_has_for_itself() {
+    for (dialect, fits, does_not) in [
+        (
+            "linuxcnc",
+            vec!["M101 P1 Q2", "M68 E3 Q1", "M3 S1000"],
+            vec!["M62 P3", "M50", "M60", "M72", "M64 P3", "M66 P3 L3", "M101 H1"],
+        ),
+        (
+            "fanuc",
+            vec!["M101 P1", "M3 S1000"],
+            vec!["M198 P1", "M96 P1", "M50 H2"],
+        ),
+        ("sinumerik", vec!["M101 H5"], vec!["M17", "M70", "M101 P2"]),
+        (
+            "heidenhain",
+            vec!["M36", "M250"],
+            vec!["M89", "M91", "M127", "M128", "M140", "M3 S1000"],
+        ),
+    ] {
+        for text in fits {
+            assert_eq!(refused(dialect, "on_code", &[text]), None, "{dialect} {text}");
+        }
+        for text in does_not {
+            assert!(refused(dialect, "on_code", &[text]).is_some(), "{dialect} {text}");
+        }
+    }
+    // The sample configurations switch the kinematics so.
+    let samples = ["M68 E3 Q1", "M66 E0 L0"];
+    assert_eq!(refused("linuxcnc", "tcp_on", &samples), None);
+}
+
+#[test]
+fn codes_that_cannot_be_told_apart() {
+    for dialect in DIALECTS {
+        let [on, off] = match dialect {
+            "fanuc" | "heidenhain" => ["M50", "M051"],
+            _ => ["M150", "M0151"],
+        };
+        for (key, text) in [("off_code", on), ("ready_code", on), ("ready_code", off)] {
+            let why = refused(dialect, key, &[text]).unwrap_or_default();
+            assert!(why.contains("have to differ"), "{dialect} {key} {text}: {why}");
+        }
+    }
+    let same = refused("linuxcnc", "tcp_off", &["M429"]).unwrap_or_default();
+    assert!(same.contains("`tcp_on` as well"), "{same}");
+    let longer = refused("linuxcnc", "tcp_off", &["M427", "M429"]);
+    assert!(longer.is_some());
+    let generator = refused("linuxcnc", "on_code", &["M428"]).unwrap_or_default();
+    assert!(generator.contains("`tcp_off` as well"), "{generator}");
+
+    let shared = |line: &str| OptionValue::Lines(vec![line.to_owned(), "M66 E0 L0".to_owned()]);
+    let given = [("tcp_on", shared("M68 E3 Q1")), ("tcp_off", shared("M68 E3 Q0"))];
+    assert_eq!(issues(recipe().program(), &with("linuxcnc", &given)), []);
+
+    // The program switches output 12 by this.
+    let own = with("linuxcnc", &[("tcp_on", block("M64 p012"))]);
+    assert_eq!(told(&issues(recipe().program(), &own)), ["tcp_on"]);
+}
+
+/// What messages offer is taken.
+#[test]
+fn codes_that_are_offered() {
+    for dialect in DIALECTS {
+        for key in options_of(dialect) {
+            let why = refused(dialect, key, &["G0 X5"]).unwrap_or_default();
+            let code = why.split('`').nth(3).unwrap_or_default();
+            assert_eq!(refused(dialect, key, &[code]), None, "{dialect} {key}: {why}");
+        }
+    }
 }
 
 #[test]

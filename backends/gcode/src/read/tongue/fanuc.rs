@@ -1,7 +1,7 @@
 //! Fanuc 30i, 31i, 32i and 0i-MF.
 //!
 //! A coordinate without a point may be read in thousandths of a mm, as a parameter says [F-30], so it is refused. One M code is
-//! what a block may have without other parameters.
+//! what a block may have without other parameters. `;` is the end of a block, as the screen shows it, and no comment.
 
 use super::{Heads, Tongue, WorkOffset, american_g, seconds};
 use crate::read::lines::{self, Code, Style};
@@ -18,7 +18,7 @@ const MILLISECONDS: f64 = 1000.0;
 
 impl Tongue for Fanuc {
     fn style(&self) -> Style {
-        Style::Brackets
+        Style::Blocks
     }
 
     fn habits(&self) -> &'static [(Habit, &'static str)] {
@@ -53,7 +53,7 @@ impl Tongue for Fanuc {
                 Code::None => {}
                 Code::Is(_, "%") => {}
                 Code::Is(_, code) => return head(code),
-                Code::Open(_) | Code::Active(_) => return None,
+                Code::Broken(..) | Code::Active(_) => return None,
             }
             at = next;
         }
@@ -92,7 +92,7 @@ impl Tongue for Fanuc {
 
 /// `O1234`.
 fn head(code: &str) -> Option<Routine<'static>> {
-    let mut cursor = Cursor::new(code, Style::Brackets);
+    let mut cursor = Cursor::new(code, Style::Blocks);
     let number = match cursor.letter() {
         Some(b'O') => cursor.number()?.whole()?,
         Some(_) | None => return None,

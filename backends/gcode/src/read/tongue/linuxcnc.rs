@@ -3,7 +3,7 @@
 //! What switches the kinematics is given by the job ([`codes`](crate::read::codes)), so nothing here says that the tip is
 //! controlled. `G61` stops at corners only, and `M62` switches with the next motion, so neither is what is needed.
 
-use super::{Heads, Tongue, WorkOffset, american_g, rounding, seconds, stem};
+use super::{Heads, Tongue, WorkOffset, american_g, rounding, seconds};
 use crate::read::lines::Style;
 use crate::read::order::{
     Act, Context, Coordinates, Flow, Habit, Mode, Order, Parsed, Routine, Trouble, expected,
@@ -19,6 +19,9 @@ const FOR_EVER: f64 = 86_400.0;
 
 /// `M66` waits until the input is high.
 const HIGH: u32 = 3;
+
+/// What the files of parts end with.
+const EXTENSION: &str = ".ngc";
 
 impl Tongue for LinuxCnc {
     fn style(&self) -> Style {
@@ -49,8 +52,21 @@ impl Tongue for LinuxCnc {
         ["M2", "endsub"]
     }
 
+    /// The control looks for the name in small letters, whichever the call has [L-MC], on a disk that tells them apart.
     fn routine<'t>(&self, file: &'t str, _: &'t str) -> Option<Routine<'t>> {
-        Some(Routine::Name(stem(file)))
+        let name = file.strip_suffix(EXTENSION)?;
+        let is_found = !name.bytes().any(|byte| byte.is_ascii_uppercase());
+        is_found.then_some(Routine::Name(name))
+    }
+
+    fn callable(&self, routine: Routine<'_>) -> String {
+        match routine {
+            Routine::Name(name) => format!(
+                "the name of a part, called once, in the file `{}{EXTENSION}`",
+                name.to_ascii_lowercase()
+            ),
+            Routine::Number(number) => format!("the name of a part and not {number}"),
+        }
     }
 
     fn order<'t>(&self, code: &'t str, context: Context<'_>) -> Parsed<Order<'t>> {

@@ -48,6 +48,11 @@ pub(super) trait Tongue: Sync {
     /// The name under which a file is called.
     fn routine<'t>(&self, file: &'t str, text: &'t str) -> Option<Routine<'t>>;
 
+    /// What can be called by a name for which there is no part, for messages.
+    fn callable(&self, _: Routine<'_>) -> String {
+        "the name of a part, called once".to_owned()
+    }
+
     /// What a statement orders.
     fn order<'t>(&self, code: &'t str, context: Context<'_>) -> Parsed<Order<'t>>;
 }

@@ -1,0 +1,223 @@
+//! Blocks that a job gives because only the builder of the machine knows them: what may stand in one.
+//!
+//! They are copied into the program and taken at their word when it is read back, so they must not be able to do what the
+//! program itself is about: move, change modes, stop, end, call. One M code can do so as well, if the builder wants it to; but
+//! not by a slip.
+
+use crate::dialect::Dialect;
+use crate::options::{OFF_CODE, ON_CODE, READY_CODE, Settings, TCP_OFF, TCP_ON};
+use vcutc_backend_api::backend::BackendIssue;
+use vcutc_backend_api::ir::{Cell, Ready, Switch};
+use vcutc_backend_api::readback::essence;
+
+/// What a block of the job is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    /// To switch the kinematics.
+    Kinematics,
+    /// To switch the generator, or to wait for it.
+    Generator,
+}
+
+/// The lines of an option.
+struct Given<'p> {
+    key: &'static str,
+    purpose: Purpose,
+    example: &'static str,
+    lines: &'p [String],
+}
+
+/// What is wrong with the blocks of a job, each by itself and beside the others and what the program writes. Options of which
+/// something is told already are left out: what is no line at all is told as that.
+pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
+    let dialect = settings.dialect;
+    let own = own_blocks(cell, settings);
+    let all = blocks(settings);
+    for (place, given) in all.iter().enumerate() {
+        let is_told = |key| issues.iter().any(|issue| is_about(issue, key));
+        if is_told(given.key) {
+            continue;
+        }
+        let unlike = |other: &&Given<'_>| !is_told_apart(given, other);
+        let fault = given
+            .lines
+            .iter()
+            .find_map(|line| unfit(line, given, dialect))
+            .or_else(|| {
+                let line = given.lines.iter().find(|line| own.contains(&essence(line)))?;
+                Some(format!(
+                    "`{line}` is what the program writes for an output or input of the machine; give another code"
+                ))
+            })
+            .or_else(|| {
+                let mut others = all.iter().take(place).filter(|other| !is_told(other.key));
+                let other = others.find(unlike)?;
+                Some(format!(
+                    "it is `{}` as well, and the two have to differ; give another code",
+                    other.key
+                ))
+            });
+        if let Some(why) = fault {
+            let key = given.key;
+            issues.push(BackendIssue::OptionConflict { key, why });
+        }
+    }
+}
+
+fn is_about(issue: &BackendIssue, option: &str) -> bool {
+    matches!(issue, BackendIssue::OptionConflict { key, .. } if *key == option)
+}
+
+fn blocks<'p>(settings: &Settings<'p>) -> [Given<'p>; 5] {
+    let (codes, [on, off, ready]) = (settings.codes, settings.dialect.builders_codes());
+    let given = |key, purpose, example, lines| Given {
+        key,
+        purpose,
+        example,
+        lines,
+    };
+    [
+        given(TCP_ON, Purpose::Kinematics, "M429", codes.tcp_on),
+        given(TCP_OFF, Purpose::Kinematics, "M428", codes.tcp_off),
+        given(ON_CODE, Purpose::Generator, on, codes.on),
+        given(OFF_CODE, Purpose::Generator, off, codes.off),
+        given(READY_CODE, Purpose::Generator, ready, codes.ready),
+    ]
+}
+
+/// The blocks that the program writes for outputs and inputs, without layout.
+fn own_blocks(cell: &Cell, settings: &Settings<'_>) -> Vec<String> {
+    let (dialect, codes) = (settings.dialect, settings.codes);
+    let mut own = Vec::new();
+    for (given, state) in [(codes.on, Switch::On), (codes.off, Switch::Off)] {
+        if given.is_empty() {
+            own.extend(cell.ultrasonic.and_then(|output| dialect.switch(output, state)));
+        }
+    }
+    match cell.ready {
+        Ready::Input(input) if codes.ready.is_empty() => own.extend(dialect.await_input(input, 1)),
+        Ready::Input(_) | Ready::After(_) => {}
+    }
+    own.iter().flatten().map(|line| essence(line)).collect()
+}
+
+/// Why a line is no block of a builder.
+fn unfit(line: &str, given: &Given<'_>, dialect: &dyn Dialect) -> Option<String> {
+    let example = given.example;
+    let beside = dialect.beside_m();
+    let Some(code) = m_code(line, beside) else {
+        let words: Vec<String> = beside.chars().map(String::from).collect();
+        let words = match words.as_slice() {
+            [] => "without other words".to_owned(),
+            words => format!("with no other words than {}", words.join(", ")),
+        };
+        return Some(format!(
+            "`{line}` is not one M code of the machine's builder, such as `{example}`, {words}"
+        ));
+    };
+    let does = dialect.does_by_m(code).or_else(|| match given.purpose {
+        Purpose::Kinematics => None,
+        Purpose::Generator => is_for_signals(code, dialect)
+            .then_some("is a word of its own for outputs and inputs, which the machine's block gives"),
+    });
+    does.map(|does| {
+        format!(
+            "M{code} {does} on {}; give a code of the machine's builder, such as `{example}`",
+            dialect.name()
+        )
+    })
+}
+
+/// Whether an M code is the dialect's own for an output or input.
+fn is_for_signals(code: u32, dialect: &dyn Dialect) -> bool {
+    let signal = *dialect.signals().start();
+    let own = [
+        dialect.switch(signal, Switch::On),
+        dialect.switch(signal, Switch::Off),
+        dialect.await_input(signal, 1),
+    ];
+    let mut lines = own.iter().flatten().flatten();
+    lines.any(|line| line.split(' ').next() == Some(format!("M{code}").as_str()))
+}
+
+/// The number of the only M code of a line that has, besides, only words of some letters, each once.
+fn m_code(line: &str, beside: &str) -> Option<u32> {
+    let mut rest = line.trim_ascii();
+    let mut seen = String::new();
+    let mut code = None;
+    while let Some(letter) = rest.chars().next() {
+        let letter = letter.to_ascii_uppercase();
+        let behind = rest.get(1..)?.trim_ascii_start();
+        let is_of_number = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-');
+        let length = behind.bytes().take_while(is_of_number).count();
+        let (number, next) = behind.split_at_checked(length)?;
+        if seen.contains(letter) {
+            return None;
+        }
+        if letter == 'M' {
+            let is_plain = (1..=5).contains(&length) && number.bytes().all(|byte| byte.is_ascii_digit());
+            code = number.parse().ok().filter(|_| is_plain);
+            code?;
+        } else if !beside.contains(letter) || number.parse::<f64>().is_err() {
+            return None;
+        }
+        seen.push(letter);
+        rest = next.trim_ascii_start();
+    }
+    code
+}
+
+/// Whether whoever reads the program can tell two options apart. The two switches of the kinematics may share lines.
+fn is_told_apart(one: &Given<'_>, other: &Given<'_>) -> bool {
+    let plain = |given: &Given<'_>| -> Vec<String> { given.lines.iter().map(|line| essence(line)).collect() };
+    let (one_lines, other_lines) = (plain(one), plain(other));
+    if one_lines.is_empty() || other_lines.is_empty() {
+        return true;
+    }
+    match (one.purpose, other.purpose) {
+        (Purpose::Kinematics, Purpose::Kinematics) => {
+            !holds(&one_lines, &other_lines) && !holds(&other_lines, &one_lines)
+        }
+        (Purpose::Kinematics | Purpose::Generator, Purpose::Generator)
+        | (Purpose::Generator, Purpose::Kinematics) => {
+            !one_lines.iter().any(|line| other_lines.contains(line))
+        }
+    }
+}
+
+fn holds(lines: &[String], part: &[String]) -> bool {
+    lines.windows(part.len()).any(|window| window == part)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_m_code_with_its_words() {
+        for (line, code) in [
+            ("M50", Some(50)),
+            (" m 050 ", Some(50)),
+            ("M101 P1 Q-2.5", Some(101)),
+            ("P1M101", Some(101)),
+            ("", None),
+            ("P1", None),
+            ("M", None),
+            ("M-1", None),
+            ("M5.1", None),
+            ("M50 M51", None),
+            ("M50 P1 P2", None),
+            ("M50 P", None),
+            ("M50 P1-2", None),
+            ("M50 X1", None),
+            ("M50 (on)", None),
+            ("M50;", None),
+            ("/M50", None),
+            ("M1=50", None),
+            ("M\u{fc}", None),
+            ("\u{fc}", None),
+        ] {
+            assert_eq!(m_code(line, "PQ"), code, "{line}");
+        }
+    }
+}
