@@ -94,6 +94,15 @@ pub(crate) enum Signs {
     Always,
 }
 
+/// Who calls the work offset up when the job gives it no number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unnumbered {
+    /// The program: it is the first.
+    First,
+    /// The operator, before the program is started.
+    Operators,
+}
+
 /// A file of a program.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct File<'a> {
@@ -185,8 +194,18 @@ pub(crate) trait Dialect: Sync {
     /// How many work offsets there are.
     fn work_offsets(&self) -> u32;
 
-    /// What makes the work offset of that number hold, counted from 1; none where the operator does.
+    /// Who calls the work offset up when the job gives it no number.
+    fn unnumbered(&self) -> Unnumbered {
+        Unnumbered::First
+    }
+
+    /// The block that makes the work offset of that number hold, counted from 1; none beyond the last.
     fn work_offset(&self, number: u32) -> Option<String>;
+
+    /// The line that continues this block, where one does.
+    fn rest_of_work_offset(&self, _number: u32) -> Option<String> {
+        None
+    }
 
     /// What the operator calls it.
     fn work_offset_name(&self, number: u32) -> String {
