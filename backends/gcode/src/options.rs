@@ -86,7 +86,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 9999,
             default: 1,
         },
-        help: "Entry of the controller's tool table that holds the blade's length, when the machine's `tool` has no number.",
+        help: "Entry of the controller's tool table that holds the blade's length, when the machine's `tool` has no number; on Sinumerik the edge D of the tool in the spindle, 1 to 9.",
     },
     OptionSpec {
         key: PROGRAM_NUMBER,

@@ -85,7 +85,8 @@ fn frames(source: Source<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
     )?;
     blocks.comment(&format!("X {x} Y {y} Z {z} mm from the mount"), "")?;
     let length = trimmed_text(source.cell.tool.frame.origin.z);
-    blocks.comment(&format!("tool {}: length {length} mm", source.tool()), "")
+    let tool = dialect.tool_name(source.tool());
+    blocks.comment(&format!("{tool}: length {length} mm"), "")
 }
 
 /// Number of the work offset, counted from 1.

@@ -180,6 +180,16 @@ pub(crate) trait Dialect: Sync {
     /// Largest number of a tool.
     fn most_tools(&self) -> u32;
 
+    /// What that number is, for messages.
+    fn tool_number_name(&self) -> &'static str {
+        "tool number"
+    }
+
+    /// What the operator calls the entry with the blade's length.
+    fn tool_name(&self, number: u32) -> String {
+        format!("tool {number}")
+    }
+
     /// Whether programs are called by numbers.
     fn numbers_programs(&self) -> bool {
         false

@@ -47,7 +47,7 @@ fn sets(dialect: &str) -> Vec<Vec<Given>> {
         sets.push(vec![
             ("approximation", OptionValue::Length(Length::mm(3.0))),
             ("decimals", OptionValue::Integer(4)),
-            ("tool_number", OptionValue::Integer(17)),
+            ("tool_number", OptionValue::Integer(7)),
         ]);
     }
     sets

@@ -231,6 +231,13 @@ fn tools_beside_the_spindle_and_numbers_beyond_the_tables() {
             if value == "0.25 mm" && allowed == "-0.0005 to 0.0005 mm"),
         "{found:?}"
     );
+    let found = issues(tool(0.0, 0.0, Some(10)), &needed("sinumerik"));
+    assert!(
+        matches!(found.as_slice(), [BackendIssue::OutOfRange { what, allowed, .. }]
+            if what.starts_with("D number") && allowed == "1 to 9"),
+        "{found:?}"
+    );
+    assert_eq!(issues(tool(0.0, 0.0, Some(9)), &needed("sinumerik")), []);
     for (dialect, last) in [("linuxcnc", 9), ("fanuc", 54), ("sinumerik", 99)] {
         let base = |number| {
             let five_axis = CellRecipe::five_axis();
