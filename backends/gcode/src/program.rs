@@ -86,7 +86,11 @@ fn frames(source: Source<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
     blocks.comment(&format!("X {x} Y {y} Z {z} mm from the mount"), "")?;
     let length = trimmed_text(source.cell.tool.frame.origin.z);
     let tool = dialect.tool_name(source.tool());
-    blocks.comment(&format!("{tool}: length {length} mm"), "")
+    blocks.comment(&format!("{tool}: length {length} mm"), "")?;
+    match dialect.note_of_axis_moves() {
+        Some(note) => blocks.comment(note, ""),
+        None => Ok(()),
+    }
 }
 
 /// Number of the work offset, counted from 1.

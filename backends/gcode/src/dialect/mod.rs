@@ -257,6 +257,11 @@ pub(crate) trait Dialect: Sync {
     /// The words around the coordinates of a move of all axes, which are those of the machine: before and behind them.
     fn axis_move(&self) -> [&'static str; 2];
 
+    /// What the operator has to know of it, as a comment at the head.
+    fn note_of_axis_moves(&self) -> Option<&'static str> {
+        None
+    }
+
     /// How it gets its time.
     fn axis_pace(&self) -> AxisPace {
         AxisPace::InverseTime
