@@ -58,7 +58,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 1_000_000,
             default: 0,
         },
-        help: "Lines after which the program is split into subprograms at the next travel move; 0 never splits.",
+        help: "Lines after which the program is split into subprograms, where the tip is above the stock; 0 never splits.",
     },
     OptionSpec {
         key: HEADER,
