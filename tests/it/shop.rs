@@ -28,10 +28,7 @@ pub(crate) const DIALECTS: &[(&str, &str)] = &[
         "linuxcnc",
         r#"dialect = linuxcnc approximation = 2 mm tcp_on = ("M429") tcp_off = ("M428")"#,
     ),
-    (
-        "fanuc",
-        r#"dialect = fanuc approximation = 2 mm on_code = ("M50") off_code = ("M51")"#,
-    ),
+    ("fanuc", r#"dialect = fanuc on_code = ("M50") off_code = ("M51")"#),
     ("sinumerik", "dialect = sinumerik approximation = 2 mm"),
     (
         "heidenhain",

@@ -65,6 +65,11 @@ impl<'a, 's> Blocks<'a, 's> {
         Ok(self.text.line(line)?)
     }
 
+    /// A line that continues the block before: it has no number.
+    pub(crate) fn continuation(&mut self, line: &str) -> Written {
+        Ok(self.text.line(line)?)
+    }
+
     /// A block.
     pub(crate) fn block(&mut self, block: &str) -> Written {
         self.begin();

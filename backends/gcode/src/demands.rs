@@ -1,8 +1,11 @@
 //! Options and profiles that a dialect cannot take, or that it lacks.
 
-use crate::dialect::{Numbering, TcpCodes};
+use crate::dialect::{AxisPace, Numbering, TcpCodes};
 use crate::given;
-use crate::options::{APPROXIMATION, DECIMALS, OFF_CODE, ON_CODE, READY_CODE, Settings, TCP_OFF, TCP_ON};
+use crate::options::{
+    APPROXIMATION, DECIMALS, DEFAULT_HOME_SPEED, HOME_SPEED, OFF_CODE, ON_CODE, PERCENT, READY_CODE,
+    Settings, TCP_OFF, TCP_ON,
+};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
 
@@ -36,10 +39,21 @@ fn form(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
         && dialect.rounded(approximation).is_none()
     {
         let why = format!(
-            "{} has no word for rounding some corners and stopping at others; take `approximation` out",
+            "{} has no word for rounding some corners so far and stopping at others; take `approximation` out",
             dialect.name()
         );
         issues.push(conflict(APPROXIMATION, why));
+    }
+    let is_default = settings.home_speed == f64::from(DEFAULT_HOME_SPEED) / PERCENT;
+    match dialect.axis_pace() {
+        AxisPace::Rapid if !is_default => {
+            let why = format!(
+                "on {} moves of all axes are rapid, and their speed is the override's; take `home_speed` out",
+                dialect.name()
+            );
+            issues.push(conflict(HOME_SPEED, why));
+        }
+        AxisPace::Rapid | AxisPace::InverseTime | AxisPace::Path => {}
     }
 }
 

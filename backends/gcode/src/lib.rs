@@ -82,7 +82,7 @@ use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Lead, Part, Text, split};
+use vcutc_backend_api::script::{Borders, Lead, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// The G-code backend.
@@ -122,7 +122,14 @@ impl Backend for Gcode {
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         let settings = Settings::read(options);
-        let parts = split(&program.program().ops, settings.lines_per_part, headings);
+        let parts = split(
+            &program.program().ops,
+            settings.lines_per_part,
+            // Tool-centre-point control is off while a part goes to its first pose: where it was held at another place than
+            // the axes say by themselves, the blade would jump beside the core.
+            Borders::AboveStock(program.program().stock),
+            &|_, lead| headings(lead),
+        );
         let Sayable { cell, words } = limits::check(program, &settings, &parts)?;
         if parts.len() > MOST_PARTS {
             return Err(vec![too_many_parts(parts.len())]);

@@ -149,8 +149,8 @@ impl Limits {
     /// The control knows of the tool one length, along the spindle.
     fn tool(&mut self, cell: &Cell, settings: &Settings<'_>) {
         let number = cell.tool.number.unwrap_or(settings.tool_number);
-        self.found
-            .number("tool number", number, 1..=settings.dialect.most_tools());
+        let what = settings.dialect.tool_number_name();
+        self.found.number(what, number, 1..=settings.dialect.most_tools());
         let Point3 { x, y, z } = cell.tool.frame.origin;
         let half_a_unit = 0.5 * last_place(settings.lengths);
         for (what, value) in [("tool X", x), ("tool Y", y)] {

@@ -15,6 +15,8 @@ pub(crate) const DECIMALS: &str = "decimals";
 pub(crate) const LINES_PER_PART: &str = "lines_per_part";
 const HEADER: &str = "header";
 pub(crate) const APPROXIMATION: &str = "approximation";
+/// In percent. A job that gives it can not be told from one that leaves it out.
+pub(crate) const DEFAULT_HOME_SPEED: u32 = 10;
 pub(crate) const HOME_SPEED: &str = "home_speed";
 const TOOL_NUMBER: &str = "tool_number";
 pub(crate) const PROGRAM_NUMBER: &str = "program_number";
@@ -24,6 +26,8 @@ pub(crate) const TCP_OFF: &str = "tcp_off";
 pub(crate) const ON_CODE: &str = "on_code";
 pub(crate) const OFF_CODE: &str = "off_code";
 pub(crate) const READY_CODE: &str = "ready_code";
+
+pub(crate) const PERCENT: f64 = 100.0;
 
 /// The words of the option `dialect`; the first is the default.
 const DIALECTS: &[&str] = &["linuxcnc", "fanuc", "sinumerik", "heidenhain"];
@@ -54,7 +58,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 1_000_000,
             default: 0,
         },
-        help: "Lines after which the program is split into subprograms at the next travel move; 0 never splits.",
+        help: "Lines after which the program is split into subprograms, where the tip is above the stock; 0 never splits.",
     },
     OptionSpec {
         key: HEADER,
@@ -75,9 +79,9 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
         kind: OptionKind::Integer {
             min: 1,
             max: 100,
-            default: 10,
+            default: DEFAULT_HOME_SPEED,
         },
-        help: "Speed of the moves of all axes, to home and from there, in percent of the axes' rates.",
+        help: "Speed of the moves of all axes, to home and from there, in percent of the axes' rates; Fanuc makes them at its rapid rate.",
     },
     OptionSpec {
         key: TOOL_NUMBER,
@@ -86,7 +90,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 9999,
             default: 1,
         },
-        help: "Entry of the controller's tool table that holds the blade's length, when the machine's `tool` has no number.",
+        help: "Entry of the controller's tool table that holds the blade's length, when the machine's `tool` has no number; on Sinumerik the edge D of the tool in the spindle, 1 to 9.",
     },
     OptionSpec {
         key: PROGRAM_NUMBER,
@@ -188,7 +192,7 @@ impl<'p> Settings<'p> {
             lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
             header: options.lines(HEADER),
             approximation: (approximation > Length::ZERO).then_some(approximation),
-            home_speed: f64::from(options.integer(HOME_SPEED)) / 100.0,
+            home_speed: f64::from(options.integer(HOME_SPEED)) / PERCENT,
             tool_number: options.integer(TOOL_NUMBER),
             program_number: options.integer(PROGRAM_NUMBER),
             spindle_letter: match options.choice(SPINDLE_AXIS) {

@@ -2,7 +2,7 @@
 
 use crate::blocks::Blocks;
 use crate::body::{self, Source};
-use crate::dialect::File;
+use crate::dialect::{File, Unnumbered};
 use crate::names::part_name;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::script::{Part, Written, first_of, trimmed_text};
@@ -85,7 +85,12 @@ fn frames(source: Source<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
     )?;
     blocks.comment(&format!("X {x} Y {y} Z {z} mm from the mount"), "")?;
     let length = trimmed_text(source.cell.tool.frame.origin.z);
-    blocks.comment(&format!("tool {}: length {length} mm", source.tool()), "")
+    let tool = dialect.tool_name(source.tool());
+    blocks.comment(&format!("{tool}: length {length} mm"), "")?;
+    match dialect.note_of_axis_moves() {
+        Some(note) => blocks.comment(note, ""),
+        None => Ok(()),
+    }
 }
 
 /// Number of the work offset, counted from 1.
@@ -128,11 +133,27 @@ fn opening(source: Source<'_>, file: File<'_>, blocks: &mut Blocks<'_, '_>) -> W
 fn setup(source: Source<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
     let (dialect, settings) = (source.settings.dialect, source.settings);
     let all = dialect.tcp_off(settings).into_iter();
-    let all = all.chain(dialect.setup(settings, source.tool()));
-    for block in all.chain(dialect.work_offset(offset_number(source))) {
+    for block in all.chain(dialect.setup(settings, source.tool())) {
         blocks.block(&block)?;
     }
-    Ok(())
+    work_offset(source, blocks)
+}
+
+/// The work offset, which is the operator's where the dialect leaves one without a number to him.
+fn work_offset(source: Source<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
+    let dialect = source.settings.dialect;
+    match (source.cell.base.number, dialect.unnumbered()) {
+        (None, Unnumbered::Operators) => return Ok(()),
+        (Some(_), Unnumbered::First | Unnumbered::Operators) | (None, Unnumbered::First) => {}
+    }
+    let number = offset_number(source);
+    if let Some(block) = dialect.work_offset(number) {
+        blocks.block(&block)?;
+    }
+    match dialect.rest_of_work_offset(number) {
+        Some(line) => blocks.continuation(&line),
+        None => Ok(()),
+    }
 }
 
 /// The end of the main program.

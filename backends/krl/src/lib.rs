@@ -79,7 +79,7 @@ use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Layout, Part, Text, split};
+use vcutc_backend_api::script::{Borders, Layout, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
@@ -130,9 +130,12 @@ impl Backend for Krl {
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         let settings = Settings::read(options);
-        let parts = split(&program.program().ops, settings.lines_per_part, |lead| {
-            lead.lines(LINES_OF_A_RATE)
-        });
+        let parts = split(
+            &program.program().ops,
+            settings.lines_per_part,
+            Borders::BetweenCuts,
+            &|_, lead| lead.lines(LINES_OF_A_RATE),
+        );
         let issues = profile::issues(options.profile(), program.program().cell.as_ref());
         let cell = match limits::check(program, &parts) {
             Ok(cell) if issues.is_empty() => cell,

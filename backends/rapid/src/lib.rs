@@ -71,7 +71,7 @@ use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Layout, Part, Text, split};
+use vcutc_backend_api::script::{Borders, Layout, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that RobotStudio writes.
@@ -118,7 +118,12 @@ impl Backend for Rapid {
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         let settings = Settings::read(options);
-        let parts = split(&program.program().ops, settings.lines_per_part, body::lines_of);
+        let parts = split(
+            &program.program().ops,
+            settings.lines_per_part,
+            Borders::BetweenCuts,
+            &|_, lead| body::lines_of(lead),
+        );
         let cell = limits::check(program, &settings, parts.len())?;
         if parts.len() > MOST_PARTS {
             return Err(vec![too_many_parts(parts.len())]);

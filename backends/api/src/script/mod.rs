@@ -9,6 +9,6 @@ mod state;
 mod text;
 
 pub use listing::{Layer, Lead, Modal, first_of};
-pub use split::{Part, split};
+pub use split::{Borders, Part, split};
 pub use state::{Generator, Place, State, may_round};
 pub use text::{Layout, Text, Written, push_trimmed, trimmed_text};

@@ -103,6 +103,10 @@ impl Dialect for Fanuc {
         ["G53 G0", ""]
     }
 
+    fn note_of_axis_moves(&self) -> Option<&'static str> {
+        Some("moves of all axes are rapid: parameter 1401.1, LRP, must be 1")
+    }
+
     fn axis_pace(&self) -> AxisPace {
         AxisPace::Rapid
     }
@@ -111,9 +115,9 @@ impl Dialect for Fanuc {
         Some("G61")
     }
 
-    /// In cutting mode the control's parameters decide how far.
+    /// `G64` has no distance: how far it rounds is a matter of parameters and speed, and nothing that could be promised.
     fn rounded(&self, _: Length) -> Option<String> {
-        Some("G64".to_owned())
+        None
     }
 
     fn dwell(&self, seconds: &str) -> Vec<String> {

@@ -7,10 +7,13 @@
 //! `M91` makes the words of one block positions of the axes, without the tool's length [H-620]; before it TCPM is reset. Their
 //! speed is that along the way of all axes, mm and degrees counted alike.
 //!
+//! Cycle 247 activates a preset where the job gives its number; without one that is the operator's. `~` at the end of its line
+//! says that the block goes on in the next line, which has no number of its own (TNC 640, Cycle Programming).
+//!
 //! `R0` blocks stop at corners; there is no word that allows rounding at one of them and not at the next. M codes for outputs
 //! are the builder's.
 
-use super::{AxisPace, Comments, Dialect, FeedMode, File, Letters, Numbering, Signs, standard_m};
+use super::{AxisPace, Comments, Dialect, FeedMode, File, Letters, Numbering, Signs, Unnumbered, standard_m};
 use crate::options::Settings;
 use core::ops::RangeInclusive;
 use vcutc_backend_api::ir::Switch;
@@ -85,9 +88,17 @@ impl Dialect for Heidenhain {
         9999
     }
 
-    /// The operator activates the preset.
+    fn unnumbered(&self) -> Unnumbered {
+        Unnumbered::Operators
+    }
+
+    /// Cycle 247 activates a preset; its parameter stands in a line without number.
     fn work_offset(&self, _: u32) -> Option<String> {
-        None
+        Some("CYCL DEF 247 DATUM SETTING ~".to_owned())
+    }
+
+    fn rest_of_work_offset(&self, number: u32) -> Option<String> {
+        Some(format!("  Q339=+{number} ;DATUM NUMBER"))
     }
 
     fn work_offset_name(&self, number: u32) -> String {

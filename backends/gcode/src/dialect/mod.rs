@@ -94,6 +94,15 @@ pub(crate) enum Signs {
     Always,
 }
 
+/// Who calls the work offset up when the job gives it no number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unnumbered {
+    /// The program: it is the first.
+    First,
+    /// The operator, before the program is started.
+    Operators,
+}
+
 /// A file of a program.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct File<'a> {
@@ -171,6 +180,16 @@ pub(crate) trait Dialect: Sync {
     /// Largest number of a tool.
     fn most_tools(&self) -> u32;
 
+    /// What that number is, for messages.
+    fn tool_number_name(&self) -> &'static str {
+        "tool number"
+    }
+
+    /// What the operator calls the entry with the blade's length.
+    fn tool_name(&self, number: u32) -> String {
+        format!("tool {number}")
+    }
+
     /// Whether programs are called by numbers.
     fn numbers_programs(&self) -> bool {
         false
@@ -185,8 +204,18 @@ pub(crate) trait Dialect: Sync {
     /// How many work offsets there are.
     fn work_offsets(&self) -> u32;
 
-    /// What makes the work offset of that number hold, counted from 1; none where the operator does.
+    /// Who calls the work offset up when the job gives it no number.
+    fn unnumbered(&self) -> Unnumbered {
+        Unnumbered::First
+    }
+
+    /// The block that makes the work offset of that number hold, counted from 1; none beyond the last.
     fn work_offset(&self, number: u32) -> Option<String>;
+
+    /// The line that continues this block, where one does.
+    fn rest_of_work_offset(&self, _number: u32) -> Option<String> {
+        None
+    }
 
     /// What the operator calls it.
     fn work_offset_name(&self, number: u32) -> String {
@@ -227,6 +256,11 @@ pub(crate) trait Dialect: Sync {
 
     /// The words around the coordinates of a move of all axes, which are those of the machine: before and behind them.
     fn axis_move(&self) -> [&'static str; 2];
+
+    /// What the operator has to know of it, as a comment at the head.
+    fn note_of_axis_moves(&self) -> Option<&'static str> {
+        None
+    }
 
     /// How it gets its time.
     fn axis_pace(&self) -> AxisPace {

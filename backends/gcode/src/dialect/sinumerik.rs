@@ -4,6 +4,9 @@
 //! whichever of the two a machine's data asks for [S-840b]. `FGROUP` makes F the speed of the tip alone. `TRAFOOF` cancels
 //! tool corrections in part, so D stands behind every switch [S-840].
 //!
+//! No tool is selected, for the knife is in the spindle; D is one of its edges, of which a tool has nine where D numbers are
+//! not managed apart from tools.
+//!
 //! `SUPA` suppresses all offsets for one block, and with `D0` the words are positions of the axes. Outputs are written behind
 //! `STOPRE`, so that they switch where they stand and not when the block is read ahead.
 
@@ -47,7 +50,15 @@ impl Dialect for Sinumerik {
     }
 
     fn most_tools(&self) -> u32 {
-        999
+        9
+    }
+
+    fn tool_number_name(&self) -> &'static str {
+        "D number (the edge of the tool in the spindle, not the number of a tool)"
+    }
+
+    fn tool_name(&self, number: u32) -> String {
+        format!("the tool in the spindle, edge D{number}")
     }
 
     fn opening(&self, _: File<'_>) -> Vec<String> {

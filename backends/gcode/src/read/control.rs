@@ -6,7 +6,8 @@
 //! too; behind a switch of tool-centre-point control the linear ones mean something else and have to be said anew.
 
 use super::order::{
-    Act, Context, Coordinates, HABITS, Habit, Mode, Motion, Once, Order, Parsed, Tcp, Trouble, expected,
+    Act, Context, Coordinates, Cycle, HABITS, Habit, Mode, Motion, Once, Order, Parsed, Tcp, Trouble,
+    expected,
 };
 use super::rates::is_too_fast;
 use super::tongue::{Tongue, WorkOffset};
@@ -36,7 +37,8 @@ pub(super) struct Control<'a> {
     tip: [Option<f64>; 3],
     /// Where the axes are said to be, in mm and degrees; linear ones while the tip is not controlled.
     axes: [Option<f64>; MOST_AXES],
-    cycle: Cycle,
+    /// The cycle whose first line was the statement before.
+    cycle: Option<Cycle>,
     reading: Reading,
 }
 
@@ -49,13 +51,6 @@ struct Modes {
     tcp: Option<Tcp>,
     tool: Option<u32>,
     work: Option<u32>,
-}
-
-/// Whether the first line of a wait in two lines was the statement before.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Cycle {
-    None,
-    Begun,
 }
 
 /// Whether reading ahead has been stopped since the last motion.
@@ -87,7 +82,7 @@ impl<'a> Control<'a> {
             feed: None,
             tip: [None; 3],
             axes: [None; MOST_AXES],
-            cycle: Cycle::None,
+            cycle: None,
             reading: Reading::Ahead,
         };
         control.restart();
@@ -108,7 +103,7 @@ impl<'a> Control<'a> {
     pub(super) fn forget(&mut self) {
         self.tip = [None; 3];
         self.axes = [None; MOST_AXES];
-        self.cycle = Cycle::None;
+        self.cycle = None;
         self.reading = Reading::Ahead;
     }
 
@@ -119,7 +114,10 @@ impl<'a> Control<'a> {
 
     /// What a block does. One that says where things go on does nothing else, and is none of the control's.
     pub(super) fn carry_out(&mut self, order: &Order<'_>) -> Parsed<Says> {
-        let cycle = core::mem::replace(&mut self.cycle, Cycle::None);
+        let cycle = self.cycle.take();
+        if cycle == Some(Cycle::WorkOffset) && !matches!(order.act, Some(Act::CycleWork(_))) {
+            return expected("`Q339=` behind `CYCL DEF 247 DATUM SETTING ~`");
+        }
         let says = self.modes(&order.modes)?;
         if let Some(motion) = order.motion {
             self.motion = Some(motion);
@@ -198,7 +196,7 @@ impl<'a> Control<'a> {
                 self.modes.tool = tool;
             }
             Mode::Work(work) => self.modes.work = Some(work),
-            Mode::DwellCycle => self.cycle = Cycle::Begun,
+            Mode::Cycle(cycle) => self.cycle = Some(cycle),
         }
     }
 
@@ -215,7 +213,7 @@ impl<'a> Control<'a> {
     fn judged(&self, mode: Mode) -> Parsed<Says> {
         let cell = self.context.cell;
         match mode {
-            Mode::Habit(_) | Mode::Feed(Some(_)) | Mode::Stop(Some(_)) | Mode::Tcp(_) | Mode::DwellCycle => {
+            Mode::Habit(_) | Mode::Feed(Some(_)) | Mode::Stop(Some(_)) | Mode::Tcp(_) | Mode::Cycle(_) => {
                 Ok(Says::Setting)
             }
             Mode::Not(habit) => match self.tongue.habits().iter().find(|(known, _)| *known == habit) {
@@ -266,7 +264,11 @@ impl<'a> Control<'a> {
             return expected(format!("tool {} before a motion of the tip", self.tool()));
         }
         let offset = self.context.cell.base.number.unwrap_or(FIRST_OFFSET);
-        if self.tongue.work_offset() == WorkOffset::Said && self.modes.work != Some(offset) {
+        let is_said = match (self.tongue.work_offset(), self.context.cell.base.number) {
+            (WorkOffset::Said, _) | (WorkOffset::Preset, Some(_)) => true,
+            (WorkOffset::Preset, None) => false,
+        };
+        if is_said && self.modes.work != Some(offset) {
             return expected(format!("work offset {offset} before a motion of the tip"));
         }
         match self.motion {
@@ -430,7 +432,7 @@ impl<'a> Control<'a> {
             .any(|way| way > unit * 1.5)
     }
 
-    fn act(&mut self, act: Act, behind_stop: Once, cycle: Cycle) -> Parsed<Says> {
+    fn act(&mut self, act: Act, behind_stop: Once, cycle: Option<Cycle>) -> Parsed<Says> {
         if behind_stop == Once::Yes && self.reading == Reading::Ahead {
             return expected("`STOPRE` before an output");
         }
@@ -447,8 +449,14 @@ impl<'a> Control<'a> {
                 Ready::After(_) => return Err(Trouble::Unknown),
             },
             Act::Wait(time) => Deed::Wait(time),
-            Act::CycleWait(_) if cycle == Cycle::None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
-            Act::CycleWait(time) => Deed::Wait(time),
+            Act::CycleWait(time) => match cycle {
+                Some(Cycle::Dwell) => Deed::Wait(time),
+                Some(Cycle::WorkOffset) | None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
+            },
+            Act::CycleWork(number) => match cycle {
+                Some(Cycle::WorkOffset) => return self.modes(&[Mode::Work(number)]),
+                Some(Cycle::Dwell) | None => return expected("`CYCL DEF 247 DATUM SETTING ~` before"),
+            },
             Act::StopReading => {
                 self.reading = Reading::Stopped;
                 return Ok(Says::Setting);

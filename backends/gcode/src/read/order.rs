@@ -105,8 +105,8 @@ pub(super) enum Mode {
     Tool(Option<u32>),
     /// The work offset.
     Work(u32),
-    /// The first of the two lines of a wait.
-    DwellCycle,
+    /// The first of the two lines of a cycle.
+    Cycle(Cycle),
 }
 
 /// What a mode is about: a block says it once.
@@ -118,7 +118,7 @@ enum Group {
     Tcp,
     Tool,
     Work,
-    DwellCycle,
+    Cycle,
 }
 
 impl Mode {
@@ -130,9 +130,18 @@ impl Mode {
             Self::Tcp(_) => Group::Tcp,
             Self::Tool(_) => Group::Tool,
             Self::Work(_) => Group::Work,
-            Self::DwellCycle => Group::DwellCycle,
+            Self::Cycle(_) => Group::Cycle,
         }
     }
+}
+
+/// A cycle in two lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cycle {
+    /// A wait.
+    Dwell,
+    /// A work offset is called up.
+    WorkOffset,
 }
 
 /// Whether tool-centre-point control is on.
@@ -177,6 +186,8 @@ pub(super) enum Act {
     Wait(Duration),
     /// The second of the two lines of a wait.
     CycleWait(Duration),
+    /// The second of the two lines that call up a work offset.
+    CycleWork(u32),
     /// Reading ahead ends here.
     StopReading,
 }

@@ -1,7 +1,7 @@
 //! What every program of a dialect keeps to, over all samples and over random programs.
 
 use crate::support::{
-    DIALECTS, Given, block as given_block, emit, emit_with, needed, options, reachable, recipe,
+    DIALECTS, Given, block as given_block, emit, emit_with, needed, options, reachable, recipe, rounds,
 };
 use crate::words::{Block, Vocabulary, block};
 use proptest::prelude::*;
@@ -43,11 +43,11 @@ fn sets(dialect: &str) -> Vec<Vec<Given>> {
             ),
         ],
     ];
-    if dialect != "heidenhain" {
+    if rounds(dialect) {
         sets.push(vec![
             ("approximation", OptionValue::Length(Length::mm(3.0))),
             ("decimals", OptionValue::Integer(4)),
-            ("tool_number", OptionValue::Integer(17)),
+            ("tool_number", OptionValue::Integer(7)),
         ]);
     }
     sets

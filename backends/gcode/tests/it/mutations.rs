@@ -5,7 +5,7 @@
 //! by a way of comparing texts that shares no code with the reader.
 
 use crate::read_back::retraced;
-use crate::support::{DIALECTS, emit, needed, options};
+use crate::support::{DIALECTS, emit, needed, options, rounds};
 use vcutc_backend_api::backend::{OptionValue, Options};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{ProgramFile, essence, program_files};
@@ -36,7 +36,7 @@ struct Written<'p> {
 impl<'p> Written<'p> {
     fn new(dialect: &'static str, program: &'p ReachableProgram) -> Self {
         let mut more = vec![("lines_per_part", OptionValue::Integer(30))];
-        if dialect != "heidenhain" {
+        if rounds(dialect) {
             more.push(("approximation", OptionValue::Length(Length::mm(2.0))));
         }
         let files = program_files(&emit(program, dialect, &more));

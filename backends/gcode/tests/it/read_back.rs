@@ -1,6 +1,6 @@
 //! What is written is read back as the program it was written from, in every dialect, whatever its layout.
 
-use crate::support::{DIALECTS, Given, block, emit_with, needed, options, reachable, recipe};
+use crate::support::{DIALECTS, Given, block, emit_with, needed, options, reachable, recipe, rounds};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::{Backend, OptionValue, Options};
 use vcutc_backend_api::geometry::{Orientation, Zyx};
@@ -147,7 +147,7 @@ proptest! {
                 ("decimals", OptionValue::Integer(decimals.min(most))),
                 ("lines_per_part", OptionValue::Integer(lines_per_part)),
             ];
-            if dialect != "heidenhain" {
+            if rounds(dialect) {
                 more.push(("approximation", OptionValue::Length(Length::mm(approximation))));
             }
             if dialect == "fanuc" && matches!(recipe.cell.ready, Ready::Input(_)) {

@@ -1,6 +1,6 @@
 //! What is refused, in the order of the options, the machine and the ops.
 
-use crate::support::{DIALECTS, Given, block, issues, issues_with, needed, recipe};
+use crate::support::{DIALECTS, Given, block, issues, issues_with, needed, recipe, rounds};
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch, OptionValue};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Axis, Op, PlacedFrame, Program, Ready, Site};
@@ -269,11 +269,18 @@ fn codes_that_are_offered() {
 
 #[test]
 fn rounding_and_decimals_that_a_dialect_lacks() {
-    let given = with(
-        "heidenhain",
-        &[("approximation", OptionValue::Length(Length::mm(1.0)))],
-    );
-    assert_eq!(told(&issues(recipe().program(), &given)), ["approximation"]);
+    for dialect in DIALECTS {
+        let given = with(
+            dialect,
+            &[("approximation", OptionValue::Length(Length::mm(1.0)))],
+        );
+        let found = issues(recipe().program(), &given);
+        assert_eq!(
+            told(&found).contains(&"approximation"),
+            !rounds(dialect),
+            "{dialect}"
+        );
+    }
     for (dialect, decimals, fits) in [
         ("fanuc", 4, true),
         ("fanuc", 5, false),
@@ -283,6 +290,17 @@ fn rounding_and_decimals_that_a_dialect_lacks() {
         let given = with(dialect, &[("decimals", OptionValue::Integer(decimals))]);
         let found = issues(recipe().program(), &given);
         assert_eq!(found.is_empty(), fits, "{dialect} {decimals}: {found:?}");
+    }
+}
+
+/// `G53 G0` is rapid: no option says how fast.
+#[test]
+fn a_speed_of_moves_of_all_axes_that_a_dialect_cannot_say() {
+    for dialect in DIALECTS {
+        let given = with(dialect, &[("home_speed", OptionValue::Integer(30))]);
+        let found = issues(recipe().program(), &given);
+        let should: &[&str] = if dialect == "fanuc" { &["home_speed"] } else { &[] };
+        assert_eq!(told(&found), should, "{dialect}");
     }
 }
 
@@ -381,6 +399,13 @@ fn tools_beside_the_spindle_and_numbers_beyond_the_tables() {
             if value == "0.25 mm" && allowed == "-0.0005 to 0.0005 mm"),
         "{found:?}"
     );
+    let found = issues(tool(0.0, 0.0, Some(10)), &needed("sinumerik"));
+    assert!(
+        matches!(found.as_slice(), [BackendIssue::OutOfRange { what, allowed, .. }]
+            if what.starts_with("D number") && allowed == "1 to 9"),
+        "{found:?}"
+    );
+    assert_eq!(issues(tool(0.0, 0.0, Some(9)), &needed("sinumerik")), []);
     for (dialect, last) in [("linuxcnc", 9), ("fanuc", 54), ("sinumerik", 99)] {
         let base = |number| {
             let five_axis = CellRecipe::five_axis();

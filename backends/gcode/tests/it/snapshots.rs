@@ -1,6 +1,6 @@
 //! Whole programs of every dialect as people read them.
 
-use crate::support::{DIALECTS, emit, reachable, recipe, text};
+use crate::support::{DIALECTS, emit, reachable, recipe, rounds, text};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::testkit::Recipe;
 use vcutc_backend_api::units::{Duration, Length};
@@ -34,7 +34,7 @@ fn parts_and_rounded_corners() {
     );
     for dialect in DIALECTS {
         let mut given = vec![("lines_per_part", OptionValue::Integer(8))];
-        if dialect != "heidenhain" {
+        if rounds(dialect) {
             given.push(("approximation", OptionValue::Length(Length::mm(2.0))));
         }
         insta::assert_snapshot!(format!("parts_{dialect}"), text(&emit(&program, dialect, &given)));

@@ -31,6 +31,11 @@ pub(crate) fn needed(dialect: &'static str) -> Vec<Given> {
     given
 }
 
+/// Whether a dialect has a word for rounding corners.
+pub(crate) fn rounds(dialect: &str) -> bool {
+    matches!(dialect, "linuxcnc" | "sinumerik")
+}
+
 /// The options with these values set.
 pub(crate) fn options(given: &[Given]) -> Options {
     let mut options = Options::defaults(Gcode.options());

@@ -36,6 +36,7 @@ const OTHERS: &[&str] = &[
     "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",
     "FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS",
     "CYCL DEF 9.0 DWELL TIME",
+    "CYCL DEF 247 DATUM SETTING ~",
 ];
 
 /// How such blocks begin that hold a name or a number.
@@ -48,6 +49,7 @@ const BEGINNINGS: &[&str] = &[
     "CALL PGM ",
     "SAMPLE_P",
     "TOOL CALL ",
+    "Q339=+",
     "CYCL DEF 9.1 DWELL ",
     "FN 20: WAIT FOR I",
     "$A_OUT[",
@@ -60,6 +62,8 @@ const LONG_WORDS: &[&str] = &["SUPA", "L", "ADIS="];
 /// The block on a line without its comment; none for a line without block.
 pub(crate) fn block(line: &str, dialect: &str) -> Option<Block> {
     let line = match dialect {
+        // What continues a block has no number.
+        "heidenhain" if line.starts_with("  ") => line,
         "heidenhain" => line.split_once(' ').unwrap_or(("", "")).1,
         _ => line,
     };

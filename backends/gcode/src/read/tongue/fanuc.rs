@@ -73,7 +73,7 @@ impl Tongue for Fanuc {
             return expected("one M code in a block");
         }
         for code in words.g.iter() {
-            g(code, &mut words, &mut order, context)?;
+            g(code, &mut words, &mut order)?;
         }
         for code in words.m.iter() {
             m(code, &mut words, &mut order)?;
@@ -100,7 +100,7 @@ fn head(code: &str) -> Option<Routine<'static>> {
     cursor.end().is_ok().then_some(Routine::Number(number))
 }
 
-fn g(code: u32, words: &mut Block, order: &mut Order<'_>, context: Context<'_>) -> Parsed<()> {
+fn g(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
     match code {
         40 => {
             let time = dwell(words)?;
@@ -128,8 +128,8 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>, context: Context<'_>) 
             order.set(Mode::Work(more.saturating_add(6)))
         }
         610 => order.set(Mode::Stop(Some(End::Exact))),
-        // How far is a matter of parameters; whether is the job's.
-        640 => order.set(Mode::Stop(context.settings.approximation.map(|_| End::Rounded))),
+        // How far is a matter of parameters.
+        640 => order.set(Mode::Stop(None)),
         _ if american_g(code, order)? => Ok(()),
         _ => Err(Trouble::Unknown),
     }

@@ -7,7 +7,8 @@ use super::{Heads, Tongue, WorkOffset, seconds, stem};
 use crate::dialect::FeedMode;
 use crate::read::lines::Style;
 use crate::read::order::{
-    Act, Context, Coordinates, Flow, Habit, Mode, Motion, Order, Parsed, Routine, Tcp, Trouble, expected,
+    Act, Context, Coordinates, Cycle, Flow, Habit, Mode, Motion, Order, Parsed, Routine, Tcp, Trouble,
+    expected,
 };
 use crate::read::words::{Block, Cursor, Number};
 use vcutc_backend_api::readback::End;
@@ -62,6 +63,10 @@ impl Tongue for Heidenhain {
             };
             return line(&mut cursor, order, context);
         }
+        // The second line of a cycle begins with a parameter.
+        if cursor.word("Q339") {
+            return preset(&mut cursor);
+        }
         // A block of M codes alone has no word of its own.
         if cursor.letters_ahead() == 1 && code.starts_with(['M', 'm']) {
             return line(&mut cursor, Order::default(), context);
@@ -77,7 +82,7 @@ impl Tongue for Heidenhain {
         } else if cursor.word("TOOL") {
             tool_call(&mut cursor)?
         } else if cursor.word("CYCL") {
-            dwell(&mut cursor)?
+            cycle(&mut cursor)?
         } else if cursor.word("FN") {
             await_input(&mut cursor)?
         } else {
@@ -216,15 +221,20 @@ fn tool_call<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     Ok(Order::modes(vec![Mode::Tool(Some(number))]))
 }
 
-/// `CYCL DEF 9.0 DWELL TIME` and `CYCL DEF 9.1 DWELL 0.5`.
-fn dwell<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
+/// `CYCL DEF 9.0 DWELL TIME` and `CYCL DEF 9.1 DWELL 0.5`, or `CYCL DEF 247 DATUM SETTING ~`.
+fn cycle<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     must(cursor, &["DEF"])?;
     let cycle = cursor.token();
+    if cycle == Some("247") {
+        must(cursor, &["DATUM", "SETTING"])?;
+        cursor.must(b'~')?;
+        return Ok(Order::modes(vec![Mode::Cycle(Cycle::WorkOffset)]));
+    }
     must(cursor, &["DWELL"])?;
     match cycle {
         Some("9.0") => {
             must(cursor, &["TIME"])?;
-            Ok(Order::modes(vec![Mode::DwellCycle]))
+            Ok(Order::modes(vec![Mode::Cycle(Cycle::Dwell)]))
         }
         Some("9.1") => match cursor.number() {
             Some(time) => Ok(Order::act(Act::CycleWait(seconds(time)?))),
@@ -232,6 +242,16 @@ fn dwell<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
         },
         Some(_) | None => Err(Trouble::Unknown),
     }
+}
+
+/// `Q339=+3`, what continues `CYCL DEF 247 DATUM SETTING ~`.
+fn preset<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
+    cursor.must(b'=')?;
+    let Some(number) = cursor.number().and_then(Number::whole) else {
+        return expected("the number of a preset");
+    };
+    cursor.end()?;
+    Ok(Order::act(Act::CycleWork(number)))
 }
 
 /// `FN 20: WAIT FOR I7==1`.

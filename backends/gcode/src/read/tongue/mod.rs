@@ -62,7 +62,7 @@ pub(super) trait Tongue: Sync {
 pub(super) enum WorkOffset {
     /// The program.
     Said,
-    /// The operator.
+    /// The program where the job gives a number, or else the operator.
     Preset,
 }
 
