@@ -2,6 +2,7 @@
 
 use crate::dialect::{Numbering, TcpCodes};
 use crate::options::{APPROXIMATION, DECIMALS, OFF_CODE, ON_CODE, READY_CODE, Settings, TCP_OFF, TCP_ON};
+use crate::profile::objection;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
 
@@ -134,8 +135,9 @@ fn blocks(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 fn profile(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let profile = settings.profile;
     let mut refuse = |key, why| issues.push(BackendIssue::Profile { key, why });
+    let why_not = |line: &String| unfit(line, settings).or_else(|| objection(line, settings));
     for (key, lines) in [("header", &profile.header), ("footer", &profile.footer)] {
-        if let Some(why) = lines.iter().find_map(|line| unfit(line, settings)) {
+        if let Some(why) = lines.iter().find_map(why_not) {
             refuse(key, why);
         }
     }

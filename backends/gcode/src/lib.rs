@@ -66,6 +66,7 @@ mod limits;
 mod names;
 mod options;
 mod pace;
+mod profile;
 mod program;
 mod read;
 

@@ -139,6 +139,11 @@ impl Dialect for LinuxCnc {
         Some(vec![format!("M66 P{input} L3 Q86400")])
     }
 
+    /// M100 to M199 run programs of the builder's [L-MC].
+    fn builders_codes(&self) -> &'static [RangeInclusive<u32>] {
+        &[100..=199]
+    }
+
     fn signals(&self) -> RangeInclusive<u32> {
         0..=63
     }

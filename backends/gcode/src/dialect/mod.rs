@@ -262,6 +262,25 @@ pub(crate) trait Dialect: Sync {
     /// What waits until an input is high; none where only the builder of the machine knows. The label is new in its file.
     fn await_input(&self, input: u32, label: u32) -> Option<Vec<String>>;
 
+    /// The M codes that a control leaves to the builder of the machine, as far as none of them is known to end, call, orient,
+    /// change tools or switch outputs. Lines of a profile may have them.
+    fn builders_codes(&self) -> &'static [RangeInclusive<u32>];
+
+    /// Statements of a profile that make axes run more smoothly and change neither ways nor stops.
+    fn smoothing(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Whether `MSG("...")` shows a message.
+    fn has_messages(&self) -> bool {
+        false
+    }
+
+    /// Whether a block may have an S word.
+    fn has_spindle_words(&self) -> bool {
+        true
+    }
+
     /// Smallest and largest number of an output or input.
     fn signals(&self) -> RangeInclusive<u32>;
 }
