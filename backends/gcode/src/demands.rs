@@ -6,6 +6,7 @@ use crate::options::{
     APPROXIMATION, DECIMALS, DEFAULT_HOME_SPEED, HOME_SPEED, OFF_CODE, ON_CODE, PERCENT, READY_CODE,
     Settings, TCP_OFF, TCP_ON,
 };
+use crate::profile::objection;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
 
@@ -84,7 +85,7 @@ fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let (dialect, codes) = (settings.dialect, settings.codes);
     let name = dialect.name();
-    let [on, off, ready] = dialect.builders_codes();
+    let [on, off, ready] = dialect.example_codes();
     let sides = [
         (ON_CODE, codes.on, Switch::On, "on", on),
         (OFF_CODE, codes.off, Switch::Off, "off", off),
@@ -151,8 +152,9 @@ fn blocks(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 fn profile(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let profile = settings.profile;
     let mut refuse = |key, why| issues.push(BackendIssue::Profile { key, why });
+    let why_not = |line: &String| unfit(line, settings).or_else(|| objection(line, settings));
     for (key, lines) in [("header", &profile.header), ("footer", &profile.footer)] {
-        if let Some(why) = lines.iter().find_map(|line| unfit(line, settings)) {
+        if let Some(why) = lines.iter().find_map(why_not) {
             refuse(key, why);
         }
     }

@@ -69,7 +69,7 @@ fn is_about(issue: &BackendIssue, option: &str) -> bool {
 }
 
 fn blocks<'p>(settings: &Settings<'p>) -> [Given<'p>; 5] {
-    let (codes, [on, off, ready]) = (settings.codes, settings.dialect.builders_codes());
+    let (codes, [on, off, ready]) = (settings.codes, settings.dialect.example_codes());
     let given = |key, purpose, example, lines| Given {
         key,
         purpose,

@@ -67,6 +67,7 @@ mod limits;
 mod names;
 mod options;
 mod pace;
+mod profile;
 mod program;
 mod read;
 

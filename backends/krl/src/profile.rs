@@ -1,26 +1,19 @@
 //! The habits of a machine, as far as KRL programs can have them.
 //!
 //! Lines at the head and at the end of the main program are written as they are. They stand in front of
-//! `BAS (#INITMOV,0 )` and behind the last motion, so nothing that they set changes how the program moves; what moves the
-//! robot, jumps, or switches the generator is refused, because the program would no longer be what was proven.
+//! `BAS (#INITMOV,0 )` and behind the last motion, so nothing that they set changes how the program moves. They may call,
+//! assign, declare and wait; all else is refused, and so is every line that names the output of the generator or the
+//! program's home, because the program would no longer be what was proven.
 
 use crate::keywords::HOME;
 use crate::read::syntax::{Phrase, Statement, is_same_name, statements};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::profile::Profile;
+use vcutc_backend_api::readback::essence;
 
 /// Longest line that every release reads.
 const LONGEST_LINE: usize = 131;
-
-/// Words of statements that move the robot, or make it leave or repeat lines.
-#[rustfmt::skip]
-const MOVES_AND_JUMPS: [&str; 41] = [
-    "CASE", "CIRC", "CIRC_REL", "CONTINUE", "DEFAULT", "DEFFCT", "ELSE", "ENDFCT", "ENDFOR", "ENDIF", "ENDLOOP",
-    "ENDSPLINE", "ENDSWITCH", "ENDWHILE", "EXIT", "FOR", "GOTO", "IF", "INTERRUPT", "LIN", "LIN_REL", "LOOP", "PTP",
-    "PTP_REL", "REPEAT", "RESUME", "RETURN", "SCIRC", "SCIRC_REL", "SLIN", "SLIN_REL", "SPL", "SPL_REL", "SPLINE",
-    "SPTP", "SPTP_REL", "STRUC", "SWITCH", "TRIGGER", "UNTIL", "WHILE",
-];
 
 /// Everything in a profile that a KRL program cannot have.
 pub(crate) fn issues(profile: &Profile, cell: Option<&Cell>) -> Vec<BackendIssue> {
@@ -72,14 +65,22 @@ fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String>
     if !line.bytes().all(|byte| matches!(byte, b' '..=b'~' | b'\t')) {
         return Some(format!("{line:?} is not one line of ASCII"));
     }
-    let Statement { phrase, .. } = statements(line).next()?;
+    let Statement { phrase, text, .. } = statements(line).next()?;
+    if names_generator(text, generator) {
+        return Some(format!(
+            "`{line}` may switch the ultrasonic generator, which the program does itself; outputs are named by plain numbers, as \
+             in `$OUT[30]=TRUE`"
+        ));
+    }
+    if essence(text).to_ascii_uppercase().contains(HOME) {
+        return Some(format!(
+            "`{line}` names the home of the program, which is its own"
+        ));
+    }
     let why = match phrase {
         Phrase::Motion(_) => "moves the robot, and nothing has proven where",
-        Phrase::Other(word) if MOVES_AND_JUMPS.iter().any(|name| is_same_name(word, name)) => {
-            "moves the robot or makes it leave out lines"
-        }
-        Phrase::Assignment { to, .. } if generator.is_some() && to.index_in("$OUT") == generator => {
-            "switches the ultrasonic generator, which the program does itself"
+        Phrase::Other(_) if !is_assignment(text) => {
+            "may move the robot, or make it leave out lines; a line may call a routine, assign, declare or wait"
         }
         Phrase::Def { .. } | Phrase::End | Phrase::DefDat { .. } | Phrase::EndDat => {
             "begins or ends a routine or a data list"
@@ -100,6 +101,32 @@ fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String>
         | Phrase::Other(_) => return None,
     };
     Some(format!("`{line}` {why}"))
+}
+
+/// Whether a statement names the output of the generator, or outputs of which nobody can tell which they are: by a
+/// calculated number, as a range, or by a number alone.
+fn names_generator(text: &str, generator: Option<u32>) -> bool {
+    let text = essence(text).to_ascii_uppercase();
+    let mut outputs = text.split("$OUT").skip(1);
+    let is_other = |rest: &str| {
+        let rest = rest.strip_prefix("_C").unwrap_or(rest);
+        let number = rest.strip_prefix('[').and_then(|rest| rest.split_once(']'));
+        number.is_some_and(|(number, _)| {
+            number
+                .parse::<u32>()
+                .is_ok_and(|number| Some(number) != generator)
+        })
+    };
+    outputs.any(|rest| !is_other(rest))
+}
+
+/// `name=...`, `name[...].field=...`.
+fn is_assignment(text: &str) -> bool {
+    let is_of_variable = |c: char| c.is_ascii_alphanumeric() || "$_.[],".contains(c);
+    text.split_once('=').is_some_and(|(to, value)| {
+        let to = to.trim();
+        !to.is_empty() && to.chars().all(is_of_variable) && !value.starts_with('=')
+    })
 }
 
 #[cfg(test)]
@@ -153,6 +180,16 @@ mod tests {
             "&PARAM EDITMASK = *",
             "one two",
             "a\nb",
+            "PULSE($OUT[12],TRUE,1)",
+            "PULSE ($OUT[7],TRUE,0.5)",
+            "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[7]=TRUE",
+            "CONTINUE",
+            "INTERRUPT DECL 4 WHEN $IN[1]==TRUE DO STOPPED( )",
+            "FOR I=1 TO 5",
+            "LOOP",
+            "SIGNAL LAMP $OUT[1] TO $OUT[16]",
+            "XVC_HOME={A1 0.0}",
+            "xvc_home.A1=5",
         ] {
             assert!(objection(line, Place::Head, Some(1)).is_some(), "{line}");
         }
@@ -163,7 +200,7 @@ mod tests {
             "$OUT[12]=TRUE",
             "DECL INT COUNT",
             "COUNT=COUNT+1",
-            "PULSE ($OUT[7],TRUE,0.5)",
+            "$OUT[7]=$IN[3]",
             "WAIT SEC 0.5",
         ] {
             assert_eq!(objection(line, Place::Head, Some(1)), None, "{line}");
@@ -172,7 +209,23 @@ mod tests {
 
     #[test]
     fn the_generator_is_the_programs_own() {
-        assert!(objection("$OUT[1]=TRUE", Place::End, Some(1)).is_some());
-        assert!(objection("$OUT[2]=TRUE", Place::End, Some(1)).is_none());
+        for line in [
+            "$OUT[12]=TRUE",
+            "$out[ 012 ]=TRUE",
+            "$OUT[12+0]=TRUE",
+            "$OUT[COUNT]=TRUE",
+            "$OUT[6*2]=TRUE",
+            "$OUT_C[12]=TRUE",
+            "PULSE($OUT[12],TRUE,1)",
+            "SWITCH_ON( $OUT[12] )",
+            "SIGNAL LAMP $OUT[12]",
+            "LAMP=$OUT[12]",
+        ] {
+            for place in [Place::Head, Place::End] {
+                assert!(objection(line, place, Some(12)).is_some(), "{line}");
+            }
+        }
+        assert!(objection("$OUT[2]=TRUE", Place::End, Some(12)).is_none());
+        assert!(objection("$OUT[12]=TRUE", Place::End, Some(2)).is_none());
     }
 }

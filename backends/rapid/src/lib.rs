@@ -57,6 +57,7 @@ mod limits;
 mod module;
 mod options;
 mod orient;
+mod profile;
 mod read;
 mod speeds;
 

@@ -6,6 +6,7 @@ use crate::keywords::{
     AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, is_name, main_name, part_module, part_routine,
 };
 use crate::options::{READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME};
+use crate::profile::objection;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::findings::{Findings, Number};
@@ -78,7 +79,7 @@ pub(crate) fn check<'p>(
         return Err(wrong(mismatch));
     }
     let mut findings = Findings::default();
-    profile(settings, &mut findings);
+    profile(settings, cell, &mut findings);
     names(settings, cell, &mut findings);
     reserved(settings, cell, &program.program().name, parts, &mut findings);
     machine(cell, &mut findings);
@@ -110,7 +111,7 @@ fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> 
 }
 
 /// What the machine's profile asks for.
-fn profile(settings: &Settings<'_>, findings: &mut Findings) {
+fn profile(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
     let profile = settings.profile;
     let mut refuse = |key: &'static str, why: String| findings.tell(key, BackendIssue::Profile { key, why });
     if profile.line_numbers.is_some() {
@@ -128,6 +129,8 @@ fn profile(settings: &Settings<'_>, findings: &mut Findings) {
         let is_plain = |line: &String| line.bytes().all(|byte| matches!(byte, b'\t' | b' '..=b'~'));
         if let Some(line) = lines.iter().find(|line| !is_plain(line)) {
             refuse(key, format!("a line is not plain ASCII: {line:?}"));
+        } else if let Some(why) = lines.iter().find_map(|line| objection(line, settings, cell)) {
+            refuse(key, why);
         }
     }
 }

@@ -144,6 +144,15 @@ impl Dialect for Fanuc {
         "PQS"
     }
 
+    /// Not M19 (orients), M29 (rigid tapping), M30, M96 to M99 and M198 (jump, call, return).
+    fn builders_codes(&self) -> &'static [RangeInclusive<u32>] {
+        &[10..=18, 20..=28, 31..=95, 100..=197]
+    }
+
+    fn smoothing(&self) -> &'static [&'static str] {
+        &["G05.1 Q1", "G05.1 Q0", "G5.1 Q1", "G5.1 Q0"]
+    }
+
     fn signals(&self) -> RangeInclusive<u32> {
         0..=u32::MAX
     }

@@ -191,6 +191,15 @@ impl Dialect for Heidenhain {
         ""
     }
 
+    /// Not M13 and M14 (spindle on), M19, M30, M60 (pallet), nor M89 and above, which are the control's own.
+    fn builders_codes(&self) -> &'static [RangeInclusive<u32>] {
+        &[10..=12, 15..=18, 20..=29, 31..=59, 61..=88]
+    }
+
+    fn has_spindle_words(&self) -> bool {
+        false
+    }
+
     fn signals(&self) -> RangeInclusive<u32> {
         0..=152
     }

@@ -157,8 +157,13 @@ impl Dialect for LinuxCnc {
     }
 
     /// M100 to M199 run what the integrator wrote.
-    fn builders_codes(&self) -> [&'static str; 3] {
+    fn example_codes(&self) -> [&'static str; 3] {
         ["M101", "M102", "M103"]
+    }
+
+    /// M100 to M199 run programs of the builder's [L-MC].
+    fn builders_codes(&self) -> &'static [RangeInclusive<u32>] {
+        &[100..=199]
     }
 
     fn signals(&self) -> RangeInclusive<u32> {

@@ -306,8 +306,27 @@ pub(crate) trait Dialect: Sync {
     fn beside_m(&self) -> &'static str;
 
     /// Codes as a builder may choose them, for messages: generator on, off, and ready.
-    fn builders_codes(&self) -> [&'static str; 3] {
+    fn example_codes(&self) -> [&'static str; 3] {
         ["M50", "M51", "M52"]
+    }
+
+    /// The M codes that a control leaves to the builder of the machine, as far as none of them is known to end, call, orient,
+    /// change tools or switch outputs. Lines of a profile may have them.
+    fn builders_codes(&self) -> &'static [RangeInclusive<u32>];
+
+    /// Statements of a profile that make axes run more smoothly and change neither ways nor stops.
+    fn smoothing(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Whether `MSG("...")` shows a message.
+    fn has_messages(&self) -> bool {
+        false
+    }
+
+    /// Whether a block may have an S word.
+    fn has_spindle_words(&self) -> bool {
+        true
     }
 
     /// Smallest and largest number of an output or input.

@@ -145,6 +145,19 @@ impl Dialect for Sinumerik {
         "HS"
     }
 
+    /// Not M17, M19, M20, M30, M40 to M45, M70 (end, orientation, strokes, gears, axis) and M98, M99 of the ISO mode.
+    fn builders_codes(&self) -> &'static [RangeInclusive<u32>] {
+        &[10..=16, 21..=29, 31..=39, 46..=69, 71..=95, 100..=197]
+    }
+
+    fn smoothing(&self) -> &'static [&'static str] {
+        &["SOFT", "FFWON", "FFWOF"]
+    }
+
+    fn has_messages(&self) -> bool {
+        true
+    }
+
     fn signals(&self) -> RangeInclusive<u32> {
         1..=1024
     }

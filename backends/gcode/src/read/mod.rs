@@ -29,6 +29,8 @@ mod tongue;
 mod walk;
 mod words;
 
+pub(crate) use profile::statement_of_line;
+
 use crate::blocks::last_place;
 use crate::options::Settings;
 use vcutc_backend_api::backend::Options;

@@ -158,7 +158,14 @@ proptest! {
                 profile.line_numbers = Some(LineNumbers { start: 10, step: 10 });
             }
             if habits {
-                profile.header = vec!["M8".to_owned()];
+                let more: &[&str] = match dialect {
+                    "linuxcnc" => &["S500 M101", "M1"],
+                    "fanuc" => &["G05.1 Q1", "S500 M61", "M0", "(cell 2)"],
+                    "sinumerik" => &["MSG(\"cell 2; wait\")", "SOFT", "M61 S5"],
+                    _ => &["M61 M22", "; cell 2"],
+                };
+                let header = ["M8"].iter().chain(more);
+                profile.header = header.map(|&line| line.to_owned()).collect();
                 profile.footer = vec!["M9".to_owned(), "M8".to_owned()];
             }
             is_read_back(&program, dialect, &more, &profile);

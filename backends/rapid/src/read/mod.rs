@@ -16,13 +16,15 @@ mod piece;
 mod program;
 mod sentence;
 
+pub(crate) use sentence::{Sentence, Value};
+
 use crate::options::Settings;
 use crate::orient::GRAIN_RAD;
 use data::{View, seen_from};
 use instruction::{Instruction, Known, Machine, Modes};
 use piece::{Piece, PieceKind, pieces};
 use program::Program;
-use sentence::{Sentence, sentence};
+use sentence::sentence;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::confdata::confdata;
@@ -115,6 +117,23 @@ fn lines_of(profile: &Profile) -> BTreeSet<String> {
             all.map(|piece| essence(piece.text(line))).collect::<Vec<_>>()
         })
         .collect()
+}
+
+/// The statements of a line that stands by itself. None when it has anything else, such as control flow.
+pub(crate) fn sentences(line: &str) -> Option<Vec<Sentence>> {
+    let all = pieces(line).all.into_iter();
+    all.map(|piece| match piece.kind {
+        PieceKind::Statement => sentence(piece.text(line)).ok(),
+        PieceKind::EndRoutine
+        | PieceKind::Broken
+        | PieceKind::Control
+        | PieceKind::OldHead
+        | PieceKind::Module
+        | PieceKind::EndModule
+        | PieceKind::Routine
+        | PieceKind::OtherRoutine => None,
+    })
+    .collect()
 }
 
 /// Whether a piece was told.

@@ -7,7 +7,7 @@ const DEEPEST: u32 = 8;
 
 /// A value as written.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// A number.
     Number(f64),
     /// A name, in upper case.
@@ -22,15 +22,15 @@ pub(super) enum Value {
 
 /// An optional argument, `\Name` or `\Name:=value`.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Optional {
+pub(crate) struct Optional {
     /// Its name, in upper case.
-    pub(super) name: String,
-    pub(super) value: Option<Value>,
+    pub(crate) name: String,
+    pub(crate) value: Option<Value>,
 }
 
 /// A statement. Names are in upper case.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Sentence {
+pub(crate) enum Sentence {
     /// Data come into being.
     Declaration {
         /// Whether other modules do not see them.

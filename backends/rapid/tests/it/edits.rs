@@ -195,26 +195,21 @@ fn the_list_says_what_is_loaded() {
 }
 
 #[test]
-fn lines_of_the_profile_are_known_and_a_move_among_them_is_not_hidden() {
-    let profile = |line: &str| Profile {
-        header: vec![line.to_owned()],
+fn lines_of_the_profile_are_known() {
+    let profile = Profile {
+        header: vec![
+            "    Set doLamp;".to_owned(),
+            "PulseDO\\PLength:=0.2, doHorn; TPWrite \"cell 2\";".to_owned(),
+        ],
         footer: vec!["    Reset doLamp; ! off".to_owned()],
         extension: Some("modx".to_owned()),
         ..Profile::default()
     };
-    for (line, is_fine) in [
-        ("    Set doLamp;", true),
-        ("    ConfL\\Off;", false),
-        (
-            "    MoveAbsJ vc_home\\NoEOffs,vc_axes,fine,vc_tool\\WObj:=vc_wobj;MoveL 1;",
-            false,
-        ),
-    ] {
-        let options = options(&[]).with_profile(profile(line));
-        let files = files(&options);
-        assert_eq!(files[0].name, "sample.modx");
-        assert_eq!(retraced(&program(), &options, &files).is_ok(), is_fine, "{line}");
-    }
+    let options = options(&[]).with_profile(profile);
+    let files = files(&options);
+    assert_eq!(files[0].name, "sample.modx");
+    assert!(files[0].text.contains("PulseDO\\PLength:=0.2, doHorn;"));
+    assert!(retraced(&program(), &options, &files).is_ok());
 }
 
 /// A corner may be rounded as the job says, and by no more.

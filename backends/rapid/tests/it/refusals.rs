@@ -219,3 +219,67 @@ fn far_turns_of_the_wrist_without_points_on_the_way() {
         "{found:?}"
     );
 }
+
+#[test]
+fn lines_that_change_the_program_are_refused() {
+    let mut recipe = one_cut();
+    recipe.cell.ready = Ready::Input(7);
+    for line in [
+        "MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;",
+        "MoveC p1,p2,v100,fine,tool0;",
+        "MoveAbsJ vc_home,vc_axes,fine,vc_tool;",
+        "MoveAbsJ vc_home\\NoEOffs,vc_axes,fine,vc_tool\\WObj:=vc_wobj;MoveL 1;",
+        "TriggL p1,v100,t1,fine,tool0;",
+        "SearchL di1,p1,p2,v100,tool0;",
+        "IndAMove ROB_1,1\\ToAbsNum:=90,20;",
+        "PDispSet p;",
+        "EOffsSet e;",
+        "ConfL\\Off;",
+        "SingArea\\Wrist;",
+        "VelSet 50,100;",
+        "SetDO do12,1;",
+        "SetDO do30,1;",
+        "Set do12;",
+        "set DO12;",
+        "Reset do12;",
+        "PulseDO do12;",
+        "PulseDO\\High,do12;",
+        "Set di7;",
+        "SetAO ao1,f(1);",
+        "WaitTime 1;",
+        "WaitDI di7,1;",
+        "RETURN;",
+        "FOR i FROM 1 TO 5 DO",
+        "IF TRUE Set doLamp;",
+        "GOTO here;",
+        "here:",
+        "vc_home:=[[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];",
+        "VAR num i;",
+        "other;",
+        "TPWrite other();",
+        "TPWrite \"a\"\\Num:=other();",
+        "Set doLamp; MoveL 1;",
+        "ENDPROC",
+        "ENDMODULE",
+        "Set doLamp",
+        "Stop;",
+        "EXIT;",
+        "%\"Set\"% doLamp;",
+    ] {
+        for key in ["header", "footer"] {
+            let lines = vec![line.to_owned()];
+            let profile = match key {
+                "header" => Profile {
+                    header: lines,
+                    ..Profile::default()
+                },
+                _ => Profile {
+                    footer: lines,
+                    ..Profile::default()
+                },
+            };
+            let options = options(&[]).with_profile(profile);
+            assert_eq!(what(&issues_with(recipe.program(), &options)), [key], "{line}");
+        }
+    }
+}

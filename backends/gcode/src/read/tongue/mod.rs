@@ -76,7 +76,12 @@ pub(super) enum Heads {
 
 /// How the dialect of some options is read.
 pub(super) fn of(options: &Options) -> &'static dyn Tongue {
-    match options.choice(DIALECT) {
+    named(options.choice(DIALECT))
+}
+
+/// The tongue of a dialect, by its word.
+pub(super) fn named(dialect: &str) -> &'static dyn Tongue {
+    match dialect {
         "fanuc" => &fanuc::Fanuc,
         "sinumerik" => &sinumerik::Sinumerik,
         "heidenhain" => &heidenhain::Heidenhain,
