@@ -104,6 +104,11 @@ pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
             "nobody knows what this statement does",
             "could do anything",
         ),
+        Obstacle::Depends(given) => (
+            given,
+            "motions depend on this, and nobody knows what they do now that it is not what the compiler writes",
+            "motions depend on this",
+        ),
         Obstacle::OtherFrame(given) => (
             given,
             "the program sets a frame that is not the job's, and nobody knows where the work is then",

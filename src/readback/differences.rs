@@ -1,15 +1,16 @@
 //! The steps between two programs as diagnostics: at their places in the given program, with the place in the job that
 //! asks for something else.
 
-use super::steps::Step;
-use super::told::Told;
+use super::split::says_the_same;
+use super::steps::{Parts, Step, Way};
+use super::told::{Told, skeleton};
 use super::wording::{deed_words, kind_words, mismatch_words, op_words, pace_words};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Label};
 use crate::job::{CheckedJob, Machine, Operation};
 use crate::source::{FileId, Span};
-use vcutc_backend_api::ir::{Action, OpId, Program};
+use vcutc_backend_api::ir::{Action, OpId, Program, Registered};
 use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::readback::{Deed, FrameRole, Grain, Judge, Mismatch, Moment, Place, Says};
+use vcutc_backend_api::readback::{Deed, FrameRole, Grain, Judge, Mismatch, Moment, Place, Says, essence};
 use vcutc_backend_api::stroke::Pose;
 
 /// So many differences are told one by one.
@@ -47,7 +48,7 @@ impl Differences {
 }
 
 /// Puts what differs into words.
-pub(super) fn differences(scene: &Scene<'_>, steps: &[Step]) -> Differences {
+pub(super) fn differences(scene: &Scene<'_>, way: &Way) -> Differences {
     let mut teller = Teller {
         scene,
         poses: poses_before(scene.judge.reachable().program()),
@@ -55,7 +56,11 @@ pub(super) fn differences(scene: &Scene<'_>, steps: &[Step]) -> Differences {
         counts: Vec::new(),
         after_effects: AfterEffects::default(),
     };
-    for &step in steps {
+    match way.parts {
+        Parts::AsWritten => {}
+        Parts::Otherwise => teller.other_parts(),
+    }
+    for &step in &way.steps {
         teller.step(step);
     }
     teller.settle();
@@ -97,6 +102,22 @@ struct AfterEffects {
     is_setting: bool,
     count: usize,
     first: Option<String>,
+    /// Where the job says what the first of them should be.
+    asked: Option<Span>,
+    /// How many of them nobody understands any more.
+    lost: usize,
+    /// Whether anything was told that they can follow from.
+    follow: Follow,
+}
+
+/// Whether what reads otherwise can be an after-effect.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+enum Follow {
+    /// Nothing was told before.
+    #[default]
+    Nothing,
+    /// Something was.
+    Cause,
 }
 
 impl Teller<'_> {
@@ -119,7 +140,43 @@ impl Teller<'_> {
                 let diagnostic = self.added(given);
                 self.tell(diagnostic);
             }
+            Step::OfPart { .. } => {}
         }
+    }
+
+    /// That the program is split in another way. What the parts do is compared all the same.
+    fn other_parts(&mut self) {
+        let begins = |told: &Told<'_>| {
+            let statements = told.statements.iter().enumerate();
+            let begins = statements.filter(|(_, statement)| statement.says == Says::PartBegins);
+            begins.map(|(index, _)| index).collect::<Vec<_>>()
+        };
+        let (is, should) = (begins(self.scene.given), begins(self.scene.fresh));
+        let parts = |count: usize| match count {
+            1 => "1 part".to_owned(),
+            count => format!("{count} parts"),
+        };
+        let message = if is.len() == should.len() {
+            format!(
+                "the {} begin elsewhere than where the compiler begins them",
+                parts(is.len().max(1))
+            )
+        } else {
+            format!(
+                "the program is split otherwise: {}, the compiler writes {}",
+                parts(is.len().max(1)),
+                parts(should.len().max(1))
+            )
+        };
+        let span = self.span(is.first().copied().unwrap_or_default());
+        self.tell(
+            Diagnostic::new(Code::OtherSetting, message, span, "the first part begins here")
+                .and(self.scene.job.name_span, "the job")
+                .note("what the parts do is compared all the same, and what each sets up and restates is no difference")
+                .help("give the options that the program was written with, such as --option lines_per_part=N, or compile the job again"),
+        );
+        // How a program is split changes nothing of what its statements do.
+        self.after_effects = AfterEffects::default();
     }
 
     fn tell(&mut self, diagnostic: Diagnostic) {
@@ -134,6 +191,7 @@ impl Teller<'_> {
             self.after_effects = AfterEffects {
                 cause: is_shown.then_some(self.diagnostics.len()),
                 is_setting,
+                follow: Follow::Cause,
                 ..AfterEffects::default()
             };
         }
@@ -150,7 +208,28 @@ impl Teller<'_> {
     fn settle(&mut self) {
         let effects = core::mem::take(&mut self.after_effects);
         let cause = effects.cause.and_then(|cause| self.diagnostics.get_mut(cause));
-        let (Some(cause), Some(first)) = (cause, effects.first) else {
+        let Some(cause) = cause else {
+            return;
+        };
+        if effects.is_setting
+            && cause.secondary.is_empty()
+            && let Some(asked) = effects.asked
+        {
+            cause.secondary.push(Label {
+                span: asked,
+                text: "asked for here".to_owned(),
+            });
+        }
+        match effects.lost {
+            0 => {}
+            1 => cause
+                .notes
+                .push("1 statement behind it depends on it: nobody knows what it does now".to_owned()),
+            lost => cause.notes.push(format!(
+                "{lost} statements behind it depend on it: nobody knows what they do now"
+            )),
+        }
+        let Some(first) = effects.first else {
             return;
         };
         let others = match effects.count {
@@ -170,27 +249,31 @@ impl Teller<'_> {
         ) else {
             return;
         };
-        if is == should {
+        if says_the_same(should, is) {
             return;
         }
-        match is {
-            // What is at fault stands before it; nothing before it was told, so this is.
-            Says::Deed(_) | Says::Frame(..) | Says::Setting | Says::PartBegins if !self.counts.is_empty() => {
-                self.after_effects.count += 1;
-                if self.after_effects.first.is_none() {
-                    self.after_effects.first = Some(self.after_effect(fresh, should, is));
-                }
-            }
-            Says::Deed(_)
-            | Says::Frame(..)
-            | Says::Setting
-            | Says::PartBegins
-            | Says::Unknown
-            | Says::Unreadable { .. } => {
+        // What is at fault stands before it; where nothing was told before it, this is told, and the rest follows from it.
+        match (self.after_effects.follow, is) {
+            (Follow::Nothing, _) => {
                 let diagnostic = self.changed(fresh, given);
                 self.tell(diagnostic);
             }
+            (Follow::Cause, Says::Unknown | Says::Unreadable { .. }) => self.after_effects.lost += 1,
+            (Follow::Cause, Says::Deed(_) | Says::Frame(..) | Says::Setting | Says::PartBegins) => {
+                self.after_effects.count += 1;
+                if self.after_effects.first.is_none() {
+                    self.after_effects.first = Some(self.after_effect(fresh, should, is));
+                    self.after_effects.asked = self.asked_of_effect(fresh, is);
+                }
+            }
         }
+    }
+
+    /// The field of the job that says what an after-effect should be, such as a feed; at least its operation.
+    fn asked_of_effect(&self, fresh: usize, is: &Says) -> Option<Span> {
+        let op = self.owner(fresh)?;
+        let mismatches = self.mismatches(fresh, is);
+        Some(self.speed_or(self.asked(Some(op)), op, mismatches.first()))
     }
 
     fn after_effect(&self, fresh: usize, should: &Says, is: &Says) -> String {
@@ -226,6 +309,11 @@ impl Teller<'_> {
         let owner = self.owner(fresh);
         let asked = self.asked(owner);
         let diagnostic = match (is, should, owner) {
+            (Some(is @ (Says::Unknown | Says::Unreadable { .. })), Some(should), _)
+                if is_setting(should) && self.is_of_one_kind(fresh, given) =>
+            {
+                self.other_setting(should, is, (fresh, given))
+            }
             (Some(Says::Unknown), _, _) => self.not_understood(given),
             (Some(Says::Unreadable { expected }), _, _) => self.unreadable(given, expected),
             (Some(is), Some(Says::Deed(_)), Some(op)) => {
@@ -276,17 +364,65 @@ impl Teller<'_> {
                 };
                 let diagnostic = Diagnostic::new(code, what, span, "reads differently");
                 match self.frame_span(should) {
-                    Some(frame) => diagnostic.and(frame, "the job's own value"),
+                    Some(frame) => diagnostic.and(frame, OWN_VALUE),
                     None => diagnostic,
                 }
             }
             (None, _, _) | (_, None, _) => self.added(given),
         };
+        let texts = [self.scene.fresh.text(fresh), self.scene.given.text(given)];
+        if let [should, is] = texts.map(essence)
+            && should == is
+        {
+            return diagnostic.help("the line itself is as it should be: mend what it depends on");
+        }
         diagnostic.fix(
             "put back what the compiler writes, or change the job so that it asks for this",
             span,
             self.scene.fresh.text(fresh),
         )
+    }
+
+    /// Whether two statements differ in their numbers only.
+    fn is_of_one_kind(&self, fresh: usize, given: usize) -> bool {
+        skeleton(self.scene.fresh.text(fresh)) == skeleton(self.scene.given.text(given))
+    }
+
+    /// A setting with another value, with which nobody knows what it means.
+    fn other_setting(&self, should: &Says, is: &Says, (fresh, given): (usize, usize)) -> Diagnostic {
+        let message = format!("{} differs from what the compiler writes", kind_words(should));
+        let diagnostic = Diagnostic::new(Code::OtherSetting, message, self.span(given), "reads differently");
+        let diagnostic = match (self.field(should, (fresh, given)), &self.scene.job.machine) {
+            (Some(field), _) => diagnostic.and(field, OWN_VALUE),
+            (None, Some(machine)) => diagnostic.and(machine.head_span, "the machine that it is written for"),
+            (None, None) => diagnostic,
+        };
+        match is {
+            Says::Unreadable { expected } => diagnostic.note(format!("{expected} is expected")),
+            Says::Deed(_) | Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown => diagnostic,
+        }
+    }
+
+    /// The field of the job's machine that a setting follows from, where that can be told.
+    fn field(&self, should: &Says, (fresh, given): (usize, usize)) -> Option<Span> {
+        let machine = self.scene.job.machine.as_ref()?;
+        let texts = [self.scene.fresh.text(fresh), self.scene.given.text(given)];
+        let [should_be, are] = texts.map(|text| {
+            let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
+            numbers.filter_map(|number| number.parse::<f64>().ok())
+        });
+        let load = machine.load.and_then(|load| match load.value {
+            Registered::Value(value) => Some((value.mass.to_kg(), load.span)),
+            Registered::Number(_) => None,
+        });
+        let Some((mass, load)) = load else {
+            return self.frame_span(should);
+        };
+        let names_load = should_be.zip(are).any(|(should, is)| {
+            let is_mass = (should - mass).abs() < SAME_MASS;
+            is_mass && (is - mass).abs() >= SAME_MASS
+        });
+        if names_load { load } else { self.frame_span(should) }
     }
 
     fn moved(&self, fresh: usize, given: usize) -> Diagnostic {
@@ -483,6 +619,20 @@ impl Teller<'_> {
         self.scene.job.machine.as_ref().and_then(of)
     }
 }
+
+/// Whether a statement sets something for those behind it.
+const fn is_setting(says: &Says) -> bool {
+    match says {
+        Says::Frame(..) | Says::Setting => true,
+        Says::Deed(_) | Says::PartBegins | Says::Unknown | Says::Unreadable { .. } => false,
+    }
+}
+
+/// Masses nearer than this are the same, in kg.
+const SAME_MASS: f64 = 1e-6;
+
+/// What a job's field is to a setting.
+const OWN_VALUE: &str = "the job's own value";
 
 /// Where a statement of a given program stands; behind the last one where there is none of that number.
 pub(super) fn place_in(given: &Told<'_>, sources: &[FileId], index: usize) -> Option<Span> {

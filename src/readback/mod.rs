@@ -9,9 +9,11 @@
 //! Nothing here knows a dialect: a reader tells statements, and texts are compared by their essence. A difference in the
 //! essence is always told, also where a number differs by less than its rounding.
 
+mod absent;
 mod checks;
 mod differences;
 mod rebuild;
+mod split;
 mod steps;
 mod told;
 mod wording;
@@ -24,10 +26,11 @@ use crate::job::CheckedJob;
 use crate::plan::PlannedJob;
 use crate::reach::solve::{Reached, rig};
 use crate::source::{FileId, SourceMap};
+use absent::{absent, not_given};
 use checks::{Bench, left_out};
 use differences::{Scene, differences};
 use rebuild::rebuild;
-use steps::{Step, steps};
+use steps::{Step, way};
 use told::Told;
 use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
@@ -114,15 +117,22 @@ impl<'a> Reference<'a> {
         let ids: Vec<_> = named
             .map(|(index, file)| sources.add(shown.get(index).unwrap_or(&file.name), file.text.clone()))
             .collect();
+        let missing = absent(self.fresh.written, given);
+        if let Some(diagnostic) = not_given(&missing, &ids) {
+            return Verdict {
+                diagnostics: vec![diagnostic],
+                lines: vec!["not compared: files are missing".to_owned()],
+            };
+        }
         let is = self.read(given);
         let scene = self.scene(&is, &ids);
-        let steps = steps(&self.told, &is);
-        let found = differences(&scene, &steps);
+        let way = way(&scene);
+        let found = differences(&scene, &way);
         let count = found.count();
         let mut lines = self.lines(&is, count, given);
         let mut diagnostics = found.diagnostics;
         if count > 0 {
-            let wrong = self.checked(&scene, &steps);
+            let wrong = self.checked(&scene, &way.steps);
             if wrong.is_empty() {
                 lines.push(SOUND.to_owned());
             }
@@ -135,7 +145,8 @@ impl<'a> Reference<'a> {
     #[must_use]
     pub fn differences(&self, given: &[ProgramFile]) -> usize {
         let is = self.read(given);
-        differences(&self.scene(&is, &[]), &steps(&self.told, &is)).count()
+        let scene = self.scene(&is, &[]);
+        differences(&scene, &way(&scene)).count()
     }
 
     fn read<'f>(&self, files: &'f [ProgramFile]) -> Told<'f>

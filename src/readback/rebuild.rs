@@ -5,6 +5,7 @@
 //! turns the blade is a turn, any other goes through the air, and must prove that it does.
 
 use super::differences::{Scene, poses_before};
+use super::split::says_the_same;
 use super::steps::Step;
 use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
@@ -32,6 +33,8 @@ pub(super) struct Rebuilt {
 pub(super) enum Obstacle {
     /// A statement, by its number, is not understood.
     NotUnderstood(usize),
+    /// Statements that are as they should be depend on one that is not, by its number.
+    Depends(usize),
     /// A statement sets a frame that is not the job's.
     OtherFrame(usize),
     /// It says more postures or speeds than are compared.
@@ -49,6 +52,7 @@ const MOST_KINDS: usize = 4096;
 /// The first statement that stands in the way.
 pub(super) fn rebuild(scene: &Scene<'_>, steps: &[Step], rig: &Rig<'_>) -> Result<Rebuilt, Obstacle> {
     let fresh = scene.judge.reachable().program();
+    let mut differs = None;
     let mut builder = Builder {
         scene,
         rig,
@@ -66,11 +70,33 @@ pub(super) fn rebuild(scene: &Scene<'_>, steps: &[Step], rig: &Rig<'_>) -> Resul
     };
     for &step in steps {
         match step {
-            Step::Same { fresh, given } | Step::Changed { fresh, given } => {
-                builder.statement(Some((fresh, Order::Kept)), given)?;
+            Step::Same { .. } | Step::OfPart { .. } => {}
+            Step::Changed { given, .. }
+            | Step::Moved { given, .. }
+            | Step::Missing { given, .. }
+            | Step::Added { given, .. } => differs = differs.or(Some(given)),
+        }
+        match step {
+            Step::Same { fresh, given } => {
+                let done = builder.statement(Some((fresh, Order::Kept)), given);
+                done.map_err(|obstacle| match (obstacle, differs) {
+                    (Obstacle::NotUnderstood(_), Some(cause)) => Obstacle::Depends(cause),
+                    (obstacle, _) => obstacle,
+                })?;
+            }
+            Step::Changed { fresh, given } => {
+                let done = builder.statement(Some((fresh, Order::Kept)), given);
+                let should = scene.fresh.statements.get(fresh).map(|should| &should.says);
+                done.map_err(|obstacle| match (obstacle, should) {
+                    (Obstacle::NotUnderstood(given), Some(Says::Frame(..) | Says::Setting)) => {
+                        Obstacle::Depends(given)
+                    }
+                    (obstacle, _) => obstacle,
+                })?;
             }
             Step::Moved { fresh, given } => builder.statement(Some((fresh, Order::Lost)), given)?,
             Step::Added { given, .. } => builder.statement(None, given)?,
+            Step::OfPart { given } => builder.of_part(given)?,
             Step::Missing { .. } => {}
         }
     }
@@ -123,7 +149,7 @@ impl Builder<'_> {
             return Ok(());
         };
         let should = partner.and_then(|(fresh, _)| self.scene.fresh.statements.get(fresh));
-        let reads_as_it_should = should.is_some_and(|should| should.says == is.says);
+        let reads_as_it_should = should.is_some_and(|should| says_the_same(&should.says, &is.says));
         match &is.says {
             Says::Setting | Says::PartBegins => Ok(()),
             Says::Frame(role, setting) => {
@@ -149,6 +175,17 @@ impl Builder<'_> {
                 self.deed(deed, partner, given)
             }
             Says::Unknown | Says::Unreadable { .. } => Err(Obstacle::NotUnderstood(given)),
+        }
+    }
+
+    /// What a part restates is no op.
+    fn of_part(&mut self, given: usize) -> Result<(), Obstacle> {
+        match self.scene.given.statements.get(given).map(|is| &is.says) {
+            Some(Says::Deed(_)) => Ok(()),
+            Some(
+                Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. },
+            )
+            | None => self.statement(None, given),
         }
     }
 

@@ -1,6 +1,8 @@
 //! What it takes to get from one program's statements to another's.
 
-use super::told::{Names, Told};
+use super::differences::Scene;
+use super::split;
+use super::told::Names;
 use crate::align::{Pair, common};
 use core::ops::Range;
 use std::collections::{BTreeMap, VecDeque};
@@ -18,6 +20,8 @@ pub(super) enum Step {
     Missing { fresh: usize, given: usize },
     /// It is in the given program only; `fresh` is the statement in front of which it stands.
     Added { fresh: usize, given: usize },
+    /// It belongs to the head or the end of a part, and says nothing new.
+    OfPart { given: usize },
 }
 
 impl Step {
@@ -28,21 +32,84 @@ impl Step {
             | Self::Changed { given, .. }
             | Self::Moved { given, .. }
             | Self::Missing { given, .. }
-            | Self::Added { given, .. } => given,
+            | Self::Added { given, .. }
+            | Self::OfPart { given } => given,
+        }
+    }
+
+    /// By this the steps ascend: what is missing in front of a statement is told before it; otherwise the order of the given
+    /// program.
+    pub(super) const fn order(&self) -> (usize, bool) {
+        (self.given(), !matches!(self, Self::Missing { .. }))
+    }
+
+    /// The same step where statements have other numbers.
+    pub(super) fn at(self, fresh_at: impl Fn(usize) -> usize, given_at: impl Fn(usize) -> usize) -> Self {
+        let given = given_at(self.given());
+        match self {
+            Self::Same { fresh, .. } => Self::Same {
+                fresh: fresh_at(fresh),
+                given,
+            },
+            Self::Changed { fresh, .. } => Self::Changed {
+                fresh: fresh_at(fresh),
+                given,
+            },
+            Self::Moved { fresh, .. } => Self::Moved {
+                fresh: fresh_at(fresh),
+                given,
+            },
+            Self::Missing { fresh, .. } => Self::Missing {
+                fresh: fresh_at(fresh),
+                given,
+            },
+            Self::Added { fresh, .. } => Self::Added {
+                fresh: fresh_at(fresh),
+                given,
+            },
+            Self::OfPart { .. } => Self::OfPart { given },
         }
     }
 }
 
-/// The steps, in the order of the given program.
-pub(super) fn steps(fresh: &Told<'_>, given: &Told<'_>) -> Vec<Step> {
-    let mut names = Names::default();
-    let essences = [fresh.essences(&mut names), given.essences(&mut names)];
-    let mut names = Names::default();
-    let skeletons = [fresh.skeletons(&mut names), given.skeletons(&mut names)];
-    steps_between(&essences, &skeletons)
+/// The way from one program to another.
+pub(super) struct Way {
+    /// In the order of the given program.
+    pub(super) steps: Vec<Step>,
+    pub(super) parts: Parts,
 }
 
-fn steps_between(essences: &[Vec<u32>; 2], skeletons: &[Vec<u32>; 2]) -> Vec<Step> {
+/// Where parts begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Parts {
+    /// Where the compiler begins them.
+    AsWritten,
+    /// Elsewhere.
+    Otherwise,
+}
+
+/// The way from the fresh program of a scene to the given one.
+pub(super) fn way(scene: &Scene<'_>) -> Way {
+    let (fresh, given) = (scene.fresh, scene.given);
+    let mut names = Names::default();
+    let essences = [fresh.essences(&mut names), given.essences(&mut names)];
+    let [fresh_essences, given_essences] = &essences;
+    if split::is_split_otherwise(scene, &common(fresh_essences, given_essences)) {
+        return Way {
+            steps: split::steps(scene),
+            parts: Parts::Otherwise,
+        };
+    }
+    let mut names = Names::default();
+    let skeletons = [fresh.skeletons(&mut names), given.skeletons(&mut names)];
+    Way {
+        steps: steps_between(&essences, &skeletons),
+        parts: Parts::AsWritten,
+    }
+}
+
+/// The steps between two sequences of statements, by names of their texts and of their kinds.
+pub(super) fn steps_between(essences: &[Vec<u32>; 2], skeletons: &[Vec<u32>; 2]) -> Vec<Step> {
     let [fresh, given] = essences;
     let pairs = common(fresh, given);
     let moved = moved(essences, &pairs);
@@ -62,8 +129,7 @@ fn steps_between(essences: &[Vec<u32>; 2], skeletons: &[Vec<u32>; 2]) -> Vec<Ste
         }
         from = (end_fresh + 1, end_given + 1);
     }
-    // What is missing in front of a statement is told before it; otherwise the order of the given program.
-    steps.sort_by_key(|step| (step.given(), !matches!(step, Step::Missing { .. })));
+    steps.sort_by_key(Step::order);
     steps
 }
 
@@ -237,7 +303,7 @@ mod tests {
                         seen.1[given] += 1;
                     }
                     Step::Missing { fresh, .. } => seen.0[fresh] += 1,
-                    Step::Added { given, .. } => seen.1[given] += 1,
+                    Step::Added { given, .. } | Step::OfPart { given } => seen.1[given] += 1,
                 }
             }
             prop_assert!(seen.0.iter().chain(&seen.1).all(|&count| count == 1));

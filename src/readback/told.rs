@@ -44,10 +44,7 @@ impl<'f> Told<'f> {
 
     /// The same for statements that differ in their numbers only.
     pub(super) fn skeletons(&self, known: &mut Names) -> Vec<u32> {
-        self.named(known, |text| {
-            let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
-            essence(text).split(is_of_number).collect()
-        })
+        self.named(known, skeleton)
     }
 
     fn named(&self, known: &mut Names, name: impl Fn(&str) -> String) -> Vec<u32> {
@@ -66,6 +63,12 @@ impl<'f> Told<'f> {
     }
 }
 
+/// A statement's essence without its numbers.
+pub(super) fn skeleton(text: &str) -> String {
+    let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
+    essence(text).split(is_of_number).collect()
+}
+
 /// The text at a place.
 pub(super) fn text_at(files: &[ProgramFile], place: Place) -> &str {
     files
@@ -81,7 +84,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    fn number(&mut self, name: String) -> u32 {
+    pub(super) fn number(&mut self, name: String) -> u32 {
         let next = u32::try_from(self.numbers.len()).unwrap_or(u32::MAX);
         *self.numbers.entry(name).or_insert(next)
     }

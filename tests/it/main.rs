@@ -48,3 +48,5 @@ mod third_party;
 mod tidy;
 #[cfg(feature = "krl")]
 mod verify;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod verify_cells;

@@ -1,0 +1,257 @@
+//! Programs that are split into parts otherwise than the compiler splits them now, because they were written with other
+//! options.
+//!
+//! Every part sets everything up again and restates where the machine stands, and numbers may be written otherwise in it
+//! (RAPID's quaternions begin anew with either sign). Deeds are therefore paired by what they say, and what belongs to a
+//! part's head or end alone is left aside: it says nothing new.
+
+use super::differences::{Scene, poses_before};
+use super::steps::{Step, steps_between};
+use super::told::{Names, Told};
+use crate::align::{Pair, common};
+use std::collections::{BTreeMap, BTreeSet};
+use vcutc_backend_api::ir::OpId;
+use vcutc_backend_api::readback::{Deed, Held, Moment, Says, Target, essence};
+use vcutc_backend_api::script::State;
+
+/// What a deed says, equal for equal ones however they are written.
+pub(super) fn meaning(deed: &Deed) -> String {
+    match deed {
+        Deed::AxesToPose(target) => format!("to {}", target_meaning(target)),
+        Deed::Straight { to, pace, end } => format!("straight {} {pace:?} {end:?}", target_meaning(to)),
+        Deed::Axes(_) | Deed::Switch { .. } | Deed::AwaitInput(_) | Deed::Wait(_) => format!("{deed:?}"),
+    }
+}
+
+fn target_meaning(target: &Target) -> String {
+    match target.held {
+        Held::Orientation(orientation, stance) => {
+            // A quaternion and its opposite are the same turn; adding 0 takes the sign off zeros.
+            let matrix = orientation.matrix().map(|row| row.map(|entry| entry + 0.0));
+            format!("{:?} {matrix:?} {stance:?}", target.tip)
+        }
+        Held::Rotary(_) => format!("{target:?}"),
+    }
+}
+
+/// Whether two statements do the same.
+pub(super) fn says_the_same(should: &Says, is: &Says) -> bool {
+    match (should, is) {
+        (Says::Deed(should), Says::Deed(is)) => should == is || meaning(should) == meaning(is),
+        (_, _) => should == is,
+    }
+}
+
+/// Whether parts begin elsewhere, judged by what texts of the two programs have in common.
+pub(super) fn is_split_otherwise(scene: &Scene<'_>, pairs: &[Pair]) -> bool {
+    let begins = |told: &Told<'_>, index: usize| {
+        let statement = told.statements.get(index);
+        statement.is_some_and(|statement| statement.says == Says::PartBegins)
+    };
+    let all = |told: &Told<'_>| (0..told.statements.len()).filter(|&at| begins(told, at)).count();
+    let paired = pairs
+        .iter()
+        .filter(|&&(fresh, given)| begins(scene.fresh, fresh) && begins(scene.given, given))
+        .count();
+    all(scene.fresh) != paired || all(scene.given) != paired
+}
+
+/// The steps between two programs that are split in different ways.
+pub(super) fn steps(scene: &Scene<'_>) -> Vec<Step> {
+    let mut names = Names::default();
+    let keys = [scene.fresh, scene.given].map(|told| keys(told, &mut names));
+    let [fresh_keys, given_keys] = &keys;
+    let pairs = common(fresh_keys, given_keys);
+    let aside = Aside::of(scene, &keys, &pairs);
+    let [in_fresh, in_given] = [&aside.fresh, &aside.given].map(|aside| {
+        let kept = aside
+            .iter()
+            .enumerate()
+            .filter(|(_, aside)| **aside == Part::Content);
+        kept.map(|(index, _)| index).collect::<Vec<_>>()
+    });
+    let of = |all: &[u32], places: &[usize]| -> Vec<u32> {
+        places
+            .iter()
+            .filter_map(|&place| all.get(place).copied())
+            .collect()
+    };
+    let mut names = Names::default();
+    let skeletons = [
+        scene.fresh.skeletons(&mut names),
+        scene.given.skeletons(&mut names),
+    ];
+    let [fresh_kinds, given_kinds] = &skeletons;
+    let between = steps_between(
+        &[of(fresh_keys, &in_fresh), of(given_keys, &in_given)],
+        &[of(fresh_kinds, &in_fresh), of(given_kinds, &in_given)],
+    );
+    let fresh_at = |place: usize| in_fresh.get(place).copied().unwrap_or(fresh_keys.len());
+    let given_at = |place: usize| in_given.get(place).copied().unwrap_or(given_keys.len());
+    let mut steps: Vec<Step> = between
+        .into_iter()
+        .map(|step| step.at(fresh_at, given_at))
+        .collect();
+    let parts = aside.given.iter().enumerate();
+    let parts = parts.filter(|(_, aside)| **aside == Part::Frame);
+    steps.extend(parts.map(|(given, _)| Step::OfPart { given }));
+    steps.sort_by_key(Step::order);
+    steps
+}
+
+/// Deeds by what they say, other statements by their texts, in which names of the program's files are all the same.
+fn keys(told: &Told<'_>, names: &mut Names) -> Vec<u32> {
+    let key = |index: usize| match told.statements.get(index).map(|statement| &statement.says) {
+        Some(Says::Deed(deed)) => meaning(deed),
+        Some(
+            Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. },
+        )
+        | None => format!("text {}", essence(told.text(index))),
+    };
+    (0..told.statements.len())
+        .map(|index| names.number(key(index)))
+        .collect()
+}
+
+/// Whether a statement is of a part's head or end, or of what the part does.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Frame,
+    Content,
+}
+
+/// What is left aside of either program.
+struct Aside {
+    fresh: Vec<Part>,
+    given: Vec<Part>,
+}
+
+impl Aside {
+    fn of(scene: &Scene<'_>, keys: &[Vec<u32>; 2], pairs: &[Pair]) -> Self {
+        let [fresh_keys, given_keys] = keys;
+        let fresh_known: BTreeSet<u32> = fresh_keys.iter().copied().collect();
+        let given_known: BTreeSet<u32> = given_keys.iter().copied().collect();
+        let to_fresh: BTreeMap<usize, usize> = pairs.iter().map(|&(fresh, given)| (given, fresh)).collect();
+        let paired: BTreeSet<usize> = pairs.iter().map(|&(fresh, _)| fresh).collect();
+        let restated = restated(scene, &to_fresh);
+        let of_part = |told: &Told<'_>, index: usize, known: bool, restates: bool| {
+            let is_of_part = match told.statements.get(index).map(|statement| &statement.says) {
+                Some(Says::PartBegins) => true,
+                Some(Says::Setting) => known || names_file(told, index),
+                Some(Says::Frame(..)) => known,
+                Some(Says::Deed(_)) => restates,
+                Some(Says::Unknown | Says::Unreadable { .. }) | None => false,
+            };
+            if is_of_part { Part::Frame } else { Part::Content }
+        };
+        let fresh = fresh_keys.iter().enumerate().map(|(index, key)| {
+            if paired.contains(&index) {
+                return Part::Content;
+            }
+            of_part(
+                scene.fresh,
+                index,
+                given_known.contains(key),
+                is_restatement_of_ours(scene, index),
+            )
+        });
+        let given = given_keys.iter().enumerate().map(|(index, key)| {
+            if to_fresh.contains_key(&index) {
+                return Part::Content;
+            }
+            of_part(
+                scene.given,
+                index,
+                fresh_known.contains(key),
+                restated.contains(&index),
+            )
+        });
+        Self {
+            fresh: fresh.collect(),
+            given: given.collect(),
+        }
+    }
+}
+
+/// Whether a deed of the fresh program says no op and no point on the way of one.
+fn is_restatement_of_ours(scene: &Scene<'_>, fresh: usize) -> bool {
+    let is_owned = scene.owners.get(fresh).copied().flatten().is_some();
+    let says = scene.fresh.statements.get(fresh).map(|statement| &statement.says);
+    let restates = match says {
+        Some(Says::Deed(deed)) => match deed {
+            Deed::Straight { .. } => false,
+            Deed::Axes(_)
+            | Deed::AxesToPose(_)
+            | Deed::Switch { .. }
+            | Deed::AwaitInput(_)
+            | Deed::Wait(_) => true,
+        },
+        Some(
+            Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. },
+        )
+        | None => false,
+    };
+    restates && !is_owned
+}
+
+/// The deeds of the given program that restate, at the head of a part, what holds there.
+fn restated(scene: &Scene<'_>, to_fresh: &BTreeMap<usize, usize>) -> BTreeSet<usize> {
+    let program = scene.judge.reachable().program();
+    let poses = poses_before(program);
+    let mut state = State::START;
+    let mut states = vec![state];
+    states.extend(program.ops.iter().map(|op| {
+        state = state.after(&op.action);
+        state
+    }));
+    let mut found = BTreeSet::new();
+    let mut next = OpId(0);
+    let mut at_head = false;
+    for (given, statement) in scene.given.statements.iter().enumerate() {
+        match &statement.says {
+            Says::PartBegins => at_head = true,
+            Says::Deed(deed) => {
+                let partner = to_fresh.get(&given);
+                let owner = partner.and_then(|&fresh| scene.owners.get(fresh).copied().flatten());
+                if let Some(op) = owner {
+                    next = OpId(op.0.saturating_add(1));
+                    at_head = false;
+                } else if at_head && let Some(state) = states.get(next.0 as usize) {
+                    let at = poses.get(next.0 as usize).copied().flatten();
+                    let moment = Moment { op: next, at };
+                    if scene.judge.restates(moment, state.generator, deed) {
+                        found.insert(given);
+                    } else {
+                        at_head = false;
+                    }
+                }
+            }
+            Says::Frame(..) | Says::Setting | Says::Unknown | Says::Unreadable { .. } => {}
+        }
+    }
+    found
+}
+
+/// Whether a statement names a file of its program, as its beginning, its end and calls of it do.
+fn names_file(told: &Told<'_>, index: usize) -> bool {
+    let text = told.text(index).to_ascii_uppercase();
+    let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut words = text.split(|c| !is_of_word(c));
+    let stems: Vec<_> = told
+        .files
+        .iter()
+        .map(|file| {
+            file.name
+                .split('.')
+                .next()
+                .unwrap_or_default()
+                .to_ascii_uppercase()
+        })
+        .collect();
+    // RAPID's parts are routines that are called after the program.
+    let is_of = |word: &str, stem: &str| {
+        let rest = word.strip_prefix(stem);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    words.any(|word| stems.iter().any(|stem| !stem.is_empty() && is_of(word, stem)))
+}
