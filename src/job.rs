@@ -236,4 +236,6 @@ pub enum GivenValue {
     Texts(Vec<String>),
     /// A bare word.
     Word(String),
+    /// The word `default`: as if the option were not given.
+    Default,
 }

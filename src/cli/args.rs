@@ -356,7 +356,8 @@ pub(super) struct TargetOptions {
     /// Set an option of the target; can be given several times
     ///
     /// Keys and values are those of the target's block in the machine (see `vcutc targets`), and go before what stands there:
-    /// --option lines_per_part=0, --option 'header=("; cell 4", "; rib")'. Files are looked for from the current folder.
+    /// --option lines_per_part=0, --option 'header=("; cell 4", "; rib")'. The word `default` takes back what the block says:
+    /// --option header=default. Files are looked for from the current folder.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) option: Vec<String>,
 }

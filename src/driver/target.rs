@@ -91,7 +91,7 @@ fn set_decimals(
     let decimals = profile.node.decimals?;
     let value = OptionValue::Integer(u32::from(decimals));
     let allowed = options.set(spec, value).err()?;
-    if block.given.iter().any(|given| given.key == DECIMALS) {
+    if option_span(block, DECIMALS).is_some() {
         return None;
     }
     let message = format!(
@@ -125,12 +125,14 @@ fn set(options: &mut Options, spec: &OptionSpec, given: &GivenValue) -> Result<(
         (OptionKind::Lines, GivenValue::Ratio(_) | GivenValue::Length(_) | GivenValue::Word(_)) => {
             return Err("text in quotes".to_owned());
         }
+        // What the profile or the target says is set already.
+        (_, GivenValue::Default) => return Ok(()),
         (
             OptionKind::Integer { .. }
             | OptionKind::Length { .. }
             | OptionKind::Text
             | OptionKind::Choice { .. },
-            _,
+            GivenValue::Ratio(_) | GivenValue::Length(_) | GivenValue::Texts(_) | GivenValue::Word(_),
         ) => none,
     };
     options.set(spec, value)
@@ -242,20 +244,24 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             example(field, job.machine.as_ref())
         )),
         BackendIssue::OptionConflict { key, why } => {
-            let span = option_span(job.machine.as_ref(), target, key).unwrap_or(machine);
-            Diagnostic::new(
-                Code::BadOption,
-                format!("option `{key}` does not fit: {why}"),
-                span,
-                "this option",
-            )
+            let block = block(job.machine.as_ref(), target);
+            match (
+                block.and_then(|block| option_span(block, key)),
+                block.and_then(|block| said_by_profile(block, key)),
+            ) {
+                (None, Some(profile)) => unfit_profile(target, key, why, profile),
+                (given, _) => Diagnostic::new(
+                    Code::BadOption,
+                    format!("option `{key}` does not fit: {why}"),
+                    given.unwrap_or(machine),
+                    "this option",
+                ),
+            }
         }
-        BackendIssue::Profile { key, why } => Diagnostic::new(
-            Code::BadOption,
-            format!("target `{target}` cannot do what the profile's `{key}` asks: {why}"),
-            profile_span(job.machine.as_ref(), target).unwrap_or(machine),
-            "this profile",
-        ),
+        BackendIssue::Profile { key, why } => {
+            let profile = block(job.machine.as_ref(), target).and_then(|block| block.profile.as_ref());
+            unfit_profile(target, key, why, profile.map_or(machine, |profile| profile.span))
+        }
         BackendIssue::Unsupported { op, what } => Diagnostic::new(
             Code::Unsupported,
             format!("target `{target}` cannot say this: {what}"),
@@ -383,14 +389,27 @@ fn home_of_axes(model: &Model) -> String {
     format!("axes({})", places.collect::<Vec<_>>().join(", "))
 }
 
-fn option_span(machine: Option<&Machine>, target: &str, key: &str) -> Option<Span> {
-    let mut given = block(machine, target)?.given.iter();
-    given.find(|given| given.key == key).map(|given| given.value_span)
+fn unfit_profile(target: &str, key: &str, why: &str, profile: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::BadOption,
+        format!("target `{target}` cannot do what the profile's `{key}` asks: {why}"),
+        profile,
+        "this profile",
+    )
 }
 
-fn profile_span(machine: Option<&Machine>, target: &str) -> Option<Span> {
-    let profile = block(machine, target)?.profile.as_ref();
-    profile.map(|profile| profile.span)
+/// Where an option has a value of its own.
+fn option_span(block: &TargetOptions, key: &str) -> Option<Span> {
+    let mut given = block.given.iter();
+    given
+        .find(|given| given.key == key && given.value != GivenValue::Default)
+        .map(|given| given.value_span)
+}
+
+/// Where a profile is named that sets an option.
+fn said_by_profile(block: &TargetOptions, key: &str) -> Option<Span> {
+    let profile = block.profile.as_ref()?;
+    (key == DECIMALS && profile.node.decimals.is_some()).then_some(profile.span)
 }
 
 /// Where the machine's value of that kind stands; kinds begin with a word for the field they come from.

@@ -21,6 +21,9 @@ use vcutc_backend_api::units::Length;
 /// The key of a file with the machine's habits. No target has an option of this name.
 const PROFILE: &str = "profile";
 
+/// The word that takes an option back.
+const DEFAULT: &str = "default";
+
 /// The options for all targets of a machine.
 pub(crate) fn read(
     blocks: &[&Block],
@@ -75,7 +78,7 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Gi
             Entry::Field { name, value, .. } => match first.insert(&name.node, name.span) {
                 None if name.node == PROFILE => {
                     let beside = session.sources.name(value.span.file).to_owned();
-                    profile(value, &beside, session).map(|found| named = Some(found))
+                    profile(value, &beside, scope, session).map(|found| named = found)
                 }
                 None => option(name, value, scope, session).map(|option| options.push(option)),
                 Some(earlier) => {
@@ -137,7 +140,7 @@ pub(crate) fn over(
     let mut fault = None;
     for Override { name, value } in said.read {
         let done = if name.node == PROFILE {
-            profile(value, said.typed.beside, session).map(|profile| block.profile = Some(profile))
+            profile(value, said.typed.beside, scope, session).map(|profile| block.profile = profile)
         } else {
             option(name, value, scope, session).map(|option| {
                 block.given.retain(|given| given.key != option.key);
@@ -155,8 +158,16 @@ pub(crate) fn over(
     }
 }
 
-/// The habits in the file that a text names, relative to the folder of the file `beside`.
-fn profile(value: &Spanned<Expr>, beside: &str, session: &mut Session<'_>) -> Checked<Spanned<Profile>> {
+/// The habits in the file that a text names, relative to the folder of the file `beside`; none for the word `default`.
+fn profile(
+    value: &Spanned<Expr>,
+    beside: &str,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Option<Spanned<Profile>>> {
+    if word(&value.node, scope) == Some(DEFAULT) {
+        return Ok(None);
+    }
     let Expr::Text(name) = &value.node else {
         let diagnostic = Diagnostic::new(
             Code::WrongKind,
@@ -178,7 +189,7 @@ fn profile(value: &Spanned<Expr>, beside: &str, session: &mut Session<'_>) -> Ch
         .get(&path)
         .cloned()
         .unwrap_or(Ok(Profile::default()))?;
-    Ok(Spanned::new(profile, value.span))
+    Ok(Some(Spanned::new(profile, value.span)))
 }
 
 fn misplaced(what: &str, span: Span, session: &mut Session<'_>) -> Reported {
@@ -213,18 +224,14 @@ fn given(
     scope: Scope<'_>,
     session: &mut Session<'_>,
 ) -> Checked<GivenValue> {
+    match word(&value.node, scope) {
+        Some(DEFAULT) => return Ok(GivenValue::Default),
+        Some(word) => return Ok(GivenValue::Word(word.to_owned())),
+        None => {}
+    }
     match &value.node {
         Expr::Text(text) => return Ok(GivenValue::Texts(vec![text.clone()])),
         Expr::Tuple(values) => return texts(values, session).map(GivenValue::Texts),
-        // A word that is no `let` is a word of the target.
-        Expr::Name(word)
-            if !matches!(
-                scope.names.get(word).map(|known| known.thing),
-                Some(Thing::Let(_))
-            ) =>
-        {
-            return Ok(GivenValue::Word(word.clone()));
-        }
         Expr::Name(_) | Expr::Number { .. } | Expr::Call { .. } | Expr::Negate(_) | Expr::Binary { .. } => {}
     }
     let quantity = scope.evaluate(value, &mut session.reports)?;
@@ -247,6 +254,15 @@ fn given(
     Err(session
         .reports
         .push(diagnostic.help("see `vcutc targets` for the options of each target")))
+}
+
+/// A name that is no `let`, and with that a word of the target.
+fn word<'e>(value: &'e Expr, scope: Scope<'_>) -> Option<&'e str> {
+    let Expr::Name(word) = value else {
+        return None;
+    };
+    let known = scope.names.get(word).map(|known| known.thing);
+    (!matches!(known, Some(Thing::Let(_)))).then_some(word)
 }
 
 /// A list of texts.

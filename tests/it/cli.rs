@@ -2,6 +2,8 @@
 
 mod build;
 mod ci;
+#[cfg(feature = "gcode")]
+mod dialects;
 mod gallery;
 mod jobs;
 mod kinematics;
@@ -12,7 +14,6 @@ mod place;
 mod profiles;
 mod refusals;
 mod snapshot;
-#[cfg(feature = "krl")]
 mod verify;
 
 use std::fs;

@@ -2,7 +2,9 @@
 
 use crate::krl_text;
 use crate::pipeline::{all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, told};
-use crate::shop::{DIALECTS, FAILING, NOT_ON, Pairing, compiling, folder, folder_for, jobs};
+#[cfg(feature = "gcode")]
+use crate::shop::{DIALECTS, folder_for};
+use crate::shop::{FAILING, NOT_ON, Pairing, compiling, folder, jobs};
 use std::collections::BTreeSet;
 use vcutc::registry;
 

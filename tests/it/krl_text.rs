@@ -93,6 +93,8 @@ fn decimals(outcome: &Outcome) -> i32 {
         .map(|option| &option.value);
     decimals.next_back().map_or(3, |value| match value {
         GivenValue::Ratio(number) => format!("{number}").parse().unwrap(),
-        GivenValue::Length(_) | GivenValue::Texts(_) | GivenValue::Word(_) => panic!("{value:?}"),
+        GivenValue::Length(_) | GivenValue::Texts(_) | GivenValue::Word(_) | GivenValue::Default => {
+            panic!("{value:?}")
+        }
     })
 }

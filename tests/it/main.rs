@@ -1,4 +1,5 @@
-//! Tests across stages, in one binary, one module a subject.
+//! Tests across stages, in one binary, one module a subject. Whole programs are mostly those of KRL: without it, what compiles
+//! jobs to their end is left out.
 #![allow(
     clippy::disallowed_methods,
     clippy::expect_used,
@@ -9,14 +10,16 @@
 
 mod backends_page;
 mod check;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", feature = "krl"))]
 mod cli;
 mod codes;
 #[cfg(feature = "krl")]
 mod examples;
 #[cfg(feature = "krl")]
 mod five_axis;
+#[cfg(all(feature = "gcode", feature = "krl"))]
 mod gcode;
+#[cfg(feature = "krl")]
 mod hostile;
 #[cfg(all(feature = "cli", feature = "gcode", feature = "krl", feature = "rapid"))]
 mod jobs;
@@ -31,6 +34,7 @@ mod pages;
 mod pipeline;
 #[cfg(feature = "krl")]
 mod process_errors;
+#[cfg(feature = "krl")]
 mod published;
 #[cfg(feature = "krl")]
 mod reach;
@@ -42,8 +46,10 @@ mod schema;
 mod serial_arm;
 #[cfg(feature = "krl")]
 mod shop;
+#[cfg(feature = "krl")]
 mod status;
 mod syntax;
+#[cfg(feature = "krl")]
 mod third_party;
 mod tidy;
 #[cfg(feature = "krl")]

@@ -31,10 +31,7 @@ fn form(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let (decimals, most) = (settings.lengths.decimals(), dialect.most_decimals());
     if decimals > most {
         let why = format!("{} reads up to {most} decimals, not {decimals}", dialect.name());
-        issues.push(match settings.profile.decimals {
-            Some(_) => BackendIssue::Profile { key: DECIMALS, why },
-            None => conflict(DECIMALS, why),
-        });
+        issues.push(conflict(DECIMALS, why));
     }
     if let Some(approximation) = settings.approximation
         && dialect.rounded(approximation).is_none()

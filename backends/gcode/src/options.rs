@@ -1,16 +1,16 @@
 //! The options block `gcode { ... }` of a job.
 //!
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
-//! crate never asks for a key by its name. What the profile of the machine says counts more than an option.
+//! crate never asks for a key by its name.
 
-use crate::dialect::{Dialect, FANUC, HEIDENHAIN, LINUXCNC, SINUMERIK};
+use crate::dialect::{Controller, Dialect};
 use core::num::NonZeroU32;
 use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::units::Length;
 
-pub(crate) const DIALECT: &str = "dialect";
+const DIALECT: &str = "dialect";
 pub(crate) const DECIMALS: &str = "decimals";
 pub(crate) const LINES_PER_PART: &str = "lines_per_part";
 const HEADER: &str = "header";
@@ -29,9 +29,6 @@ pub(crate) const READY_CODE: &str = "ready_code";
 
 pub(crate) const PERCENT: f64 = 100.0;
 
-/// The words of the option `dialect`; the first is the default.
-const DIALECTS: &[&str] = &["linuxcnc", "fanuc", "sinumerik", "heidenhain"];
-
 /// The letters by which a controller may know the spindle as an axis; the first says that it does not.
 const SPINDLE_LETTERS: &[&str] = &["none", "a", "b", "c"];
 
@@ -39,7 +36,9 @@ const SPINDLE_LETTERS: &[&str] = &["none", "a", "b", "c"];
 pub(crate) const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         key: DIALECT,
-        kind: OptionKind::Choice { of: DIALECTS },
+        kind: OptionKind::Choice {
+            of: Controller::WORDS,
+        },
         help: "The controller that is to read the program.",
     },
     OptionSpec {
@@ -152,6 +151,8 @@ pub(crate) struct Codes<'p> {
 #[derive(Clone)]
 pub(crate) struct Settings<'p> {
     /// Who reads the program.
+    pub(crate) controller: Controller,
+    /// How it is written for it.
     pub(crate) dialect: &'static dyn Dialect,
     /// Format of lengths in mm.
     pub(crate) lengths: FixedDecimal,
@@ -180,12 +181,14 @@ pub(crate) struct Settings<'p> {
 impl<'p> Settings<'p> {
     /// Reads the options of a job.
     pub(crate) fn read(options: &'p Options) -> Self {
-        let dialect = dialect(options);
+        let controller = Controller::of(options.choice(DIALECT));
+        let dialect = controller.dialect();
         let profile = options.profile();
-        let asked = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
-        let decimals = profile.decimals.unwrap_or(asked);
+        // The compiler has set it to what the profile says, unless the job says otherwise.
+        let decimals = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
         let approximation = options.length(APPROXIMATION);
         Self {
+            controller,
             dialect,
             lengths: FixedDecimal::new(decimals),
             angles: FixedDecimal::new(dialect.angle_decimals(decimals)),
@@ -215,15 +218,6 @@ impl<'p> Settings<'p> {
     /// Format of speeds, inverse times and waits: written without trailing zeros, so these are the most decimals.
     pub(crate) fn fine(&self) -> FixedDecimal {
         FixedDecimal::new(self.dialect.fine_decimals())
-    }
-}
-
-fn dialect(options: &Options) -> &'static dyn Dialect {
-    match options.choice(DIALECT) {
-        "fanuc" => FANUC,
-        "sinumerik" => SINUMERIK,
-        "heidenhain" => HEIDENHAIN,
-        _ => LINUXCNC,
     }
 }
 
@@ -266,7 +260,7 @@ mod tests {
     #[test]
     fn every_dialect_has_its_word() {
         let spec = OPTIONS.iter().find(|spec| spec.key == DIALECT).unwrap();
-        let names: BTreeSet<&str> = DIALECTS
+        let names: BTreeSet<&str> = Controller::WORDS
             .iter()
             .map(|word| {
                 let mut options = Options::defaults(OPTIONS);
@@ -276,16 +270,18 @@ mod tests {
                 name
             })
             .collect();
-        assert_eq!(names.len(), DIALECTS.len());
+        assert_eq!(names.len(), Controller::WORDS.len());
     }
 
     #[test]
-    fn a_profile_counts_more_than_an_option() {
+    fn an_option_counts_more_than_a_profile() {
         let profile = Profile {
             decimals: Some(5),
             ..Profile::default()
         };
-        let options = Options::defaults(OPTIONS).with_profile(profile);
-        assert_eq!(Settings::read(&options).lengths.decimals(), 5);
+        let mut options = Options::defaults(OPTIONS).with_profile(profile);
+        let spec = OPTIONS.iter().find(|spec| spec.key == DECIMALS).unwrap();
+        options.set(spec, OptionValue::Integer(4)).unwrap();
+        assert_eq!(Settings::read(&options).lengths.decimals(), 4);
     }
 }

@@ -17,7 +17,7 @@ const COMMON_CODES: [u32; 5] = [0, 1, 7, 8, 9];
 /// What speaks against a line.
 pub(crate) fn objection(line: &str, settings: &Settings<'_>) -> Option<String> {
     let dialect = settings.dialect;
-    let is_fine = match statement_of_line(line, dialect) {
+    let is_fine = match statement_of_line(line, settings.controller) {
         Some("") => true,
         Some(code) => {
             let code = code.to_ascii_uppercase();
@@ -118,15 +118,16 @@ fn names_code(line: &str, number: u32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dialect::{FANUC, HEIDENHAIN, LINUXCNC, SINUMERIK};
+    use crate::dialect::Controller;
     use crate::options::{Codes, OPTIONS};
     use vcutc_backend_api::backend::Options;
 
-    fn is_refused(line: &str, dialect: &'static dyn Dialect) -> bool {
+    fn is_refused(line: &str, controller: Controller) -> bool {
         let options = Options::defaults(OPTIONS);
         let (on, off) = (["M50".to_owned()], ["M 051 (off)".to_owned()]);
         let settings = Settings {
-            dialect,
+            controller,
+            dialect: controller.dialect(),
             codes: Codes {
                 on: &on,
                 off: &off,
@@ -137,7 +138,12 @@ mod tests {
         objection(line, &settings).is_some()
     }
 
-    const ALL: [&dyn Dialect; 4] = [LINUXCNC, FANUC, SINUMERIK, HEIDENHAIN];
+    const LINUXCNC: Controller = Controller::LinuxCnc;
+    const FANUC: Controller = Controller::Fanuc;
+    const SINUMERIK: Controller = Controller::Sinumerik;
+    const HEIDENHAIN: Controller = Controller::Heidenhain;
+
+    const ALL: [Controller; 4] = [LINUXCNC, FANUC, SINUMERIK, HEIDENHAIN];
 
     #[test]
     fn nothing_that_changes_the_program_gets_through() {
@@ -208,7 +214,7 @@ mod tests {
             "IF [#1 EQ 1] GOTO 5",
         ] {
             for dialect in ALL {
-                assert!(is_refused(line, dialect), "{}: {line}", dialect.name());
+                assert!(is_refused(line, dialect), "{dialect:?}: {line}");
             }
         }
         assert!(is_refused("M8 ; G0", FANUC), "`;` ends a block there");
@@ -237,7 +243,7 @@ mod tests {
             ("FFWON", &ALL[2..3]),
         ] {
             for dialect in dialects {
-                assert!(!is_refused(line, *dialect), "{}: {line}", dialect.name());
+                assert!(!is_refused(line, *dialect), "{dialect:?}: {line}");
             }
         }
     }

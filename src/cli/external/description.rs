@@ -11,6 +11,9 @@ const MOST_OPTIONS: usize = 64;
 /// The key under which a job names a profile: no option can have it.
 const PROFILE: &str = "profile";
 
+/// The word by which a job takes an option back.
+const DEFAULT: &str = "default";
+
 /// Finest count of decimals: doubles have no more.
 const MOST_DECIMALS: u32 = 15;
 
@@ -94,6 +97,9 @@ fn spec(option: &DescribedOption) -> Result<OptionSpec, Fault> {
         DescribedKind::Choice { of } => {
             if of.is_empty() || of.len() > MOST_OPTIONS || !of.iter().all(|word| is_name(word)) {
                 return refused("whose words are none, too many, or no names");
+            }
+            if of.iter().any(|word| word == DEFAULT) {
+                return refused("with the word `default`, by which jobs take an option back");
             }
             let words: Vec<&'static str> = of.iter().map(|word| kept(word)).collect();
             OptionKind::Choice {

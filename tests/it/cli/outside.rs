@@ -81,6 +81,10 @@ fn a_program_that_cannot_describe_itself_is_refused_before_the_job_is_read() {
         "#!/bin/sh\ncat <<'END'\n{}\nEND\n",
         DESCRIPTION.replace("\"default\":2", "\"default\":20")
     );
+    let word = format!(
+        "#!/bin/sh\ncat <<'END'\n{}\nEND\n",
+        DESCRIPTION.replace("\"fancy\"", "\"default\"")
+    );
     for (script, says) in [
         (
             "#!/bin/sh\necho first >&2\necho oh no >&2\nexit 3\n",
@@ -112,6 +116,10 @@ fn a_program_that_cannot_describe_itself_is_refused_before_the_job_is_read() {
             "has an option `profile` which is the key under which jobs name a profile",
         ),
         (&default, "has an option `size` whose default is not in its range"),
+        (
+            &word,
+            "has an option `style` with the word `default`, by which jobs take an option back",
+        ),
     ] {
         let folder = with_program(script);
         let run = compiled(folder.path());

@@ -14,14 +14,56 @@ use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::script::Layout;
 use vcutc_backend_api::units::Length;
 
-/// LinuxCNC 2.9.
-pub(crate) const LINUXCNC: &dyn Dialect = &linuxcnc::LinuxCnc;
-/// Fanuc 30i, 31i, 0i-MF.
-pub(crate) const FANUC: &dyn Dialect = &fanuc::Fanuc;
-/// Siemens Sinumerik 840D, ONE.
-pub(crate) const SINUMERIK: &dyn Dialect = &sinumerik::Sinumerik;
-/// Heidenhain TNC in Klartext.
-pub(crate) const HEIDENHAIN: &dyn Dialect = &heidenhain::Heidenhain;
+/// Whose programs are written and read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Controller {
+    /// LinuxCNC 2.9.
+    #[default]
+    LinuxCnc,
+    /// Fanuc 30i, 31i, 0i-MF.
+    Fanuc,
+    /// Siemens Sinumerik 840D, ONE.
+    Sinumerik,
+    /// Heidenhain TNC in Klartext.
+    Heidenhain,
+}
+
+impl Controller {
+    /// All of them, the default first.
+    const ALL: [Self; 4] = [Self::LinuxCnc, Self::Fanuc, Self::Sinumerik, Self::Heidenhain];
+
+    /// Their words in a job.
+    pub(crate) const WORDS: &[&str] = &{
+        let [first, second, third, fourth] = Self::ALL;
+        [first.word(), second.word(), third.word(), fourth.word()]
+    };
+
+    const fn word(self) -> &'static str {
+        match self {
+            Self::LinuxCnc => "linuxcnc",
+            Self::Fanuc => "fanuc",
+            Self::Sinumerik => "sinumerik",
+            Self::Heidenhain => "heidenhain",
+        }
+    }
+
+    /// The one of that word; the default for words of nobody, which the compiler does not let through.
+    pub(crate) fn of(word: &str) -> Self {
+        let mut all = Self::ALL.into_iter();
+        all.find(|controller| controller.word() == word)
+            .unwrap_or_default()
+    }
+
+    /// How its programs are written.
+    pub(crate) const fn dialect(self) -> &'static dyn Dialect {
+        match self {
+            Self::LinuxCnc => &linuxcnc::LinuxCnc,
+            Self::Fanuc => &fanuc::Fanuc,
+            Self::Sinumerik => &sinumerik::Sinumerik,
+            Self::Heidenhain => &heidenhain::Heidenhain,
+        }
+    }
+}
 
 /// What the word F means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,15 +3,15 @@
 use super::codes::essences;
 use super::lines::{Code, Style};
 use super::tongue;
-use crate::dialect::Dialect;
+use crate::dialect::Controller;
 use crate::options::Settings;
 use vcutc_backend_api::readback::essence;
 
 /// The statement of a line that is to be one block as it stands, empty for a comment. None where the control would read
 /// something else into it: a number of its own, a comment in front, signs that mean something even in comments.
-pub(crate) fn statement_of_line<'l>(line: &'l str, dialect: &dyn Dialect) -> Option<&'l str> {
+pub(crate) fn statement_of_line(line: &str, controller: Controller) -> Option<&str> {
     let is_sign = |byte: &u8| !matches!(byte, b'(' | b')');
-    let signs: Vec<u8> = dialect.layout().kept_out_of_comments.to_vec();
+    let signs: Vec<u8> = controller.dialect().layout().kept_out_of_comments.to_vec();
     let has_sign = |byte| {
         signs
             .iter()
@@ -22,11 +22,11 @@ pub(crate) fn statement_of_line<'l>(line: &'l str, dialect: &dyn Dialect) -> Opt
         return None;
     }
     let line = line.trim();
-    let style = tongue::named(&dialect.name().to_ascii_lowercase()).style();
+    let style = tongue::of(controller).style();
     match style.code(line, 0) {
         Code::Is(span, code) => (span.start == 0).then_some(code),
         Code::None => line.starts_with(['(', ';', '*']).then_some(""),
-        Code::Open(_) | Code::Active(_) => None,
+        Code::Broken(..) | Code::Active(_) => None,
     }
 }
 

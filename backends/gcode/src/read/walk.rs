@@ -15,7 +15,7 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
     let settings = Settings::read(sources.options);
     // Without words every coordinate is unknown, which is what it is.
     let words = axes::words(sources.cell, &settings).unwrap_or_default();
-    let tongue = tongue::of(sources.options);
+    let tongue = tongue::of(settings.controller);
     let context = Context {
         cell: sources.cell,
         settings: &settings,

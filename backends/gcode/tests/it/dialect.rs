@@ -463,9 +463,9 @@ fn a_machine_has_its_habits() {
         header: vec!["M8".to_owned()],
         footer: vec!["M9".to_owned()],
         extension: Some("tap".to_owned()),
-        decimals: Some(4),
         line_numbers: Some(LineNumbers { start: 10, step: 5 }),
         reserved: vec!["sample".to_owned()],
+        ..Profile::default()
     };
     let bundle = emit_with(&program, "linuxcnc", &[], profile);
     let lines = lines(bundle.get("sample_2.tap").unwrap());
@@ -476,7 +476,7 @@ fn a_machine_has_its_habits() {
     let at = |word: &str| lines.iter().position(|line| line.ends_with(word)).unwrap();
     assert!(at(" G54") < at(" M8") && at(" M9") + 1 == at("M2"));
     assert!(
-        lines[at(" M8") + 2].contains("X0.0000 Y0.0000 Z900.0000"),
+        lines[at(" M8") + 2].contains("X0.000 Y0.000 Z900.000"),
         "{}",
         lines[at(" M8") + 2]
     );

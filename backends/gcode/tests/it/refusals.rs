@@ -324,10 +324,9 @@ fn profiles_that_a_dialect_cannot_follow() {
         header: vec!["M8\nM3".to_owned()],
         footer: vec!["x".repeat(300)],
         extension: Some("../nc".to_owned()),
-        decimals: Some(6),
         ..Profile::default()
     };
-    assert_eq!(refused("fanuc", profile), "decimals header footer extension");
+    assert_eq!(refused("fanuc", profile), "header footer extension");
 }
 
 #[test]

@@ -11,9 +11,7 @@ mod sinumerik;
 use super::lines::Style;
 use super::order::{Context, Habit, Mode, Motion, Order, Parsed, Routine, Trouble};
 use super::words::Number;
-use crate::dialect::FeedMode;
-use crate::options::DIALECT;
-use vcutc_backend_api::backend::Options;
+use crate::dialect::{Controller, FeedMode};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::units::Duration;
 
@@ -74,18 +72,13 @@ pub(super) enum Heads {
     All,
 }
 
-/// How the dialect of some options is read.
-pub(super) fn of(options: &Options) -> &'static dyn Tongue {
-    named(options.choice(DIALECT))
-}
-
-/// The tongue of a dialect, by its word.
-pub(super) fn named(dialect: &str) -> &'static dyn Tongue {
-    match dialect {
-        "fanuc" => &fanuc::Fanuc,
-        "sinumerik" => &sinumerik::Sinumerik,
-        "heidenhain" => &heidenhain::Heidenhain,
-        _ => &linuxcnc::LinuxCnc,
+/// How programs for a controller are read.
+pub(super) const fn of(controller: Controller) -> &'static dyn Tongue {
+    match controller {
+        Controller::LinuxCnc => &linuxcnc::LinuxCnc,
+        Controller::Fanuc => &fanuc::Fanuc,
+        Controller::Sinumerik => &sinumerik::Sinumerik,
+        Controller::Heidenhain => &heidenhain::Heidenhain,
     }
 }
 
