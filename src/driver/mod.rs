@@ -21,7 +21,7 @@ use crate::source::{Loader, SourceMap};
 use crate::summary::summary;
 use crate::syntax::ast::Ast;
 use crate::verdict;
-use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError};
+use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
 use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::motion::MotionFault;
@@ -298,7 +298,10 @@ pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>
         .map_err(|Astray(notes)| {
             let what = "the program that was written does not say what it was made from";
             EmitFailure::Diagnostics(vec![match backend.ready() {
-                Ok(()) => not_written(job, what, &notes),
+                Ok(()) => match backend.origin() {
+                    Origin::Linked => not_written(job, what, &notes),
+                    Origin::Outside => target::departed(backend.id(), &notes, job.name_span),
+                },
                 // It could not be read at all.
                 Err(fault) => target::failed(backend.id(), &fault, job.name_span),
             }])

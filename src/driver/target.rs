@@ -294,6 +294,17 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
     }
 }
 
+/// An outside program that wrote another program than the one it was given.
+pub(super) fn departed(target: &str, notes: &[String], place: Span) -> Diagnostic {
+    let fault = Fault {
+        op: None,
+        what: "wrote something else than the program it was given, or reads it otherwise".to_owned(),
+        said: Vec::new(),
+    };
+    let diagnostic = failed(target, &fault, place);
+    notes.iter().fold(diagnostic, Diagnostic::note)
+}
+
 /// An outside program that did not do its work.
 pub(super) fn failed(target: &str, fault: &Fault, place: Span) -> Diagnostic {
     let message = format!("the program behind target `{target}` {}", fault.what);

@@ -16,6 +16,15 @@ use crate::verify::Capabilities;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
+/// Where a backend is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// It is linked into the compiler, and its faults are those of the compiler.
+    Linked,
+    /// It is a program of its own, with authors of its own.
+    Outside,
+}
+
 /// One output dialect.
 pub trait Backend: Sync {
     /// The word after `--target`, and the name of its options block in the job.
@@ -29,6 +38,11 @@ pub trait Backend: Sync {
 
     /// The options it takes.
     fn options(&self) -> &'static [OptionSpec];
+
+    /// Whose fault it is when what was written is not what was asked for.
+    fn origin(&self) -> Origin {
+        Origin::Linked
+    }
 
     /// Whether it can be asked, and has answered so far. Backends that are linked in always can; one that is a program of its own may
     /// be broken.

@@ -3,6 +3,7 @@
 use super::fault::{fault, line};
 use vcutc_backend_api::backend::{Fault, OptionKind, OptionSpec};
 use vcutc_backend_api::protocol::{DescribedKind, DescribedOption, Description, Driven, Reads};
+use vcutc_backend_api::readback::Grain;
 use vcutc_backend_api::verify::Capabilities;
 
 /// Most options of a program, and most words of a choice.
@@ -138,31 +139,50 @@ fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
     if reads.extensions.is_empty() {
         return Err(fault("reads files, but names no extension of theirs"));
     }
-    let grain = &reads.grain;
-    let values = [
-        grain.length.to_mm(),
-        grain.attitude.to_rad(),
-        grain.axis.to_rad(),
-        grain.speed.to_mm_per_s(),
-        grain.rate.to_rad_per_s(),
-        grain.per_minute,
-        grain.time.to_s(),
-    ];
-    if values.iter().any(|value| !(value.is_finite() && *value >= 0.0)) {
-        return Err(fault("prints with a grain below zero"));
-    }
     let Some(key) = &reads.decimals else {
-        return Ok(());
+        return fine_enough(&reads.grain);
     };
-    let counts_decimals = specs.iter().any(|spec| {
-        spec.key == key && matches!(spec.kind, OptionKind::Integer { max, .. } if max <= MOST_DECIMALS)
+    let decimals = specs.iter().find_map(|spec| match spec.kind {
+        OptionKind::Integer { max, default, .. } if spec.key == key && max <= MOST_DECIMALS => Some(default),
+        OptionKind::Integer { .. }
+        | OptionKind::Length { .. }
+        | OptionKind::Lines
+        | OptionKind::Text
+        | OptionKind::Choice { .. } => None,
     });
-    if counts_decimals {
-        Ok(())
-    } else {
-        let key = line(key);
-        Err(fault(format!(
-            "counts decimals by `{key}`, which is no whole-number option up to {MOST_DECIMALS}"
-        )))
+    match decimals {
+        Some(decimals) => fine_enough(&divided(&reads.grain, decimals)),
+        None => {
+            let key = line(key);
+            Err(fault(format!(
+                "counts decimals by `{key}`, which is no whole-number option up to {MOST_DECIMALS}"
+            )))
+        }
+    }
+}
+
+/// Whether programs printed with that grain can be told from each other.
+///
+/// # Errors
+/// Which of its values is too coarse, and how large it may be.
+pub(super) fn fine_enough(grain: &Grain) -> Result<(), Fault> {
+    grain.is_sound().map_err(|allowed| {
+        fault(format!(
+            "prints with a grain with which nothing can be compared: {allowed}"
+        ))
+    })
+}
+
+/// A grain divided by ten to some power.
+pub(super) fn divided(grain: &Grain, decimals: u32) -> Grain {
+    let by = (0..decimals).fold(1.0, |power, _| power * 10.0);
+    Grain {
+        length: grain.length / by,
+        attitude: grain.attitude / by,
+        axis: grain.axis / by,
+        speed: grain.speed / by,
+        rate: grain.rate / by,
+        per_minute: grain.per_minute / by,
+        time: grain.time / by,
     }
 }

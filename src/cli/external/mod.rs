@@ -11,7 +11,7 @@ mod fault;
 mod process;
 
 use super::args::OutsideArgs;
-use description::{Described, described, is_name};
+use description::{Described, described, divided, fine_enough, is_name};
 use fault::{fault, line};
 use process::{Limits, ask};
 use serde::Deserialize;
@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
 use std::time::Duration;
 use vcutc_backend_api::backend::{
-    Backend, BackendIssue, Emission, EmitError, Fault, MachineMismatch, OptionSpec, Options,
+    Backend, BackendIssue, Emission, EmitError, Fault, MachineMismatch, OptionSpec, Options, Origin,
 };
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::exchange::Exchange;
@@ -164,6 +164,10 @@ impl External {
         if !refused.is_empty() {
             return Err(refused);
         }
+        // The job may have asked for fewer decimals than the description has by itself.
+        if described.reads.is_some() {
+            fine_enough(&self.grain(options)).map_err(|fault| vec![BackendIssue::Failed(fault)])?;
+        }
         let emit = Emit {
             program: Exchange::of(program.program(), Some(program.motion())),
             options: values(options),
@@ -248,6 +252,10 @@ impl Backend for External {
 
     fn summary(&self) -> &'static str {
         self.described().map_or("", |described| described.summary)
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::Outside
     }
 
     fn capabilities(&self) -> Capabilities {
@@ -397,19 +405,5 @@ fn unread(name: &str, fault: &Fault) -> Statement {
         says: Says::Unreadable {
             expected: format!("what the program behind `{name}` would read (it {})", fault.what),
         },
-    }
-}
-
-/// A grain divided by ten to some power.
-fn divided(grain: &Grain, decimals: u32) -> Grain {
-    let by = (0..decimals).fold(1.0, |power, _| power * 10.0);
-    Grain {
-        length: grain.length / by,
-        attitude: grain.attitude / by,
-        axis: grain.axis / by,
-        speed: grain.speed / by,
-        rate: grain.rate / by,
-        per_minute: grain.per_minute / by,
-        time: grain.time / by,
     }
 }

@@ -489,11 +489,15 @@ fn a_program_that_writes_something_else_than_it_was_given_is_found_out() {
             "\"tip\": feed and feed + 1.0",
             "the tip goes at 201 mm/s",
         ),
-        ("\"end\": \"exact\"", "\"end\": \"rounded\"", "VC0901"),
+        (
+            "\"end\": \"exact\"",
+            "\"end\": \"rounded\"",
+            "tell the authors of `vcutc-backend-deeds`",
+        ),
         (
             "yield {\"axes\": axes}",
             "yield {\"axes\": [axes[0] + 0.001] + axes[1:]}",
-            "VC0901",
+            "wrote something else than the program it was given",
         ),
         (
             "\"end\": start + length}",
@@ -513,7 +517,65 @@ fn a_program_that_writes_something_else_than_it_was_given_is_found_out() {
             &["rib.vcut", "--target", "deeds", "--backend-path", ".", "-q"],
         );
         assert_eq!(run.code, Some(1), "{wrong}: {}", run.stderr);
-        assert!(run.stderr.contains(says), "{wrong}: {}", run.stderr);
+        assert!(
+            run.stderr.contains(says) && run.stderr.contains("VC0609"),
+            "{wrong}: {}",
+            run.stderr
+        );
         assert!(!folder.path().join("job_rib.jsonl").exists(), "{wrong}");
+    }
+}
+
+/// With a grain that wide every program would be every other.
+#[test]
+fn a_program_cannot_switch_the_comparison_off_by_its_grain() {
+    let folder = with_the_program_of_the_page();
+    let path = folder.path().join("vcutc-backend-deeds");
+    let program = fs::read_to_string(&path).unwrap();
+    let right = "dict.fromkeys(EXACT, 0.0)";
+    assert!(program.contains(right));
+    for (key, value, code) in [
+        ("length", "0.01", 0),
+        ("length", "1e9", 2),
+        ("attitude", "0.002", 2),
+        ("axis", "0.002", 2),
+        ("speed", "1.1", 2),
+        ("rate", "0.02", 2),
+        ("per_minute", "2.0", 2),
+        ("time", "0.1", 2),
+        ("time", "-0.1", 2),
+    ] {
+        let wide = format!("dict(dict.fromkeys(EXACT, 0.0), {key}={value})");
+        fs::write(&path, program.replace(right, &wide)).unwrap();
+        let run = vcutc(
+            folder.path(),
+            &["rib.vcut", "--target", "deeds", "--backend-path", ".", "-q"],
+        );
+        assert_eq!(run.code, Some(code), "{key}: {}", run.stderr);
+        let says = format!("prints with a grain with which nothing can be compared: `{key}` is 0 to ");
+        assert_eq!(run.stderr.contains(&says), code == 2, "{key}: {}", run.stderr);
+    }
+    // Half a unit of the last decimal, with as many decimals as the job asks for.
+    let option = "\"options\": [{\"key\": \"decimals\", \"kind\": \"integer\", \"min\": 0, \"max\": 6, \"default\": 6, \"help\": \"x\"}]";
+    let halves = program
+        .replace("\"options\": []", option)
+        .replace(right, "dict.fromkeys(EXACT, 0.5), \"decimals\": \"decimals\"");
+    fs::write(&path, halves).unwrap();
+    for (decimals, code) in [("6", 0), ("1", 1)] {
+        let run = vcutc(
+            folder.path(),
+            &[
+                "rib.vcut",
+                "--target",
+                "deeds",
+                "--backend-path",
+                ".",
+                "-q",
+                "--option",
+                &format!("decimals={decimals}"),
+            ],
+        );
+        assert_eq!(run.code, Some(code), "{decimals}: {}", run.stderr);
+        assert_eq!(run.stderr.contains("VC0609"), code == 1, "{}", run.stderr);
     }
 }

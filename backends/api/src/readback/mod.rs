@@ -11,6 +11,7 @@
 //!   already at the beginning of a part.
 //! * [`essence()`] is a statement without its layout: two texts of the same essence do the same.
 
+mod coarseness;
 mod essence;
 mod judge;
 mod retrace;
@@ -18,6 +19,7 @@ mod retrace;
 #[cfg(feature = "testkit")]
 mod tests;
 
+pub use coarseness::COARSEST;
 pub use essence::essence;
 pub use judge::{Judge, Mismatch, Moment, rotary_way};
 pub use retrace::{Departure, DepartureKind, Retrace, Retraced};
