@@ -4,7 +4,7 @@
 //! another program or switch the generator would never be complete. On the list are comments, messages, M codes that pause,
 //! control the coolant or belong to the builder of the machine, S words, and settings of the control that only make its axes
 //! run more smoothly. Which M codes belong to the builder is a question for the dialect
-//! ([`Dialect::builders_codes`](crate::dialect::Dialect::builders_codes)); those that the job has named for the generator, its
+//! ([`Dialect::builders_codes`]); those that the job has named for the generator, its
 //! readiness or the kinematics are the program's own.
 
 use crate::dialect::Dialect;
