@@ -141,9 +141,9 @@ fn the_longest_name_is_kept_and_a_longer_one_is_cut() {
         ("rib_of_23_letters_in_all", "rib_of_23_letters_in_al"),
         ("a_name_of_23_characters", "a_name_of_23_characters"),
         ("Flügel 7", "Fl_gel_7"),
-        ("MoveL", "vc_MoveL"),
-        ("vc_tool", "vc_tool_2"),
-        ("7th", "vc_7th"),
+        ("MoveL", "job_MoveL"),
+        ("vc_tool", "job_vc_tool_2"),
+        ("7th", "job_7th"),
     ] {
         let recipe = Recipe {
             name: name.to_owned(),
