@@ -240,3 +240,25 @@ fn the_profile_of_a_machine_is_honoured() {
     assert_eq!(place("Reset doLamp;"), place("ENDPROC") - 1);
     assert!(lines.iter().any(|line| line.contains("[[2.9850,-16.0363,")));
 }
+
+/// Points on the way are lines: a limit that the ops alone would keep is one that splits.
+#[test]
+fn points_on_the_way_count_as_lines() {
+    let recipe = Recipe {
+        swing: Angle::deg(60.0),
+        rake: Angle::deg(89.0),
+        layers: 2,
+        cuts: 4,
+        ..recipe()
+    };
+    let program = reachable(recipe.program());
+    let comments = 1 + 8;
+    let ops = program.program().ops.len() + comments;
+    let all = ops + program.motion().waypoints.len();
+    assert!(all > ops);
+    let files = |lines: usize| {
+        let limit = OptionValue::Integer(u32::try_from(lines).unwrap());
+        emit(&program, &[("lines_per_part", limit)]).files().len()
+    };
+    assert!(files(all - 1) > files(all));
+}
