@@ -207,8 +207,6 @@ mod tests {
             "12",
             "12 M8",
             "(unclosed",
-            "(LOGOPEN,/tmp/x)",
-            "(PROBEOPEN x)",
             "M8 %",
             "GOTO 100",
             "IF [#1 EQ 1] GOTO 5",
@@ -217,6 +215,8 @@ mod tests {
                 assert!(is_refused(line, dialect), "{dialect:?}: {line}");
             }
         }
+        assert!(is_refused("(LOGOPEN,/tmp/x)", LINUXCNC), "it writes a file");
+        assert!(is_refused("(PROBEOPEN x)", LINUXCNC), "it writes a file");
         assert!(is_refused("M8 ; G0", FANUC), "`;` ends a block there");
         assert!(is_refused(";$PATH=/_N_WKS_DIR", SINUMERIK));
         assert!(is_refused("M8 ~", HEIDENHAIN));

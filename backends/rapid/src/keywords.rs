@@ -36,9 +36,15 @@ pub(crate) const RATE: &str = "vc_rate";
 /// Start of the names of speeddata; a number follows.
 pub(crate) const SPEED: &str = "vc_speed";
 
+/// Start of all names that programs have of themselves. Nobody else may have such a name: which of them a program needs is
+/// no matter of its job.
+const OWN: &str = "vc_";
+/// Start of names of modules that would otherwise be a word of RAPID, or one of our own names.
+const MODULE: &str = "job_";
+
 const RULES: NameRules = NameRules {
     max_length: LONGEST_MAIN_NAME,
-    prefix: "vc_",
+    prefix: MODULE,
     reserved: RESERVED,
 };
 
@@ -46,7 +52,12 @@ const RULES: NameRules = NameRules {
 pub(crate) fn main_name(job: &str, avoid: &[String]) -> String {
     let mut namer = Namer::new(RULES);
     namer.avoid(avoid);
-    namer.name(job)
+    let name = namer.name(job);
+    if is_own(&name) {
+        namer.name(&format!("{MODULE}{name}"))
+    } else {
+        name
+    }
 }
 
 /// The name of the module of a part, counted from 1.
@@ -59,12 +70,19 @@ pub(crate) fn part_routine(main: &str, part: usize) -> String {
     format!("{main}_part{part:03}")
 }
 
-/// Whether a text is a name that data may have.
+/// Whether a name begins as those do that programs have of themselves.
+pub(crate) fn is_own(name: &str) -> bool {
+    let start = name.get(..OWN.len());
+    start.is_some_and(|start| start.eq_ignore_ascii_case(OWN))
+}
+
+/// Whether a text is a name that a job may give to data.
 pub(crate) fn is_name(text: &str) -> bool {
     let upper = text.to_ascii_uppercase();
     text.starts_with(|c: char| c.is_ascii_alphabetic())
         && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
         && text.len() <= LONGEST_NAME
+        && !is_own(text)
         && !RESERVED.contains(&upper.as_str())
 }
 
@@ -101,7 +119,10 @@ pub(crate) const RESERVED: &[&str] = &[
     "GETTIME", "INPOS", "ISPERS", "ISVAR", "NUMTOSTR", "OFFS", "OPMODE", "ORIENTZYX", "ORROBT", "POSEINV", "POSEMULT",
     "POSEVECT", "POW", "PRESENT", "RELTOOL", "ROBOS", "ROUND", "SIN", "SQRT", "STRLEN", "STRPART", "TAN", "TESTDI",
     "TEXTGET", "TRUNC", "VALTOSTR",
-    // Predefined data.
+    // Predefined data, those of the module USER among them.
+    "CLOCK1", "C_MOTSET", "C_PROGDISP", "DISKHOME", "DISKRAM", "DISKTEMP", "END_OF_LIST", "EOF", "EOF_BIN", "EOF_NUM",
+    "ERRNO", "INTNO", "OP_AUTO", "OP_MAN_PROG", "OP_MAN_TEST", "OP_UNDEF", "REG1", "REG2", "REG3", "REG4", "REG5",
+    "ROB_ID", "WAIT_MAX",
     "DIFFERENT", "EDGE", "EQ", "FINE", "GT", "HIGH", "LOAD0", "LOW", "LT", "NOTEQ", "PI", "STR_DIGIT", "STR_LOWER",
     "STR_UPPER", "STR_WHITE", "TOOL0", "WOBJ0",
     "V5", "V10", "V20", "V30", "V40", "V50", "V60", "V80", "V100", "V150", "V200", "V300", "V400", "V500", "V600", "V800",
@@ -137,8 +158,11 @@ mod tests {
 
     #[test]
     fn names_of_the_controller_are_avoided() {
-        for name in ["MoveL", "z10", "fine", "Tool0", "main", "v100", "pers"] {
-            assert_eq!(main_name(name, &[]), format!("vc_{name}"));
+        for name in ["MoveL", "z10", "fine", "Tool0", "main", "v100", "pers", "reg1"] {
+            assert_eq!(main_name(name, &[]), format!("job_{name}"));
+        }
+        for name in ["vc_feed1", "VC_home", "vc_rib"] {
+            assert_eq!(main_name(name, &[]), format!("job_{name}"));
         }
         assert_eq!(main_name("Rib", &["RIB".to_owned()]), "Rib_2");
     }
@@ -146,7 +170,18 @@ mod tests {
     #[test]
     fn what_is_a_name() {
         assert!(is_name("doKnife_2"));
-        for no in ["", "2do", "do 2", "wobj0", "tär", &"x".repeat(33)] {
+        for no in [
+            "vc_feed1",
+            "Vc_x",
+            "reg5",
+            "ErrNo",
+            "",
+            "2do",
+            "do 2",
+            "wobj0",
+            "tär",
+            &"x".repeat(33),
+        ] {
             assert!(!is_name(no), "{no}");
         }
     }

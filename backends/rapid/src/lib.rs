@@ -123,7 +123,7 @@ impl Backend for Rapid {
             &program.program().ops,
             settings.lines_per_part,
             Borders::BetweenCuts,
-            &|_, lead| body::lines_of(lead),
+            &|at, lead| body::lines_of(lead) + waypoints_of(program, at),
         );
         let cell = limits::check(program, &settings, parts.len())?;
         if parts.len() > MOST_PARTS {
@@ -136,6 +136,13 @@ impl Backend for Rapid {
             parts,
         }))
     }
+}
+
+/// How many points on the way the op at this place has: each is a line.
+fn waypoints_of(program: &ReachableProgram, at: usize) -> u64 {
+    let waypoints = &program.motion().waypoints;
+    let before = |at| waypoints.partition_point(|waypoint| (waypoint.op.0 as usize) < at);
+    (before(at.saturating_add(1)) - before(at)) as u64
 }
 
 fn too_many_parts(count: usize) -> BackendIssue {

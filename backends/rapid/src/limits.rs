@@ -142,7 +142,8 @@ fn names(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
             && !is_name(name)
         {
             let why = format!(
-                "`{name}` is no name: a letter, then letters, digits and `_`, at most 32 in all, and no word of RAPID"
+                "`{name}` is no name: a letter, then letters, digits and `_`, at most 32 in all, no word or data of RAPID, \
+                 and no `vc_` at its start, with which the program's own names begin"
             );
             findings.tell(key, BackendIssue::OptionConflict { key, why });
         }

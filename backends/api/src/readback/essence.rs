@@ -75,7 +75,8 @@ impl Writer {
         end
     }
 
-    /// A number without sign; an exponent right behind it is part of it: `9E9` and `9E+09` are the same.
+    /// A number without sign. An exponent right behind it is part of it, so that `9E9` and `9E+09` are the same; behind a
+    /// single letter it is the next word (`M68E3`).
     fn number(&mut self, rest: &str) -> usize {
         let whole = digits(rest);
         let after = rest.get(whole..).unwrap_or_default();
@@ -83,6 +84,7 @@ impl Writer {
         let whole_digits = rest.get(..whole).unwrap_or_default().trim_start_matches('0');
         let fraction_digits = rest.get(whole + fraction.min(1)..whole + fraction);
         let fraction_digits = fraction_digits.unwrap_or_default().trim_end_matches('0');
+        let of_a_letter = self.last == Last::Letter;
         if matches!(self.last, Last::Number | Last::Word) {
             self.out.push(' ');
         }
@@ -97,7 +99,11 @@ impl Writer {
         }
         self.last = Last::Number;
         let taken = whole + fraction;
-        taken + self.exponent(rest.get(taken..).unwrap_or_default())
+        if of_a_letter {
+            taken
+        } else {
+            taken + self.exponent(rest.get(taken..).unwrap_or_default())
+        }
     }
 
     /// The exponent of the number that was written last, if it has one.
@@ -144,6 +150,7 @@ mod tests {
             ("N10 G1 X10. Y2.50 F100", "n010 g01x10y2.5f100.0"),
             ("MoveL p1, v10, fine, tool0;", "MOVEL p1,v10,fine,tool0 ;"),
             ("[9E9,9E9]", "[9e+09, 9.0E+9]"),
+            ("m68e3q1.0", "M68 E3 Q1"),
         ] {
             assert_eq!(essence(one), essence(other));
         }

@@ -141,9 +141,9 @@ fn the_longest_name_is_kept_and_a_longer_one_is_cut() {
         ("rib_of_23_letters_in_all", "rib_of_23_letters_in_al"),
         ("a_name_of_23_characters", "a_name_of_23_characters"),
         ("Flügel 7", "Fl_gel_7"),
-        ("MoveL", "vc_MoveL"),
-        ("vc_tool", "vc_tool_2"),
-        ("7th", "vc_7th"),
+        ("MoveL", "job_MoveL"),
+        ("vc_tool", "job_vc_tool_2"),
+        ("7th", "job_7th"),
     ] {
         let recipe = Recipe {
             name: name.to_owned(),
@@ -239,4 +239,26 @@ fn the_profile_of_a_machine_is_honoured() {
     assert_eq!(place("Set doLamp;"), place("SingArea\\Off;") + 1);
     assert_eq!(place("Reset doLamp;"), place("ENDPROC") - 1);
     assert!(lines.iter().any(|line| line.contains("[[2.9850,-16.0363,")));
+}
+
+/// Points on the way are lines: a limit that the ops alone would keep is one that splits.
+#[test]
+fn points_on_the_way_count_as_lines() {
+    let recipe = Recipe {
+        swing: Angle::deg(60.0),
+        rake: Angle::deg(89.0),
+        layers: 2,
+        cuts: 4,
+        ..recipe()
+    };
+    let program = reachable(recipe.program());
+    let comments = 1 + 8;
+    let ops = program.program().ops.len() + comments;
+    let all = ops + program.motion().waypoints.len();
+    assert!(all > ops);
+    let files = |lines: usize| {
+        let limit = OptionValue::Integer(u32::try_from(lines).unwrap());
+        emit(&program, &[("lines_per_part", limit)]).files().len()
+    };
+    assert!(files(all - 1) > files(all));
 }

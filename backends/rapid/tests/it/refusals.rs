@@ -283,3 +283,21 @@ fn lines_that_change_the_program_are_refused() {
         }
     }
 }
+
+/// What the program declares, and what every controller has, cannot be a signal or a frame.
+#[test]
+fn names_of_the_program_itself_and_of_the_controller() {
+    for key in ["ultrasonic_signal", "ready_signal", "tool_name", "wobj_name"] {
+        for name in ["vc_feed1", "VC_speed2", "vc_other", "reg1", "clock1", "errno"] {
+            let options = options(&[(key, OptionValue::Text(name.to_owned()))]);
+            let found = issues_with(one_cut().program(), &options);
+            assert!(what(&found).contains(&key), "{key} {name}: {found:?}");
+        }
+    }
+    let named = Recipe {
+        name: "vc_feed1".to_owned(),
+        ..one_cut()
+    };
+    let bundle = emit_with(&reachable(named.program()), &options(&[]));
+    assert!(bundle.get("job_vc_feed1.mod").is_some());
+}
