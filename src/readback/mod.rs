@@ -113,10 +113,13 @@ impl<'a> Reference<'a> {
     /// are added to `sources`, so that diagnostics can point into them.
     #[must_use]
     pub fn verify(&self, given: &[ProgramFile], shown: &[String], sources: &mut SourceMap) -> Verdict {
-        let named = given.iter().enumerate();
-        let ids: Vec<_> = named
-            .map(|(index, file)| sources.add(shown.get(index).unwrap_or(&file.name), file.text.clone()))
-            .collect();
+        let (mut ids, mut ordered) = (Vec::new(), Vec::new());
+        for index in in_order(&self.fresh.written.files, given) {
+            let Some(file) = given.get(index) else { continue };
+            ids.push(sources.add(shown.get(index).unwrap_or(&file.name), file.text.clone()));
+            ordered.push(file.clone());
+        }
+        let given = ordered.as_slice();
         let missing = absent(self.fresh.written, given);
         if let Some(diagnostic) = not_given(&missing, &ids) {
             return Verdict {
@@ -216,6 +219,19 @@ impl<'a> Reference<'a> {
 /// What is told of a program that differs and is right all the same.
 const SOUND: &str =
     "as it is, the program frees every chip, stays out of the part, and is within reach of the machine";
+
+/// The given files in the order in which the compiler writes those of their names, others behind: in which order somebody
+/// names files says nothing about the program.
+fn in_order(written: &[ProgramFile], given: &[ProgramFile]) -> Vec<usize> {
+    let place = |index: &usize| {
+        let name = given.get(*index).map_or("", |file| file.name.as_str());
+        let same = |file: &ProgramFile| file.name.eq_ignore_ascii_case(name);
+        written.iter().position(same).unwrap_or(written.len())
+    };
+    let mut order: Vec<usize> = (0..given.len()).collect();
+    order.sort_by_key(place);
+    order
+}
 
 fn read<'f>(fresh: Fresh<'f>, files: &'f [ProgramFile], most: usize) -> Told<'f> {
     let sources = Sources {

@@ -173,3 +173,16 @@ fn files_that_were_not_given_are_named() {
         );
     }
 }
+
+/// In which order somebody names the files of a program says nothing about it.
+#[test]
+fn the_order_of_files_makes_no_difference() {
+    for (machine, target) in [("abb_cell", "rapid"), ("gantry", "gcode")] {
+        let cell = Cell::with(machine, target, "lines_per_part = 100");
+        assert!(cell.files().len() > 2, "{target}");
+        let mut files = cell.files().to_vec();
+        files.reverse();
+        let (verdict, _) = cell.verify(&files);
+        assert_eq!(verdict.diagnostics, [], "{target}");
+    }
+}
