@@ -16,6 +16,7 @@ use vcutc_backend_api::ir::{
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Deed, FrameRole, Held, Mismatch, Moment, Pace, Says, Target, rotary_way};
 use vcutc_backend_api::script::Generator;
+use vcutc_backend_api::script::speeds;
 use vcutc_backend_api::stroke::Pose;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
 
@@ -351,7 +352,7 @@ impl Builder<'_> {
         };
         let asked = partner
             .filter(|partner| !partner.differs_in(is_of_speed))
-            .map_or((None, None), |partner| speeds_of(&partner.op.action));
+            .map_or((None, None), |partner| speeds(&partner.op.action));
         let (feed, rate) = self.as_read(to, target, pace);
         let feed = match (asked.0, feed) {
             (Some(feed), _) => feed,
@@ -559,22 +560,6 @@ fn number<T>(table: &mut Vec<T>, value: T, is_known: impl Fn(&T) -> bool) -> Opt
         None => return None,
     };
     u16::try_from(index).ok()
-}
-
-const fn speeds_of(action: &Action) -> (Option<FeedId>, Option<RateId>) {
-    match *action {
-        Action::Travel { feed, rate, .. } => (Some(feed), Some(rate)),
-        Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
-            (Some(feed), None)
-        }
-        Action::Turn { rate, .. } => (None, Some(rate)),
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => (None, None),
-    }
 }
 
 /// Axis values with 0 for the linear axes.

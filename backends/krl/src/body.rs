@@ -11,19 +11,11 @@ use vcutc_backend_api::ir::{
     Action, Cell, FeedId, Op, OpId, OperationId, OperationKind, OrientationId, Program, RateId, Ready, Switch,
 };
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
     Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, may_round,
 };
 use vcutc_backend_api::units::Duration;
-
-/// How a move ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum End {
-    /// At a standstill on the point.
-    Exact,
-    /// Somewhere near it, on the way to the next.
-    Rounded,
-}
 
 /// What the lines are made from.
 #[derive(Clone, Copy)]

@@ -12,6 +12,7 @@ use vcutc_backend_api::ir::{
     Action, AxisValues, Cell, Op, OpId, OperationId, OperationKind, OrientationId, Program, Ready, Switch,
 };
 use vcutc_backend_api::motion::{ReachableProgram, Waypoint};
+use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
     Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, may_round,
 };
@@ -22,15 +23,6 @@ pub(crate) const NO_EXTERNAL_AXES: &[u8] = b"[9E9,9E9,9E9,9E9,9E9,9E9]";
 
 /// Instructions stand so far in.
 pub(crate) const INDENT: &[u8] = b"    ";
-
-/// How a move ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum End {
-    /// At a standstill on the point.
-    Exact,
-    /// Somewhere near it, on the way to the next.
-    Rounded,
-}
 
 /// How a move of all axes says where it leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -117,7 +117,8 @@ const fn place(site: Site) -> (Option<Layer>, Option<NonZeroU32>) {
 }
 
 /// The speeds an action runs at.
-const fn speeds(action: &Action) -> (Option<FeedId>, Option<RateId>) {
+#[must_use]
+pub const fn speeds(action: &Action) -> (Option<FeedId>, Option<RateId>) {
     match *action {
         Action::Travel { feed, rate, .. } => (Some(feed), Some(rate)),
         Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {

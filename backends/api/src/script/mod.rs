@@ -8,7 +8,7 @@ mod split;
 mod state;
 mod text;
 
-pub use listing::{Layer, Lead, Modal, first_of};
+pub use listing::{Layer, Lead, Modal, first_of, speeds};
 pub use split::{Borders, Part, split};
 pub use state::{Generator, Place, State, may_round};
 pub use text::{Layout, Text, Written, push_trimmed, trimmed_text};
