@@ -8,7 +8,7 @@ use crate::source::{Span, Spanned};
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
-use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
 /// A value and where it was written; `None` when it is a default.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +26,16 @@ pub enum Auto<T> {
     Auto,
     /// Given.
     Given(T),
+}
+
+impl<T> Auto<T> {
+    /// What is given, or this.
+    pub fn or(self, otherwise: T) -> T {
+        match self {
+            Self::Auto => otherwise,
+            Self::Given(value) => value,
+        }
+    }
 }
 
 /// A job without contradictions in itself. Whether it can be cut is for the planner to say.
@@ -81,7 +91,7 @@ pub struct RoughVcut {
     /// The blade.
     pub blade: Blade,
     /// How tips are laid out.
-    pub lattice: Sourced<Lattice>,
+    pub lattice: Sourced<Auto<Lattice>>,
     /// Angle between tool axis and feed; above 0 to 90 degrees.
     pub rake: Sourced<Angle>,
     /// Half the opening angle of the V; above 0 and below 90 degrees.
@@ -90,16 +100,22 @@ pub struct RoughVcut {
     pub layer: Sourced<Auto<Length>>,
     /// Spacing of tips within a layer; positive.
     pub step: Sourced<Auto<Length>>,
-    /// Overlap of neighbouring cuts when the step is left open; 0 to below 1. Default 0.
-    pub overlap: Sourced<f64>,
+    /// Overlap of neighbouring cuts when the step is left open; 0 to below 1.
+    pub overlap: Sourced<Auto<f64>>,
+    /// What the open parameters are to make least. Default `time`.
+    pub objective: Sourced<Objective>,
+    /// By which formulas they are chosen. Default `exact`.
+    pub formulas: Sourced<Formulas>,
     /// Bounds.
     pub limits: Limits,
     /// Material that must stay on the part, measured along its normal; zero or more. Default 0.
     pub allowance: Sourced<Length>,
-    /// What becomes of tips that would cut the part. Default `auto`.
-    pub residual: Sourced<Residual>,
-    /// Order of the cuts. Default `point`.
-    pub order: Sourced<Order>,
+    /// What becomes of tips that would cut the part.
+    pub residual: Sourced<Auto<Residual>>,
+    /// Order of the flanks.
+    pub order: Sourced<Auto<Order>>,
+    /// Order of the Vs.
+    pub sequence: Sourced<Auto<Sequence>>,
     /// Direction of the cuts. Default `alternate`.
     pub direction: Sourced<Direction>,
     /// Cutting speed; positive.
@@ -119,12 +135,62 @@ pub struct RoughVcut {
 }
 
 /// Bounds on what the planner may choose and on the result.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// Largest swing.
-    pub swing: Option<Sourced<Angle>>,
+    /// The swing.
+    pub swing: Bounds<Angle>,
+    /// Layer spacing.
+    pub layer: Bounds<Length>,
+    /// Spacing of tips within a layer.
+    pub step: Bounds<Length>,
     /// Largest height of material left standing, along the part's normal.
     pub scallop: Option<Sourced<Length>>,
+    /// Longest edge that a cut may use.
+    pub edge: Option<Sourced<Length>>,
+    /// Longest time of the operation, by the model.
+    pub time: Option<Sourced<Duration>>,
+    /// Most V-cuts of the operation, by the model; at least 1.
+    pub cuts: Option<Sourced<f64>>,
+}
+
+/// Bounds of a value from below and above. Not crossed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds<T> {
+    /// The value is at least that.
+    pub least: Option<Sourced<T>>,
+    /// The value is at most that.
+    pub most: Option<Sourced<T>>,
+}
+
+impl<T> Default for Bounds<T> {
+    fn default() -> Self {
+        Self {
+            least: None,
+            most: None,
+        }
+    }
+}
+
+/// What the open parameters of an operation are to make least, within its limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Objective {
+    /// Processing time.
+    Time,
+    /// Height of material left standing on the part.
+    Scallop,
+    /// Number of V-cuts.
+    Cuts,
+    /// Length of edge in the material.
+    BladeLoad,
+}
+
+/// By which formulas open parameters are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Formulas {
+    /// Those of the paper as printed [Cui 8-14].
+    Paper,
+    /// The blade's true reach and the lattice's true scallop (`docs/process.md`).
+    Exact,
 }
 
 /// How tips are laid out [Cui fig. 4].
@@ -138,6 +204,17 @@ pub enum Lattice {
     Free,
 }
 
+/// In which order the Vs of an operation are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sequence {
+    /// Layer by layer, each from left to right.
+    Rows,
+    /// Layer by layer, to and fro.
+    Boustrophedon,
+    /// Always the nearest one whose chip comes free.
+    Nearest,
+}
+
 /// What becomes of a tip that would cut the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Residual {
@@ -149,10 +226,10 @@ pub enum Residual {
     Shift,
     /// Dropped where the residual stays within the limit, else raised, else moved if its chip does not come free there.
     /// Regular tips whose chips do not come free are raised by the least that frees them.
-    Auto,
+    Mixed,
 }
 
-/// Order of the cuts.
+/// Order of the flanks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     /// Both flanks of a V, then the next V [Cui 2020].

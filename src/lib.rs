@@ -23,6 +23,7 @@ pub mod reach_verdict;
 pub mod readback;
 pub mod registry;
 pub mod remedy;
+pub mod report;
 pub mod sema;
 pub mod sim;
 pub mod source;

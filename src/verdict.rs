@@ -237,9 +237,9 @@ enum Remedy {
 fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Option<Remedy> {
     let asked = &vcut.asked;
     let works = |change: &dyn Fn(&mut RoughVcut)| proves_with(job, operation, change);
-    if asked.residual.value != Residual::Auto
-        && vcut.parameters.lattice_fits(asked.lattice.value)
-        && works(&|asked| asked.residual.value = Residual::Auto)
+    if vcut.strategy != Residual::Mixed
+        && vcut.parameters.lattice_fits()
+        && works(&|asked| asked.residual.value = Auto::Given(Residual::Mixed))
     {
         return Some(Remedy::ResidualAuto);
     }
@@ -248,7 +248,7 @@ fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Optio
         Auto::Auto => parameters::largest_layer(asked, flanks, drop),
         Auto::Given(step) => {
             if works(&|asked| asked.step.value = Auto::Auto) {
-                return Some(Remedy::Step(vcut.parameters.step_for_layer(asked)));
+                return Some(Remedy::Step(vcut.parameters.step_for_layer()));
             }
             parameters::largest_layer_at(asked, step, flanks, drop).unwrap_or_default()
         }
@@ -363,24 +363,26 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
     let planned = plan.operations.get(usize::from(operation.0))?;
     let PlannedOperation::RoughVcut(vcut) = planned;
     let layers = [1.0, 0.75, 0.5, 0.25].map(|share| vcut.parameters.layer.to_mm() * share);
-    let works = [Residual::Auto, Residual::Lift].into_iter().find_map(|residual| {
-        layers
-            .iter()
-            .copied()
-            .map(|layer| grid::down(layer * 0.1) * 10.0)
-            .filter(|&layer| layer > 0.0)
-            .find_map(|layer| {
-                let works = proves_with(job, operation, |asked| {
-                    asked.residual.value = residual;
-                    asked.layer.value = Auto::Given(Length::mm(layer));
-                });
-                works.then_some((residual, layer))
-            })
-    });
+    let works = [Residual::Mixed, Residual::Lift]
+        .into_iter()
+        .find_map(|residual| {
+            layers
+                .iter()
+                .copied()
+                .map(|layer| grid::down(layer * 0.1) * 10.0)
+                .filter(|&layer| layer > 0.0)
+                .find_map(|layer| {
+                    let works = proves_with(job, operation, |asked| {
+                        asked.residual.value = Auto::Given(residual);
+                        asked.layer.value = Auto::Given(Length::mm(layer));
+                    });
+                    works.then_some((residual, layer))
+                })
+        });
     Some(match works {
         Some((residual, layer)) => {
             let word = match residual {
-                Residual::Auto => "auto",
+                Residual::Mixed => "mixed",
                 Residual::Lift => "lift",
                 Residual::Shift => "shift",
                 Residual::Discard => "discard",

@@ -16,7 +16,7 @@ use crate::reach_verdict;
 use crate::readback::{Astray, Written};
 use crate::sema;
 use crate::sim::report::Report;
-use crate::sim::timing::timing;
+use crate::sim::timing::{op_times, timing};
 use crate::source::{Loader, SourceMap};
 use crate::summary::summary;
 use crate::syntax::ast::Ast;
@@ -25,6 +25,7 @@ use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
 use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::motion::MotionFault;
+use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
 
 /// What to compile.
@@ -118,6 +119,8 @@ pub struct Compiled {
     pub figures: Option<ReachFigures>,
     /// Its figures.
     pub report: Report,
+    /// How long each op takes.
+    pub op_times: Vec<Duration>,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
 }
@@ -180,11 +183,13 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
                         let mut report = proven.report;
                         // Travels that became moves of all axes take another time.
                         report.timing = timing(program.verified());
+                        let op_times = op_times(program.verified());
                         let summary = summary(&plan, &report, figures.as_ref());
                         outcome.compiled = Some(Compiled {
                             program,
                             figures,
                             report,
+                            op_times,
                             summary,
                         });
                     }

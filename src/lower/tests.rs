@@ -24,7 +24,7 @@ fn job(order: Order, direction: Direction, edges: Edges) -> CheckedJob {
     ];
     let mut job = paper_job(corners.map(|(x, z)| Point2 { x, z }).to_vec());
     let asked = operation(&mut job);
-    asked.order.value = order;
+    asked.order.value = Auto::Given(order);
     asked.direction.value = direction;
     asked.blade.edges = edges;
     asked.blade.cutting_length.value = Length::mm(20.0);

@@ -111,7 +111,7 @@ impl<'b> Writer<'b> {
             builder,
             operation,
             holder,
-            order: asked.order.value,
+            order: planned.order,
             direction: asked.direction.value,
             cut_feed,
             travel_feed,

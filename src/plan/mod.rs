@@ -11,6 +11,7 @@ pub mod blade_reach;
 mod complaints;
 pub mod grid;
 pub mod lattice;
+pub mod optimum;
 pub mod parameters;
 pub mod residual;
 pub mod time_model;
@@ -23,7 +24,7 @@ use crate::geom::cone;
 use crate::geom::curve::Point2;
 use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
-use crate::job::{CheckedJob, Machine, Operation, Residual, RoughVcut};
+use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence};
 use crate::sim::surface::Surface;
 use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
 use parameters::VcutParameters;
@@ -59,6 +60,12 @@ pub struct PlannedVcut {
     pub asked: RoughVcut,
     /// What it came out as.
     pub parameters: VcutParameters,
+    /// What became of tips that would cut the part.
+    pub strategy: Residual,
+    /// Order of the flanks.
+    pub order: Order,
+    /// Order of the Vs.
+    pub sequence: Sequence,
     /// The part with its allowance: no cut's material side may go below.
     pub bound: Profile,
     /// The mean-value estimate of the time [Cui 11].
@@ -149,16 +156,18 @@ fn plan_vcut(
     let parameters = parameters::resolve(asked, diagnostics)?;
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
-    let layout = lattice::Layout::new(job.stock, asked.lattice.value, &parameters, &clearance);
+    let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
     if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
         diagnostics.push(too_many_cuts(asked, &parameters, layout.most_tips()));
         return None;
     }
-    let planner = residual::LayerPlanner::new(&layout, asked, &parameters, &job.profile, surface);
+    let strategy = asked.residual.value.or(Residual::Mixed);
+    let planner = residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, surface);
     let mut cuts = plan_layers(planner, &layout, cuts_left);
-    if cuts.as_ref().is_ok_and(Vec::is_empty) && asked.residual.value == Residual::Auto {
+    if cuts.as_ref().is_ok_and(Vec::is_empty) && strategy == Residual::Mixed {
         // Where all there is to cut is less than what may stay, `auto` takes it rather than nothing.
-        let planner = residual::LayerPlanner::new(&layout, asked, &parameters, &job.profile, surface);
+        let planner =
+            residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, surface);
         cuts = plan_layers(planner.thorough(), &layout, cuts_left);
     }
     let cuts = match cuts {
@@ -179,6 +188,9 @@ fn plan_vcut(
     Some(PlannedVcut {
         asked: asked.clone(),
         parameters,
+        strategy,
+        order: asked.order.value.or(Order::Point),
+        sequence: asked.sequence.value.or(Sequence::Rows),
         bound,
         estimate,
         cuts,

@@ -18,6 +18,10 @@ pub const AUTO_SWING: Angle = Angle::deg(45.0);
 /// The parameters of one V-cutting operation, all decided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VcutParameters {
+    /// How tips are laid out.
+    pub lattice: Lattice,
+    /// Overlap by which an open step follows from the layer.
+    pub overlap: f64,
     /// Half the opening angle of the V.
     pub swing: Angle,
     /// Layer spacing.
@@ -48,14 +52,14 @@ pub struct Choice {
 impl VcutParameters {
     /// Whether the blade reaches what the lattice needs far from the part.
     #[must_use]
-    pub fn lattice_fits(&self, lattice: Lattice) -> bool {
-        fits(lattice, self.layer, self.step, &self.flanks)
+    pub fn lattice_fits(&self) -> bool {
+        fits(self.lattice, self.layer, self.step, &self.flanks)
     }
 
     /// The step that goes with this layer when it is left open.
     #[must_use]
-    pub fn step_for_layer(&self, asked: &RoughVcut) -> Length {
-        widest_step(asked.lattice.value, self.layer, asked.overlap.value, &self.flanks)
+    pub fn step_for_layer(&self) -> Length {
+        widest_step(self.lattice, self.layer, self.overlap, &self.flanks)
     }
 
     /// What was left open and how it was decided, in the order of the language reference.
@@ -136,6 +140,8 @@ pub fn resolve(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Option<V
     // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
     let clear_height = lean.clear_height(extension).max(teeth);
     Some(VcutParameters {
+        lattice: asked.lattice.value.or(Lattice::Orthogonal),
+        overlap: asked.overlap.value.or(0.0),
         swing,
         layer,
         step,
@@ -239,7 +245,7 @@ fn usual_rake(half_apex: Angle) -> Angle {
 }
 
 fn resolve_swing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Angle {
-    let limit = asked.limits.swing;
+    let limit = asked.limits.swing.most;
     match (asked.swing.value, limit) {
         (Auto::Auto, None) => AUTO_SWING,
         (Auto::Auto, Some(limit)) => AUTO_SWING.min(limit.value),
@@ -340,7 +346,14 @@ fn resolve_layer_and_step(
     drop: Length,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<(Length, Length)> {
-    let widest = |layer| widest_step(asked.lattice.value, layer, asked.overlap.value, flanks);
+    let widest = |layer| {
+        widest_step(
+            asked.lattice.value.or(Lattice::Orthogonal),
+            layer,
+            asked.overlap.value.or(0.0),
+            flanks,
+        )
+    };
     match (asked.layer.value, asked.step.value) {
         (Auto::Given(layer), Auto::Given(step)) => Some((layer, step)),
         (Auto::Given(layer), Auto::Auto) => Some((layer, widest(layer))),
@@ -392,7 +405,10 @@ fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Diagnostic> {
 
 /// A step at which no layer, however thin, is cut free or keeps the scallop limit.
 fn step_too_wide(asked: &RoughVcut, step: Length, flanks: &Flanks, drop: Length) -> Diagnostic {
-    let (lattice, overlap) = (asked.lattice.value, asked.overlap.value);
+    let (lattice, overlap) = (
+        asked.lattice.value.or(Lattice::Orthogonal),
+        asked.overlap.value.or(0.0),
+    );
     let works = widest_step(lattice, largest_layer(asked, flanks, drop), overlap, flanks);
     let (step_mm, works) = (show(step.to_mm()), show(works.to_mm()));
     let span = asked.step.span.unwrap_or(asked.head_span);
@@ -483,7 +499,10 @@ fn scallop_room(asked: &RoughVcut, drop: Length) -> Option<Length> {
 /// The largest layer with the step left open, for error messages and for `auto`.
 #[must_use]
 pub fn largest_layer(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> Length {
-    let (lattice, overlap) = (asked.lattice.value, asked.overlap.value);
+    let (lattice, overlap) = (
+        asked.lattice.value.or(Lattice::Orthogonal),
+        asked.overlap.value.or(0.0),
+    );
     let by_reach = blade_reach::largest_layer(lattice, overlap, flanks.reach);
     let by_scallop = scallop_room(asked, drop)
         .map(|room| blade_reach::largest_layer_for_scallop(lattice, overlap, flanks.slope, room));
@@ -496,7 +515,7 @@ pub fn largest_layer(asked: &RoughVcut, flanks: &Flanks, drop: Length) -> Length
 /// The largest layer at a given step, if there is any.
 #[must_use]
 pub fn largest_layer_at(asked: &RoughVcut, step: Length, flanks: &Flanks, drop: Length) -> Option<Length> {
-    let lattice = asked.lattice.value;
+    let lattice = asked.lattice.value.or(Lattice::Orthogonal);
     let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach)?;
     let closed_form = match scallop_room(asked, drop) {
         None => by_reach,

@@ -4,10 +4,10 @@
 //! A layer is decided as a whole against the surface that the layers above left, whatever the order in which its cuts
 //! will be made: cutting a neighbour first only lowers the surface, so a flank then comes out no later.
 //!
-//! With `auto`, a tip that would cut the part is dropped where leaving its material keeps the residual within the limit;
+//! With `mixed`, a tip that would cut the part is dropped where leaving its material keeps the residual within the limit;
 //! otherwise it is raised, or if its chip would not come free there, moved sideways [Yu 2019]. Dropped tips make the material
 //! beside them stand higher than the lattice assumes, so that a regular tip near a steep part may find its flank too
-//! long: `auto` then raises it by as little as frees its chip, and the layers below follow as far as the blade reaches.
+//! long: `mixed` then raises it by as little as frees its chip, and the layers below follow as far as the blade reaches.
 
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
@@ -33,7 +33,7 @@ pub struct LayerPlanner<'p> {
     parameters: &'p VcutParameters,
     part: &'p Profile,
     surface: &'p mut Surface,
-    /// Residual that `auto` leaves standing.
+    /// Residual that `mixed` leaves standing.
     tolerated: f64,
     smallest_gain: f64,
     /// Whether flanks that do not come out are to be mended by raising their tips. Not where the lattice as a whole needs
@@ -51,11 +51,12 @@ impl<'p> LayerPlanner<'p> {
     pub fn new(
         layout: &'p Layout<'p>,
         asked: &RoughVcut,
+        strategy: Residual,
         parameters: &'p VcutParameters,
         part: &'p Profile,
         surface: &'p mut Surface,
     ) -> Self {
-        let lattice = asked.lattice.value;
+        let lattice = parameters.lattice;
         let bound = blade_reach::scallop_bound(
             lattice,
             parameters.layer,
@@ -64,10 +65,10 @@ impl<'p> LayerPlanner<'p> {
         );
         let inherent = bound + asked.allowance.value + parameters.drop;
         let tolerated = asked.limits.scallop.map_or(inherent, |limit| limit.value);
-        let relieves = asked.residual.value == Residual::Auto && parameters.lattice_fits(lattice);
+        let relieves = strategy == Residual::Mixed && parameters.lattice_fits();
         Self {
             layout,
-            strategy: asked.residual.value,
+            strategy,
             parameters,
             part,
             surface,
@@ -80,7 +81,7 @@ impl<'p> LayerPlanner<'p> {
         }
     }
 
-    /// The same, but `auto` leaves nothing standing that a raised or moved tip could take.
+    /// The same, but `mixed` leaves nothing standing that a raised or moved tip could take.
     #[must_use]
     pub const fn thorough(mut self) -> Self {
         self.tolerated = 0.0;
@@ -181,7 +182,7 @@ impl<'p> LayerPlanner<'p> {
             Residual::Discard => None,
             Residual::Lift => self.lifted(column),
             Residual::Shift => self.shifted(candidate),
-            Residual::Auto => {
+            Residual::Mixed => {
                 let closed = self.closed[parity as usize].get_mut(index)?;
                 if *closed {
                     return None;

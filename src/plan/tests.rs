@@ -3,7 +3,8 @@
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{
-    Auto, Blade, CheckedJob, Direction, Lattice, Limits, Operation, Order, Residual, RoughVcut, Sourced,
+    Auto, Blade, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order, Residual,
+    RoughVcut, Sequence, Sourced,
 };
 use crate::sim::prove::Findings;
 use crate::source::{SourceMap, Span};
@@ -50,19 +51,19 @@ pub(crate) fn paper_job(profile: Vec<Point2>) -> CheckedJob {
                 thickness: mm(0.0),
                 edges: Edges::Double,
             },
-            lattice: given(Lattice::Orthogonal),
+            lattice: given(Auto::Given(Lattice::Orthogonal)),
             rake: given(Angle::deg(60.0)),
             swing: given(Auto::Auto),
             layer: given(Auto::Auto),
             step: given(Auto::Auto),
-            overlap: given(0.0),
-            limits: Limits {
-                swing: None,
-                scallop: None,
-            },
+            overlap: given(Auto::Given(0.0)),
+            objective: given(Objective::Time),
+            formulas: given(Formulas::Exact),
+            limits: Limits::default(),
             allowance: mm(0.0),
-            residual: given(Residual::Auto),
-            order: given(Order::Point),
+            residual: given(Auto::Given(Residual::Mixed)),
+            order: given(Auto::Given(Order::Point)),
+            sequence: given(Auto::Given(Sequence::Rows)),
             direction: given(Direction::Alternate),
             cut_feed: given(Speed::mm_per_s(200.0)),
             travel_feed: given(Speed::mm_per_s(200.0)),
@@ -117,8 +118,8 @@ prop_compose! {
     ) -> CheckedJob {
         let mut job = paper_job(profile);
         let asked = operation(&mut job);
-        asked.lattice.value = lattice;
-        asked.order.value = order;
+        asked.lattice.value = Auto::Given(lattice);
+        asked.order.value = Auto::Given(order);
         asked.direction.value = direction;
         asked.blade.edges = edges;
         asked.swing.value = swing.map_or(Auto::Auto, |swing| Auto::Given(Angle::deg(swing)));
@@ -126,7 +127,7 @@ prop_compose! {
         asked.blade.cutting_length.value = Length::mm(blade.0);
         asked.blade.half_apex.value = Angle::deg(blade.1);
         asked.blade.thickness.value = Length::mm(blade.2);
-        asked.overlap.value = overlap;
+        asked.overlap.value = Auto::Given(overlap);
         asked.allowance.value = Length::mm(allowance);
         asked.limits.scallop = scallop.map(|limit| given(Length::mm(limit)));
         job
@@ -168,7 +169,7 @@ prop_compose! {
     fn a_stubborn_job()(
         mut job in a_job(),
         size in (20.0..300.0_f64, 10.0..80.0_f64),
-        residual in prop::sample::select(vec![Residual::Discard, Residual::Lift, Residual::Shift, Residual::Auto]),
+        residual in prop::sample::select(vec![Residual::Discard, Residual::Lift, Residual::Shift, Residual::Mixed]),
         layer in prop::option::of(0.7..9.0_f64),
         step in prop::option::of(0.7..15.0_f64),
         extension in prop::option::of(0.0..60.0_f64),
@@ -181,7 +182,7 @@ prop_compose! {
         job.stock = Stock { width: Length::mm(job.profile.span().1), height: Length::mm(height), ..job.stock };
         let auto = |value: Option<f64>| value.map_or(Auto::Auto, |value| Auto::Given(Length::mm(value)));
         let asked = operation(&mut job);
-        asked.residual.value = residual;
+        asked.residual.value = Auto::Given(residual);
         asked.layer.value = auto(layer);
         asked.step.value = auto(step);
         asked.extension.value = auto(extension);

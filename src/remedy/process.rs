@@ -32,11 +32,11 @@ pub(super) fn other_direction(case: &mut Case<'_>) -> Option<Remedy> {
 /// The same cuts in the other order.
 pub(super) fn other_order(case: &mut Case<'_>) -> Option<Remedy> {
     let (operation, asked) = asked(case)?;
-    let (order, word) = match asked.order.value {
+    let (order, word) = match asked.order.value.or(Order::Point) {
         Order::Point => (Order::Layer, "layer"),
         Order::Layer => (Order::Point, "point"),
     };
-    works(case, operation, |asked| asked.order.value = order)
+    works(case, operation, |asked| asked.order.value = Auto::Given(order))
         .then(|| stated(asked, "order", asked.order.span, word))
 }
 

@@ -149,6 +149,21 @@ impl Reader<'_> {
         Ok(sourced(T::from_base(value), expr.span))
     }
 
+    /// One of a few words, or `auto`, which is also its default.
+    pub(crate) fn auto_choice<T: Copy>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        words: &[(&'static str, T)],
+    ) -> Checked<Sourced<Auto<T>>> {
+        let Some(expr) = fields.value(name)? else {
+            return Ok(default(Auto::Auto));
+        };
+        let given = words.iter().map(|&(word, choice)| (word, Auto::Given(choice)));
+        let all: Vec<_> = given.chain([("auto", Auto::Auto)]).collect();
+        self.word(name, expr, &all)
+    }
+
     /// One of a few words, if the field is given.
     pub(crate) fn choice<T: Copy>(
         &mut self,

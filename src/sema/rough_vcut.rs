@@ -8,7 +8,10 @@ use super::read::{Reader, default, looks_like};
 use super::report::Checked;
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Blade, Direction, Lattice, Limits, Order, Residual, RoughVcut, Sourced};
+use crate::job::{
+    Blade, Bounds, Direction, Formulas, Lattice, Limits, Objective, Order, Residual, RoughVcut, Sequence,
+    Sourced,
+};
 use crate::source::Spanned;
 use crate::syntax::ast::{Block, Expr};
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
@@ -17,16 +20,19 @@ const SPEC: BlockSpec = BlockSpec {
     title: "`rough vcut`",
     fields: &[
         value("blade", "dagger"),
-        value("lattice", "orthogonal"),
+        value("lattice", "auto"),
         value("rake", "60 deg"),
         value("swing", "auto"),
         value("layer", "auto"),
         value("step", "auto"),
-        value("overlap", "0 %"),
+        value("overlap", "auto"),
+        value("objective", "time"),
+        value("model", "exact"),
         block("limits", "{ swing <= 50 deg, scallop <= 10 mm }"),
         value("allowance", "0.5 mm"),
         value("residual", "auto"),
-        value("order", "point"),
+        value("order", "auto"),
+        value("sequence", "auto"),
         value("direction", "alternate"),
         block(
             "feed",
@@ -42,7 +48,15 @@ const SPEC: BlockSpec = BlockSpec {
 
 const LIMITS: BlockSpec = BlockSpec {
     title: "`limits`",
-    fields: &[limit("swing", "50 deg"), limit("scallop", "10 mm")],
+    fields: &[
+        limit("swing", "50 deg"),
+        limit("layer", "6 mm"),
+        limit("step", "8 mm"),
+        limit("scallop", "10 mm"),
+        limit("edge", "10 mm"),
+        limit("time", "10 min"),
+        limit("cuts", "200"),
+    ],
     inner: Inner::Refused,
 };
 
@@ -66,10 +80,25 @@ const RESIDUALS: &[(&str, Residual)] = &[
     ("discard", Residual::Discard),
     ("lift", Residual::Lift),
     ("shift", Residual::Shift),
-    ("auto", Residual::Auto),
+    ("mixed", Residual::Mixed),
 ];
 
 const ORDERS: &[(&str, Order)] = &[("point", Order::Point), ("layer", Order::Layer)];
+
+const SEQUENCES: &[(&str, Sequence)] = &[
+    ("rows", Sequence::Rows),
+    ("boustrophedon", Sequence::Boustrophedon),
+    ("nearest", Sequence::Nearest),
+];
+
+const OBJECTIVES: &[(&str, Objective)] = &[
+    ("time", Objective::Time),
+    ("scallop", Objective::Scallop),
+    ("cuts", Objective::Cuts),
+    ("blade_load", Objective::BladeLoad),
+];
+
+const MODELS: &[(&str, Formulas)] = &[("paper", Formulas::Paper), ("exact", Formulas::Exact)];
 
 const DIRECTIONS: &[(&str, Direction)] = &[
     ("alternate", Direction::Alternate),
@@ -104,17 +133,18 @@ pub(crate) fn check(
     let blade = fields
         .required_value("blade", reader.reports)
         .and_then(|expr| find_blade(expr, blades, &mut reader));
-    let lattice = fields
-        .required_value("lattice", reader.reports)
-        .and_then(|expr| reader.word("lattice", expr, LATTICES));
+    let lattice = reader.auto_choice(&fields, "lattice", LATTICES);
     let rake = reader.required(&fields, "rake", RAKE);
     let swing = reader.auto(&fields, "swing", SWING);
     let layer = reader.auto(&fields, "layer", SIZE);
     let step = reader.auto(&fields, "step", SIZE);
-    let overlap = reader.defaulted(&fields, "overlap", OVERLAP, 0.0);
+    let overlap = reader.auto(&fields, "overlap", OVERLAP);
+    let objective = reader.choice(&fields, "objective", OBJECTIVES);
+    let formulas = reader.choice(&fields, "model", MODELS);
     let allowance = reader.defaulted(&fields, "allowance", DISTANCE, Length::ZERO);
-    let residual = reader.choice(&fields, "residual", RESIDUALS);
-    let order = reader.choice(&fields, "order", ORDERS);
+    let residual = reader.auto_choice(&fields, "residual", RESIDUALS);
+    let order = reader.auto_choice(&fields, "order", ORDERS);
+    let sequence = reader.auto_choice(&fields, "sequence", SEQUENCES);
     let direction = reader.choice(&fields, "direction", DIRECTIONS);
     let clearance = reader.required(&fields, "clearance", SIZE);
     let extension = reader.auto(&fields, "extension", DISTANCE);
@@ -130,10 +160,13 @@ pub(crate) fn check(
         layer: layer?,
         step: step?,
         overlap: overlap?,
+        objective: objective?.unwrap_or(default(Objective::Time)),
+        formulas: formulas?.unwrap_or(default(Formulas::Exact)),
         limits: limits?,
         allowance: allowance?,
-        residual: residual?.unwrap_or(default(Residual::Auto)),
-        order: order?.unwrap_or(default(Order::Point)),
+        residual: residual?,
+        order: order?,
+        sequence: sequence?,
         direction: direction?.unwrap_or(default(Direction::Alternate)),
         cut_feed: feeds.cut,
         travel_feed: feeds.travel,
@@ -155,10 +188,7 @@ fn inner_place(inner: &Block) -> Place {
 
 fn limits(inner: Option<&Block>, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Limits> {
     let Some(inner) = inner else {
-        return Ok(Limits {
-            swing: None,
-            scallop: None,
-        });
+        return Ok(Limits::default());
     };
     let fields = Fields::sort(&LIMITS, inner_place(inner), &inner.entries, session);
     let mut reader = Reader {
@@ -168,8 +198,12 @@ fn limits(inner: Option<&Block>, scope: Scope<'_>, session: &mut Session<'_>) ->
     let swing = reader.optional(&fields, "swing", SWING);
     let scallop = reader.optional(&fields, "scallop", SIZE);
     Ok(Limits {
-        swing: swing?,
+        swing: Bounds {
+            least: None,
+            most: swing?,
+        },
         scallop: scallop?,
+        ..Limits::default()
     })
 }
 

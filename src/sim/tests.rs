@@ -119,7 +119,7 @@ fn wide_cuts_after_narrow_ones_are_blocked_by_their_walls() {
     wide.layer.value = Auto::Given(Length::mm(3.0));
     wide.step.value = Auto::Auto;
     // `auto` would raise the cuts until they are clear.
-    wide.residual.value = Residual::Discard;
+    wide.residual.value = Auto::Given(Residual::Discard);
     job.operations.push(Operation::RoughVcut(wide));
     let plan = choose(&job).0.unwrap();
     let findings = prove(&plan, &SourceMap::default()).unwrap().findings;

@@ -30,6 +30,29 @@ impl Timing {
     }
 }
 
+/// How long each op takes, in the order of the program.
+#[must_use]
+pub fn op_times(program: &VerifiedProgram) -> Vec<Duration> {
+    let program = program.program();
+    let mut at = None;
+    let time = |action: &Action, at: Option<Pose>| match action {
+        Action::AwaitReady => match program.cell.as_ref().map(|cell| cell.ready) {
+            Some(Ready::After(time)) => time,
+            Some(Ready::Input(_)) | None => Duration::ZERO,
+        },
+        Action::Dwell { time } => *time,
+        action => at
+            .and_then(|from| Stroke::of(program, from, action))
+            .map_or(Duration::ZERO, |stroke| stroke.duration()),
+    };
+    let mut times = Vec::with_capacity(program.ops.len());
+    for op in &program.ops {
+        times.push(time(&op.action, at));
+        at = pose_after(at, &op.action);
+    }
+    times
+}
+
 /// Adds up a program's times.
 #[must_use]
 pub fn timing(program: &VerifiedProgram) -> Timing {

@@ -1,0 +1,1 @@
+//! The playback of a report.
