@@ -298,6 +298,10 @@ pub(super) struct BuildArgs {
     #[arg(long)]
     pub(super) check: bool,
 
+    /// Take the figures of these programs for the baseline that vcut.toml names
+    #[arg(long, conflicts_with = "check")]
+    pub(super) accept: bool,
+
     /// The list of programs [default: vcut.toml in the current folder or above it]
     #[arg(long, value_name = "FILE")]
     pub(super) manifest: Option<String>,

@@ -4,6 +4,7 @@
 //! gets a thread; what its own proof does in parallel goes to the one pool that all share, so there are never more proofs at
 //! work than processors.
 
+use super::baseline::Keeper;
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::output::{Destination, Placed};
@@ -11,6 +12,8 @@ use super::snapshot::{self, Fate, Made, NotReady, Ready};
 use super::{Exit, Targets, compile, targets};
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{self, Request, RequestError, Typed};
+use crate::numbers::Numbers;
+use crate::numbers::baseline::{Name, Record};
 use crate::source::{SourceMap, Span};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -39,12 +42,40 @@ pub(super) struct Unit {
     pub(super) beside: String,
     /// Where a list of programs asks for it.
     pub(super) asked_at: Option<Span>,
+    /// What its figures are kept under.
+    pub(super) recorded_as: Option<Name>,
+}
+
+/// Who asks for programs: a list.
+pub(super) struct Asking<'a> {
+    /// Its text.
+    pub(super) sources: &'a SourceMap,
+    /// The figures that it holds programs to.
+    pub(super) keeper: Option<&'a Keeper>,
+}
+
+/// What came of a run.
+pub(super) struct Ran {
+    /// How it ended.
+    pub(super) exit: Exit,
+    /// The figures of the programs that were made.
+    pub(super) records: Vec<Record>,
+}
+
+impl From<Exit> for Ran {
+    fn from(exit: Exit) -> Self {
+        Self {
+            exit,
+            records: Vec::new(),
+        }
+    }
 }
 
 /// A program that was made, or why not.
 struct Done {
     sources: SourceMap,
     diagnostics: Vec<Diagnostic>,
+    numbers: Option<Numbers>,
     made: Result<Option<(Ready, Vec<String>)>, Failure>,
 }
 
@@ -68,37 +99,42 @@ struct Total {
     seconds: f64,
 }
 
-/// Makes all programs. `list` is the text in which they are asked for.
+/// Makes all programs.
 pub(super) fn run(
     units: &[Unit],
     fate: Fate,
     targets: &Targets,
-    list: Option<&SourceMap>,
+    list: Option<&Asking<'_>>,
     console: &Console,
-) -> Exit {
+) -> Ran {
     let start = Instant::now();
     let done = all(units, fate, targets);
     if let Some((first, second, name)) = same_file(units, &done) {
-        return refuse(first, second, &name, list, console);
+        return refuse(first, second, &name, list.map(|list| list.sources), console).into();
     }
-    let mut exit = Exit::Success;
+    let mut ran = Ran::from(Exit::Success);
     let mut total = Total {
         programs: units.len(),
         ..Total::default()
     };
     for (unit, done) in units.iter().zip(done) {
-        let (end, ended) = settle(unit, done, fate, console);
+        let record = unit.recorded_as.clone().zip(done.numbers.clone());
+        let (end, ended) = settle(unit, done, fate, list, console);
         match end {
             End::Written => total.written += 1,
             End::Unchanged => total.unchanged += 1,
             End::Different => total.different += 1,
             End::Failed => total.failed += 1,
         }
-        exit = exit.max(ended);
+        ran.exit = ran.exit.max(ended);
+        if end != End::Failed {
+            ran.records
+                .extend(record.map(|(name, numbers)| Record { name, numbers }));
+        }
     }
     total.seconds = start.elapsed().as_secs_f64();
     console.total(&total.in_words(), &total);
-    exit
+    ran
 }
 
 /// Compiles all of them, on as many threads as there are processors.
@@ -146,6 +182,7 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
             return Done {
                 sources: SourceMap::default(),
                 diagnostics: Vec::new(),
+                numbers: None,
                 made: Err(compile::unreadable(&unit.job, &reason)),
             };
         }
@@ -162,6 +199,7 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
     Done {
         sources: outcome.sources,
         diagnostics: outcome.diagnostics,
+        numbers: outcome.compiled.map(|compiled| compiled.numbers),
         made,
     }
 }
@@ -204,12 +242,30 @@ fn refuse(first: &Unit, second: &Unit, path: &str, list: Option<&SourceMap>, con
 }
 
 /// Lets a program take its place, and tells what came of it.
-fn settle(unit: &Unit, done: Done, fate: Fate, console: &Console) -> (End, Exit) {
+fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, console: &Console) -> (End, Exit) {
     let Done {
         sources,
         mut diagnostics,
+        numbers,
         made,
     } = done;
+    let made = match against_baseline(unit, numbers.as_ref(), list) {
+        complaints if complaints.is_empty() || has_errors(&diagnostics) => made,
+        complaints => {
+            console.diagnostics(&diagnostics, &sources);
+            if let Some(list) = list {
+                console.diagnostics(&complaints, list.sources);
+            }
+            tell(
+                unit,
+                &complaints,
+                &Made::default(),
+                (fate, numbers.as_ref()),
+                console,
+            );
+            return (End::Failed, Exit::JobHasErrors);
+        }
+    };
     let settled = made.and_then(|ready| {
         ready
             .map(|(ready, _)| ready.settle().map_err(Failure::new))
@@ -228,20 +284,39 @@ fn settle(unit: &Unit, done: Done, fate: Fate, console: &Console) -> (End, Exit)
         console.differences(&unit.job, found);
     }
     let end = end(&diagnostics, &made);
-    console.summary(&Summary {
-        job: &unit.job,
-        diagnostics: &diagnostics,
-        lines: &[],
-        reach: None,
-        placed: &made.placed,
-        remark: Some(&remark(unit, &diagnostics, &made, fate)),
-        timings: &[],
-    });
+    tell(unit, &diagnostics, &made, (fate, numbers.as_ref()), console);
     let exit = match end {
         End::Written | End::Unchanged => Exit::Success,
         End::Different | End::Failed => Exit::JobHasErrors,
     };
     (end, exit)
+}
+
+/// What has become worse than the list allows.
+fn against_baseline(unit: &Unit, numbers: Option<&Numbers>, list: Option<&Asking<'_>>) -> Vec<Diagnostic> {
+    match (list.and_then(|list| list.keeper), &unit.recorded_as, numbers) {
+        (Some(keeper), Some(name), Some(numbers)) => keeper.judge(name, numbers, unit.asked_at),
+        _ => Vec::new(),
+    }
+}
+
+fn tell(
+    unit: &Unit,
+    diagnostics: &[Diagnostic],
+    made: &Made,
+    (fate, numbers): (Fate, Option<&Numbers>),
+    console: &Console,
+) {
+    console.summary(&Summary {
+        job: &unit.job,
+        diagnostics,
+        lines: &[],
+        numbers,
+        reach: None,
+        placed: &made.placed,
+        remark: Some(&remark(unit, diagnostics, made, fate)),
+        timings: &[],
+    });
 }
 
 fn end(diagnostics: &[Diagnostic], made: &Made) -> End {

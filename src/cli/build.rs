@@ -1,7 +1,8 @@
 //! `vcutc build`: all programs that `vcut.toml` lists, written or compared in one run.
 
 use super::args::BuildArgs;
-use super::batch::{self, Unit};
+use super::baseline::Keeper;
+use super::batch::{self, Asking, Unit};
 use super::console::{Console, Failure};
 use super::files::{Disk, load_file};
 use super::snapshot::Fate;
@@ -10,6 +11,7 @@ use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::manifest::pattern::Pattern;
 use crate::manifest::{self, Entry, FILE_NAME, Manifest, Placed};
+use crate::numbers::baseline::Name;
 use crate::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_bytes};
 use std::collections::BTreeSet;
 use std::fs;
@@ -42,6 +44,13 @@ pub(super) fn build(args: &BuildArgs, targets: &Targets, console: &Console) -> E
         }
     };
     let list = List { path, file, targets };
+    let keeper = match Keeper::new(&manifest, &list.path, file, args, &mut sources) {
+        Ok(keeper) => keeper,
+        Err(diagnostics) => {
+            console.diagnostics(&diagnostics, &sources);
+            return Exit::JobHasErrors;
+        }
+    };
     let units = match list.units(&manifest) {
         Ok(units) => units,
         Err(diagnostics) => {
@@ -50,9 +59,22 @@ pub(super) fn build(args: &BuildArgs, targets: &Targets, console: &Console) -> E
         }
     };
     let fate = if args.check { Fate::Compare } else { Fate::Write };
-    match chosen(units, &args.programs, &list.path) {
-        Ok(units) => batch::run(&units, fate, targets, Some(&sources), console),
-        Err(failure) => console.failure(&failure),
+    let listed: Vec<Name> = units
+        .iter()
+        .filter_map(|(unit, _)| unit.recorded_as.clone())
+        .collect();
+    let units = match chosen(units, &args.programs, &list.path) {
+        Ok(units) => units,
+        Err(failure) => return console.failure(&failure),
+    };
+    let asking = Asking {
+        sources: &sources,
+        keeper: keeper.as_ref(),
+    };
+    let ran = batch::run(&units, fate, targets, Some(&asking), console);
+    match keeper {
+        Some(keeper) if args.accept => ran.exit.max(keeper.accept(ran.records, &listed, console)),
+        Some(_) | None => ran.exit,
     }
 }
 
@@ -181,9 +203,15 @@ impl List<'_> {
         job: &str,
         backend: &'static dyn Backend,
     ) -> Unit {
-        let folder = join_path(&self.path, &entry.folder(stem(job), backend.id()));
+        let output = entry.folder(stem(job), backend.id());
+        let folder = join_path(&self.path, &output);
         Unit {
-            job: job.to_owned(),
+            recorded_as: Some(Name {
+                job: job.to_owned(),
+                target: backend.id().to_owned(),
+                output,
+            }),
+            job: join_path(&self.path, job),
             backend,
             folder: PathBuf::from(if folder.is_empty() { "." } else { &folder }),
             set: entry.set.clone(),
@@ -216,7 +244,7 @@ impl List<'_> {
         }))
     }
 
-    /// The files of a pattern, by their paths, in order.
+    /// The files of a pattern, by their paths from the folder of the list, in order.
     fn jobs(&self, pattern: &Placed<Pattern>) -> Result<Vec<String>, Box<Diagnostic>> {
         let text = pattern.value.text();
         let from_here = |path: &str| join_path(&self.path, path);
@@ -232,7 +260,7 @@ impl List<'_> {
             })?
         };
         match found {
-            found if !found.is_empty() => Ok(found.iter().map(|path| from_here(path)).collect()),
+            found if !found.is_empty() => Ok(found),
             _ => {
                 let (message, label) = if pattern.value.is_plain() {
                     (format!("there is no file {}", from_here(text)), "no such file")

@@ -46,7 +46,7 @@ pub(super) fn compile(args: &CompileArgs, targets: &Targets, console: &Console) 
     match args.jobs.as_slice() {
         [job] => judge(job, &args.overrides, targets, &product, console),
         several => match units(several, &args.overrides, product) {
-            Ok((units, fate)) => batch::run(&units, fate, targets, None, console),
+            Ok((units, fate)) => batch::run(&units, fate, targets, None, console).exit,
             Err(failure) => console.failure(&failure),
         },
     }
@@ -82,6 +82,7 @@ fn units(jobs: &[String], overrides: &Overrides, product: Product) -> Result<(Ve
         options: program.options.clone(),
         beside: String::new(),
         asked_at: None,
+        recorded_as: None,
     };
     Ok((jobs.iter().map(unit).collect(), program.fate))
 }
@@ -210,6 +211,7 @@ fn tell(
         job,
         diagnostics: &outcome.diagnostics,
         lines: compiled.map_or(&[], |compiled| &compiled.summary),
+        numbers: compiled.map(|compiled| &compiled.numbers),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
         placed: &made.placed,
         remark: remark(product, is_wrong, made).as_deref(),

@@ -9,6 +9,7 @@ use super::differences;
 use super::output::Placed;
 use super::snapshot::Differences;
 use crate::diag::{Diagnostic, Severity, github, json, render};
+use crate::numbers::Numbers;
 use crate::reach_summary::{self, ReachFigures};
 use crate::source::SourceMap;
 use anstream::AutoStream;
@@ -71,6 +72,8 @@ pub(super) struct Summary<'a> {
     pub(super) diagnostics: &'a [Diagnostic],
     /// What was planned, a line each.
     pub(super) lines: &'a [String],
+    /// The figures of the program.
+    pub(super) numbers: Option<&'a Numbers>,
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
     /// Files of its program, as people see them.
@@ -96,6 +99,8 @@ struct SummaryBody<'a> {
     errors: usize,
     warnings: usize,
     lines: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    numbers: Option<&'a Numbers>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<&'a ReachFigures>,
     files: Vec<&'a str>,
@@ -215,6 +220,7 @@ impl Console {
                     errors,
                     warnings,
                     lines: summary.lines,
+                    numbers: summary.numbers,
                     reach: summary.reach,
                     files: summary.placed.iter().map(Placed::path).collect(),
                     unchanged: unchanged(summary.placed),

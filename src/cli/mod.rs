@@ -29,6 +29,7 @@
 )]
 
 mod args;
+mod baseline;
 mod batch;
 mod build;
 mod compile;

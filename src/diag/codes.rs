@@ -208,6 +208,12 @@ codes! {
     SameFile = "VC0804", Error, "two programs that would write the same file";
     /// Parts of an earlier version of a program.
     StaleParts = "VC0805", Warning, "parts of an earlier version of a program";
+    /// A program with worse figures than its baseline.
+    WorseNumbers = "VC0806", Error, "a program with worse figures than its baseline";
+    /// A baseline that cannot be used.
+    BadBaseline = "VC0807", Error, "a baseline that cannot be used";
+    /// A program that the baseline does not have.
+    NoBaseline = "VC0808", Error, "a program that the baseline does not have";
 
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";

@@ -9,6 +9,7 @@ pub use crate::sema::Typed;
 
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
+use crate::numbers::Numbers;
 use crate::plan::{self, PlannedJob};
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary::{self, ReachFigures};
@@ -121,6 +122,8 @@ pub struct Compiled {
     pub report: Report,
     /// How long each op takes.
     pub op_times: Vec<Duration>,
+    /// Its figures for other programs.
+    pub numbers: Numbers,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
 }
@@ -188,6 +191,7 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
                         outcome.compiled = Some(Compiled {
                             program,
                             figures,
+                            numbers: Numbers::of(&plan, &report),
                             report,
                             op_times,
                             summary,

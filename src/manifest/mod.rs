@@ -8,6 +8,7 @@ pub mod pattern;
 use crate::document::flaw::Flaw;
 use crate::document::table::Table;
 use crate::document::{self, Wording};
+use crate::numbers::Figure;
 use core::ops::Range;
 use pattern::Pattern;
 
@@ -28,8 +29,13 @@ const OUTPUT: &str = "output";
 const MACHINE: &str = "machine";
 const SET: &str = "set";
 const OPTIONS: &str = "options";
+const BASELINE: &str = "baseline";
+const FILE: &str = "file";
 
 const KEYS: &[&str] = &[NAME, JOBS, TARGET, TARGETS, OUTPUT, MACHINE, SET, OPTIONS];
+
+/// Largest tolerance.
+const MOST_PERCENT: f64 = 1000.0;
 
 /// Places in a folder's name that are filled in for each program.
 const BLANKS: [&str; 2] = ["{job}", "{target}"];
@@ -44,10 +50,30 @@ pub struct Placed<T> {
 }
 
 /// The programs of a repository.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Manifest {
     /// Its sections, in order.
     pub entries: Vec<Entry>,
+    /// The figures that programs are held to.
+    pub baseline: Option<Baseline>,
+}
+
+/// The figures that programs are held to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Baseline {
+    /// The file with the figures, relative to the folder of the list.
+    pub file: Placed<String>,
+    /// By how much each may become worse; at least one.
+    pub tolerances: Vec<Tolerance>,
+}
+
+/// By how much a figure may become worse.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Which figure.
+    pub figure: Figure,
+    /// By how many percent; zero or more.
+    pub percent: Placed<f64>,
 }
 
 /// One section: some jobs, some targets, and what goes for all of them.
@@ -100,7 +126,7 @@ pub fn parse(text: &str) -> Result<Manifest, Vec<Flaw>> {
 }
 
 fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Manifest> {
-    root.allow(&[PROGRAM], flaws);
+    root.allow(&[PROGRAM, BASELINE], flaws);
     let sections = root.tables(PROGRAM, KEYS, flaws);
     if !root.has(PROGRAM) {
         flaws.push(
@@ -111,7 +137,11 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Manifest> {
     let entries: Vec<_> = sections.iter().map(|section| entry(section, flaws)).collect();
     twice(&sections, flaws);
     let entries: Option<Vec<Entry>> = entries.into_iter().collect();
-    Some(Manifest { entries: entries? })
+    let baseline = baseline(root, flaws);
+    Some(Manifest {
+        entries: entries?,
+        baseline,
+    })
 }
 
 fn entry(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Entry> {
@@ -135,6 +165,55 @@ fn entry(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Entry> {
         targets: targets?,
         output: output?,
     })
+}
+
+/// None when there is none, or a faulty one.
+fn baseline(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Baseline> {
+    let names = Figure::ALL.map(|(name, _)| name);
+    let keys: Vec<&str> = core::iter::once(FILE).chain(names).collect();
+    let section = root.table(BASELINE, &keys, flaws)?;
+    section.require(&[(FILE, "file = \"numbers.json\"")], flaws);
+    let tolerances: Vec<Tolerance> = Figure::ALL
+        .iter()
+        .filter_map(|&(name, figure)| {
+            let percent = percent(&section, name, flaws)?;
+            Some(Tolerance { figure, percent })
+        })
+        .collect();
+    if !names.iter().any(|name| section.has(name)) {
+        let message = format!("`[{BASELINE}]` holds programs to nothing");
+        let help = format!(
+            "add a line such as `time = \"2 %\"`; figures are {}",
+            names.join(", ")
+        );
+        flaws.push(Flaw::new(section.span(), message, "no figure").help(help));
+    }
+    let value = section.text(FILE, flaws)?.to_owned();
+    let span = section.span_of(FILE);
+    if value.is_empty() {
+        flaws.push(nothing(&section, FILE, "name a file, such as `numbers.json`"));
+    }
+    Some(Baseline {
+        file: Placed { value, span },
+        tolerances,
+    })
+}
+
+/// A tolerance such as `2 %`.
+fn percent(section: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Placed<f64>> {
+    let text = section.text(name, flaws)?;
+    let span = section.span_of(name);
+    let number = text
+        .strip_suffix('%')
+        .and_then(|number| number.trim().parse::<f64>().ok());
+    match number {
+        Some(value) if (0.0..=MOST_PERCENT).contains(&value) => Some(Placed { value, span }),
+        Some(_) | None => {
+            let message = format!("`{name}` takes from 0 to {MOST_PERCENT} percent, not `{text}`");
+            flaws.push(Flaw::new(span, message, "not such a share").help("write it like \"2 %\""));
+            None
+        }
+    }
 }
 
 fn jobs(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<Pattern>>> {

@@ -101,3 +101,38 @@ fn hostile_lists_end_in_flaws() {
         }
     }
 }
+
+#[test]
+fn a_baseline_is_read_and_its_faults_are_told() {
+    let list = |section: &str| format!("{SMALL}\n[baseline]\n{section}");
+    let baseline = parse(&list(
+        "file = \"numbers.json\"\nscallop = \"0.5%\"\ntime = \"2 %\"",
+    ))
+    .unwrap()
+    .baseline
+    .unwrap();
+    assert_eq!(baseline.file.value, "numbers.json");
+    let tolerances: Vec<_> = baseline
+        .tolerances
+        .iter()
+        .map(|tolerance| (tolerance.figure, tolerance.percent.value))
+        .collect();
+    assert_eq!(tolerances, [(Figure::Time, 2.0), (Figure::Scallop, 0.5)]);
+    let cases = [
+        ("time = \"2 %\"", "lacks"),
+        ("file = \"a.json\"", "holds programs to nothing"),
+        ("file = \"a.json\"\ntime = \"2\"", "not `2`"),
+        ("file = \"a.json\"\ntime = \"-1 %\"", "not `-1 %`"),
+        ("file = \"a.json\"\ntime = \"nan %\"", "not `nan %`"),
+        ("file = \"a.json\"\ntime = 2", "time"),
+        ("file = \"a.json\"\ntimes = \"2 %\"", "has no `times`"),
+        ("file = \"\"\ntime = \"2 %\"", "`file` is empty"),
+    ];
+    for (section, message) in cases {
+        let flaws = parse(&list(section)).unwrap_err();
+        assert!(
+            flaws.iter().any(|flaw| flaw.message.contains(message)),
+            "{section}: {flaws:?}"
+        );
+    }
+}

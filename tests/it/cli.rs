@@ -1,5 +1,6 @@
 //! The command line from outside: what it prints where, how it ends, and what it leaves on the disk.
 
+mod baseline;
 mod build;
 mod ci;
 #[cfg(feature = "gcode")]

@@ -50,6 +50,24 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "it takes a folder with older files",
     ),
     (
+        Code::WorseNumbers,
+        "tests/it/cli/baseline.rs",
+        "a_program_that_takes_longer_is_not_written",
+        "it is about vcut.toml",
+    ),
+    (
+        Code::BadBaseline,
+        "tests/it/cli/baseline.rs",
+        "a_baseline_that_cannot_be_used_is_told_at_its_place",
+        "it is about vcut.toml",
+    ),
+    (
+        Code::NoBaseline,
+        "tests/it/cli/baseline.rs",
+        "a_program_that_is_new_is_told",
+        "it is about vcut.toml",
+    ),
+    (
         Code::Internal,
         "src/driver/mod.rs",
         "a_program_that_breaks_a_rule_is_the_compilers_fault",

@@ -1,0 +1,182 @@
+//! The figures that a repository holds its programs to: the file that `vcut.toml` names, read before a build and held
+//! against each program before it takes its place, or written anew by `--accept`.
+
+use super::Exit;
+use super::args::BuildArgs;
+use super::console::{Console, Failure};
+use super::files::load_file;
+use super::output::write_file;
+use crate::diag::{Code, Diagnostic};
+use crate::manifest::{Manifest, Tolerance};
+use crate::numbers::Numbers;
+use crate::numbers::baseline::{self, Name, Record, Worse, worse};
+use crate::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_bytes};
+use std::path::Path;
+
+/// Keeps a baseline.
+pub(super) struct Keeper {
+    /// Its file, as people see it.
+    path: String,
+    /// Where the list names it.
+    named_at: Span,
+    /// By how much figures may become worse, and where the list says so.
+    tolerances: Vec<(Tolerance, Span)>,
+    /// What it has; none when its figures are about to be replaced.
+    records: Option<Vec<Record>>,
+}
+
+impl Keeper {
+    /// The keeper of the baseline that a list names, if it does.
+    pub(super) fn new(
+        manifest: &Manifest,
+        list: &str,
+        file: FileId,
+        args: &BuildArgs,
+        sources: &mut SourceMap,
+    ) -> Result<Option<Self>, Vec<Diagnostic>> {
+        let Some(baseline) = &manifest.baseline else {
+            return if args.accept {
+                Err(vec![nothing_to_accept(file)])
+            } else {
+                Ok(None)
+            };
+        };
+        let path = join_path(list, &baseline.file.value);
+        let named_at = Span::of_bytes(file, baseline.file.span.clone());
+        let records = if args.accept {
+            None
+        } else {
+            Some(records(&path, named_at, sources)?)
+        };
+        let placed = |tolerance: &Tolerance| {
+            let span = Span::of_bytes(file, tolerance.percent.span.clone());
+            (tolerance.clone(), span)
+        };
+        Ok(Some(Self {
+            path,
+            named_at,
+            tolerances: baseline.tolerances.iter().map(placed).collect(),
+            records,
+        }))
+    }
+
+    /// What has become worse by more than it may.
+    pub(super) fn judge(&self, name: &Name, numbers: &Numbers, asked_at: Option<Span>) -> Vec<Diagnostic> {
+        let Some(records) = &self.records else {
+            return Vec::new();
+        };
+        let Some(record) = records.iter().find(|record| record.name == *name) else {
+            return vec![self.unknown(name, asked_at)];
+        };
+        self.tolerances
+            .iter()
+            .filter_map(|(tolerance, span)| {
+                let percent = tolerance.percent.value;
+                let found = worse(tolerance.figure, percent, &record.numbers, numbers)?;
+                Some(self.complaint(name, found, percent, *span))
+            })
+            .collect()
+    }
+
+    fn complaint(&self, name: &Name, found: Worse, percent: f64, span: Span) -> Diagnostic {
+        let (figure, job) = (found.figure, &name.job);
+        let grown = match found.percent() {
+            // Never rounded down to what is allowed.
+            Some(grown) => format!("{:.2} % more", (grown * 100.0).ceil() / 100.0),
+            None => "more".to_owned(),
+        };
+        Diagnostic::new(
+            Code::WorseNumbers,
+            format!(
+                "{} of {job} for {} has grown from {} to {}",
+                figure.words(),
+                name.target,
+                figure.show(found.was),
+                figure.show(found.is)
+            ),
+            span,
+            format!("{grown}, {percent} % are allowed"),
+        )
+        .and(self.named_at, "the figures it is held to")
+        .help("take back what made it worse, or accept the new figures with `vcutc build --accept`")
+    }
+
+    fn unknown(&self, name: &Name, asked_at: Option<Span>) -> Diagnostic {
+        let message = format!(
+            "{} has no figures of {} for {} in \"{}\"",
+            self.path, name.job, name.target, name.output
+        );
+        let diagnostic = match asked_at {
+            Some(place) => Diagnostic::new(Code::NoBaseline, message, place, "asked for here")
+                .and(self.named_at, "the figures programs are held to"),
+            None => Diagnostic::new(
+                Code::NoBaseline,
+                message,
+                self.named_at,
+                "the figures programs are held to",
+            ),
+        };
+        diagnostic.help("add them with `vcutc build --accept`")
+    }
+
+    /// Writes the figures of programs that were made; those of others that are still listed stay.
+    pub(super) fn accept(&self, fresh: Vec<Record>, listed: &[Name], console: &Console) -> Exit {
+        let earlier = match load_file(Path::new(&self.path)) {
+            // What cannot be read is replaced as a whole.
+            Ok(bytes) => text_from_bytes(bytes)
+                .ok()
+                .and_then(|text| baseline::read(&text).ok())
+                .unwrap_or_default(),
+            Err(_) => Vec::new(),
+        };
+        let is_fresh = |name: &Name| fresh.iter().any(|record| record.name == *name);
+        let kept = earlier
+            .into_iter()
+            .filter(|record| listed.contains(&record.name) && !is_fresh(&record.name));
+        let records: Vec<Record> = kept.chain(fresh.iter().cloned()).collect();
+        match write_file(Path::new(&self.path), baseline::write(records).as_bytes()) {
+            Ok(_) => Exit::Success,
+            Err(reason) => console.failure(&Failure::new(reason)),
+        }
+    }
+}
+
+fn records(path: &str, named_at: Span, sources: &mut SourceMap) -> Result<Vec<Record>, Vec<Diagnostic>> {
+    let unusable = |message: String, label: &str| {
+        vec![
+            Diagnostic::new(Code::BadBaseline, message, named_at, label)
+                .help("write it with `vcutc build --accept`"),
+        ]
+    };
+    let bytes = match load_file(Path::new(path)) {
+        Ok(bytes) => bytes,
+        Err(LoadError::NotFound) => return Err(unusable(format!("there is no file {path}"), "no such file")),
+        Err(reason) => {
+            return Err(unusable(
+                format!("cannot read {path}: {reason}"),
+                "cannot be read",
+            ));
+        }
+    };
+    let Ok(text) = text_from_bytes(bytes) else {
+        return Err(unusable(format!("{path} is no text in UTF-8"), "no text"));
+    };
+    baseline::read(&text).map_err(|flaw| {
+        let file = sources.add(path.to_owned(), text.clone());
+        vec![
+            flaw.diagnostic(Code::BadBaseline, file)
+                .and(named_at, "named here"),
+        ]
+    })
+}
+
+fn nothing_to_accept(file: FileId) -> Diagnostic {
+    let message = "the list names no file for the figures of programs";
+    Diagnostic::new(
+        Code::BadBaseline,
+        message,
+        Span::of_bytes(file, 0..0),
+        "no `[baseline]`",
+    )
+    .help("add `[baseline]` with `file = \"numbers.json\"` and `time = \"2 %\"`")
+}

@@ -1,0 +1,126 @@
+//! The figures of a program as data: for other programs to read, and to be held against those of an earlier version.
+//!
+//! All are rounded to the decimals that they are written with, so that a figure that was read back from a file equals the
+//! one that was written: what is compared is what people see in a diff.
+
+pub mod baseline;
+
+use crate::plan::{PlannedJob, PlannedOperation};
+use crate::sim::report::Report;
+use serde::{Deserialize, Serialize};
+use vcutc_backend_api::units::Duration;
+
+/// Figures of a program. The names carry their units; `docs/ci.md` explains each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Numbers {
+    /// V-cuts.
+    pub cuts: usize,
+    /// Layers that cut something.
+    pub layers: usize,
+    /// Time of the planned program, as far as it is known.
+    pub time_s: f64,
+    /// Time by the mean-value model [Cui 11].
+    pub estimate_s: f64,
+    /// Highest material left on the part, along its normal.
+    pub scallop_mm: f64,
+    /// Its mean.
+    pub mean_scallop_mm: f64,
+    /// Longest edge that a cut uses.
+    pub longest_edge_mm: f64,
+    /// Area of the cross-section that is cut away.
+    pub removed_mm2: f64,
+    /// Area that stays on the part.
+    pub residual_mm2: f64,
+    /// Largest normalised cross-correlation of machined and theoretical contour [Cui 15].
+    pub correlation: f64,
+}
+
+impl Numbers {
+    /// The figures of a program that was proven.
+    #[must_use]
+    pub fn of(plan: &PlannedJob, report: &Report) -> Self {
+        let estimate: Duration = plan
+            .operations
+            .iter()
+            .map(|PlannedOperation::RoughVcut(vcut)| vcut.estimate)
+            .sum();
+        Self {
+            cuts: report.cuts(),
+            layers: report.layers.len(),
+            time_s: thousandths(report.timing.total().to_s()),
+            estimate_s: thousandths(estimate.to_s()),
+            scallop_mm: thousandths(report.scallop.height.to_mm()),
+            mean_scallop_mm: thousandths(report.mean_scallop.to_mm()),
+            longest_edge_mm: thousandths(report.longest_edge.to_mm()),
+            removed_mm2: thousandths(report.removed.to_mm2()),
+            residual_mm2: thousandths(report.residual.to_mm2()),
+            correlation: (report.correlation * 1e6).round() / 1e6,
+        }
+    }
+}
+
+fn thousandths(value: f64) -> f64 {
+    let rounded = (value * 1000.0).round() / 1000.0;
+    // Never -0.
+    rounded + 0.0
+}
+
+/// A figure that a repository can hold its programs to. Less is better for all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Figure {
+    /// Time of the program.
+    Time,
+    /// Highest material left on the part.
+    Scallop,
+    /// Its mean.
+    MeanScallop,
+    /// V-cuts.
+    Cuts,
+    /// Longest edge in use.
+    Edge,
+}
+
+impl Figure {
+    /// All of them, with their names in `vcut.toml`.
+    pub const ALL: [(&'static str, Self); 5] = [
+        ("time", Self::Time),
+        ("scallop", Self::Scallop),
+        ("mean_scallop", Self::MeanScallop),
+        ("cuts", Self::Cuts),
+        ("edge", Self::Edge),
+    ];
+
+    /// Its value.
+    #[must_use]
+    pub fn of(self, numbers: &Numbers) -> f64 {
+        match self {
+            Self::Time => numbers.time_s,
+            Self::Scallop => numbers.scallop_mm,
+            Self::MeanScallop => numbers.mean_scallop_mm,
+            Self::Cuts => numbers.cuts as f64,
+            Self::Edge => numbers.longest_edge_mm,
+        }
+    }
+
+    /// In words, with its verb left out: `the program's time`.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Time => "the program's time",
+            Self::Scallop => "the highest scallop",
+            Self::MeanScallop => "the mean scallop",
+            Self::Cuts => "the number of cuts",
+            Self::Edge => "the longest edge in use",
+        }
+    }
+
+    /// A value of it with its unit.
+    #[must_use]
+    pub fn show(self, value: f64) -> String {
+        match self {
+            Self::Time => format!("{value:.3} s"),
+            Self::Scallop | Self::MeanScallop | Self::Edge => format!("{value:.3} mm"),
+            Self::Cuts => format!("{value}"),
+        }
+    }
+}
