@@ -1,50 +1,117 @@
 //! Which swing, layer, step, overlap and lattice make an operation's time (or another objective) least within its
 //! limits: the optimisation problem of [Cui 14], by its formulas or by exact ones.
+//!
+//! * [`problem`](self) says what is asked and answered, [`Bound`] names what is bounded.
+//! * `formulas` turns a swing and an overlap into the thickest layer that the bounds allow and what that costs, for
+//!   numbers and for boxes of numbers (`number`). `docs/process.md`, "The optimum", proves that no other layer is better.
+//! * `search` finds the best swing and overlap by branch and bound, in the coordinates of `chart`; `polish` adds the last digits.
+//! * `conflict` says why nothing keeps all bounds, `trade` what a bound costs.
+//!
+//! Between equals the lattice that is named first is taken, and of one lattice what the search meets first, which does
+//! not depend on the platform.
 
+mod bounds;
 mod chart;
+mod conflict;
 mod formulas;
 mod number;
 mod polish;
 mod problem;
 mod search;
+mod trade;
 
 pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Sensitivity, Work};
+pub use trade::{sensitivities, trade_off};
 
+use super::grid;
 use crate::job::{Lattice, Objective};
 use formulas::Model;
 use search::{Found, Goal, Measure};
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
-/// How near to a bound parameters touch it, as a share of it.
-const TOUCHES: f64 = 1e-7;
+/// The least scallop or edge is found to this share of it.
+const FINE: f64 = 1e-10;
 
 /// The best parameters there are.
 ///
 /// # Errors
-/// When no parameters keep all bounds: which of them conflict.
+/// When no parameters keep all bounds: which of them conflict. When the objective can be made as small as one likes.
 pub fn solve(problem: &Problem) -> Result<Optimum, Infeasible> {
-    let mut best: Option<Optimum> = None;
-    for &lattice in &problem.lattices {
-        let found = solve_on(problem, lattice);
-        if let Some(found) = found
-            && best.as_ref().is_none_or(|best| found.time < best.time)
-        {
-            best = Some(found);
-        }
+    if unbounded(problem) {
+        return Err(Infeasible::Unbounded);
     }
-    best.ok_or(Infeasible::Conflict {
-        bounds: Vec::new(),
-        nearest: Vec::new(),
-    })
+    let best = match problem.objective {
+        Objective::Time => least(problem, Measure::Time),
+        Objective::Cuts => least(problem, Measure::Cuts),
+        Objective::Scallop => tightest(problem, Bound::Scallop),
+        Objective::BladeLoad => tightest(problem, Bound::Edge),
+    };
+    best.ok_or_else(|| conflict::explain(problem))
 }
 
-fn solve_on(problem: &Problem, lattice: Lattice) -> Option<Optimum> {
-    let model = Model::new(problem, lattice);
-    let measure = match problem.objective {
-        Objective::Time | Objective::Scallop | Objective::BladeLoad => Measure::Time,
-        Objective::Cuts => Measure::Cuts,
+/// Whether thinner layers are ever better and nothing asks for thick ones.
+fn unbounded(problem: &Problem) -> bool {
+    let asks = |least: Length| least.to_mm() > grid::SPACING;
+    match problem.objective {
+        Objective::Time | Objective::Cuts => false,
+        Objective::Scallop | Objective::BladeLoad => {
+            problem.time.is_none()
+                && problem.cuts.is_none()
+                && !asks(problem.layer.least)
+                && !asks(problem.step.least)
+        }
+    }
+}
+
+/// The parameters of least time or fewest cuts, over all lattices.
+fn least(problem: &Problem, measure: Measure) -> Option<Optimum> {
+    let value = |optimum: &Optimum| match measure {
+        Measure::Time => optimum.time.to_s(),
+        Measure::Cuts => optimum.cuts,
     };
-    let found = search::best(&model, measure, Goal::Best)?;
+    let mut best: Option<Optimum> = None;
+    for &lattice in &problem.lattices {
+        let found = on_lattice(problem, lattice, measure, Goal::Best);
+        best = match (best, found) {
+            (Some(best), Some(found)) if value(&found) < value(&best) => Some(found),
+            (Some(best), _) => Some(best),
+            (None, found) => found,
+        };
+    }
+    best
+}
+
+/// Any parameters that keep the bounds.
+fn any(problem: &Problem) -> Option<Optimum> {
+    problem
+        .lattices
+        .iter()
+        .find_map(|&lattice| on_lattice(problem, lattice, Measure::Time, Goal::Any))
+}
+
+/// The parameters that keep the tightest limit on a scallop or an edge that any keep: what can be kept under one limit can be
+/// under every slacker one, so the limit is found by halving.
+fn tightest(problem: &Problem, bound: Bound) -> Option<Optimum> {
+    let mut best = any(problem)?;
+    let mut fails = 0.0;
+    loop {
+        let works = bound.attained(&best);
+        if works - fails <= FINE * works {
+            best.gap = FINE;
+            best.binding = touched(problem, &best);
+            return Some(best);
+        }
+        let middle = 0.5 * (works + fails);
+        match any(&bound.replaced(problem, middle)) {
+            Some(better) => best = better,
+            None => fails = middle,
+        }
+    }
+}
+
+fn on_lattice(problem: &Problem, lattice: Lattice, measure: Measure, goal: Goal) -> Option<Optimum> {
+    let model = Model::new(problem, lattice);
+    let found = search::best(&model, measure, goal)?;
     Some(optimum(problem, &model, lattice, &found))
 }
 
@@ -70,64 +137,9 @@ fn optimum(problem: &Problem, model: &Model, lattice: Lattice, found: &Found) ->
 
 /// The bounds that parameters touch.
 fn touched(problem: &Problem, optimum: &Optimum) -> Vec<Bound> {
-    let edge = problem.edge.map_or(problem.work.cutting_length, |edge| {
-        edge.min(problem.work.cutting_length)
-    });
-    let bounds = [
-        (
-            Bound::SwingLeast,
-            optimum.swing.to_rad(),
-            Some(problem.swing.least.to_rad()),
-        ),
-        (
-            Bound::SwingMost,
-            optimum.swing.to_rad(),
-            Some(problem.swing.most.to_rad()),
-        ),
-        (
-            Bound::LayerLeast,
-            optimum.layer.to_mm(),
-            Some(problem.layer.least.to_mm()),
-        ),
-        (
-            Bound::LayerMost,
-            optimum.layer.to_mm(),
-            Some(problem.layer.most.to_mm()),
-        ),
-        (
-            Bound::StepLeast,
-            optimum.step.to_mm(),
-            Some(problem.step.least.to_mm()),
-        ),
-        (
-            Bound::StepMost,
-            optimum.step.to_mm(),
-            Some(problem.step.most.to_mm()),
-        ),
-        // Of the overlap the share counts: an overlap of 0 has no share of its own.
-        (
-            Bound::OverlapLeast,
-            1.0 - optimum.overlap,
-            Some(1.0 - problem.overlap.least),
-        ),
-        (
-            Bound::OverlapMost,
-            1.0 - optimum.overlap,
-            Some(1.0 - problem.overlap.most),
-        ),
-        (
-            Bound::Scallop,
-            optimum.scallop.to_mm(),
-            problem.scallop.map(Length::to_mm),
-        ),
-        (Bound::Edge, optimum.edge.to_mm(), Some(edge.to_mm())),
-        (Bound::Time, optimum.time.to_s(), problem.time.map(Duration::to_s)),
-        (Bound::Cuts, optimum.cuts, problem.cuts),
-    ];
-    bounds
+    Bound::ALL
         .into_iter()
-        .filter(|(_, value, bound)| bound.is_some_and(|bound| (value - bound).abs() <= TOUCHES * bound.abs()))
-        .map(|(bound, _, _)| bound)
+        .filter(|bound| bound.touched(problem, optimum))
         .collect()
 }
 

@@ -78,6 +78,15 @@ impl Interval {
         0.5 * (self.low + self.high)
     }
 
+    /// Where to divide it: a wide range of positive numbers in equal shares, else in the middle.
+    pub(super) fn between(self) -> f64 {
+        if self.low > 0.0 && self.high > 4.0 * self.low {
+            (self.low * self.high).sqrt()
+        } else {
+            self.middle()
+        }
+    }
+
     pub(super) fn width(self) -> f64 {
         self.high - self.low
     }

@@ -260,7 +260,7 @@ impl Search<'_> {
             return;
         }
         let side = candidate.sides[candidate.along];
-        let middle = side.middle();
+        let middle = side.between();
         if side.width() <= 1e-13 * side.magnitude() {
             self.remaining = self.remaining.min(candidate.least);
             return;
