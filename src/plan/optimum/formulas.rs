@@ -40,6 +40,16 @@ pub(super) enum Tooth {
     Later(u32),
 }
 
+/// Which of the bounds that come with the shape a layer is taken as thick as. Without one of them it comes out thicker, and
+/// what it costs no larger: a bound from below, and smooth where the whole has a kink.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keeping {
+    Both,
+    Reach,
+    Scallop,
+    Neither,
+}
+
 /// What the layer is bounded by, and what it costs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outcome<N> {
@@ -92,7 +102,7 @@ pub(super) struct Model {
 }
 
 fn millimetres(range: Range<Length>) -> [f64; 2] {
-    [range.least.to_mm(), range.most.to_mm()].map(|value| value.max(LENGTHS[0]).min(LENGTHS[1]))
+    [range.least.to_mm(), range.most.to_mm()].map(|value| value.clamp(LENGTHS[0], LENGTHS[1]))
 }
 
 impl Model {
@@ -143,7 +153,7 @@ impl Model {
 
     fn tangents(problem: &Problem) -> [f64; 2] {
         // Within a thousandth of a degree of flat and of upright nothing is cut.
-        [problem.swing.least, problem.swing.most].map(|swing| swing.tan().max(2e-5).min(5e4))
+        [problem.swing.least, problem.swing.most].map(|swing| swing.tan().clamp(2e-5, 5e4))
     }
 
     fn shares(problem: &Problem) -> [f64; 2] {
@@ -293,7 +303,7 @@ impl Model {
     }
 
     /// What comes of a shape.
-    pub(super) fn outcome<N: Number>(&self, shape: Shape<N>, tooth: Tooth) -> Outcome<N> {
+    pub(super) fn outcome<N: Number>(&self, shape: Shape<N>, tooth: Tooth, keeping: Keeping) -> Outcome<N> {
         let (one, tangent) = (N::constant(1.0), shape.tangent);
         let secant = (one + tangent * tangent).root();
         let factor = self.factor(shape.share, tooth);
@@ -305,11 +315,14 @@ impl Model {
         let two = shape.aspect + shape.aspect;
         let least = N::constant(self.layer[0]).greater(N::constant(self.step[0]) / two);
         let most = N::constant(self.layer[1]).lesser(N::constant(self.step[1]) / two);
-        let within = by_scallop.map_or(by_reach, |by_scallop| by_scallop.lesser(by_reach));
-        let layer = within
-            .lesser(most)
-            .lesser(N::constant(self.thickest))
-            .greater(least);
+        let most = most.lesser(N::constant(self.thickest));
+        let layer = match (keeping, by_scallop) {
+            (Keeping::Both, Some(by_scallop)) => by_reach.lesser(by_scallop).lesser(most),
+            (Keeping::Both | Keeping::Reach, _) => by_reach.lesser(most),
+            (Keeping::Scallop, Some(by_scallop)) => by_scallop.lesser(most),
+            (Keeping::Scallop | Keeping::Neither, _) => most,
+        };
+        let layer = if self.given() { least } else { layer.greater(least) };
         let points = N::constant(self.width) / (two * layer) + N::constant(0.5);
         let layers = (N::constant(self.depth) / layer - N::constant(0.5)).greater(one);
         let cuts = points * layers;
@@ -328,6 +341,11 @@ impl Model {
             time,
             cuts,
         }
+    }
+
+    /// Whether layer or step is one value: the shape then decides both.
+    fn given(&self) -> bool {
+        self.layer[0] >= self.layer[1] || self.step[0] >= self.step[1]
     }
 
     /// Time of a cut [Cui 9, 10]: two passes with their run-outs, the turn between them, and the turn or the step to the

@@ -10,6 +10,7 @@
 //! Between equals the lattice that is named first is taken, and of one lattice what the search meets first, which does
 //! not depend on the platform.
 
+mod blend;
 mod bounds;
 mod chart;
 mod conflict;

