@@ -82,8 +82,8 @@ fn least(problem: &Problem, measure: Measure) -> Option<Optimum> {
     best
 }
 
-/// Any parameters that keep the bounds.
-fn any(problem: &Problem) -> Option<Optimum> {
+/// Any parameters that keep the bounds. Of a problem with one lattice, swing, layer and step these, if they do.
+pub(in crate::plan) fn any(problem: &Problem) -> Option<Optimum> {
     problem
         .lattices
         .iter()

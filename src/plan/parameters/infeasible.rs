@@ -14,10 +14,31 @@ const MARGINS: [f64; 5] = [0.0, 0.0005, 0.005, 0.02, 0.1];
 
 /// A bound in the job's words.
 struct Party {
-    /// Where it stands; none when the job does not say it.
-    span: Option<Span>,
+    said: Said,
     /// What it asks for.
     words: String,
+}
+
+/// Where a bound is said, in the order in which people would change it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Said {
+    /// In the operation.
+    Operation,
+    /// By the blade.
+    Blade,
+    /// Nowhere: it lies in the nature of things.
+    Nowhere,
+}
+
+impl Party {
+    /// Where it stands.
+    fn span(&self, asked: &RoughVcut, bound: Bound) -> Option<Span> {
+        match self.said {
+            Said::Operation => place(asked, bound),
+            Said::Blade => Some(asked.blade.cutting_length.span.unwrap_or(asked.blade.span)),
+            Said::Nowhere => None,
+        }
+    }
 }
 
 /// Bounds that cannot be kept together, with the nearest value of each that the others allow.
@@ -28,10 +49,9 @@ pub(super) fn conflict(
     bounds: &[Bound],
     nearest: &[Option<f64>],
 ) -> Diagnostic {
-    let mut parties: Vec<Party> = bounds.iter().map(|bound| party(asked, *bound)).collect();
-    // What the job says comes first: that is what can be changed.
-    parties.sort_by_key(|party| party.span.is_none());
-    let words: Vec<&str> = parties.iter().map(|party| party.words.as_str()).collect();
+    let mut parties: Vec<(Party, Bound)> = bounds.iter().map(|&bound| (party(asked, bound), bound)).collect();
+    parties.sort_by_key(|(party, _)| party.said);
+    let words: Vec<&str> = parties.iter().map(|(party, _)| party.words.as_str()).collect();
     let message = match words.as_slice() {
         [] => "no parameters keep all limits".to_owned(),
         [one] => format!("no parameters keep {one}"),
@@ -39,7 +59,7 @@ pub(super) fn conflict(
     };
     let mut places = parties
         .iter()
-        .filter_map(|party| Some((party.span?, party.words.clone())));
+        .filter_map(|(party, bound)| Some((party.span(asked, *bound)?, party.words.clone())));
     let (span, label) = places
         .next()
         .unwrap_or_else(|| (asked.head_span, "this operation".to_owned()));
@@ -210,128 +230,92 @@ const fn is_given(asked: &RoughVcut, bound: Bound) -> bool {
     }
 }
 
-/// Where a bound stands and what it asks for.
+/// Where the operation says a bound: a given value, or a limit.
+fn place(asked: &RoughVcut, bound: Bound) -> Option<Span> {
+    // Asked of the function that writes it, so that the two cannot differ.
+    set(&mut asked.clone(), bound, 0.0)
+}
+
+/// What a bound asks for, and who says it.
 fn party(asked: &RoughVcut, bound: Bound) -> Party {
+    let said = if place(asked, bound).is_some() {
+        Said::Operation
+    } else {
+        Said::Nowhere
+    };
     let limits = &asked.limits;
-    let deg = |angle: Angle| format!("{} deg", show(angle.to_deg()));
-    let mm = |length: Length| format!("{} mm", show(length.to_mm()));
-    let least = |name: &str, value: Option<(String, Option<Span>)>, otherwise: &str| match value {
-        Some((text, span)) => Party {
-            span,
-            words: format!("a {name} of at least {text}"),
+    let deg = |value: Angle| format!("{} deg", show(value.to_deg()));
+    let mm = |value: Length| format!("{} mm", show(value.to_mm()));
+    let words = match bound {
+        Bound::SwingLeast => side("swing", asked.swing.value, limits.swing.least, "at least", deg),
+        Bound::SwingMost => side("swing", asked.swing.value, limits.swing.most, "at most", deg),
+        Bound::LayerLeast => side("layer", asked.layer.value, limits.layer.least, "at least", mm),
+        Bound::LayerMost => side("layer", asked.layer.value, limits.layer.most, "at most", mm),
+        Bound::StepLeast => side("step", asked.step.value, limits.step.least, "at least", mm),
+        Bound::StepMost => side("step", asked.step.value, limits.step.most, "at most", mm),
+        Bound::OverlapLeast | Bound::OverlapMost => match asked.overlap.value {
+            Auto::Given(overlap) => Some(format!("an overlap of {} %", show(overlap * 100.0))),
+            Auto::Auto => None,
         },
-        None => Party {
-            span: None,
-            words: otherwise.to_owned(),
-        },
+        Bound::Scallop => limits
+            .scallop
+            .map(|limit| format!("a scallop of at most {}", mm(limit.value))),
+        Bound::Edge => return edge(asked),
+        Bound::Time => limits
+            .time
+            .map(|limit| format!("a time of at most {} s", show(limit.value.to_s()))),
+        Bound::Cuts => limits
+            .cuts
+            .map(|limit| format!("at most {} cuts", show(limit.value))),
     };
-    let most = |name: &str, value: Option<(String, Option<Span>)>, otherwise: &str| match value {
-        Some((text, span)) => Party {
-            span,
-            words: format!("a {name} of at most {text}"),
-        },
-        None => Party {
-            span: None,
-            words: otherwise.to_owned(),
-        },
-    };
-    let exactly = |name: &str, text: String, span: Option<Span>| Party {
-        span,
-        words: format!("a {name} of {text}"),
-    };
-    let angle = |limit: Option<Sourced<Angle>>| limit.map(|limit| (deg(limit.value), limit.span));
-    let length = |limit: Option<Sourced<Length>>| limit.map(|limit| (mm(limit.value), limit.span));
-    match (bound, asked.swing.value, asked.layer.value, asked.step.value) {
-        (Bound::SwingLeast | Bound::SwingMost, Auto::Given(swing), _, _) => {
-            exactly("swing", deg(swing), asked.swing.span)
-        }
-        (Bound::SwingLeast, Auto::Auto, _, _) => least("swing", angle(limits.swing.least), "a V that opens"),
-        (Bound::SwingMost, Auto::Auto, _, _) => {
-            most("swing", angle(limits.swing.most), "a V that is no plane")
-        }
-        (Bound::LayerLeast | Bound::LayerMost, _, Auto::Given(layer), _) => {
-            exactly("layer", mm(layer), asked.layer.span)
-        }
-        (Bound::LayerLeast, _, Auto::Auto, _) => {
-            least("layer", length(limits.layer.least), "a layer of a micrometre")
-        }
-        (Bound::LayerMost, _, Auto::Auto, _) => most(
-            "layer",
-            length(limits.layer.most),
-            "a layer no deeper than the work",
-        ),
-        (Bound::StepLeast | Bound::StepMost, _, _, Auto::Given(step)) => {
-            exactly("step", mm(step), asked.step.span)
-        }
-        (Bound::StepLeast, _, _, Auto::Auto) => {
-            least("step", length(limits.step.least), "a step of a micrometre")
-        }
-        (Bound::StepMost, _, _, Auto::Auto) => {
-            most("step", length(limits.step.most), "a step no wider than the stock")
-        }
-        (Bound::OverlapLeast | Bound::OverlapMost, ..) => overlap(asked, bound),
-        (Bound::Scallop, ..) => match limits.scallop {
-            Some(limit) => Party {
-                span: limit.span,
-                words: format!("a scallop of at most {}", mm(limit.value)),
-            },
-            None => Party {
-                span: None,
-                words: "a scallop of any height".to_owned(),
-            },
-        },
-        (Bound::Edge, ..) => edge(asked),
-        (Bound::Time, ..) => match limits.time {
-            Some(limit) => Party {
-                span: limit.span,
-                words: format!("a time of at most {} s", show(limit.value.to_s())),
-            },
-            None => Party {
-                span: None,
-                words: "a time of any length".to_owned(),
-            },
-        },
-        (Bound::Cuts, ..) => match limits.cuts {
-            Some(limit) => Party {
-                span: limit.span,
-                words: format!("at most {} cuts", show(limit.value)),
-            },
-            None => Party {
-                span: None,
-                words: "any number of cuts".to_owned(),
-            },
-        },
+    Party {
+        said,
+        words: words.unwrap_or_else(|| nature(bound).to_owned()),
     }
 }
 
-fn overlap(asked: &RoughVcut, bound: Bound) -> Party {
-    match (asked.overlap.value, asked.step.value, bound) {
-        (Auto::Given(overlap), Auto::Auto, _) => Party {
-            span: asked.overlap.span,
-            words: format!("an overlap of {} %", show(overlap * 100.0)),
-        },
-        (_, _, Bound::OverlapLeast) => Party {
-            span: None,
-            words: "Vs that leave no gap between them".to_owned(),
-        },
-        (_, _, _) => Party {
-            span: None,
-            words: "Vs that overlap by no more than 95 %".to_owned(),
-        },
+/// One side of a value that is given or limited.
+fn side<T: Copy>(
+    name: &str,
+    value: Auto<T>,
+    limit: Option<Sourced<T>>,
+    relation: &str,
+    text: impl Fn(T) -> String,
+) -> Option<String> {
+    match value {
+        Auto::Given(value) => Some(format!("a {name} of {}", text(value))),
+        Auto::Auto => limit.map(|limit| format!("a {name} of {relation} {}", text(limit.value))),
+    }
+}
+
+/// What a bound is where the job says nothing.
+const fn nature(bound: Bound) -> &'static str {
+    match bound {
+        Bound::SwingLeast => "a swing of at least 1 deg",
+        Bound::SwingMost => "a swing of at most 89 deg",
+        Bound::LayerLeast => "layers of at least a micrometre",
+        Bound::LayerMost => "layers no deeper than the work",
+        Bound::StepLeast => "steps of at least a micrometre",
+        Bound::StepMost => "steps no wider than the stock",
+        Bound::OverlapLeast => "Vs that leave no gap between them",
+        Bound::OverlapMost => "an overlap of at most 95 %",
+        Bound::Scallop => "a scallop of any height",
+        Bound::Edge => "the blade's edge",
+        Bound::Time => "a time of any length",
+        Bound::Cuts => "any number of cuts",
     }
 }
 
 fn edge(asked: &RoughVcut) -> Party {
-    let blade = &asked.blade;
-    let length = blade.cutting_length;
+    let length = asked.blade.cutting_length.value;
     match asked.limits.edge {
-        Some(limit) if limit.value < length.value => Party {
-            span: limit.span,
+        Some(limit) if limit.value < length => Party {
+            said: Said::Operation,
             words: format!("at most {} mm of edge in use", show(limit.value.to_mm())),
         },
         Some(_) | None => Party {
-            span: Some(length.span.unwrap_or(blade.span)),
-            words: format!("a blade with {} mm of edge", show(length.value.to_mm())),
+            said: Said::Blade,
+            words: format!("a blade with {} mm of edge", show(length.to_mm())),
         },
     }
 }

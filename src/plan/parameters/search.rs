@@ -24,7 +24,7 @@ const OPEN_OVERLAPS: Range<f64> = Range {
 const SWINGS_PER_DEG: f64 = 1000.0;
 
 /// How many grid spacings from the optimum a layer is looked for that keeps all limits after rounding.
-const MOST_SPACINGS: i32 = 400;
+const MOST_SPACINGS: i32 = 200;
 
 /// What was chosen, on the grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -270,7 +270,7 @@ impl Rounding<'_> {
             if !fits(self.best.lattice, layer, step, &flanks) {
                 return None;
             }
-            let found = optimum::solve(&self.pinned(swing, layer, step)).ok()?;
+            let found = optimum::any(&self.pinned(swing, layer, step))?;
             Some((layer, step, found))
         };
         if let Auto::Given(layer) = self.asked.layer.value {
