@@ -31,6 +31,10 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
         if !choices.is_empty() {
             lines.push(row("auto", &choices.join(", ")));
         }
+        let reasons = vcut.parameters.reasons(&vcut.asked);
+        if !reasons.is_empty() {
+            lines.push(row("bound by", &reasons.join(", ")));
+        }
     }
     let t = &report.timing;
     lines.push(row(

@@ -4,7 +4,7 @@
 
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
-use crate::job::{Auto, Blade, CheckedJob, Operation, Residual, RoughVcut};
+use crate::job::{Auto, CheckedJob, Operation, Residual, RoughVcut};
 use crate::lower;
 use crate::plan::grid;
 use crate::plan::parameters::{self, show};
@@ -12,7 +12,7 @@ use crate::plan::{self, PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Replay};
 use crate::sim::report::{Report, report};
 use crate::sim::timing::timing;
-use crate::source::SourceMap;
+use crate::source::{SourceMap, Span};
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
@@ -60,6 +60,7 @@ pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
             PlannedOperation::RoughVcut(vcut) => Bound {
                 part: &vcut.bound,
                 drop: vcut.parameters.drop,
+                edge: vcut.asked.limits.edge.map(|limit| limit.value),
             },
         })
         .collect()
@@ -74,7 +75,9 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
         .filter_map(|(count, finding)| {
             let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(finding.operation.0))?;
             Some(match finding.fault {
-                CutFault::NotFreed { needed, .. } => not_freed(job, vcut, finding, count, needed),
+                CutFault::NotFreed { needed, available } => {
+                    not_freed(job, vcut, finding, count, [needed, available])
+                }
                 CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
                 CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
             })
@@ -133,11 +136,10 @@ fn not_freed(
     vcut: &PlannedVcut,
     finding: Finding,
     count: usize,
-    needed: Length,
+    [needed, available]: [Length; 2],
 ) -> Diagnostic {
     let asked = &vcut.asked;
-    let blade = &asked.blade;
-    let available = show(blade.cutting_length.value.to_mm());
+    let edge = UsableEdge::of(asked, available);
     // Rounded up: 10.003 mm is not 10 mm.
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
     let layer = show(vcut.parameters.layer.to_mm());
@@ -160,18 +162,16 @@ fn not_freed(
             format!("with layers of {layer} mm this chip is not cut free"),
         ),
     };
-    let headline = format!(
-        "{} needs {needed} mm of edge, the blade has {available} mm",
-        place(&finding)
-    );
-    let mut diagnostic = Diagnostic::new(Code::ChipNotFreed, headline, span, label)
-        .and(blade_span(blade), format!("{available} mm of edge"));
+    let (has, than) = (&edge.has, edge.than);
+    let headline = format!("{} needs {needed} mm of edge, {has}", place(&finding));
+    let mut diagnostic =
+        Diagnostic::new(Code::ChipNotFreed, headline, span, label).and(edge.span, edge.label.clone());
     match count {
         0 | 1 => {}
-        2 => diagnostic = diagnostic.note("one more cut needs more edge than the blade has"),
+        2 => diagnostic = diagnostic.note(format!("one more cut needs more edge than {than}")),
         _ => {
             let others = count - 1;
-            diagnostic = diagnostic.note(format!("{others} more cuts need more edge than the blade has"));
+            diagnostic = diagnostic.note(format!("{others} more cuts need more edge than {than}"));
         }
     }
     match remedy {
@@ -216,8 +216,34 @@ fn not_freed(
     }
 }
 
-fn blade_span(blade: &Blade) -> crate::source::Span {
-    blade.cutting_length.span.unwrap_or(blade.span)
+/// What the edge of a cut is held against: the blade's, or the limit on it.
+struct UsableEdge {
+    span: Span,
+    /// In a sentence: `the blade has 10 mm`.
+    has: String,
+    /// After `more edge than`.
+    than: &'static str,
+    label: String,
+}
+
+impl UsableEdge {
+    fn of(asked: &RoughVcut, available: Length) -> Self {
+        let (blade, length) = (&asked.blade, show(available.to_mm()));
+        match asked.limits.edge {
+            Some(limit) if limit.value < blade.cutting_length.value => Self {
+                span: limit.span.unwrap_or(asked.head_span),
+                has: format!("the limit is {length} mm"),
+                than: "the limit allows",
+                label: "the limit".to_owned(),
+            },
+            Some(_) | None => Self {
+                span: blade.cutting_length.span.unwrap_or(blade.span),
+                has: format!("the blade has {length} mm"),
+                than: "the blade has",
+                label: format!("{length} mm of edge"),
+            },
+        }
+    }
 }
 
 /// A change that mends a job.
@@ -243,14 +269,13 @@ fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Optio
     {
         return Some(Remedy::ResidualAuto);
     }
-    let (flanks, drop) = (&vcut.parameters.flanks, vcut.parameters.drop);
     let largest = match asked.step.value {
-        Auto::Auto => parameters::largest_layer(asked, flanks, drop),
+        Auto::Auto => parameters::largest_layer(asked, &vcut.parameters),
         Auto::Given(step) => {
             if works(&|asked| asked.step.value = Auto::Auto) {
                 return Some(Remedy::Step(vcut.parameters.step_for_layer()));
             }
-            parameters::largest_layer_at(asked, step, flanks, drop).unwrap_or_default()
+            parameters::largest_layer_at(asked, &vcut.parameters, step).unwrap_or_default()
         }
     };
     let start = largest.min(vcut.parameters.layer).to_mm();
@@ -263,10 +288,10 @@ fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Optio
     let is_largest = candidates
         .first()
         .is_some_and(|&first| layer == Length::mm(first));
-    Some(if is_largest {
-        Remedy::LargestLayer(layer)
-    } else {
-        Remedy::SmallerLayer(layer)
+    // At another swing, larger layers than this one may do.
+    Some(match asked.swing.value {
+        Auto::Given(_) if is_largest => Remedy::LargestLayer(layer),
+        Auto::Given(_) | Auto::Auto => Remedy::SmallerLayer(layer),
     })
 }
 

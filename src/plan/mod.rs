@@ -153,7 +153,7 @@ fn plan_vcut(
     surface: &mut Surface,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<PlannedVcut> {
-    let parameters = parameters::resolve(asked, diagnostics)?;
+    let parameters = parameters::resolve(job, asked, diagnostics)?;
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
