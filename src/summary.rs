@@ -56,8 +56,9 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
     lines.push(row(
         "estimate",
         &format!(
-            "{} by the mean-value model, from the parameters alone",
-            time(estimate)
+            "{} by the mean-value model, from the parameters alone{}",
+            time(estimate),
+            against(estimate, t.total())
         ),
     ));
     lines.push(row(
@@ -89,6 +90,16 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
 
 fn row(name: &str, text: &str) -> String {
     format!("  {name:<10} {text}")
+}
+
+/// `, 4.2 % above the time`: how far the model and the planned program agree.
+fn against(estimate: Duration, planned: Duration) -> String {
+    if planned <= Duration::ZERO {
+        return String::new();
+    }
+    let percent = (estimate.to_s() / planned.to_s() - 1.0) * 100.0;
+    let way = if percent < 0.0 { "below" } else { "above" };
+    format!(", {:.1} % {way} the time", percent.abs())
 }
 
 fn cuts_per_layer(report: &Report) -> String {
@@ -131,6 +142,14 @@ fn time(duration: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_model_is_held_against_the_planned_time() {
+        let shown = |estimate: f64, planned: f64| against(Duration::s(estimate), Duration::s(planned));
+        assert_eq!(shown(90.0, 100.0), ", 10.0 % below the time");
+        assert_eq!(shown(101.26, 100.0), ", 1.3 % above the time");
+        assert_eq!(shown(1.0, 0.0), "");
+    }
 
     #[test]
     fn times_never_show_sixty_seconds() {
