@@ -7,9 +7,10 @@ mod target;
 
 pub use crate::sema::Typed;
 
+use crate::choice;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
-use crate::plan::{self, PlannedJob};
+use crate::plan::PlannedJob;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
@@ -169,7 +170,7 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
 fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
     progress(Stage::Planning);
-    let (plan, diagnostics) = plan::choose(job);
+    let (plan, diagnostics) = choice::choose(job);
     outcome.diagnostics.extend(diagnostics);
     let Some(plan) = plan else { return };
     progress(Stage::Proving);

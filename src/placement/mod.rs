@@ -11,10 +11,11 @@ pub mod report;
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
+use crate::choice;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{Request, Stage, internal, rules_broken};
 use crate::job::{CheckedJob, Machine};
-use crate::plan::{self, PlannedJob};
+use crate::plan::PlannedJob;
 use crate::reach::place::Spot;
 use crate::reach::place::score::Judge;
 use crate::reach::place::search::{Bounds, Criteria, Placed, search};
@@ -156,7 +157,7 @@ fn prepare(
         return Err(Failed::Diagnostics(vec![without_machine(&job)]));
     };
     progress(Stage::Planning);
-    let (plan, found) = plan::choose(&job);
+    let (plan, found) = choice::choose(&job);
     diagnostics.extend(found);
     let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
         return Err(Failed::Diagnostics(diagnostics));

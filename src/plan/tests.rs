@@ -138,7 +138,7 @@ prop_compose! {
 fn planned_and_proven(
     job: &CheckedJob,
 ) -> Result<Option<(super::PlannedJob, verdict::Proven)>, TestCaseError> {
-    let (plan, diagnostics) = super::choose(job);
+    let (plan, diagnostics) = crate::choice::choose(job);
     let Some(plan) = plan else {
         prop_assert!(!diagnostics.is_empty());
         return Ok(None);

@@ -2,12 +2,13 @@
 
 use super::prove::{Bound, CutFault, Findings, replay};
 use super::timing::timing;
+use crate::choice::choose;
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{Auto, Operation, Residual};
 use crate::lower::lower;
+use crate::plan::PlannedOperation;
 use crate::plan::tests::{operation, paper_job};
-use crate::plan::{PlannedOperation, choose};
 use crate::source::SourceMap;
 use crate::verdict::prove;
 use vcutc_backend_api::units::{Angle, Length};
