@@ -32,6 +32,10 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
         if !choices.is_empty() {
             lines.push(row("auto", &choices.join(", ")));
         }
+        let reasons = vcut.parameters.reasons(&vcut.asked);
+        if !reasons.is_empty() {
+            lines.push(row("bound by", &reasons.join(", ")));
+        }
         for decision in &vcut.decisions {
             lines.push(row(decision.field, &compared(decision)));
         }
@@ -109,6 +113,7 @@ fn standing(standing: Standing) -> String {
         Standing::Fails(count) => format!("leaves {count} chips"),
         Standing::Impossible => "cuts nothing".to_owned(),
         Standing::ByModel(duration) => format!("{} by the model, not planned", time(duration)),
+        Standing::Last => "the machine does not follow the others".to_owned(),
         Standing::NotCompared => "not compared, there are too many cuts".to_owned(),
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
 
-use crate::choice;
+use crate::choice::{self, Latitude};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
-use crate::job::{Auto, Blade, CheckedJob, Operation, Residual, RoughVcut};
+use crate::job::{Auto, CheckedJob, Operation, Residual, RoughVcut};
 use crate::lower;
 use crate::plan::grid;
 use crate::plan::parameters::{self, show};
@@ -13,7 +13,7 @@ use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Replay};
 use crate::sim::report::{Report, report};
 use crate::sim::timing::timing;
-use crate::source::SourceMap;
+use crate::source::{SourceMap, Span};
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
@@ -61,6 +61,7 @@ pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
             PlannedOperation::RoughVcut(vcut) => Bound {
                 part: &vcut.bound,
                 drop: vcut.parameters.drop,
+                edge: vcut.asked.limits.edge.map(|limit| limit.value),
             },
         })
         .collect()
@@ -75,7 +76,9 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
         .filter_map(|(count, finding)| {
             let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(finding.operation.0))?;
             Some(match finding.fault {
-                CutFault::NotFreed { needed, .. } => not_freed(job, vcut, finding, count, needed),
+                CutFault::NotFreed { needed, available } => {
+                    not_freed(job, vcut, finding, count, [needed, available])
+                }
                 CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
                 CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
             })
@@ -134,11 +137,10 @@ fn not_freed(
     vcut: &PlannedVcut,
     finding: Finding,
     count: usize,
-    needed: Length,
+    [needed, available]: [Length; 2],
 ) -> Diagnostic {
     let asked = &vcut.asked;
-    let blade = &asked.blade;
-    let available = show(blade.cutting_length.value.to_mm());
+    let edge = UsableEdge::of(asked, available);
     // Rounded up: 10.003 mm is not 10 mm.
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
     let layer = show(vcut.parameters.layer.to_mm());
@@ -161,18 +163,16 @@ fn not_freed(
             format!("with layers of {layer} mm this chip is not cut free"),
         ),
     };
-    let headline = format!(
-        "{} needs {needed} mm of edge, the blade has {available} mm",
-        place(&finding)
-    );
-    let mut diagnostic = Diagnostic::new(Code::ChipNotFreed, headline, span, label)
-        .and(blade_span(blade), format!("{available} mm of edge"));
+    let (has, than) = (&edge.has, edge.than);
+    let headline = format!("{} needs {needed} mm of edge, {has}", place(&finding));
+    let mut diagnostic =
+        Diagnostic::new(Code::ChipNotFreed, headline, span, label).and(edge.span, edge.label.clone());
     match count {
         0 | 1 => {}
-        2 => diagnostic = diagnostic.note("one more cut needs more edge than the blade has"),
+        2 => diagnostic = diagnostic.note(format!("one more cut needs more edge than {than}")),
         _ => {
             let others = count - 1;
-            diagnostic = diagnostic.note(format!("{others} more cuts need more edge than the blade has"));
+            diagnostic = diagnostic.note(format!("{others} more cuts need more edge than {than}"));
         }
     }
     match remedy {
@@ -219,8 +219,34 @@ fn not_freed(
     }
 }
 
-fn blade_span(blade: &Blade) -> crate::source::Span {
-    blade.cutting_length.span.unwrap_or(blade.span)
+/// What the edge of a cut is held against: the blade's, or the limit on it.
+struct UsableEdge {
+    span: Span,
+    /// In a sentence: `the blade has 10 mm`.
+    has: String,
+    /// After `more edge than`.
+    than: &'static str,
+    label: String,
+}
+
+impl UsableEdge {
+    fn of(asked: &RoughVcut, available: Length) -> Self {
+        let (blade, length) = (&asked.blade, show(available.to_mm()));
+        match asked.limits.edge {
+            Some(limit) if limit.value < blade.cutting_length.value => Self {
+                span: limit.span.unwrap_or(asked.head_span),
+                has: format!("the limit is {length} mm"),
+                than: "the limit allows",
+                label: "the limit".to_owned(),
+            },
+            Some(_) | None => Self {
+                span: blade.cutting_length.span.unwrap_or(blade.span),
+                has: format!("the blade has {length} mm"),
+                than: "the blade has",
+                label: format!("{length} mm of edge"),
+            },
+        }
+    }
 }
 
 /// A change that mends a job.
@@ -246,14 +272,13 @@ fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Optio
     {
         return Some(Remedy::ResidualMixed);
     }
-    let (flanks, drop) = (&vcut.parameters.flanks, vcut.parameters.drop);
     let largest = match asked.step.value {
-        Auto::Auto => parameters::largest_layer(asked, flanks, drop),
+        Auto::Auto => parameters::largest_layer(asked, &vcut.parameters),
         Auto::Given(step) => {
             if works(&|asked| asked.step.value = Auto::Auto) {
                 return Some(Remedy::Step(vcut.parameters.step_for_layer()));
             }
-            parameters::largest_layer_at(asked, step, flanks, drop).unwrap_or_default()
+            parameters::largest_layer_at(asked, &vcut.parameters, step).unwrap_or_default()
         }
     };
     let start = largest.min(vcut.parameters.layer).to_mm();
@@ -266,10 +291,10 @@ fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Optio
     let is_largest = candidates
         .first()
         .is_some_and(|&first| layer == Length::mm(first));
-    Some(if is_largest {
-        Remedy::LargestLayer(layer)
-    } else {
-        Remedy::SmallerLayer(layer)
+    // At another swing, larger layers than this one may do.
+    Some(match asked.swing.value {
+        Auto::Given(_) if is_largest => Remedy::LargestLayer(layer),
+        Auto::Given(_) | Auto::Auto => Remedy::SmallerLayer(layer),
     })
 }
 
@@ -282,20 +307,22 @@ fn attempt(
     let mut changed = job.clone();
     let Operation::RoughVcut(asked) = changed.operations.get_mut(usize::from(operation.0))?;
     change(asked);
-    planned_and_proven(&changed)
+    planned_and_proven(&changed, Latitude::Full)
 }
 
-fn planned_and_proven(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
-    let (plan, diagnostics) = choice::choose(job);
+fn planned_and_proven(job: &CheckedJob, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
+    let (plan, diagnostics) = choice::choose_within(job, latitude);
     let plan = plan.filter(|_| diagnostics.is_empty())?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
     (proven.findings == Findings::default()).then_some((plan, proven))
 }
 
-/// The plan and proof of a job that has nothing wrong with its cuts.
+/// The plan and proof of a job that has nothing wrong with its cuts, along the route that any machine follows best, as the
+/// compiler takes it when the machine follows no other.
 #[must_use]
 pub fn sound(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
-    planned_and_proven(job).filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
+    planned_and_proven(job, Latitude::RowsByPoint)
+        .filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
 }
 
 /// Whether the job plans and proves with a change of one operation.

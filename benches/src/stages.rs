@@ -111,6 +111,7 @@ pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
         .map(|PlannedOperation::RoughVcut(vcut)| Bound {
             part: &vcut.bound,
             drop: vcut.parameters.drop,
+            edge: None,
         })
         .collect();
     let replay = prove::replay(program, &bounds);

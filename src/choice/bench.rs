@@ -1,6 +1,6 @@
 //! Ways to cut an operation, written down as programs of their own and measured.
 
-use super::Contender;
+use super::{Contender, Latitude};
 use crate::job::CheckedJob;
 use crate::lower::lower;
 use crate::plan::decision::Standing;
@@ -17,13 +17,15 @@ use vcutc_backend_api::verify::{VerifiedProgram, verify};
 pub(super) struct Bench<'j> {
     pub(super) job: &'j CheckedJob,
     pub(super) before: Surface,
+    pub(super) latitude: Latitude,
 }
 
 impl<'j> Bench<'j> {
-    pub(super) fn new(job: &'j CheckedJob) -> Self {
+    pub(super) fn new(job: &'j CheckedJob, latitude: Latitude) -> Self {
         Self {
             job,
             before: Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm()),
+            latitude,
         }
     }
 
@@ -59,6 +61,7 @@ impl<'j> Bench<'j> {
         let bound = Bound {
             part: &vcut.bound,
             drop: vcut.parameters.drop,
+            edge: vcut.asked.limits.edge.map(|limit| limit.value),
         };
         let replay = replay_on(self.before.clone(), &program, &[bound]);
         let time = timing(&program).total();

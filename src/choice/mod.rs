@@ -16,8 +16,9 @@ mod route;
 mod tests;
 
 use crate::diag::Diagnostic;
-use crate::job::{Auto, CheckedJob, Lattice, Operation, Residual, RoughVcut};
+use crate::job::{Auto, CheckedJob, Objective, Operation, Residual, RoughVcut};
 use crate::plan::decision::{Candidate, Decision, Standing};
+use crate::plan::parameters::VcutParameters;
 use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, PlannedVcut, blade_reach, lay_out, parameters,
@@ -34,26 +35,65 @@ pub const MOST_CUTS_COMPARED: usize = 20_000;
 /// A lattice whose time by the mean-value model is longer than this many times the best planned time is not planned.
 const FAR_BEHIND: f64 = 1.5;
 
+/// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,
+/// which not every machine can follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Latitude {
+    /// All of them.
+    Full,
+    /// Those that cut V by V.
+    ByPoint,
+    /// Rows, V by V: what leaves the machine the most freedom.
+    RowsByPoint,
+}
+
+impl Latitude {
+    /// What is considered next where the machine cannot carry out what came of this.
+    const fn narrower(self) -> Option<Self> {
+        match self {
+            Self::Full => Some(Self::ByPoint),
+            Self::ByPoint => Some(Self::RowsByPoint),
+            Self::RowsByPoint => None,
+        }
+    }
+
+    /// The next one under which something else would come out than this plan.
+    #[must_use]
+    pub fn narrower_than(self, plan: &PlannedJob) -> Option<Self> {
+        let mut next = self.narrower();
+        while let Some(latitude) = next {
+            let is_same = plan.operations.iter().all(|PlannedOperation::RoughVcut(vcut)| {
+                route::allows(latitude, &vcut.asked, (vcut.sequence, vcut.order))
+            });
+            if !is_same {
+                break;
+            }
+            next = latitude.narrower();
+        }
+        next
+    }
+}
+
 /// Makes every choice. Without errors there is a plan.
 #[must_use]
 pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    choose_within(job, Latitude::Full)
+}
+
+/// Makes every choice, with some routes left out.
+#[must_use]
+pub fn choose_within(job: &CheckedJob, latitude: Latitude) -> (Option<PlannedJob>, Vec<Diagnostic>) {
     if let Some(refused) = refuse_operations(job) {
         return (None, vec![refused]);
     }
     let mut diagnostics = Vec::new();
-    let mut bench = Bench::new(job);
+    let mut bench = Bench::new(job, latitude);
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
         match best_lattice(&bench, asked, cuts_left) {
-            Ok(LaidOut {
-                vcut,
-                after,
-                diagnostics: told,
-                ..
-            }) => {
-                diagnostics.extend(told);
+            Ok(LaidOut { vcut, after, .. }) => {
                 cuts_left -= vcut.cuts.len();
                 bench.before = after;
                 operations.push(PlannedOperation::RoughVcut(vcut));
@@ -170,12 +210,6 @@ fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
     others
 }
 
-const LATTICES: [(&str, Lattice); 3] = [
-    ("orthogonal", Lattice::Orthogonal),
-    ("interlaced", Lattice::Interlaced),
-    ("free", Lattice::Free),
-];
-
 /// The strategies beside `mixed`.
 const OTHERS: [(&str, Residual); 3] = [
     ("discard", Residual::Discard),
@@ -185,12 +219,17 @@ const OTHERS: [(&str, Residual); 3] = [
 
 /// The operation on the best lattice, or on the one that it asks for.
 fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
-    let mut laid = match asked.lattice.value {
-        Auto::Given(_) => best_residual(bench, asked, cuts_left)?,
-        Auto::Auto => compare_lattices(bench, asked, cuts_left)?,
+    let mut told = Vec::new();
+    let Some(resolved) = parameters::resolve(bench.job, asked, &mut told) else {
+        return Err(told);
     };
-    laid.vcut.asked = asked.clone();
-    Ok(laid)
+    match (asked.lattice.value, asked.objective.value) {
+        (Auto::Auto, Objective::Time) => compare_lattices(bench, asked, cuts_left),
+        // Other objectives are none of the plan's: what the formulas say stands.
+        (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {
+            best_residual(bench, asked, &resolved, cuts_left)
+        }
+    }
 }
 
 fn compare_lattices(
@@ -198,34 +237,35 @@ fn compare_lattices(
     asked: &RoughVcut,
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
-    let on = |lattice: Lattice| {
-        let mut asked = asked.clone();
-        asked.lattice.value = Auto::Given(lattice);
-        asked
-    };
-    let mut by_model: Vec<_> = LATTICES
-        .iter()
-        .map(|&(what, lattice)| {
-            let asked = on(lattice);
-            let time = model_time(bench.job, &asked);
-            (what, asked, time)
-        })
-        .collect();
-    // Those that cannot be resolved come last.
-    let time_of = |time: Option<Duration>| time.map_or(f64::INFINITY, Duration::to_s);
-    by_model.sort_by(|(.., a), (.., b)| time_of(*a).total_cmp(&time_of(*b)));
-    let mut contest = Contest::new();
     let mut refused = None;
-    for (what, asked, time) in &by_model {
+    let mut by_model: Vec<(Duration, VcutParameters)> = Vec::new();
+    for lattice in parameters::open_lattices(asked) {
+        let mut told = Vec::new();
+        // A lattice on which the operation cannot be had is no fault of the job while there is another.
+        if let Some(found) = parameters::resolve_on(bench.job, asked, vec![lattice], &mut told) {
+            let model = found.time_model(bench.job, asked);
+            by_model.push((model.estimate(found.swing, found.layer, found.step), found));
+        }
+    }
+    by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    let mut contest = Contest::new();
+    for (time, found) in &by_model {
+        let what = parameters::lattice_word(found.lattice);
         let best = contest.best.as_ref().map(|(_, best)| best);
-        if let (Some(best), Some(time)) = (best, *time)
-            && matches!(best.standing, Standing::Takes(_))
-            && time > best.time * FAR_BEHIND
+        if best
+            .is_some_and(|best| matches!(best.standing, Standing::Takes(_)) && *time > best.time * FAR_BEHIND)
         {
-            contest.rule_out(what, Standing::ByModel(time));
+            contest.rule_out(what, Standing::ByModel(*time));
             continue;
         }
-        match best_residual(bench, asked, cuts_left) {
+        match best_residual(bench, asked, found, cuts_left) {
+            Ok(laid) if laid.vcut.cuts.len() > MOST_CUTS_COMPARED => {
+                let mut laid = laid;
+                laid.vcut
+                    .decisions
+                    .insert(0, not_compared("lattice", what.to_owned()));
+                return Ok(laid);
+            }
             Ok(laid) => {
                 let limit = asked.limits.scallop.map(|limit| limit.value);
                 contest.enter(what, bench.weigh(laid).held_to(limit));
@@ -242,15 +282,14 @@ fn compare_lattices(
     }
 }
 
-fn model_time(job: &CheckedJob, asked: &RoughVcut) -> Option<Duration> {
-    let found = parameters::resolve(asked, &mut Vec::new())?;
-    let model = found.time_model(job, asked);
-    Some(model.estimate(found.swing, found.layer, found.step))
-}
-
 /// The operation with the best residual strategy, or with the one that it asks for, along the best route.
-fn best_residual(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
-    let first = lay_out(bench.job, asked, cuts_left, &bench.before)?;
+fn best_residual(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    found: &VcutParameters,
+    cuts_left: usize,
+) -> Result<LaidOut, Vec<Diagnostic>> {
+    let first = lay_out(bench.job, asked, found.clone(), cuts_left, &bench.before)?;
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
     if !is_open {
@@ -274,8 +313,9 @@ fn best_residual(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
     for (what, residual) in OTHERS {
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
-        match lay_out(bench.job, &asked, cuts_left, &bench.before) {
-            Ok(laid) => {
+        match lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before) {
+            Ok(mut laid) => {
+                laid.vcut.asked.residual.value = Auto::Auto;
                 let contender = bench.weigh(route::best(bench, laid));
                 contest.enter(what, contender.held_to(Some(limit)));
             }

@@ -1,7 +1,7 @@
 //! Order of the flanks and sequence of the Vs: all that the job leaves open, the fastest taken.
 
 use super::bench::Bench;
-use super::{MOST_CUTS_COMPARED, not_compared};
+use super::{Latitude, MOST_CUTS_COMPARED, not_compared};
 use crate::job::{Auto, Order, RoughVcut, Sequence};
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::{LaidOut, PlannedVcut, route};
@@ -12,7 +12,7 @@ const ORDERS: [Order; 2] = [Order::Point, Order::Layer];
 const SEQUENCES: [Sequence; 3] = [Sequence::Rows, Sequence::Boustrophedon, Sequence::Nearest];
 
 /// A sequence with an order.
-type Route = (Sequence, Order);
+pub(super) type Route = (Sequence, Order);
 
 /// The operation along its fastest route; the first among equals.
 pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
@@ -23,17 +23,25 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
         vcut,
         after,
         strategies,
-        diagnostics,
     } = laid;
     let open = Open::of(&vcut.asked);
+    let routes: Vec<Route> = routes(&vcut)
+        .into_iter()
+        .filter(|&route| allows(bench.latitude, &vcut.asked, route))
+        .collect();
     let usual = (
-        vcut.asked.sequence.value.or(Sequence::Boustrophedon),
+        vcut.asked.sequence.value.or(match bench.latitude {
+            Latitude::Full | Latitude::ByPoint => Sequence::Boustrophedon,
+            Latitude::RowsByPoint => Sequence::Rows,
+        }),
         vcut.asked.order.value.or(Order::Point),
     );
-    let routes = routes(&vcut);
     let vcut = match (open, &routes[..]) {
         (Open::Nothing, _) => along(vcut, usual),
-        (_, [only]) => along(vcut, *only),
+        (Open::Something(field), [only]) => match bench.latitude {
+            Latitude::Full => along(vcut, *only),
+            Latitude::ByPoint | Latitude::RowsByPoint => beyond_the_rest(along(vcut, *only), field, *only),
+        },
         (Open::Something(field), _) if vcut.cuts.len() > MOST_CUTS_COMPARED => {
             let decision = not_compared(field, words(&vcut.asked, usual));
             remembering(along(vcut, usual), decision)
@@ -44,8 +52,28 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
         vcut,
         after,
         strategies,
-        diagnostics,
     }
+}
+
+/// Whether a route is one of those that are considered.
+pub(super) fn allows(latitude: Latitude, asked: &RoughVcut, (sequence, order): Route) -> bool {
+    let by_point = order == Order::Point || asked.order.value != Auto::Auto;
+    let in_rows = sequence == Sequence::Rows || asked.sequence.value != Auto::Auto;
+    match latitude {
+        Latitude::Full => true,
+        Latitude::ByPoint => by_point,
+        Latitude::RowsByPoint => by_point && in_rows,
+    }
+}
+
+/// Says that it came out so because the machine does not follow anything else.
+fn beyond_the_rest(vcut: PlannedVcut, field: &'static str, route: Route) -> PlannedVcut {
+    let taken = Candidate {
+        what: words(&vcut.asked, route),
+        standing: Standing::Last,
+    };
+    let others = Vec::new();
+    remembering(vcut, Decision { field, taken, others })
 }
 
 fn fastest(

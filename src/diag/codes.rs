@@ -122,6 +122,10 @@ codes! {
     ExtensionTooShort = "VC0304", Error, "cuts that do not run out far enough";
     /// A rake at which no edge leads.
     RakeTooFlat = "VC0305", Error, "a rake at which the edge does not cut";
+    /// Limits that cannot be kept together.
+    LimitsConflict = "VC0306", Error, "limits that cannot be kept together";
+    /// An objective that makes layers vanish.
+    NoLeastLayer = "VC0307", Error, "an objective that no limit holds";
 
     /// A chip that is not cut free.
     ChipNotFreed = "VC0401", Error, "a chip that is not cut free";

@@ -11,7 +11,7 @@ pub mod report;
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
-use crate::choice;
+use crate::choice::{self, Latitude};
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{Request, Stage, internal, rules_broken};
 use crate::job::{CheckedJob, Machine};
@@ -157,7 +157,8 @@ fn prepare(
         return Err(Failed::Diagnostics(vec![without_machine(&job)]));
     };
     progress(Stage::Planning);
-    let (plan, found) = choice::choose(&job);
+    // Where the machine follows these routes, the job compiles, whatever faster ones there are.
+    let (plan, found) = choice::choose_within(&job, Latitude::RowsByPoint);
     diagnostics.extend(found);
     let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
         return Err(Failed::Diagnostics(diagnostics));

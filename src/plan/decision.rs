@@ -43,6 +43,8 @@ pub enum Standing {
     ByModel(Duration),
     /// The operation is too large to compare what could be had.
     NotCompared,
+    /// The machine does not follow the faster ones.
+    Last,
 }
 
 impl Standing {
@@ -65,7 +67,8 @@ impl Standing {
             Self::Fails(_) => 2,
             Self::ByModel(_) => 3,
             Self::NotCompared => 4,
-            Self::Impossible => 5,
+            Self::Last => 5,
+            Self::Impossible => 6,
         }
     }
 }

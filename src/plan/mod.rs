@@ -1,6 +1,6 @@
 //! From a checked job to the cuts that carry it out.
 //!
-//! [`lay_out`] resolves the open parameters ([`parameters`]), lays tips out layer by layer ([`lattice`]), decides what
+//! The open parameters are decided first ([`parameters`]). [`lay_out`] lays tips out layer by layer ([`lattice`]), decides what
 //! becomes of tips that would cut the part ([`residual`]), and keeps a surface of its own while it goes, because whether a
 //! tip can be cut depends on what has been cut before. [`route`] puts the cuts in order. Nothing is promised: the cuts are
 //! proven later, from the program. Which of several plans is taken where the job leaves the choice open, `choice` says.
@@ -138,25 +138,20 @@ pub struct LaidOut {
     pub after: Surface,
     /// Whether another residual strategy would have come to other cuts.
     pub strategies: Strategies,
-    /// What there is to tell although it can be cut.
-    pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Lays out the cuts of an operation on what those before left. A lattice and a residual strategy that it leaves open are
-/// taken as orthogonal and `mixed`: where there is a choice, give the operation with the choice made.
+/// Lays out the cuts of an operation with these parameters on what those before left. A residual strategy that it leaves open
+/// is taken as `mixed`: where there is a choice, give the operation with the choice made.
 ///
 /// # Errors
 /// What keeps the operation from being cut at all.
 pub fn lay_out(
     job: &CheckedJob,
     asked: &RoughVcut,
+    parameters: VcutParameters,
     cuts_left: usize,
     before: &Surface,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
-    let mut diagnostics = Vec::new();
-    let Some(parameters) = parameters::resolve(asked, &mut diagnostics) else {
-        return Err(diagnostics);
-    };
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
@@ -202,7 +197,6 @@ pub fn lay_out(
         vcut: vcut.along(order, Sequence::Rows, before, job.stock),
         after,
         strategies,
-        diagnostics,
     })
 }
 

@@ -10,7 +10,6 @@
 
 pub mod precedence;
 
-
 use super::parameters::VcutParameters;
 use super::{PlannedCut, Way};
 use crate::geom::curve::Point2;

@@ -3,8 +3,8 @@
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{
-    Auto, Blade, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order, Residual,
-    RoughVcut, Sequence, Sourced,
+    Auto, Blade, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order,
+    Residual, RoughVcut, Sequence, Sourced,
 };
 use crate::sim::prove::Findings;
 use crate::source::{SourceMap, Span};
@@ -103,7 +103,7 @@ fn a_profile() -> impl Strategy<Value = Vec<Point2>> {
 }
 
 prop_compose! {
-    fn a_job()(
+    pub(crate) fn a_job()(
         profile in a_profile(),
         lattice in prop::sample::select(vec![Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free]),
         order in prop::sample::select(vec![Order::Point, Order::Layer]),
@@ -161,6 +161,85 @@ proptest! {
         let part = plan.profile.area_below(0.0, 85.0);
         let whole = proven.report.removed + proven.report.residual + part;
         prop_assert!((whole.to_mm2() - 85.0 * 50.0).abs() < 1e-6);
+    }
+}
+
+prop_compose! {
+    /// Jobs that leave everything to the compiler, within limits that may be sensible or not.
+    fn an_open_job()(
+        mut job in a_stubborn_job(),
+        objective in prop::sample::select(vec![Objective::Time, Objective::Scallop, Objective::Cuts, Objective::BladeLoad]),
+        formulas in prop::sample::select(vec![Formulas::Exact, Formulas::Exact, Formulas::Paper]),
+        swing in (prop::option::of(5.0..40.0_f64), prop::option::of(30.0..70.0_f64)),
+        layer in (prop::option::of(0.7..3.0_f64), prop::option::of(2.0..12.0_f64)),
+        step in (prop::option::of(0.7..3.0_f64), prop::option::of(2.0..12.0_f64)),
+        scallop in prop::option::of(3.0..20.0_f64),
+        edge in prop::option::of(2.0..20.0_f64),
+        cuts in prop::option::of(20.0..400.0_f64),
+        lattice in prop::sample::select(vec![
+            Auto::Auto, Auto::Auto, Auto::Given(Lattice::Orthogonal), Auto::Given(Lattice::Interlaced), Auto::Given(Lattice::Free),
+        ]),
+    ) -> CheckedJob {
+        let bounds = |(least, most): (Option<f64>, Option<f64>)| Bounds {
+            least: least.filter(|&least| most.is_none_or(|most| least <= most)).map(|value| given(Length::mm(value))),
+            most: most.map(|value| given(Length::mm(value))),
+        };
+        let asked = operation(&mut job);
+        asked.lattice.value = lattice;
+        asked.objective.value = objective;
+        asked.formulas.value = formulas;
+        asked.swing.value = Auto::Auto;
+        asked.layer.value = Auto::Auto;
+        asked.step.value = Auto::Auto;
+        asked.overlap.value = Auto::Auto;
+        asked.residual.value = Auto::Auto;
+        asked.order.value = Auto::Auto;
+        asked.sequence.value = Auto::Auto;
+        asked.extension.value = Auto::Auto;
+        asked.standoff.value = Auto::Auto;
+        asked.limits = Limits {
+            swing: Bounds {
+                least: swing.0.filter(|&least| swing.1.is_none_or(|most| least <= most)).map(|value| given(Angle::deg(value))),
+                most: swing.1.map(|value| given(Angle::deg(value))),
+            },
+            layer: bounds(layer),
+            step: bounds(step),
+            scallop: scallop.map(|value| given(Length::mm(value))),
+            edge: edge.map(|value| given(Length::mm(value))),
+            time: None,
+            cuts: cuts.map(|value| given(value)),
+        };
+        job
+    }
+}
+
+fn keeps<T: Copy + PartialOrd>(value: T, bounds: Bounds<T>) -> bool {
+    bounds.least.is_none_or(|least| value >= least.value)
+        && bounds.most.is_none_or(|most| value <= most.value)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn what_is_chosen_keeps_the_limits_and_is_proven(job in an_open_job()) {
+        let Some((plan, proven)) = planned_and_proven(&job)? else { return Ok(()) };
+        prop_assert_eq!(&proven.findings, &Findings::default());
+        let super::PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
+        let (limits, chosen) = (&vcut.asked.limits, &vcut.parameters);
+        prop_assert!(keeps(chosen.swing, limits.swing), "{chosen:?}");
+        prop_assert!(keeps(chosen.layer, limits.layer), "{chosen:?}");
+        prop_assert!(keeps(chosen.step, limits.step), "{chosen:?}");
+        // The lattice's own bound, without the optimiser.
+        let bound = super::blade_reach::scallop_bound(chosen.lattice, chosen.layer, chosen.step, chosen.flanks.slope);
+        let stays = bound + vcut.asked.allowance.value + chosen.drop;
+        prop_assert!(limits.scallop.is_none_or(|limit| stays <= limit.value + Length::mm(1e-6)), "{chosen:?} {stays:?}");
+        let edge = limits.edge.map_or(Length::mm(f64::INFINITY), |limit| limit.value);
+        prop_assert!(proven.report.longest_edge <= edge + Length::mm(1e-6), "{chosen:?}");
+        // Neighbouring Vs meet, but for the micrometre that rounding may take.
+        let widest = chosen.layer * 2.0 * chosen.swing.tan();
+        prop_assert!(chosen.step <= widest + Length::mm(2e-3), "{chosen:?}");
+        prop_assert!(chosen.lattice_fits());
     }
 }
 

@@ -22,6 +22,32 @@ pub(crate) enum Form {
     Block,
     /// `name <= value`.
     Limit,
+    /// `name <= value`, `name >= value`, or both.
+    Bounds,
+}
+
+/// How an entry is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Written {
+    /// `name = value`.
+    Value,
+    /// `name { ... }`.
+    Block,
+    /// `name <= value` or `name >= value`.
+    Limit(Relation),
+}
+
+impl Form {
+    /// Whether a field of this form is written so.
+    const fn takes(self, written: Written) -> bool {
+        match (self, written) {
+            (Self::Value, Written::Value)
+            | (Self::Block, Written::Block)
+            | (Self::Limit, Written::Limit(Relation::AtMost))
+            | (Self::Bounds, Written::Limit(Relation::AtMost | Relation::AtLeast)) => true,
+            (Self::Value | Self::Block | Self::Limit | Self::Bounds, _) => false,
+        }
+    }
 }
 
 /// A field that a block can have.
@@ -41,7 +67,7 @@ impl FieldSpec {
         match self.form {
             Form::Value => format!("{} = {}", self.name, self.typical),
             Form::Block => format!("{} {}", self.name, self.typical),
-            Form::Limit => format!("{} <= {}", self.name, self.typical),
+            Form::Limit | Form::Bounds => format!("{} <= {}", self.name, self.typical),
         }
     }
 }
@@ -69,6 +95,15 @@ pub(crate) const fn limit(name: &'static str, typical: &'static str) -> FieldSpe
     FieldSpec {
         name,
         form: Form::Limit,
+        typical,
+    }
+}
+
+/// A field of the forms `name <= value` and `name >= value`.
+pub(crate) const fn bounds(name: &'static str, typical: &'static str) -> FieldSpec {
+    FieldSpec {
+        name,
+        form: Form::Bounds,
         typical,
     }
 }
@@ -115,6 +150,8 @@ pub(crate) struct Fields<'a> {
     spec: &'static BlockSpec,
     place: Place,
     slots: BTreeMap<&'static str, (Slot<'a>, Span)>,
+    /// Bounds from below, which may stand beside those from above.
+    least: BTreeMap<&'static str, (Slot<'a>, Span)>,
     /// Inner blocks that are options for targets.
     pub(crate) targets: Vec<&'a Block>,
     insertion: Insertion,
@@ -133,6 +170,7 @@ impl<'a> Fields<'a> {
             spec,
             place,
             slots: BTreeMap::new(),
+            least: BTreeMap::new(),
             targets: Vec::new(),
             insertion: Insertion::before_end_of(place.whole, session.sources),
             damage: session.damage_at(place.whole),
@@ -146,14 +184,8 @@ impl<'a> Fields<'a> {
     fn sort_entry(&mut self, entry: &'a Entry, reports: &mut Reports) {
         match entry {
             Entry::Field { name, value, span } => {
-                self.put(
-                    name,
-                    Form::Value,
-                    Slot::Value(value),
-                    *span,
-                    Some(value.span),
-                    reports,
-                );
+                let entry = Given::value(name, Written::Value, value, *span);
+                self.put(entry, reports);
             }
             Entry::Limit {
                 name,
@@ -161,11 +193,8 @@ impl<'a> Fields<'a> {
                 value,
                 span,
             } => {
-                let slot = match relation.node {
-                    Relation::AtMost => Slot::Value(value),
-                    Relation::AtLeast => Slot::Spoiled(self.wrong_relation(name, relation.span, reports)),
-                };
-                self.put(name, Form::Limit, slot, *span, Some(value.span), reports);
+                let entry = Given::value(name, Written::Limit(relation.node), value, *span);
+                self.put(entry.related_at(relation.span), reports);
             }
             Entry::Block(inner) => self.sort_block(inner, reports),
             Entry::Formula { span, .. } => {
@@ -190,7 +219,7 @@ impl<'a> Fields<'a> {
                 if !is_field && self.spec.inner == Inner::TargetOptions {
                     self.targets.push(inner);
                 } else if is_field {
-                    self.put(&name, Form::Block, Slot::Block(inner), inner.span, None, reports);
+                    self.put(Given::block(&name, inner), reports);
                 } else {
                     reports.push(unknown_block(self.spec, word, head.span));
                 }
@@ -205,22 +234,17 @@ impl<'a> Fields<'a> {
     }
 
     /// Puts an entry to its field.
-    fn put(
-        &mut self,
-        name: &Spanned<String>,
-        form: Form,
-        slot: Slot<'a>,
-        whole: Span,
-        value: Option<Span>,
-        reports: &mut Reports,
-    ) {
+    fn put(&mut self, given: Given<'_, 'a>, reports: &mut Reports) {
+        let name = given.name;
         let Some(spec) = self.spec.fields.iter().find(|spec| spec.name == name.node) else {
-            if !matches!(slot, Slot::Spoiled(_)) {
-                reports.push(self.unknown_field(name));
-            }
+            reports.push(self.unknown_field(name));
             return;
         };
-        if let Some((_, first)) = self.slots.get(spec.name) {
+        let slots = match given.written {
+            Written::Value | Written::Block | Written::Limit(Relation::AtMost) => &mut self.slots,
+            Written::Limit(Relation::AtLeast) => &mut self.least,
+        };
+        if let Some((_, first)) = slots.get(spec.name) {
             let diagnostic = Diagnostic::new(
                 Code::FieldTwice,
                 format!("`{}` is given twice", spec.name),
@@ -232,21 +256,22 @@ impl<'a> Fields<'a> {
             reports.push(diagnostic);
             return;
         }
-        let slot = if spec.form == form {
-            slot
+        let slot = if spec.form.takes(given.written) {
+            given.slot
         } else {
-            Slot::Spoiled(reports.push(wrong_form(spec, form, name.span, whole, value)))
+            Slot::Spoiled(reports.push(given.wrong_form(spec)))
         };
-        self.slots.insert(spec.name, (slot, name.span));
+        slots.insert(spec.name, (slot, name.span));
+    }
+
+    /// The value that a field is to be at least, if it is given.
+    pub(crate) fn least(&self, name: &str) -> Checked<Option<&'a Spanned<Expr>>> {
+        taken_value(self.least.get(name))
     }
 
     /// The value of a field, if it is given.
     pub(crate) fn value(&self, name: &str) -> Checked<Option<&'a Spanned<Expr>>> {
-        match self.slots.get(name) {
-            Some((Slot::Value(value), _)) => Ok(Some(value)),
-            Some((Slot::Spoiled(reported), _)) => Err(*reported),
-            Some((Slot::Block(_), _)) | None => Ok(None),
-        }
+        taken_value(self.slots.get(name))
     }
 
     /// The value of a field that must be given.
@@ -302,24 +327,6 @@ impl<'a> Fields<'a> {
         did_you_mean(diagnostic, name.span, &near).note(field_list(self.spec))
     }
 
-    fn wrong_relation(&self, name: &Spanned<String>, relation: Span, reports: &mut Reports) -> Reported {
-        if !self
-            .spec
-            .fields
-            .iter()
-            .any(|spec| spec.name == name.node && spec.form == Form::Limit)
-        {
-            return reports.push(self.unknown_field(name));
-        }
-        let diagnostic = Diagnostic::new(
-            Code::Misplaced,
-            format!("`{}` has an upper limit, not a lower one", name.node),
-            relation,
-            "`>=` does not belong here",
-        );
-        reports.push(diagnostic.fix("limit it from above", relation, "<="))
-    }
-
     fn belongs_in_profile(&self, what: &str, span: Span) -> Diagnostic {
         Diagnostic::new(
             Code::Misplaced,
@@ -328,6 +335,15 @@ impl<'a> Fields<'a> {
             "describes the part's shape",
         )
         .help("move it into the `profile { ... }` block")
+    }
+}
+
+/// The value in a slot, if there is one.
+const fn taken_value<'a>(slot: Option<&(Slot<'a>, Span)>) -> Checked<Option<&'a Spanned<Expr>>> {
+    match slot {
+        Some((Slot::Value(value), _)) => Ok(Some(value)),
+        Some((Slot::Spoiled(reported), _)) => Err(*reported),
+        Some((Slot::Block(_), _)) | None => Ok(None),
     }
 }
 
@@ -371,50 +387,119 @@ fn unknown_block(spec: &BlockSpec, word: &str, span: Span) -> Diagnostic {
     }
 }
 
-/// A field written in the form of another kind.
-fn wrong_form(spec: &FieldSpec, written: Form, name: Span, whole: Span, value: Option<Span>) -> Diagnostic {
-    let sample = spec.sample();
-    let between = value.map(|value| Span {
-        start: name.end,
-        end: value.start,
-        ..name
-    });
-    match (spec.form, written) {
-        (Form::Limit, Form::Value) => {
-            let diagnostic = Diagnostic::new(
-                Code::Misplaced,
-                format!("`{}` is a limit here, not a value", spec.name),
-                between.unwrap_or(whole),
-                "a limit is given with `<=`",
-            );
-            match between {
-                Some(between) => diagnostic.fix("make it a limit", between, " <= "),
-                None => diagnostic,
-            }
-        }
-        (Form::Value, Form::Limit) => Diagnostic::new(
-            Code::Misplaced,
-            format!("`{}` is a value here, not a limit", spec.name),
-            between.unwrap_or(whole),
-            "a value is given with `=`",
-        )
-        .help(format!(
-            "give a value like `{sample}`, or move this line into `limits {{ ... }}`"
-        )),
-        (Form::Block, _) => Diagnostic::new(
-            Code::WrongKind,
-            format!("`{}` is a block", spec.name),
-            value.unwrap_or(whole),
-            "braces with fields are wanted here",
-        )
-        .help(format!("write it like `{sample}`")),
-        (Form::Value | Form::Limit, _) => Diagnostic::new(
-            Code::WrongKind,
-            format!("`{}` is a single value, not a block", spec.name),
+/// An entry that is to become a field.
+struct Given<'n, 'a> {
+    name: &'n Spanned<String>,
+    written: Written,
+    slot: Slot<'a>,
+    whole: Span,
+    /// What stands between name and value.
+    between: Option<Span>,
+    relation: Option<Span>,
+}
+
+impl<'n, 'a> Given<'n, 'a> {
+    const fn value(
+        name: &'n Spanned<String>,
+        written: Written,
+        value: &'a Spanned<Expr>,
+        whole: Span,
+    ) -> Self {
+        let between = Span {
+            start: name.span.end,
+            end: value.span.start,
+            ..name.span
+        };
+        Self {
+            name,
+            written,
+            slot: Slot::Value(value),
             whole,
-            "a value is wanted here",
-        )
-        .help(format!("write it like `{sample}`")),
+            between: Some(between),
+            relation: None,
+        }
+    }
+
+    const fn block(name: &'n Spanned<String>, inner: &'a Block) -> Self {
+        Self {
+            name,
+            written: Written::Block,
+            slot: Slot::Block(inner),
+            whole: inner.span,
+            between: None,
+            relation: None,
+        }
+    }
+
+    const fn related_at(self, relation: Span) -> Self {
+        Self {
+            relation: Some(relation),
+            ..self
+        }
+    }
+
+    /// A field written in the form of another kind.
+    fn wrong_form(&self, spec: &FieldSpec) -> Diagnostic {
+        let sample = spec.sample();
+        let place = self.between.unwrap_or(self.whole);
+        match (spec.form, self.written) {
+            (Form::Limit, Written::Limit(_)) => {
+                let relation = self.relation.unwrap_or(place);
+                Diagnostic::new(
+                    Code::Misplaced,
+                    format!("`{}` has an upper limit, not a lower one", spec.name),
+                    relation,
+                    "`>=` does not belong here",
+                )
+                .fix("limit it from above", relation, "<=")
+            }
+            (Form::Limit | Form::Bounds, Written::Value) => {
+                let relations = match spec.form {
+                    Form::Bounds => "`<=` or `>=`",
+                    Form::Value | Form::Block | Form::Limit => "`<=`",
+                };
+                let diagnostic = Diagnostic::new(
+                    Code::Misplaced,
+                    format!("`{}` is a limit here, not a value", spec.name),
+                    place,
+                    format!("a limit is given with {relations}"),
+                );
+                match self.between {
+                    Some(between) => diagnostic.fix("make it a limit", between, " <= "),
+                    None => diagnostic,
+                }
+            }
+            (Form::Value, Written::Limit(_)) => Diagnostic::new(
+                Code::Misplaced,
+                format!("`{}` is a value here, not a limit", spec.name),
+                place,
+                "a value is given with `=`",
+            )
+            .help(format!(
+                "give a value like `{sample}`, or move this line into `limits {{ ... }}`"
+            )),
+            (Form::Block, Written::Value | Written::Block | Written::Limit(_)) => Diagnostic::new(
+                Code::WrongKind,
+                format!("`{}` is a block", spec.name),
+                self.value_span().unwrap_or(self.whole),
+                "braces with fields are wanted here",
+            )
+            .help(format!("write it like `{sample}`")),
+            (Form::Value | Form::Limit | Form::Bounds, _) => Diagnostic::new(
+                Code::WrongKind,
+                format!("`{}` is a single value, not a block", spec.name),
+                self.whole,
+                "a value is wanted here",
+            )
+            .help(format!("write it like `{sample}`")),
+        }
+    }
+
+    const fn value_span(&self) -> Option<Span> {
+        match self.slot {
+            Slot::Value(value) => Some(value.span),
+            Slot::Block(_) | Slot::Spoiled(_) => None,
+        }
     }
 }
 

@@ -19,6 +19,7 @@ mod gather;
 mod heads;
 mod home;
 mod lets;
+mod limits;
 mod machine;
 mod mismatch;
 mod missing;

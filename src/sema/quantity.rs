@@ -95,27 +95,33 @@ pub(crate) trait Measured: Copy {
 
     /// From a value in mm, rad, s, kg.
     fn from_base(value: f64) -> Self;
+
+    /// To a value in mm, rad, s, kg.
+    fn to_base(self) -> f64;
 }
 
 macro_rules! measured {
-    ($($type:ty, $dimension:ident, $make:expr;)+) => {
+    ($($type:ty, $dimension:ident, $make:expr, $take:expr;)+) => {
         $(impl Measured for $type {
             const DIMENSION: Dimension = Dimension::$dimension;
             fn from_base(value: f64) -> Self {
                 $make(value)
+            }
+            fn to_base(self) -> f64 {
+                $take(self)
             }
         })+
     };
 }
 
 measured! {
-    f64, PURE, core::convert::identity;
-    Length, LENGTH, Length::mm;
-    Angle, ANGLE, Angle::rad;
-    Duration, TIME, Duration::s;
-    Mass, MASS, Mass::kg;
-    Speed, SPEED, Speed::mm_per_s;
-    AngularSpeed, TURNING_RATE, AngularSpeed::rad_per_s;
+    f64, PURE, core::convert::identity, core::convert::identity;
+    Length, LENGTH, Length::mm, Length::to_mm;
+    Angle, ANGLE, Angle::rad, Angle::to_rad;
+    Duration, TIME, Duration::s, Duration::to_s;
+    Mass, MASS, Mass::kg, Mass::to_kg;
+    Speed, SPEED, Speed::mm_per_s, Speed::to_mm_per_s;
+    AngularSpeed, TURNING_RATE, AngularSpeed::rad_per_s, AngularSpeed::to_rad_per_s;
 }
 
 #[cfg(test)]

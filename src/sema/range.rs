@@ -64,6 +64,10 @@ pub(crate) const TURNING_RATE: Range =
 pub(crate) const OVERLAP: Range = range(Dimension::PURE, Low::AtLeast(0.0), High::Below(1.0));
 /// Waiting times, up to an hour.
 pub(crate) const WAIT: Range = range(Dimension::TIME, Low::AtLeast(0.0), High::AtMost(3600.0));
+/// Longest times of an operation, up to a year.
+pub(crate) const LONGEST_TIME: Range = range(Dimension::TIME, Low::Above(0.0), High::AtMost(31_536_000.0));
+/// Most cuts of an operation.
+pub(crate) const MOST_CUTS: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(4_000_000.0));
 /// Masses on a flange.
 pub(crate) const MASS: Range = range(Dimension::MASS, Low::AtLeast(0.0), High::AtMost(10_000.0));
 /// Factors by which a file's points are stretched.

@@ -80,6 +80,19 @@ impl Reader<'_> {
         }
     }
 
+    /// The value that a field is to be at least, if it is given.
+    pub(crate) fn least<T: Measured>(
+        &mut self,
+        fields: &Fields<'_>,
+        name: &str,
+        range: Range,
+    ) -> Checked<Option<Sourced<T>>> {
+        match fields.least(name)? {
+            Some(expr) => self.field(fields, name, expr, range).map(Some),
+            None => Ok(None),
+        }
+    }
+
     /// The value of a field that must be given.
     pub(crate) fn required<T: Measured>(
         &mut self,

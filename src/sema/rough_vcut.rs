@@ -1,7 +1,8 @@
 //! `rough vcut { ... }`: V-shaped roughing.
 
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, block, head_span, limit, value};
+use super::fields::{BlockSpec, Fields, Inner, Place, block, head_span, value};
+use super::limits;
 use super::names::Thing;
 use super::range::{DISTANCE, OVERLAP, RAKE, SIZE, SPEED, SWING, TURNING_RATE};
 use super::read::{Reader, default, looks_like};
@@ -9,8 +10,7 @@ use super::report::Checked;
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{
-    Blade, Bounds, Direction, Formulas, Lattice, Limits, Objective, Order, Residual, RoughVcut, Sequence,
-    Sourced,
+    Blade, Direction, Formulas, Lattice, Objective, Order, Residual, RoughVcut, Sequence, Sourced,
 };
 use crate::source::Spanned;
 use crate::syntax::ast::{Block, Expr};
@@ -42,20 +42,6 @@ const SPEC: BlockSpec = BlockSpec {
         value("extension", "auto"),
         value("run_out", "2 mm"),
         value("standoff", "auto"),
-    ],
-    inner: Inner::Refused,
-};
-
-const LIMITS: BlockSpec = BlockSpec {
-    title: "`limits`",
-    fields: &[
-        limit("swing", "50 deg"),
-        limit("layer", "6 mm"),
-        limit("step", "8 mm"),
-        limit("scallop", "10 mm"),
-        limit("edge", "10 mm"),
-        limit("time", "10 min"),
-        limit("cuts", "200"),
     ],
     inner: Inner::Refused,
 };
@@ -122,7 +108,7 @@ pub(crate) fn check(
     // Blocks within first: they need the session, of which the reader holds a part.
     let limits = fields
         .block("limits")
-        .and_then(|inner| limits(inner, scope, session));
+        .and_then(|inner| limits::check(inner, scope, session));
     let feeds = fields
         .required_block("feed", &mut session.reports)
         .and_then(|inner| feeds(inner, scope, session));
@@ -179,32 +165,11 @@ pub(crate) fn check(
 }
 
 /// The place of a block within the operation.
-fn inner_place(inner: &Block) -> Place {
+pub(super) fn inner_place(inner: &Block) -> Place {
     Place {
         head: head_span(inner),
         whole: inner.span,
     }
-}
-
-fn limits(inner: Option<&Block>, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Limits> {
-    let Some(inner) = inner else {
-        return Ok(Limits::default());
-    };
-    let fields = Fields::sort(&LIMITS, inner_place(inner), &inner.entries, session);
-    let mut reader = Reader {
-        scope,
-        reports: &mut session.reports,
-    };
-    let swing = reader.optional(&fields, "swing", SWING);
-    let scallop = reader.optional(&fields, "scallop", SIZE);
-    Ok(Limits {
-        swing: Bounds {
-            least: None,
-            most: swing?,
-        },
-        scallop: scallop?,
-        ..Limits::default()
-    })
 }
 
 /// Speeds of the operation.

@@ -28,6 +28,8 @@ pub struct Bound<'p> {
     pub part: &'p Profile,
     /// How much deeper the blade's side towards the part lies than its middle plane, measured along z.
     pub drop: Length,
+    /// The longest edge that a cut may use, where that is less than the blade has.
+    pub edge: Option<Length>,
 }
 
 /// Something wrong with a cut.
@@ -52,7 +54,7 @@ pub enum CutFault {
     NotFreed {
         /// Edge length that would free the chip.
         needed: Length,
-        /// Edge length the blade has.
+        /// Edge length that may be used: what the blade has, or less.
         available: Length,
     },
     /// Beyond the point where the flank comes out, material stands in the way of the blade's body.
@@ -243,9 +245,9 @@ impl<'p> Player<'p> {
         self.finish_flank(operation, (layer, cut), vee);
     }
 
-    /// Notes a flank that needs more edge than the blade has.
+    /// Notes a flank that needs more edge than there is.
     fn note_edge(&mut self, needed: f64, finding: impl Fn(CutFault) -> Finding) {
-        let Some(available) = self.blade_length() else {
+        let Some(available) = self.usable_edge() else {
             return;
         };
         // The plan leaves out nothing below a nanometre; neither does the proof.
@@ -258,9 +260,12 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn blade_length(&self) -> Option<f64> {
-        let operation = self.program.operations.get(usize::from(self.operation?.0))?;
-        Some(operation.blade.cutting_length.to_mm())
+    /// The blade's edge, or what of it may be used.
+    fn usable_edge(&self) -> Option<f64> {
+        let index = usize::from(self.operation?.0);
+        let blade = self.program.operations.get(index)?.blade.cutting_length;
+        let limit = self.bounds.get(index).and_then(|bound| bound.edge);
+        Some(limit.map_or(blade, |limit| limit.min(blade)).to_mm())
     }
 
     /// Takes the chip out once both flanks are cut.

@@ -105,7 +105,7 @@ mod tests {
         ) {
             let points = (0_u32..).zip(&heights).map(|(i, &z)| Point2::new(10.0 * f64::from(i), z)).collect();
             let part = Profile::new(points).unwrap();
-            let bound = Bound { part: &part, drop: Length::ZERO };
+            let bound = Bound { part: &part, drop: Length::ZERO, edge: None };
             let from = Point3::new(tip.0, -5.0, tip.1);
             let found = deepest(&bound, Point2::new(edge.0, edge.1), from, Point3::new(tip.0, 55.0, tip.1));
             let found = found.map_or(0.0, |entry| entry.depth.to_mm());
@@ -125,6 +125,7 @@ mod tests {
         let bound = Bound {
             part: &part,
             drop: Length::mm(0.5),
+            edge: None,
         };
         let (from, to) = (Point3::new(40.0, -5.0, 12.0), Point3::new(40.0, 55.0, 8.0));
         let entry = deepest(&bound, Point2::new(5.0, 8.0), from, to).unwrap();

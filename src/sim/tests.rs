@@ -83,6 +83,7 @@ fn a_cut_into_the_part_is_found_with_its_place_and_depth() {
         &[Bound {
             part: &bump,
             drop: Length::ZERO,
+            edge: None,
         }],
     )
     .findings
@@ -100,6 +101,7 @@ fn a_cut_into_the_part_is_found_with_its_place_and_depth() {
     let thick = Bound {
         part: &plan.profile,
         drop: Length::mm(lowest - 13.1 + 0.1),
+        edge: None,
     };
     let found = replay(&program, &[thick]).findings.overcut.unwrap();
     let CutFault::Overcut { depth, .. } = found.fault else {
@@ -183,6 +185,7 @@ fn a_later_operation_may_come_closer_to_the_part() {
     let bound = |part, drop| Bound {
         part,
         drop: Length::mm(drop),
+        edge: None,
     };
     let bounds = [bound(&rough.bound, 30.0), bound(&fine.bound, 0.0)];
     let found = replay(&program, &bounds).findings.overcut.unwrap();

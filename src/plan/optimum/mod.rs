@@ -1,14 +1,148 @@
 //! Which swing, layer, step, overlap and lattice make an operation's time (or another objective) least within its
 //! limits: the optimisation problem of [Cui 14], by its formulas or by exact ones.
+//!
+//! * [`problem`](self) says what is asked and answered, [`Bound`] names what is bounded.
+//! * `formulas` turns a swing and an overlap into the thickest layer that the bounds allow and what that costs, for
+//!   numbers and for boxes of numbers (`number`). `docs/process.md`, "The optimum", proves that no other layer is better.
+//! * `search` finds the best swing and overlap by branch and bound, in the coordinates of `chart`; `polish` adds the last digits.
+//! * `conflict` says why nothing keeps all bounds, `trade` what a bound costs.
+//!
+//! Between equals the lattice that is named first is taken, and of one lattice what the search meets first, which does
+//! not depend on the platform.
 
+mod blend;
+mod bounds;
+mod chart;
+mod conflict;
+mod formulas;
+mod number;
+mod polish;
 mod problem;
+mod search;
+mod trade;
 
-pub use problem::{Bound, Infeasible, Optimum, Problem, Range, Sensitivity, Work};
+pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Sensitivity, Work};
+pub use trade::{sensitivities, trade_off};
+
+use super::grid;
+use crate::job::{Lattice, Objective};
+use formulas::Model;
+use search::{Found, Goal, Measure};
+use vcutc_backend_api::units::{Angle, Duration, Length};
+
+/// The least scallop or edge is found to this share of it.
+const FINE: f64 = 1e-10;
 
 /// The best parameters there are.
 ///
 /// # Errors
-/// When no parameters keep all bounds: which of them conflict.
+/// When no parameters keep all bounds: which of them conflict. When the objective can be made as small as one likes.
 pub fn solve(problem: &Problem) -> Result<Optimum, Infeasible> {
-    problem::by_search(problem)
+    if unbounded(problem) {
+        return Err(Infeasible::Unbounded);
+    }
+    let best = match problem.objective {
+        Objective::Time => least(problem, Measure::Time),
+        Objective::Cuts => least(problem, Measure::Cuts),
+        Objective::Scallop => tightest(problem, Bound::Scallop),
+        Objective::BladeLoad => tightest(problem, Bound::Edge),
+    };
+    best.ok_or_else(|| conflict::explain(problem))
 }
+
+/// Whether thinner layers are ever better and nothing asks for thick ones.
+fn unbounded(problem: &Problem) -> bool {
+    let asks = |least: Length| least.to_mm() > grid::SPACING;
+    match problem.objective {
+        Objective::Time | Objective::Cuts => false,
+        Objective::Scallop | Objective::BladeLoad => {
+            problem.time.is_none()
+                && problem.cuts.is_none()
+                && !asks(problem.layer.least)
+                && !asks(problem.step.least)
+        }
+    }
+}
+
+/// The parameters of least time or fewest cuts, over all lattices.
+fn least(problem: &Problem, measure: Measure) -> Option<Optimum> {
+    let value = |optimum: &Optimum| match measure {
+        Measure::Time => optimum.time.to_s(),
+        Measure::Cuts => optimum.cuts,
+    };
+    let mut best: Option<Optimum> = None;
+    for &lattice in &problem.lattices {
+        let found = on_lattice(problem, lattice, measure, Goal::Best);
+        best = match (best, found) {
+            (Some(best), Some(found)) if value(&found) < value(&best) => Some(found),
+            (Some(best), _) => Some(best),
+            (None, found) => found,
+        };
+    }
+    best
+}
+
+/// Any parameters that keep the bounds.
+fn any(problem: &Problem) -> Option<Optimum> {
+    problem
+        .lattices
+        .iter()
+        .find_map(|&lattice| on_lattice(problem, lattice, Measure::Time, Goal::Any))
+}
+
+/// The parameters that keep the tightest limit on a scallop or an edge that any keep: what can be kept under one limit can be
+/// under every slacker one, so the limit is found by halving.
+fn tightest(problem: &Problem, bound: Bound) -> Option<Optimum> {
+    let mut best = any(problem)?;
+    let mut fails = 0.0;
+    loop {
+        let works = bound.attained(&best);
+        if works - fails <= FINE * works {
+            best.gap = FINE;
+            best.binding = touched(problem, &best);
+            return Some(best);
+        }
+        let middle = 0.5 * (works + fails);
+        match any(&bound.replaced(problem, middle)) {
+            Some(better) => best = better,
+            None => fails = middle,
+        }
+    }
+}
+
+fn on_lattice(problem: &Problem, lattice: Lattice, measure: Measure, goal: Goal) -> Option<Optimum> {
+    let model = Model::new(problem, lattice);
+    let found = search::best(&model, measure, goal)?;
+    Some(optimum(problem, &model, lattice, &found))
+}
+
+fn optimum(problem: &Problem, model: &Model, lattice: Lattice, found: &Found) -> Optimum {
+    let (shape, outcome) = (found.shape, found.outcome);
+    let layer = outcome.layer;
+    let mut optimum = Optimum {
+        lattice,
+        swing: Angle::rad(libm::atan(shape.tangent)),
+        layer: Length::mm(layer),
+        step: Length::mm(2.0 * shape.aspect * layer),
+        overlap: 1.0 - shape.share,
+        time: Duration::s(outcome.time),
+        scallop: Length::mm(model.stays(shape.tangent) + model.scallop_factor(shape) * layer),
+        edge: Length::mm(model.edge(shape, layer)),
+        cuts: outcome.cuts,
+        binding: Vec::new(),
+        gap: found.gap,
+    };
+    optimum.binding = touched(problem, &optimum);
+    optimum
+}
+
+/// The bounds that parameters touch.
+fn touched(problem: &Problem, optimum: &Optimum) -> Vec<Bound> {
+    Bound::ALL
+        .into_iter()
+        .filter(|bound| bound.touched(problem, optimum))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

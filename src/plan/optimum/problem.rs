@@ -29,7 +29,7 @@ pub struct Problem {
     pub layer: Range<Length>,
     /// Step; positive. Without a limit, `most` is the stock's width.
     pub step: Range<Length>,
-    /// Overlap; from 0 to below 1.
+    /// Overlap; below 1. Negative values leave gaps, which only a given step and layer can ask for.
     pub overlap: Range<f64>,
     /// Largest scallop bound of the lattice, allowance and standoff included; none without a limit.
     pub scallop: Option<Length>,
@@ -62,15 +62,31 @@ pub struct Work {
     pub allowance: Length,
     /// Distance of the blade's middle plane from the material that stays (e); it raises the tip by `e / sin(swing)`.
     pub standoff: Length,
-    /// How far a cut runs out beyond the stock, if that does not depend on the parameters; otherwise it follows from the
-    /// edge in use [Cui 5].
-    pub extension: Option<Length>,
+    /// How far a cut runs out beyond the stock (b).
+    pub extension: Extension,
     /// Cutting speed (v1).
     pub cut_feed: Speed,
     /// Speed through the air (v2).
     pub travel_feed: Speed,
     /// Rate of turning (omega).
     pub reorient_rate: AngularSpeed,
+}
+
+/// How far a cut runs out beyond the stock, and how that depends on the parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extension {
+    /// So far, whatever the parameters.
+    Fixed(Length),
+    /// As far as the edge in use lies along y [Cui 5].
+    EdgeInUse,
+    /// As far as the edge or the leaning body lies over the work, and this much air: what the planner makes of `auto`
+    /// (`docs/process.md`, "Extension and the leaning blade").
+    Leaning {
+        /// How far the edge lies over the work while it cuts and turns.
+        edge: Length,
+        /// Air between the blade and the stock.
+        run_out: Length,
+    },
 }
 
 /// A bound that can bind.
@@ -123,8 +139,10 @@ pub struct Optimum {
     pub edge: Length,
     /// V-cuts by the model.
     pub cuts: f64,
-    /// Bounds that bind.
+    /// Bounds that the parameters touch, in the order of [`Bound`]; both ends of a value that is given.
     pub binding: Vec<Bound>,
+    /// No parameters make the objective smaller than this one's by more than this share of it: what was proven.
+    pub gap: f64,
 }
 
 /// What relaxing a bound would buy.
@@ -142,18 +160,16 @@ pub struct Sensitivity {
 
 /// Why there are no parameters.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Infeasible {
-    /// The bounds that cannot be kept together, one or two.
-    pub conflict: Vec<Bound>,
-    /// For each of the bounds in `conflict`: the nearest value, in mm, rad, s or 1, that the others allow, when there is one.
-    pub nearest: Vec<Option<f64>>,
-}
-
-/// A search.
-pub(super) fn by_search(problem: &Problem) -> Result<Optimum, Infeasible> {
-    let _ = problem;
-    Err(Infeasible {
-        conflict: Vec::new(),
-        nearest: Vec::new(),
-    })
+pub enum Infeasible {
+    /// Bounds that cannot be kept together.
+    Conflict {
+        /// The bounds: without any one of them the others can be kept. Usually two.
+        bounds: Vec<Bound>,
+        /// For each of the bounds the nearest value, in mm, rad, s or 1, that all other bounds of the problem allow, when
+        /// there is one.
+        nearest: Vec<Option<f64>>,
+    },
+    /// Nothing keeps the objective from falling for ever: a scallop or an edge in use becomes the smaller the thinner the
+    /// layer, and no time, cuts, least layer or least step is asked for.
+    Unbounded,
 }

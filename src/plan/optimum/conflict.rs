@@ -1,0 +1,73 @@
+//! Which bounds keep a problem from having parameters, and how far each is from allowing some.
+//!
+//! Bounds are dropped one after the other; one without which the rest still conflicts stays dropped (a deletion
+//! filter: Chinneck, Feasibility and Infeasibility in Optimization, 2008). What remains conflicts, and without any one of it
+//! nothing does.
+
+use super::any;
+use super::problem::{Bound, Infeasible, Problem};
+
+/// The order in which bounds are dropped: first those that people rarely set, so that what remains is what they know.
+const ORDER: [Bound; 12] = [
+    Bound::OverlapMost,
+    Bound::LayerMost,
+    Bound::StepMost,
+    Bound::SwingLeast,
+    Bound::OverlapLeast,
+    Bound::StepLeast,
+    Bound::Cuts,
+    Bound::SwingMost,
+    Bound::Time,
+    Bound::LayerLeast,
+    Bound::Scallop,
+    Bound::Edge,
+];
+
+/// The nearest value is found to this share of it.
+const FINE: f64 = 1e-7;
+
+/// Why a problem without parameters has none.
+pub(super) fn explain(problem: &Problem) -> Infeasible {
+    let mut rest = problem.clone();
+    let mut bounds = Vec::new();
+    for bound in ORDER {
+        if bound.value(problem).is_none() {
+            continue;
+        }
+        let without = bound.dropped(&rest);
+        if any(&without).is_none() {
+            rest = without;
+        } else {
+            bounds.push(bound);
+        }
+    }
+    bounds.sort_unstable();
+    let nearest = bounds.iter().map(|&bound| nearest(problem, bound)).collect();
+    Infeasible::Conflict { bounds, nearest }
+}
+
+/// The nearest value of a bound that all others allow.
+fn nearest(problem: &Problem, bound: Bound) -> Option<f64> {
+    let asked = bound.value(problem)?;
+    let allows = |problem: &Problem| any(problem).map(|optimum| bound.attained(&optimum));
+    let mut works = allows(&bound.dropped(problem))?;
+    let mut fails = asked;
+    while (works - fails).abs() > FINE * works.abs().max(fails.abs()) {
+        // Evenly in shares while they are far apart.
+        let middle = if fails > 0.0 && works / fails > 4.0 {
+            (works * fails).sqrt()
+        } else {
+            0.5 * (works + fails)
+        };
+        if middle == works || middle == fails {
+            break;
+        }
+        match allows(&bound.replaced(problem, middle)) {
+            // What it comes to may be nearer still.
+            Some(attained) if (attained - asked).abs() < (middle - asked).abs() => works = attained,
+            Some(_) => works = middle,
+            None => fails = middle,
+        }
+    }
+    Some(works)
+}

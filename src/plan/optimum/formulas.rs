@@ -1,0 +1,379 @@
+//! The formulas of the problem at given swing and overlap, for numbers and for boxes of numbers.
+//!
+//! With `t = tan(swing)`, `rho = 1 - overlap` and `u = rho t` a step is `s = 2 u h` [Cui 6, 7], so for given `t` and `rho` all
+//! lengths grow with the layer `h`: the reach it needs is `kappa h`, the scallop it leaves `sigma h`. Every bound is then a
+//! bound on `h`, and the time falls with `h` (`docs/process.md`, "The optimum"), so the thickest layer is the best.
+
+use super::number::Number;
+use super::problem::{Extension, Problem, Range};
+use crate::job::{Formulas, Lattice};
+use vcutc_backend_api::units::Length;
+
+/// Shares this close below a jump of the reach count as the jump: the same nanometre in a millimetre that simulation grants.
+const AT_JUMP: f64 = 1e-9;
+
+/// Layers and steps are kept between a picometre and a kilometre.
+const LENGTHS: [f64; 2] = [1e-9, 1e6];
+
+/// Steps wider than this many stocks are not considered unless asked for: the model's way between layers would turn negative.
+const WIDEST: f64 = 6.0;
+
+/// Where in the lattice's shape: `t`, `rho` and `u`, of which two decide the third.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape<N> {
+    /// Tangent of the swing.
+    pub(super) tangent: N,
+    /// Share of the widest step: one less the overlap.
+    pub(super) share: N,
+    /// Half the step over the layer.
+    pub(super) aspect: N,
+}
+
+/// How many older tips a flank passes under, one more: the step of the reach's saw-tooth that a share lies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tooth {
+    /// One reach whatever the share.
+    Any,
+    /// The flank comes out behind the tip of this number.
+    Behind(u32),
+    /// Behind one of this number or a later one.
+    Later(u32),
+}
+
+/// Which of the bounds that come with the shape a layer is taken as thick as. Without one of them it comes out thicker, and
+/// what it costs no larger: a bound from below, and smooth where the whole has a kink.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keeping {
+    Both,
+    Reach,
+    Scallop,
+    Neither,
+}
+
+/// What the layer is bounded by, and what it costs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outcome<N> {
+    /// The thickest layer.
+    pub(super) layer: N,
+    /// By how much the bounds are kept, as shares of them: all are positive or nothing where the bounds can be kept.
+    pub(super) slack: [N; 4],
+    /// Time by the model, in s.
+    pub(super) time: N,
+    /// Cuts by the model.
+    pub(super) cuts: N,
+}
+
+/// The problem in plain numbers (mm, s, rad), for one lattice.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    lattice: Lattice,
+    formulas: Formulas,
+    width: f64,
+    /// Mean depth of what is to be removed: A / W.
+    depth: f64,
+    /// What of the way to the next layer does not depend on the parameters, in mm.
+    change: f64,
+    /// What of the time of a cut does not depend on the parameters: 2 D / v1.
+    pass: f64,
+    cut_feed: f64,
+    travel_feed: f64,
+    rate: f64,
+    sin_rake: f64,
+    cos_rake: f64,
+    /// Reach of an upright edge of the longest allowed length.
+    upright_reach: f64,
+    /// Of an edge, the part along y over the part across: cot(rake - half apex).
+    along: f64,
+    sin_lead: f64,
+    /// Half the blade's width at its full length, along y.
+    half_width: f64,
+    extension: Extension,
+    standoff: f64,
+    allowance: f64,
+    scallop: Option<f64>,
+    time: Option<f64>,
+    cuts: Option<f64>,
+    /// Layers thicker than this are only considered where the bounds ask for them.
+    thickest: f64,
+    pub(super) layer: [f64; 2],
+    pub(super) step: [f64; 2],
+    /// Ranges of tangent, share and aspect.
+    pub(super) ranges: Shape<[f64; 2]>,
+}
+
+fn millimetres(range: Range<Length>) -> [f64; 2] {
+    [range.least.to_mm(), range.most.to_mm()].map(|value| value.clamp(LENGTHS[0], LENGTHS[1]))
+}
+
+impl Model {
+    pub(super) fn new(problem: &Problem, lattice: Lattice) -> Self {
+        let work = &problem.work;
+        let lead = work.rake - work.half_apex;
+        let longest = problem
+            .edge
+            .map_or(work.cutting_length, |edge| edge.min(work.cutting_length));
+        let (width, depth) = (work.width.to_mm(), work.area.to_mm2() / work.width.to_mm());
+        let layer = millimetres(problem.layer);
+        let [narrowest, widest] = millimetres(problem.step);
+        let step = [narrowest, widest.min((WIDEST * width).max(narrowest))];
+        let (steepest, share) = (Self::tangents(problem), Self::shares(problem));
+        Self {
+            lattice,
+            formulas: problem.formulas,
+            width,
+            depth,
+            change: 2.0 * work.clearance.to_mm() + 2.0 * depth + width,
+            pass: 2.0 * work.depth.to_mm() / work.cut_feed.to_mm_per_s(),
+            cut_feed: work.cut_feed.to_mm_per_s(),
+            travel_feed: work.travel_feed.to_mm_per_s(),
+            rate: work.reorient_rate.to_rad_per_s(),
+            sin_rake: work.rake.sin(),
+            cos_rake: work.rake.cos(),
+            upright_reach: longest.to_mm() * lead.sin(),
+            along: lead.cos() / lead.sin(),
+            sin_lead: lead.sin(),
+            half_width: work.cutting_length.to_mm() * work.half_apex.sin() / work.rake.sin(),
+            extension: work.extension,
+            standoff: work.standoff.to_mm(),
+            allowance: work.allowance.to_mm(),
+            scallop: problem.scallop.map(Length::to_mm),
+            time: problem.time.map(vcutc_backend_api::units::Duration::to_s),
+            cuts: problem.cuts,
+            thickest: f64::INFINITY,
+            layer,
+            step,
+            ranges: Shape {
+                tangent: steepest,
+                share,
+                aspect: [step[0] / (2.0 * layer[1]), step[1] / (2.0 * layer[0])],
+            },
+        }
+        .no_thicker_than_pays(work.depth.to_mm())
+    }
+
+    fn tangents(problem: &Problem) -> [f64; 2] {
+        // Within a thousandth of a degree of flat and of upright nothing is cut.
+        [problem.swing.least, problem.swing.most].map(|swing| swing.tan().clamp(2e-5, 5e4))
+    }
+
+    fn shares(problem: &Problem) -> [f64; 2] {
+        [problem.overlap.most, problem.overlap.least].map(|overlap| (1.0 - overlap).max(1e-3))
+    }
+
+    /// Where fewer than one layer is counted as one, a thicker layer still saves steps, but asks for a longer extension.
+    /// That pays for certain where the extension is no longer than the stock is along the cuts, in proportion to its
+    /// steps; elsewhere the layer stays at one that is counted as one.
+    fn no_thicker_than_pays(mut self, along: f64) -> Self {
+        let edge = self.upright_reach * self.along;
+        let grows = match self.extension {
+            Extension::Fixed(_) => 0.0,
+            Extension::EdgeInUse => edge,
+            Extension::Leaning { .. } => 2.0 * self.upright_reach * self.cos_rake.abs() / self.sin_rake,
+        };
+        if self.width * along < self.step[1] * grows {
+            self.thickest = self.depth / 1.5;
+        }
+        self
+    }
+
+    /// The steps of the saw-tooth within the range of shares.
+    pub(super) fn teeth(&self) -> Vec<Tooth> {
+        match (self.formulas, self.lattice) {
+            (Formulas::Paper, Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free)
+            | (Formulas::Exact, Lattice::Free) => vec![Tooth::Any],
+            (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced) => {
+                let first = self.behind(self.ranges.share[1]);
+                let last = self.behind(self.ranges.share[0]);
+                if first == last {
+                    vec![Tooth::Behind(first)]
+                } else {
+                    vec![Tooth::Behind(first), Tooth::Later(first + 1)]
+                }
+            }
+        }
+    }
+
+    /// The number of the tip behind which a flank comes out.
+    pub(super) fn behind(&self, share: f64) -> u32 {
+        let number = match self.lattice {
+            Lattice::Orthogonal => past_jump(0.5 / share),
+            Lattice::Interlaced => past_jump(0.5 / share + 0.5),
+            Lattice::Free => 1.0,
+        };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at least 1, at most half of one over the least share"
+        )]
+        {
+            number as u32
+        }
+    }
+
+    /// The least share at which flanks come out behind the tip of that number, and in which distance of one layer's
+    /// steps that tip is.
+    fn jump(&self, number: u32) -> (f64, f64) {
+        let number = f64::from(number);
+        let steps = match self.lattice {
+            Lattice::Orthogonal | Lattice::Free => number,
+            Lattice::Interlaced => number - 0.5,
+        };
+        (0.5 / steps, steps)
+    }
+
+    /// The shares of a step of the saw-tooth, as far as they are allowed.
+    pub(super) fn shares_of(&self, tooth: Tooth) -> [f64; 2] {
+        let [least, most] = self.ranges.share;
+        let above = |number: u32| {
+            if number > 1 {
+                self.jump(number - 1).0.min(most)
+            } else {
+                most
+            }
+        };
+        let [low, high] = match tooth {
+            Tooth::Any => [least, most],
+            Tooth::Behind(number) => [self.jump(number).0.max(least), above(number)],
+            Tooth::Later(number) => [least, above(number)],
+        };
+        // At a jump but for rounding.
+        [low.min(high), high]
+    }
+
+    /// A wider stretch of the saw-tooth as its first step and the rest.
+    pub(super) fn divided(&self, tooth: Tooth) -> Option<[Tooth; 2]> {
+        match tooth {
+            Tooth::Any | Tooth::Behind(_) => None,
+            Tooth::Later(number) => {
+                let last = self.behind(self.ranges.share[0]);
+                let rest = if number + 1 < last {
+                    Tooth::Later(number + 1)
+                } else {
+                    Tooth::Behind(number + 1)
+                };
+                Some([Tooth::Behind(number), rest])
+            }
+        }
+    }
+
+    /// Reach for each millimetre of layer: [Cui II.B], or what is derived in `plan::blade_reach`.
+    pub(super) fn reach_factor(&self, share: f64) -> f64 {
+        self.factor(share, Tooth::Behind(self.behind(share)))
+    }
+
+    fn factor<N: Number>(&self, share: N, tooth: Tooth) -> N {
+        match (self.formulas, self.lattice, tooth) {
+            (Formulas::Paper, Lattice::Orthogonal, _) => N::constant(1.5),
+            (Formulas::Paper, Lattice::Interlaced, _) => N::constant(1.0),
+            (Formulas::Paper, Lattice::Free, _) => N::constant(2.0),
+            (Formulas::Exact, Lattice::Free, _) | (Formulas::Exact, _, Tooth::Any) => {
+                N::constant(1.0) + share
+            }
+            (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced, Tooth::Behind(number)) => {
+                let (_, steps) = self.jump(number);
+                (N::constant(0.5) + share * N::constant(steps)).greater(N::constant(1.0))
+            }
+            (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced, Tooth::Later(_)) => {
+                (N::constant(1.0) + share).or_down_to_one()
+            }
+        }
+    }
+
+    /// Scallop for each millimetre of layer [Cui 12].
+    pub(super) fn scallop_factor<N: Number>(&self, shape: Shape<N>) -> N {
+        let drop = N::constant(1.0) + shape.share;
+        match self.lattice {
+            Lattice::Orthogonal | Lattice::Free => (shape.aspect * shape.aspect + drop * drop).root(),
+            Lattice::Interlaced => drop,
+        }
+    }
+
+    /// What stays on the part whatever the lattice: allowance and drop of the tip.
+    pub(super) fn stays(&self, tangent: f64) -> f64 {
+        self.allowance + self.drop(tangent)
+    }
+
+    fn drop<N: Number>(&self, tangent: N) -> N {
+        N::constant(self.standoff) * (N::constant(1.0) + tangent * tangent).root() / tangent
+    }
+
+    /// The edge in use.
+    pub(super) fn edge(&self, shape: Shape<f64>, layer: f64) -> f64 {
+        self.reach_factor(shape.share) * layer * (1.0 + shape.tangent * shape.tangent).sqrt() / self.sin_lead
+    }
+
+    /// What comes of a shape.
+    pub(super) fn outcome<N: Number>(&self, shape: Shape<N>, tooth: Tooth, keeping: Keeping) -> Outcome<N> {
+        let (one, tangent) = (N::constant(1.0), shape.tangent);
+        let secant = (one + tangent * tangent).root();
+        let factor = self.factor(shape.share, tooth);
+        let by_reach = N::constant(self.upright_reach) / (secant * factor);
+        let room = self.scallop.map(|scallop| {
+            N::constant(scallop - self.allowance) - N::constant(self.standoff) * secant / tangent
+        });
+        let by_scallop = room.map(|room| room / self.scallop_factor(shape));
+        let two = shape.aspect + shape.aspect;
+        let least = N::constant(self.layer[0]).greater(N::constant(self.step[0]) / two);
+        let most = N::constant(self.layer[1]).lesser(N::constant(self.step[1]) / two);
+        let most = most.lesser(N::constant(self.thickest));
+        let layer = match (keeping, by_scallop) {
+            (Keeping::Both, Some(by_scallop)) => by_reach.lesser(by_scallop).lesser(most),
+            (Keeping::Both | Keeping::Reach, _) => by_reach.lesser(most),
+            (Keeping::Scallop, Some(by_scallop)) => by_scallop.lesser(most),
+            (Keeping::Scallop | Keeping::Neither, _) => most,
+        };
+        let layer = if self.given() { least } else { layer.greater(least) };
+        let points = N::constant(self.width) / (two * layer) + N::constant(0.5);
+        let layers = (N::constant(self.depth) / layer - N::constant(0.5)).greater(one);
+        let cuts = points * layers;
+        let time = cuts * self.each_cut(shape, secant, factor, layer)
+            + layers * (N::constant(self.change) - layer - shape.aspect * layer)
+                / N::constant(self.travel_feed);
+        let kept = |limit: Option<f64>, value: N| limit.map_or(one, |limit| N::constant(limit) / value - one);
+        Outcome {
+            layer,
+            slack: [
+                by_reach / least - one,
+                by_scallop.map_or(one, |by_scallop| by_scallop / least - one),
+                kept(self.time, time),
+                kept(self.cuts, cuts),
+            ],
+            time,
+            cuts,
+        }
+    }
+
+    /// Whether layer or step is one value: the shape then decides both.
+    fn given(&self) -> bool {
+        self.layer[0] >= self.layer[1] || self.step[0] >= self.step[1]
+    }
+
+    /// Time of a cut [Cui 9, 10]: two passes with their run-outs, the turn between them, and the turn or the step to the
+    /// next cut, whichever takes longer.
+    fn each_cut<N: Number>(&self, shape: Shape<N>, secant: N, factor: N, layer: N) -> N {
+        let sine = (shape.tangent * shape.tangent + N::constant(self.cos_rake * self.cos_rake)).root();
+        // phi = 2 acos(cos(alpha) sin(theta)), of which this is half the tangent.
+        let half = (sine / N::constant(self.sin_rake)).arc_tangent();
+        let turn = (half + half) / N::constant(self.rate);
+        let extension = match self.extension {
+            Extension::Fixed(length) => N::constant(length.to_mm()),
+            Extension::EdgeInUse => factor * layer * secant * N::constant(self.along),
+            Extension::Leaning { edge, run_out } => {
+                let teeth = layer * (N::constant(1.0) + shape.share);
+                let per_height = N::constant(self.cos_rake.max(0.0) / self.sin_rake) * secant;
+                (N::constant(self.half_width) + teeth * per_height).greater(N::constant(edge.to_mm()))
+                    + N::constant(run_out.to_mm())
+            }
+        };
+        let sideways = (shape.aspect + shape.aspect) * layer / N::constant(self.travel_feed);
+        N::constant(self.pass)
+            + N::constant(4.0) * extension / N::constant(self.cut_feed)
+            + turn
+            + turn.greater(sideways)
+    }
+}
+
+/// Rounded up, but at a jump but for rounding errors to the jump; at least 1.
+fn past_jump(number: f64) -> f64 {
+    (number * (1.0 - AT_JUMP)).ceil().max(1.0)
+}

@@ -1,0 +1,293 @@
+//! Numbers that the formulas are computed with: plain ones, and boxes of them with their slopes.
+//!
+//! A [`Slopes`] encloses a function over a box: all its values, and all its generalised partial derivatives (Clarke:
+//! Optimization and Nonsmooth Analysis, 1983), which at a kink of `min` or `max` are the hull of those on both sides. Every
+//! bound is rounded outward (Moore: Interval Analysis, 1966), so what follows from it is proven.
+
+use core::ops::{Add, Div, Mul, Sub};
+
+/// What the formulas need of a number.
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// A constant.
+    fn constant(value: f64) -> Self;
+    /// The smaller of two.
+    fn lesser(self, other: Self) -> Self;
+    /// The larger of two.
+    fn greater(self, other: Self) -> Self;
+    /// The root of something positive.
+    fn root(self) -> Self;
+    /// The arc of a tangent.
+    fn arc_tangent(self) -> Self;
+    /// Something from 1 to this, of which no more is known; for a plain number, itself.
+    fn or_down_to_one(self) -> Self;
+}
+
+impl Number for f64 {
+    fn constant(value: f64) -> Self {
+        value
+    }
+    fn lesser(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    fn greater(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+    fn arc_tangent(self) -> Self {
+        libm::atan(self)
+    }
+    fn or_down_to_one(self) -> Self {
+        self
+    }
+}
+
+/// All numbers from `low` to `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Interval {
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+impl Interval {
+    pub(super) const ZERO: Self = Self::exactly(0.0);
+    /// A slope that nothing is known about, small enough that sums and products of it stay finite.
+    pub(super) const UNKNOWN: Self = Self {
+        low: -1e60,
+        high: 1e60,
+    };
+
+    pub(super) const fn exactly(value: f64) -> Self {
+        Self {
+            low: value,
+            high: value,
+        }
+    }
+
+    pub(super) fn hull(self, other: Self) -> Self {
+        Self {
+            low: self.low.lesser(other.low),
+            high: self.high.greater(other.high),
+        }
+    }
+
+    pub(super) fn middle(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// Where to divide it: a wide range of positive numbers in equal shares, else in the middle.
+    pub(super) fn between(self) -> f64 {
+        if self.low > 0.0 && self.high > 4.0 * self.low {
+            (self.low * self.high).sqrt()
+        } else {
+            self.middle()
+        }
+    }
+
+    pub(super) fn width(self) -> f64 {
+        self.high - self.low
+    }
+
+    pub(super) fn magnitude(self) -> f64 {
+        self.low.abs().greater(self.high.abs())
+    }
+
+    /// One part in something positive.
+    fn inverse(self) -> Self {
+        outward(1.0 / self.high, 1.0 / self.low)
+    }
+}
+
+/// Bounds moved outward by a unit in the last place: more than the rounding of an operation.
+fn outward(low: f64, high: f64) -> Interval {
+    Interval {
+        low: low.next_down(),
+        high: high.next_up(),
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        outward(self.low + other.low, self.high + other.high)
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        outward(self.low - other.high, self.high - other.low)
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        if self.low >= 0.0 && other.low >= 0.0 {
+            return outward(self.low * other.low, self.high * other.high);
+        }
+        let (a, b) = (self.low * other.low, self.low * other.high);
+        let (c, d) = (self.high * other.low, self.high * other.high);
+        outward(
+            a.lesser(b).lesser(c.lesser(d)),
+            a.greater(b).greater(c.greater(d)),
+        )
+    }
+}
+
+/// A function over a box: its values, and its slopes along the two coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slopes {
+    pub(super) value: Interval,
+    pub(super) by: [Interval; 2],
+}
+
+impl Slopes {
+    /// The first coordinate over its range.
+    pub(super) const fn first(range: Interval) -> Self {
+        Self {
+            value: range,
+            by: [Interval::exactly(1.0), Interval::ZERO],
+        }
+    }
+
+    /// The second coordinate over its range.
+    pub(super) const fn second(range: Interval) -> Self {
+        Self {
+            value: range,
+            by: [Interval::ZERO, Interval::exactly(1.0)],
+        }
+    }
+
+    fn hull(self, other: Self, value: Interval) -> Self {
+        Self {
+            value,
+            by: [self.by[0].hull(other.by[0]), self.by[1].hull(other.by[1])],
+        }
+    }
+
+    /// The function of a function: its values, and its derivative over them.
+    fn of(self, value: Interval, derivative: Interval) -> Self {
+        Self {
+            value,
+            by: self.by.map(|slope| slope * derivative),
+        }
+    }
+}
+
+impl Add for Slopes {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            by: [self.by[0] + other.by[0], self.by[1] + other.by[1]],
+        }
+    }
+}
+
+impl Sub for Slopes {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self {
+            value: self.value - other.value,
+            by: [self.by[0] - other.by[0], self.by[1] - other.by[1]],
+        }
+    }
+}
+
+impl Mul for Slopes {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self {
+            value: self.value * other.value,
+            by: [0, 1].map(|i| sum(self.by[i] * other.value, self.value * other.by[i])),
+        }
+    }
+}
+
+impl Div for Slopes {
+    type Output = Self;
+    /// The divisor is positive all over the box.
+    fn div(self, other: Self) -> Self {
+        let inverse = other.value.inverse();
+        let value = product(self.value, inverse);
+        Self {
+            value,
+            by: [0, 1].map(|i| product(difference(self.by[i], product(value, other.by[i])), inverse)),
+        }
+    }
+}
+
+// The rules of differentiation mix operations, which an operator's own body had better not show.
+fn sum(one: Interval, other: Interval) -> Interval {
+    one + other
+}
+fn difference(one: Interval, other: Interval) -> Interval {
+    one - other
+}
+fn product(one: Interval, other: Interval) -> Interval {
+    one * other
+}
+
+impl Number for Slopes {
+    fn constant(value: f64) -> Self {
+        Self {
+            value: Interval::exactly(value),
+            by: [Interval::ZERO; 2],
+        }
+    }
+
+    fn lesser(self, other: Self) -> Self {
+        if self.value.high < other.value.low {
+            return self;
+        }
+        if other.value.high < self.value.low {
+            return other;
+        }
+        let value = Interval {
+            low: self.value.low.lesser(other.value.low),
+            high: self.value.high.lesser(other.value.high),
+        };
+        self.hull(other, value)
+    }
+
+    fn greater(self, other: Self) -> Self {
+        if self.value.low > other.value.high {
+            return self;
+        }
+        if other.value.low > self.value.high {
+            return other;
+        }
+        let value = Interval {
+            low: self.value.low.greater(other.value.low),
+            high: self.value.high.greater(other.value.high),
+        };
+        self.hull(other, value)
+    }
+
+    fn root(self) -> Self {
+        let value = outward(self.value.low.sqrt(), self.value.high.sqrt());
+        self.of(value, Interval::exactly(0.5) * value.inverse())
+    }
+
+    fn arc_tangent(self) -> Self {
+        // Within one unit in the last place (musl), so two are enough.
+        let value = outward(libm::atan(self.value.low), libm::atan(self.value.high));
+        let value = outward(value.low, value.high);
+        let derivative = (Interval::exactly(1.0) + self.value * self.value).inverse();
+        self.of(value, derivative)
+    }
+
+    fn or_down_to_one(self) -> Self {
+        Self {
+            value: Interval {
+                low: 1.0,
+                high: self.value.high,
+            },
+            by: [Interval::UNKNOWN; 2],
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! What is said of parameters that contradict one another as they are given.
+
+use super::show;
+use crate::diag::{Code, Diagnostic};
+use crate::job::{Auto, Bounds, Objective, RoughVcut, Sourced};
+use crate::source::Span;
+use vcutc_backend_api::units::{Angle, Length};
+
+pub(super) fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
+    let (rake, half_apex) = (asked.rake.value, asked.blade.half_apex.value);
+    if rake > half_apex {
+        return;
+    }
+    let span = asked.rake.span.unwrap_or(asked.head_span);
+    diagnostics.push(
+        Diagnostic::new(
+            Code::RakeTooFlat,
+            format!(
+                "with a rake of {} deg the leading edge does not cut",
+                show(rake.to_deg())
+            ),
+            span,
+            format!(
+                "the edge leads the feed by rake less half apex, {} deg",
+                show((rake - half_apex).to_deg())
+            ),
+        )
+        .and(
+            asked.blade.half_apex.span.unwrap_or(asked.blade.span),
+            format!("half the blade's apex angle is {} deg", show(half_apex.to_deg())),
+        )
+        .help(format!(
+            "use a rake well above {} deg, such as {} deg",
+            show(half_apex.to_deg()),
+            show(usual_rake(half_apex).to_deg())
+        ))
+        .fix(
+            "use a rake that cuts",
+            span,
+            format!("{} deg", show(usual_rake(half_apex).to_deg())),
+        ),
+    );
+}
+
+/// The rake of the paper, or for very blunt blades one halfway to upright.
+fn usual_rake(half_apex: Angle) -> Angle {
+    let paper = Angle::deg(60.0);
+    paper.max((half_apex + Angle::deg(90.0)) / 2.0)
+}
+
+pub(super) fn standoff_too_small(asked: &RoughVcut, standoff: Length, least: Length) -> Diagnostic {
+    let blade = &asked.blade;
+    let span = asked.standoff.span.unwrap_or(asked.head_span);
+    let (standoff, least) = (show(standoff.to_mm()), show(least.to_mm()));
+    let thickness = show(blade.thickness.value.to_mm());
+    Diagnostic::new(
+        Code::OutOfRange,
+        format!("with a standoff of {standoff} mm the blade's side would enter the part"),
+        span,
+        format!("less than half the blade's thickness, {least} mm"),
+    )
+    .and(
+        blade.thickness.span.unwrap_or(blade.span),
+        format!("{thickness} mm thick"),
+    )
+    .help(format!("use at least {least} mm, or leave it `auto`"))
+    .fix("let the compiler choose: `auto`", span, "auto")
+}
+
+pub(super) fn extension_too_short(asked: &RoughVcut, extension: Length, least: Length) -> Diagnostic {
+    let blade = &asked.blade;
+    let span = asked.extension.span.unwrap_or(asked.head_span);
+    let (extension, least) = (show(extension.to_mm()), show(least.to_mm()));
+    Diagnostic::new(
+        Code::ExtensionTooShort,
+        format!("with an extension of {extension} mm the blade would turn within the work"),
+        span,
+        format!("the edge lies {least} mm over the work"),
+    )
+    .and(
+        blade.cutting_length.span.unwrap_or(blade.span),
+        format!("{} mm of edge", show(blade.cutting_length.value.to_mm())),
+    )
+    .help(format!("use at least {least} mm, or leave it `auto`"))
+    .fix("let the compiler choose: `auto`", span, "auto")
+}
+
+/// Complains of given values outside of their limits.
+pub(super) fn check_given(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
+    let limits = &asked.limits;
+    let given = [
+        outside(asked, "swing", asked.swing, limits.swing, |swing: Angle| {
+            (swing.to_deg(), "deg")
+        }),
+        outside(asked, "layer", asked.layer, limits.layer, |layer: Length| {
+            (layer.to_mm(), "mm")
+        }),
+        outside(asked, "step", asked.step, limits.step, |step: Length| {
+            (step.to_mm(), "mm")
+        }),
+    ];
+    diagnostics.extend(given.into_iter().flatten());
+}
+
+/// A given value below or above what its limits allow.
+fn outside<T: Copy + PartialOrd>(
+    asked: &RoughVcut,
+    name: &str,
+    value: Sourced<Auto<T>>,
+    bounds: Bounds<T>,
+    in_units: impl Fn(T) -> (f64, &'static str),
+) -> Option<Diagnostic> {
+    let Auto::Given(given) = value.value else {
+        return None;
+    };
+    let text = |value: T| {
+        let (number, unit) = in_units(value);
+        format!("{} {unit}", show(number))
+    };
+    let span = value.span.unwrap_or(asked.head_span);
+    let complaint = |limit: Sourced<T>, side: Side| {
+        let (given, bound) = (text(given), text(limit.value));
+        let (is, compared, at, change) = match side {
+            Side::Below => ("below", "smaller", "at least", "lower"),
+            Side::Above => ("above", "larger", "at most", "raise"),
+        };
+        Diagnostic::new(
+            Code::OutOfRange,
+            format!("a {name} of {given} is {is} its limit of {bound}"),
+            span,
+            format!("{compared} than the limit allows"),
+        )
+        .and(limit.span.unwrap_or(asked.head_span), "the limit")
+        .help(format!("use {at} {bound}, or {change} the limit"))
+        .fix("use the limit", span, bound)
+    };
+    let below = bounds.least.filter(|least| given < least.value);
+    let above = bounds.most.filter(|most| given > most.value);
+    below
+        .map(|least| complaint(least, Side::Below))
+        .or_else(|| above.map(|most| complaint(most, Side::Above)))
+}
+
+/// On which side of a limit a value lies.
+#[derive(Clone, Copy)]
+enum Side {
+    Below,
+    Above,
+}
+
+/// A scallop limit that allowance and standoff alone exceed, whatever the layer.
+pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Diagnostic> {
+    let limit = asked.limits.scallop?;
+    let stays = asked.allowance.value + drop;
+    if limit.value > stays {
+        return None;
+    }
+    let (least, limit_mm) = (show(stays.to_mm()), show(limit.value.to_mm()));
+    let span = limit.span.unwrap_or(asked.head_span);
+    let message = format!("at least {least} mm stay on the part below the tips, the limit is {limit_mm} mm");
+    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, message, span, "the limit");
+    let allowance = (asked.allowance.value > Length::ZERO)
+        .then_some(asked.allowance.span)
+        .flatten();
+    let diagnostic = match allowance {
+        Some(span) => diagnostic.and(span, "this stays on the part"),
+        None => diagnostic,
+    };
+    let diagnostic = if drop > Length::ZERO {
+        let drop = show(drop.to_mm());
+        diagnostic.note(format!(
+            "the blade's standoff keeps its tip {drop} mm above the material that stays"
+        ))
+    } else {
+        diagnostic
+    };
+    Some(diagnostic.help(format!(
+        "set the limit well above {least} mm: what is left of it decides the layer"
+    )))
+}
+
+/// An objective that grows less and less with the layer, without anything that keeps the layer from vanishing. `layer` is
+/// one that works.
+pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, layer: Length) -> Diagnostic {
+    let what = match asked.objective.value {
+        Objective::Scallop => "the scallop",
+        Objective::BladeLoad => "the length of edge in use",
+        Objective::Time => "the time",
+        Objective::Cuts => "the number of cuts",
+    };
+    let objective = asked.objective.span.unwrap_or(asked.head_span);
+    let limit = format!("layer >= {} mm", show(layer.to_mm()));
+    let diagnostic = Diagnostic::new(
+        Code::NoLeastLayer,
+        format!("the thinner the layer, the less {what}: nothing here holds the layer"),
+        objective,
+        "needs a limit that holds the layer",
+    )
+    .help("limit `time` or `cuts` from above, or `layer` or `step` from below");
+    let (at, text) = match last_limit(asked) {
+        Some(last) => (
+            Span {
+                start: last.end,
+                ..last
+            },
+            format!(", {limit}"),
+        ),
+        None => (
+            Span {
+                start: objective.end,
+                ..objective
+            },
+            format!(" limits {{ {limit} }}"),
+        ),
+    };
+    diagnostic.fix(format!("add `{limit}`"), at, text)
+}
+
+/// Where the last of the limits stands.
+fn last_limit(asked: &RoughVcut) -> Option<Span> {
+    let limits = &asked.limits;
+    [
+        limits.swing.least.and_then(|limit| limit.span),
+        limits.swing.most.and_then(|limit| limit.span),
+        limits.layer.most.and_then(|limit| limit.span),
+        limits.step.most.and_then(|limit| limit.span),
+        limits.scallop.and_then(|limit| limit.span),
+        limits.edge.and_then(|limit| limit.span),
+    ]
+    .into_iter()
+    .flatten()
+    .max_by_key(|span| span.end)
+}
