@@ -58,7 +58,7 @@ fn a_cut_into_the_part_is_found_with_its_place_and_depth() {
         .cuts
         .iter()
         .rev()
-        .find(|cut| cut.tip.z <= lowest)
+        .find(|cut| cut.tip.z <= lowest && (1.0..84.0).contains(&cut.tip.x))
         .unwrap()
         .tip;
     let bump = Profile::new(vec![

@@ -241,7 +241,11 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
             format!("{:?} {:?}", vcut.parameters.lattice, vcut.order),
             format!("{:?} by {:?}", vcut.sequence, vcut.order),
         ]);
-        subjects.extend(vcut.decisions.iter().map(|decision| format!("{} compared", decision.field)));
+        subjects.extend(
+            vcut.decisions
+                .iter()
+                .map(|decision| format!("{} compared", decision.field)),
+        );
         for cut in &vcut.cuts {
             subjects.insert(match cut.origin {
                 TipOrigin::Lattice => "tip on the lattice".to_owned(),

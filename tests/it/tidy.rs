@@ -31,10 +31,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
-    (
-        "choice",
-        &["diag", "job", "lower", "plan", "sim", "source"],
-    ),
+    ("choice", &["diag", "job", "lower", "plan", "sim", "source"]),
     ("summary", &["plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
@@ -66,7 +63,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "placement",
         &[
-            "choice", "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source", "verdict",
+            "choice", "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source",
+            "verdict",
         ],
     ),
     (
