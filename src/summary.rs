@@ -1,5 +1,6 @@
 //! The figures of a program for people: a few lines behind a compilation.
 
+use crate::plan::decision::{Decision, Standing};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach_summary::{self, ReachFigures};
@@ -34,6 +35,9 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
         let reasons = vcut.parameters.reasons(&vcut.asked);
         if !reasons.is_empty() {
             lines.push(row("bound by", &reasons.join(", ")));
+        }
+        for decision in &vcut.decisions {
+            lines.push(row(decision.field, &compared(decision)));
         }
     }
     let t = &report.timing;
@@ -86,6 +90,33 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
+}
+
+/// `mixed: 1 min 52.0 s; lift 1 min 58.3 s; discard leaves 11.2 mm (limit 10 mm)`.
+fn compared(decision: &Decision) -> String {
+    let others = decision
+        .others
+        .iter()
+        .map(|other| format!("; {} {}", other.what, standing(other.standing)));
+    let taken = &decision.taken;
+    format!("{}: {}", taken.what, standing(taken.standing)) + &others.collect::<String>()
+}
+
+fn standing(standing: Standing) -> String {
+    match standing {
+        Standing::Takes(duration) => time(duration),
+        Standing::Leaves { height, limit } => format!(
+            "leaves {:.2} mm (limit {} mm)",
+            height.to_mm(),
+            show((limit.to_mm() * 100.0).floor() / 100.0)
+        ),
+        Standing::Fails(1) => "leaves a chip".to_owned(),
+        Standing::Fails(count) => format!("leaves {count} chips"),
+        Standing::Impossible => "cuts nothing".to_owned(),
+        Standing::ByModel(duration) => format!("{} by the model, not planned", time(duration)),
+        Standing::Last => "the machine does not follow the others".to_owned(),
+        Standing::NotCompared => "not compared, there are too many cuts".to_owned(),
+    }
 }
 
 fn row(name: &str, text: &str) -> String {

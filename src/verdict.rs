@@ -2,13 +2,14 @@
 //!
 //! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
 
+use crate::choice::{self, Latitude};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, Operation, Residual, RoughVcut};
 use crate::lower;
 use crate::plan::grid;
 use crate::plan::parameters::{self, show};
-use crate::plan::{self, PlannedJob, PlannedOperation, PlannedVcut};
+use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Replay};
 use crate::sim::report::{Report, report};
 use crate::sim::timing::timing;
@@ -201,15 +202,17 @@ fn not_freed(
                 None => diagnostic,
             }
         }
-        Some(Remedy::ResidualAuto) => {
+        Some(Remedy::ResidualMixed) => {
             let diagnostic = diagnostic.note(
                 "cuts dropped, raised or moved to clear the part left more material than the lattice assumes",
             );
             match asked.residual.span {
-                Some(span) => {
-                    diagnostic.fix("let the compiler mend such cuts: `residual = auto`", span, "auto")
-                }
-                None => diagnostic.help("add `residual = auto`, which mends such cuts"),
+                Some(span) => diagnostic.fix(
+                    "let the compiler mend such cuts: `residual = mixed`",
+                    span,
+                    "mixed",
+                ),
+                None => diagnostic.help("add `residual = mixed`, which mends such cuts"),
             }
         }
         None => diagnostic.help("use a longer blade, a smaller `swing` or a smaller `step`"),
@@ -254,11 +257,11 @@ enum Remedy {
     LargestLayer(Length),
     /// A smaller layer than closed form says: one that has been tried.
     SmallerLayer(Length),
-    /// `residual = auto`.
-    ResidualAuto,
+    /// `residual = mixed`.
+    ResidualMixed,
 }
 
-/// The first change that makes the job prove: `residual = auto` where the lattice itself fits the blade, else another
+/// The first change that makes the job prove: `residual = mixed` where the lattice itself fits the blade, else another
 /// step, else the largest layer by closed form, else smaller ones.
 fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Option<Remedy> {
     let asked = &vcut.asked;
@@ -267,7 +270,7 @@ fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Optio
         && vcut.parameters.lattice_fits()
         && works(&|asked| asked.residual.value = Auto::Given(Residual::Mixed))
     {
-        return Some(Remedy::ResidualAuto);
+        return Some(Remedy::ResidualMixed);
     }
     let largest = match asked.step.value {
         Auto::Auto => parameters::largest_layer(asked, &vcut.parameters),
@@ -304,20 +307,22 @@ fn attempt(
     let mut changed = job.clone();
     let Operation::RoughVcut(asked) = changed.operations.get_mut(usize::from(operation.0))?;
     change(asked);
-    planned_and_proven(&changed)
+    planned_and_proven(&changed, Latitude::Full)
 }
 
-fn planned_and_proven(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
-    let (plan, diagnostics) = plan::choose(job);
+fn planned_and_proven(job: &CheckedJob, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
+    let (plan, diagnostics) = choice::choose_within(job, latitude);
     let plan = plan.filter(|_| diagnostics.is_empty())?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
     (proven.findings == Findings::default()).then_some((plan, proven))
 }
 
-/// The plan and proof of a job that has nothing wrong with its cuts.
+/// The plan and proof of a job that has nothing wrong with its cuts, along the route that any machine follows best, as the
+/// compiler takes it when the machine follows no other.
 #[must_use]
 pub fn sound(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
-    planned_and_proven(job).filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
+    planned_and_proven(job, Latitude::RowsByPoint)
+        .filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
 }
 
 /// Whether the job plans and proves with a change of one operation.

@@ -7,10 +7,11 @@ mod target;
 
 pub use crate::sema::Typed;
 
+use crate::choice::{self, Latitude};
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::numbers::Numbers;
-use crate::plan::{self, PlannedJob};
+use crate::plan::PlannedJob;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
@@ -171,57 +172,75 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
 
 fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
-    progress(Stage::Planning);
-    let (plan, diagnostics) = plan::choose(job);
-    outcome.diagnostics.extend(diagnostics);
-    let Some(plan) = plan else { return };
-    progress(Stage::Proving);
-    match verdict::prove(&plan, &outcome.sources) {
-        Ok(proven) => {
-            outcome.diagnostics.extend(verdict::diagnose(job, &plan, &proven));
-            if !has_errors(&outcome.diagnostics) {
-                match reach(job, &plan, proven.program, progress) {
-                    Ok(program) => {
-                        let figures = program.reached().map(reach_summary::figures);
-                        let mut report = proven.report;
-                        // Travels that became moves of all axes take another time.
-                        report.timing = timing(program.verified());
-                        let op_times = op_times(program.verified());
-                        let summary = summary(&plan, &report, figures.as_ref());
-                        outcome.compiled = Some(Compiled {
-                            program,
-                            figures,
-                            numbers: Numbers::of(&plan, &report),
-                            report,
-                            op_times,
-                            summary,
-                        });
+    let mut latitude = Latitude::Full;
+    loop {
+        progress(Stage::Planning);
+        let (plan, mut told) = choice::choose_within(job, latitude);
+        let Some(plan) = plan else {
+            outcome.diagnostics.extend(told);
+            return;
+        };
+        progress(Stage::Proving);
+        match verdict::prove(&plan, &outcome.sources) {
+            Ok(proven) => {
+                told.extend(verdict::diagnose(job, &plan, &proven));
+                if !has_errors(&told) {
+                    match reach(job, proven.program, progress) {
+                        Ok(program) => outcome.compiled = Some(compiled(program, &plan, proven.report)),
+                        Err(unreached) => {
+                            // The fastest routes ask the most of a machine.
+                            if let Some(narrower) = latitude.narrower_than(&plan) {
+                                latitude = narrower;
+                                continue;
+                            }
+                            told.extend(unreached_in_words(job, &plan, &unreached));
+                        }
                     }
-                    Err(diagnostics) => outcome.diagnostics.extend(diagnostics),
                 }
             }
+            Err(faults) => told.push(internal(job, &rules_broken(&faults))),
         }
-        Err(faults) => outcome.diagnostics.push(internal(job, &rules_broken(&faults))),
+        outcome.diagnostics.extend(told);
+        outcome.plan = Some(plan);
+        return;
     }
-    outcome.plan = Some(plan);
+}
+
+fn compiled(program: Finished, plan: &PlannedJob, mut report: Report) -> Compiled {
+    let figures = program.reached().map(reach_summary::figures);
+    // Travels that became moves of all axes take another time.
+    report.timing = timing(program.verified());
+    let op_times = op_times(program.verified());
+    let summary = summary(plan, &report, figures.as_ref());
+    Compiled {
+        program,
+        figures,
+        numbers: Numbers::of(plan, &report),
+        report,
+        op_times,
+        summary,
+    }
 }
 
 /// Finds how the job's machine carries out its program; a job without a machine has nothing to find.
 fn reach(
     job: &CheckedJob,
-    plan: &PlannedJob,
     program: VerifiedProgram,
     progress: &mut dyn FnMut(Stage),
-) -> Result<Finished, Vec<Diagnostic>> {
+) -> Result<Finished, Unreached> {
     let Some(machine) = &job.machine else {
         return Ok(Finished::WithoutMachine(Box::new(program)));
     };
     progress(Stage::Reaching);
-    match solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir) {
-        Ok(reached) => Ok(Finished::Reached(Box::new(reached))),
-        Err(Unreached::Unreachable(unreachable)) => Err(reach_verdict::diagnose(job, plan, &unreachable)),
-        Err(Unreached::Rules(faults)) => Err(vec![internal(job, &rules_broken(&faults))]),
-        Err(Unreached::Motion(faults)) => Err(vec![internal(job, &motions_broken(&faults))]),
+    let reached = solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir)?;
+    Ok(Finished::Reached(Box::new(reached)))
+}
+
+fn unreached_in_words(job: &CheckedJob, plan: &PlannedJob, unreached: &Unreached) -> Vec<Diagnostic> {
+    match unreached {
+        Unreached::Unreachable(unreachable) => reach_verdict::diagnose(job, plan, unreachable),
+        Unreached::Rules(faults) => vec![internal(job, &rules_broken(faults))],
+        Unreached::Motion(faults) => vec![internal(job, &motions_broken(faults))],
     }
 }
 

@@ -1,10 +1,11 @@
 //! Programs of all orders, directions and edges: what every one of them must do, read from its ops.
 
 use super::lower;
+use crate::choice::choose;
 use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, Direction, Order};
 use crate::plan::tests::{operation, paper_job};
-use crate::plan::{PlannedOperation, PlannedVcut, Way, choose};
+use crate::plan::{PlannedOperation, PlannedVcut, Way};
 use crate::source::SourceMap;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Orientation, Point3};

@@ -2,15 +2,20 @@
 //!
 //! Cuts start and end an extension away from the stock, where the blade may turn. In `point` order both flanks of a V are
 //! cut before the next one: there with the shank leaning left, turn about the still tip, back with the shank leaning right,
-//! and over to the next V while turning back [Cui 2020]. In `layer` order all left flanks of a layer come first, to and fro,
+//! and over to the next V while turning back [Cui 2020]. In `layer` order all left flanks of a run come first, to and fro,
 //! then all right flanks on the way back [Yu 2019]. With one feed direction only, every cut is followed by a way back over the
 //! safe plane.
+//!
+//! A layer's cuts are numbered from left to right whatever the order in which they are made, so that a number is a place in
+//! the plan. From one run to the next the blade goes over the safe plane, or where the plan says so beside the work: across
+//! at the higher of both tips, and straight down to the lower one.
 //!
 //! From home the blade comes by a move of all axes, which alone can say how the arm is to stand there; everything after it
 //! moves on straight lines.
 
 use super::builder::Builder;
 use crate::job::{Direction, Order};
+use crate::plan::route::{self, Heading, Run};
 use crate::plan::{PlannedCut, PlannedVcut, Way, grid};
 use crate::posture::{Feed, Holder};
 use core::num::NonZeroU32;
@@ -34,21 +39,29 @@ pub(super) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut Buil
         source,
     });
     let mut writer = Writer::new(planned, operation, builder);
-    for (layer, cuts) in layers(&planned.cuts) {
-        writer.layer(layer, cuts);
+    let numbers = numbers(&planned.cuts);
+    for run in &planned.runs {
+        let cuts = planned.cuts.get(run.cuts.clone()).unwrap_or_default();
+        let numbers = numbers.get(run.cuts.clone()).unwrap_or_default();
+        writer.run(run, cuts, numbers);
     }
+    writer.leave();
     writer.builder.op(
         Site::Operation(operation),
         Action::Ultrasonic { state: Switch::Off },
     );
 }
 
-/// The cuts layer by layer.
-fn layers(cuts: &[PlannedCut]) -> impl Iterator<Item = (NonZeroU32, &[PlannedCut])> {
-    cuts.chunk_by(|a, b| a.layer == b.layer).filter_map(|layer| {
-        let number = NonZeroU32::new(layer.first()?.layer)?;
-        Some((number, layer))
-    })
+/// Layer and number of each cut, counted from left to right in each layer.
+fn numbers(cuts: &[PlannedCut]) -> Vec<(NonZeroU32, NonZeroU32)> {
+    let mut numbers = Vec::with_capacity(cuts.len());
+    for layer in route::layers(cuts) {
+        for (index, cut) in (0_u32..).zip(cuts.get(layer).unwrap_or_default()) {
+            let counted = |before| NonZeroU32::MIN.saturating_add(before);
+            numbers.push((counted(cut.layer.saturating_sub(1)), counted(index)));
+        }
+    }
+    numbers
 }
 
 /// One pass of the blade: which flank of which V.
@@ -58,7 +71,18 @@ struct Pass {
     x: f64,
     z: f64,
     flank: Flank,
-    way: Way,
+    entrance: Entrance,
+}
+
+/// How the blade gets to the start of a pass.
+#[derive(Clone, Copy, PartialEq)]
+enum Entrance {
+    /// Over the safe plane.
+    Over,
+    /// Straight there, beside the work.
+    Straight,
+    /// Across at the higher of both tips, and straight down or up, beside the work.
+    Level,
 }
 
 /// Where the blade is between passes.
@@ -127,45 +151,82 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Cuts a layer and leaves it.
-    fn layer(&mut self, layer: NonZeroU32, cuts: &[PlannedCut]) {
+    /// Makes the cuts of a run.
+    fn run(&mut self, run: &Run, cuts: &[PlannedCut], numbers: &[(NonZeroU32, NonZeroU32)]) {
         let operation = self.operation;
-        let pass = |(index, cut): (u32, &PlannedCut), flank, way| {
-            let number = NonZeroU32::MIN.saturating_add(index);
-            Pass {
-                site: Site::Cut {
+        let mut places: Vec<(&PlannedCut, Site)> = cuts
+            .iter()
+            .zip(numbers)
+            .map(|(planned, &(layer, cut))| {
+                let site = Site::Cut {
                     operation,
                     layer,
-                    cut: number,
-                },
+                    cut,
+                };
+                (planned, site)
+            })
+            .collect();
+        // The way between two neighbours is that of the right one.
+        let mut ways: Vec<Way> = cuts.iter().skip(1).map(|cut| cut.way).collect();
+        match run.heading {
+            Heading::Rightwards => {}
+            Heading::Leftwards => {
+                places.reverse();
+                ways.reverse();
+            }
+        }
+        let first = match run.way {
+            Way::Over => Entrance::Over,
+            Way::Beside => Entrance::Level,
+        };
+        let between = ways.iter().map(|way| match way {
+            Way::Over => Entrance::Over,
+            Way::Beside => Entrance::Straight,
+        });
+        let entrances: Vec<Entrance> = core::iter::once(first).chain(between).collect();
+        let pass = |flank| {
+            move |(&(cut, site), &entrance): (&(&PlannedCut, Site), &Entrance)| Pass {
+                site,
                 x: cut.tip.x,
                 z: cut.tip.z,
                 flank,
-                way,
+                entrance,
             }
         };
-        let numbered = || (0_u32..).zip(cuts);
+        let lefts = places.iter().zip(&entrances).map(pass(Flank::Left));
+        // A right flank of its own is cut where the blade is; on the way back, a cut is reached by the way that led from it
+        // to the next one.
+        let here = core::iter::repeat(&Entrance::Straight);
         match self.order {
             Order::Point => {
-                for cut in numbered() {
-                    self.pass(pass(cut, Flank::Left, cut.1.way));
-                    self.pass(pass(cut, Flank::Right, Way::Beside));
+                let rights = places.iter().zip(here).map(pass(Flank::Right));
+                for (left, right) in lefts.zip(rights) {
+                    self.pass(left);
+                    self.pass(right);
                 }
             }
             Order::Layer => {
-                for cut in numbered() {
-                    self.pass(pass(cut, Flank::Left, cut.1.way));
-                }
-                // On the way back, a cut is reached by the way that led from it to the next one.
-                let back: Vec<_> = numbered().collect();
-                let mut way = Way::Beside;
-                for &cut in back.iter().rev() {
-                    self.pass(pass(cut, Flank::Right, way));
-                    way = cut.1.way;
-                }
+                lefts.for_each(|left| self.pass(left));
+                let back = here.take(1).chain(entrances.iter().skip(1).rev());
+                let rights = places.iter().rev().zip(back).map(pass(Flank::Right));
+                rights.for_each(|right| self.pass(right));
             }
         }
-        self.retract(Site::Layer { operation, layer });
+    }
+
+    /// Up from the last cut.
+    fn leave(&mut self) {
+        if let Some(site) = self.layer_at_hand() {
+            self.retract(site);
+        }
+    }
+
+    /// The layer of the cut made last.
+    fn layer_at_hand(&self) -> Option<Site> {
+        match self.last? {
+            Site::Cut { operation, layer, .. } => Some(Site::Layer { operation, layer }),
+            Site::Program | Site::Operation(_) | Site::Layer { .. } => None,
+        }
     }
 
     /// Cuts one flank, from wherever the blade is.
@@ -176,15 +237,17 @@ impl<'b> Writer<'b> {
             (Direction::Backward, _) => Feed::Backward,
         };
         let over = match self.direction {
-            Direction::Alternate => pass.way == Way::Over,
+            Direction::Alternate => pass.entrance == Entrance::Over,
             Direction::Forward | Direction::Backward => true,
         };
         if over && self.at != Place::Above {
-            self.retract(pass.site);
+            let site = self.way_up_to(pass);
+            self.retract(site);
         }
-        match self.at {
-            Place::Above => self.descend(pass, feed),
-            Place::Beside(_) => self.go_beside(pass, feed),
+        match (self.at, pass.entrance) {
+            (Place::Above, _) => self.descend(pass, feed),
+            (Place::Beside(_), Entrance::Level) => self.go_level(pass, feed),
+            (Place::Beside(_), Entrance::Over | Entrance::Straight) => self.go_beside(pass, feed),
         }
         let end = Point3 {
             y: self.far(feed),
@@ -221,7 +284,15 @@ impl<'b> Writer<'b> {
             self.builder.op(way, Action::AwaitReady);
             self.running = Switch::On;
         }
-        let start = Point3 { z: pass.z, ..above };
+        self.lower(pass);
+    }
+
+    /// Straight down to the start of a cut.
+    fn lower(&mut self, pass: Pass) {
+        let start = Point3 {
+            z: pass.z,
+            ..self.tip
+        };
         self.builder.op(
             pass.site,
             Action::Approach {
@@ -241,6 +312,33 @@ impl<'b> Writer<'b> {
             self.turn(pass.site, posture);
         } else {
             self.travel(pass.site, start, posture);
+        }
+    }
+
+    /// From beside the work to the start of a cut of another run on the same side.
+    fn go_level(&mut self, pass: Pass, feed: Feed) {
+        if pass.z > self.tip.z {
+            self.rise(pass.site, pass.z);
+        }
+        let level = Pass {
+            z: self.tip.z.max(pass.z),
+            ..pass
+        };
+        self.go_beside(level, feed);
+        if pass.z < self.tip.z {
+            self.lower(pass);
+        }
+    }
+
+    /// What the way up before a pass serves: the layer that it leaves for good or for now, else the pass.
+    fn way_up_to(&self, pass: Pass) -> Site {
+        let layer = |site: Site| match site {
+            Site::Cut { operation, layer, .. } => Some((operation, layer)),
+            Site::Program | Site::Operation(_) | Site::Layer { .. } => None,
+        };
+        match self.layer_at_hand() {
+            Some(left) if self.last.and_then(layer) != layer(pass.site) => left,
+            Some(_) | None => pass.site,
         }
     }
 
@@ -279,10 +377,13 @@ impl<'b> Writer<'b> {
 
     /// Straight up to the safe plane.
     fn retract(&mut self, site: Site) {
-        let to = Point3 {
-            z: self.safe,
-            ..self.tip
-        };
+        self.rise(site, self.safe);
+        self.at = Place::Above;
+    }
+
+    /// Straight up.
+    fn rise(&mut self, site: Site, z: f64) {
+        let to = Point3 { z, ..self.tip };
         self.builder.op(
             site,
             Action::Retract {
@@ -291,7 +392,6 @@ impl<'b> Writer<'b> {
             },
         );
         self.tip = to;
-        self.at = Place::Above;
     }
 
     /// Where a cut with that feed starts.

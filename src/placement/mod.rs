@@ -11,10 +11,11 @@ pub mod report;
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
+use crate::choice::{self, Latitude};
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{Request, Stage, internal, rules_broken};
 use crate::job::{CheckedJob, Machine};
-use crate::plan::{self, PlannedJob};
+use crate::plan::PlannedJob;
 use crate::reach::place::Spot;
 use crate::reach::place::score::Judge;
 use crate::reach::place::search::{Bounds, Criteria, Placed, search};
@@ -156,7 +157,8 @@ fn prepare(
         return Err(Failed::Diagnostics(vec![without_machine(&job)]));
     };
     progress(Stage::Planning);
-    let (plan, found) = plan::choose(&job);
+    // Where the machine follows these routes, the job compiles, whatever faster ones there are.
+    let (plan, found) = choice::choose_within(&job, Latitude::RowsByPoint);
     diagnostics.extend(found);
     let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
         return Err(Failed::Diagnostics(diagnostics));

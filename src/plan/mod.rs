@@ -1,19 +1,22 @@
 //! From a checked job to the cuts that carry it out.
 //!
-//! [`choose`] resolves every `auto` ([`parameters`]), lays tips out layer by layer ([`lattice`]), decides what becomes of
-//! tips that would cut the part ([`residual`]), and keeps a surface of its own while it goes, because whether a tip can be
-//! cut depends on what has been cut before. It promises nothing: the cuts are proven later, from the program.
+//! The open parameters are decided first ([`parameters`]). [`lay_out`] lays tips out layer by layer ([`lattice`]), decides what
+//! becomes of tips that would cut the part ([`residual`]), and keeps a surface of its own while it goes, because whether a
+//! tip can be cut depends on what has been cut before. [`route`] puts the cuts in order. Nothing is promised: the cuts are
+//! proven later, from the program. Which of several plans is taken where the job leaves the choice open, `choice` says.
 //!
 //! Tips lie on a grid of a micrometre ([`grid`]), so that a program printed with three decimals says exactly what was
 //! planned and proven.
 
 pub mod blade_reach;
 mod complaints;
+pub mod decision;
 pub mod grid;
 pub mod lattice;
 pub mod optimum;
 pub mod parameters;
 pub mod residual;
+pub mod route;
 pub mod time_model;
 
 #[cfg(test)]
@@ -27,7 +30,10 @@ use crate::geom::profile::Profile;
 use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence};
 use crate::sim::surface::Surface;
 use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
+use decision::Decision;
 use parameters::VcutParameters;
+use residual::Strategies;
+use route::Run;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
 
@@ -72,6 +78,10 @@ pub struct PlannedVcut {
     pub estimate: Duration,
     /// The cuts, layer by layer, each layer from left to right.
     pub cuts: Vec<PlannedCut>,
+    /// In which order they are made: every cut in one run.
+    pub runs: Vec<Run>,
+    /// Why it came out so, where the job left the choice open.
+    pub decisions: Vec<Decision>,
 }
 
 /// One V-cut.
@@ -83,7 +93,7 @@ pub struct PlannedCut {
     pub tip: Point2,
     /// How the tip came to be where it is.
     pub origin: TipOrigin,
-    /// How the blade gets there from the cut before in the same layer.
+    /// How the blade gets from the cut left of it in the same layer to it, or back; over the safe plane if there is none.
     pub way: Way,
 }
 
@@ -119,82 +129,99 @@ pub const MOST_OPERATIONS: usize = 1000;
 /// planner's work: at large overlaps every flank passes many.
 const MOST_PASSED: f64 = 2e8;
 
-/// Makes every choice. Without errors there is a plan.
-#[must_use]
-pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
-    let mut diagnostics = Vec::new();
-    let mut surface = Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm());
-    let mut operations = Vec::new();
-    let mut cuts_left = MOST_CUTS;
-    if let Some(Operation::RoughVcut(asked)) = job.operations.get(MOST_OPERATIONS) {
-        return (None, vec![too_many_operations(asked, job.operations.len())]);
-    }
-    for operation in &job.operations {
-        let planned = match operation {
-            Operation::RoughVcut(asked) => plan_vcut(job, asked, cuts_left, &mut surface, &mut diagnostics),
-        };
-        cuts_left -= planned.as_ref().map_or(0, |vcut| vcut.cuts.len());
-        operations.extend(planned.map(PlannedOperation::RoughVcut));
-    }
-    let planned = (operations.len() == job.operations.len()).then(|| PlannedJob {
-        name: job.name.clone(),
-        stock: job.stock,
-        profile: job.profile.clone(),
-        machine: job.machine.clone(),
-        operations,
-    });
-    (planned, diagnostics)
+/// An operation laid out.
+#[derive(Clone, Debug)]
+pub struct LaidOut {
+    /// The operation, cut in rows.
+    pub vcut: PlannedVcut,
+    /// What it leaves of the stock.
+    pub after: Surface,
+    /// Whether another residual strategy would have come to other cuts.
+    pub strategies: Strategies,
 }
 
-fn plan_vcut(
+/// Lays out the cuts of an operation with these parameters on what those before left. A residual strategy that it leaves open
+/// is taken as `mixed`: where there is a choice, give the operation with the choice made.
+///
+/// # Errors
+/// What keeps the operation from being cut at all.
+pub fn lay_out(
     job: &CheckedJob,
     asked: &RoughVcut,
+    parameters: VcutParameters,
     cuts_left: usize,
-    surface: &mut Surface,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<PlannedVcut> {
-    let parameters = parameters::resolve(job, asked, diagnostics)?;
+    before: &Surface,
+) -> Result<LaidOut, Vec<Diagnostic>> {
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
     if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
-        diagnostics.push(too_many_cuts(asked, &parameters, layout.most_tips()));
-        return None;
+        return Err(vec![too_many_cuts(asked, &parameters, layout.most_tips())]);
     }
     let strategy = asked.residual.value.or(Residual::Mixed);
-    let planner = residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, surface);
-    let mut cuts = plan_layers(planner, &layout, cuts_left);
-    if cuts.as_ref().is_ok_and(Vec::is_empty) && strategy == Residual::Mixed {
-        // Where all there is to cut is less than what may stay, `auto` takes it rather than nothing.
+    let mut after = before.clone();
+    let planner =
+        residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, &mut after);
+    let mut decided = plan_layers(planner, &layout, cuts_left);
+    if decided.as_ref().is_ok_and(|(cuts, _)| cuts.is_empty()) && strategy == Residual::Mixed {
+        // Where all there is to cut is less than what may stay, `mixed` takes it rather than nothing.
         let planner =
-            residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, surface);
-        cuts = plan_layers(planner.thorough(), &layout, cuts_left);
+            residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, &mut after);
+        decided = plan_layers(planner.thorough(), &layout, cuts_left);
     }
-    let cuts = match cuts {
-        Ok(cuts) if cuts.is_empty() => {
-            diagnostics.push(nothing_to_cut(job, asked, &parameters, &clearance));
-            return None;
+    let (cuts, strategies) = match decided {
+        Ok((cuts, _)) if cuts.is_empty() => {
+            return Err(vec![nothing_to_cut(job, asked, &parameters, &clearance)]);
         }
-        Ok(cuts) => cuts,
-        Err(count) => {
-            diagnostics.push(too_many_cuts(asked, &parameters, count));
-            return None;
-        }
+        Ok(decided) => decided,
+        Err(count) => return Err(vec![too_many_cuts(asked, &parameters, count)]),
     };
     let estimate =
         parameters
             .time_model(job, asked)
             .estimate(parameters.swing, parameters.layer, parameters.step);
-    Some(PlannedVcut {
+    let vcut = PlannedVcut {
         asked: asked.clone(),
         parameters,
         strategy,
         order: asked.order.value.or(Order::Point),
-        sequence: asked.sequence.value.or(Sequence::Rows),
+        sequence: Sequence::Rows,
         bound,
         estimate,
         cuts,
+        runs: Vec::new(),
+        decisions: Vec::new(),
+    };
+    let order = vcut.order;
+    Ok(LaidOut {
+        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
+        after,
+        strategies,
     })
+}
+
+impl PlannedVcut {
+    /// The same cuts in another order.
+    #[must_use]
+    pub fn along(mut self, order: Order, sequence: Sequence, before: &Surface, stock: Stock) -> Self {
+        let terrain = route::Terrain {
+            cuts: &self.cuts,
+            before,
+            parameters: &self.parameters,
+            safe: (stock.height + self.asked.clearance.value).to_mm(),
+        };
+        self.runs = route::route(terrain, sequence, order);
+        self.order = order;
+        self.sequence = sequence;
+        self
+    }
+}
+
+/// A job of more operations than are planned.
+#[must_use]
+pub fn refuse_operations(job: &CheckedJob) -> Option<Diagnostic> {
+    let Operation::RoughVcut(asked) = job.operations.get(MOST_OPERATIONS)?;
+    Some(too_many_operations(asked, job.operations.len()))
 }
 
 /// The cuts of all layers, or how many there were when there were too many.
@@ -202,7 +229,7 @@ fn plan_layers(
     mut planner: residual::LayerPlanner<'_>,
     layout: &lattice::Layout<'_>,
     cuts_left: usize,
-) -> Result<Vec<PlannedCut>, usize> {
+) -> Result<(Vec<PlannedCut>, Strategies), usize> {
     for layer in 1..=layout.layers() {
         planner.layer(layer);
         if planner.count() > cuts_left {

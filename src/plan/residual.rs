@@ -26,6 +26,15 @@ struct Candidate {
     neighbours: [Option<f64>; 2],
 }
 
+/// Whether it matters what becomes of tips that would cut the part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strategies {
+    /// There are none, and all strategies come to the same cuts.
+    Alike,
+    /// There are some.
+    Differing,
+}
+
 /// Decides one layer after the other.
 pub struct LayerPlanner<'p> {
     layout: &'p Layout<'p>,
@@ -43,6 +52,8 @@ pub struct LayerPlanner<'p> {
     closed: [Vec<bool>; 2],
     cuts: Vec<PlannedCut>,
     layers_cut: u32,
+    /// Whether any tip was anything but a lattice point that comes free.
+    matters: Strategies,
 }
 
 impl<'p> LayerPlanner<'p> {
@@ -78,6 +89,7 @@ impl<'p> LayerPlanner<'p> {
             closed: [Vec::new(), Vec::new()],
             cuts: Vec::new(),
             layers_cut: 0,
+            matters: Strategies::Alike,
         }
     }
 
@@ -133,10 +145,10 @@ impl<'p> LayerPlanner<'p> {
         self.cuts.len()
     }
 
-    /// The cuts decided.
+    /// The cuts decided, and whether another strategy would have decided otherwise.
     #[must_use]
-    pub fn finish(self) -> Vec<PlannedCut> {
-        self.cuts
+    pub fn finish(self) -> (Vec<PlannedCut>, Strategies) {
+        (self.cuts, self.matters)
     }
 
     fn take(&mut self, tips: Vec<(Point2, TipOrigin)>) {
@@ -177,6 +189,7 @@ impl<'p> LayerPlanner<'p> {
         index: usize,
         candidate: Candidate,
     ) -> Option<(Point2, TipOrigin)> {
+        self.matters = Strategies::Differing;
         let column = candidate.column;
         match self.strategy {
             Residual::Discard => None,
@@ -245,6 +258,7 @@ impl<'p> LayerPlanner<'p> {
         if !self.relieves || self.comes_free(tip) {
             return Some((tip, origin));
         }
+        self.matters = Strategies::Differing;
         self.relieved(tip)
     }
 

@@ -103,7 +103,7 @@ fn a_profile() -> impl Strategy<Value = Vec<Point2>> {
 }
 
 prop_compose! {
-    fn a_job()(
+    pub(crate) fn a_job()(
         profile in a_profile(),
         lattice in prop::sample::select(vec![Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free]),
         order in prop::sample::select(vec![Order::Point, Order::Layer]),
@@ -138,7 +138,7 @@ prop_compose! {
 fn planned_and_proven(
     job: &CheckedJob,
 ) -> Result<Option<(super::PlannedJob, verdict::Proven)>, TestCaseError> {
-    let (plan, diagnostics) = super::choose(job);
+    let (plan, diagnostics) = crate::choice::choose(job);
     let Some(plan) = plan else {
         prop_assert!(!diagnostics.is_empty());
         return Ok(None);

@@ -15,6 +15,7 @@ use super::surface::{Side, Surface, Vee};
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use core::num::NonZeroU32;
+use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Flank, OperationId, OrientationId, Program, Site};
 use vcutc_backend_api::units::{Angle, Length};
@@ -105,7 +106,15 @@ pub struct Replay {
 /// Replays a program's cuts. `bounds` are the operations' own, in order.
 #[must_use]
 pub fn replay(program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
-    let mut player = Player::new(program.program(), bounds);
+    let stock = program.program().stock;
+    let untouched = Surface::flat(stock.width.to_mm(), stock.height.to_mm());
+    replay_on(untouched, program, bounds)
+}
+
+/// Replays the cuts of a program on what others have left of the stock.
+#[must_use]
+pub fn replay_on(surface: Surface, program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
+    let mut player = Player::new(surface, program.program(), bounds);
     for op in &program.program().ops {
         player.op(op.site, op.action);
     }
@@ -134,31 +143,30 @@ struct Player<'p> {
     /// Geometry of each orientation with the blade of the operation at hand.
     flanks: Vec<FlankGeometry>,
     operation: Option<OperationId>,
-    layer: Option<NonZeroU32>,
-    /// First flanks done in the layer at hand, by cut number less one.
-    half_done: Vec<Option<Flank>>,
+    /// Vs of which one flank is done, by layer and cut.
+    half_done: BTreeSet<(NonZeroU32, NonZeroU32)>,
     findings: Findings,
     longest_edge: f64,
-    layers: Vec<(OperationId, usize)>,
+    /// How many cuts each layer has.
+    layers: BTreeMap<(OperationId, NonZeroU32), usize>,
 }
 
 impl<'p> Player<'p> {
-    fn new(program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
-        let surface = Surface::flat(program.stock.width.to_mm(), program.stock.height.to_mm());
+    fn new(surface: Surface, program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
+        let untouched = Surface::flat(program.stock.width.to_mm(), program.stock.height.to_mm());
         Self {
             program,
             bounds,
-            guards: vec![surface.clone(); bounds.len()],
+            guards: vec![untouched; bounds.len()],
             surface,
             tip: Point3::new(0.0, 0.0, 0.0),
             held: OrientationId(0),
             flanks: Vec::new(),
             operation: None,
-            layer: None,
-            half_done: Vec::new(),
+            half_done: BTreeSet::new(),
             findings: Findings::default(),
             longest_edge: 0.0,
-            layers: Vec::new(),
+            layers: BTreeMap::new(),
         }
     }
 
@@ -189,7 +197,7 @@ impl<'p> Player<'p> {
     }
 
     fn cut(&mut self, operation: OperationId, layer: NonZeroU32, cut: NonZeroU32, flank: Flank) {
-        self.enter(operation, layer);
+        self.enter(operation);
         let Some(&geometry) = self.flanks.get(self.held.0 as usize) else {
             return;
         };
@@ -234,7 +242,7 @@ impl<'p> Player<'p> {
             };
             note(&mut self.findings.blocked, finding, |_, _| false);
         }
-        self.finish_flank(operation, cut, flank, vee);
+        self.finish_flank(operation, (layer, cut), vee);
     }
 
     /// Notes a flank that needs more edge than there is.
@@ -261,20 +269,11 @@ impl<'p> Player<'p> {
     }
 
     /// Takes the chip out once both flanks are cut.
-    fn finish_flank(&mut self, operation: OperationId, cut: NonZeroU32, flank: Flank, vee: Vee) {
-        let index = cut.get() as usize - 1;
-        // The verifier has made sure that cuts of a layer are numbered without gaps.
-        if self.half_done.len() <= index {
-            self.half_done.resize(index + 1, None);
-            if let Some((_, cuts)) = self.layers.last_mut() {
-                *cuts += 1;
-            }
-        }
-        let Some(done) = self.half_done.get_mut(index) else {
-            return;
-        };
-        if done.is_none() {
-            *done = Some(flank);
+    fn finish_flank(&mut self, operation: OperationId, cut: (NonZeroU32, NonZeroU32), vee: Vee) {
+        // The verifier has made sure that every V has both flanks, once each.
+        if !self.half_done.remove(&cut) {
+            self.half_done.insert(cut);
+            *self.layers.entry((operation, cut.0)).or_default() += 1;
             return;
         }
         self.surface.release(vee);
@@ -290,16 +289,11 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn enter(&mut self, operation: OperationId, layer: NonZeroU32) {
+    fn enter(&mut self, operation: OperationId) {
         if self.operation != Some(operation) {
             self.operation = Some(operation);
             self.flanks = self.geometry_of(operation);
-            self.layer = None;
-        }
-        if self.layer != Some(layer) {
-            self.layer = Some(layer);
             self.half_done.clear();
-            self.layers.push((operation, 0));
         }
     }
 
@@ -328,7 +322,11 @@ impl<'p> Player<'p> {
             surface: self.surface,
             findings: self.findings,
             longest_edge: Length::mm(self.longest_edge),
-            layers: self.layers,
+            layers: self
+                .layers
+                .into_iter()
+                .map(|((operation, _), cuts)| (operation, cuts))
+                .collect(),
         }
     }
 
@@ -350,7 +348,9 @@ impl<'p> Player<'p> {
 
     /// The cut of an operation whose V passes lowest through a point's x.
     fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
-        let mut player = Player::new(self.program, self.bounds);
+        let stock = self.program.stock;
+        let untouched = Surface::flat(stock.width.to_mm(), stock.height.to_mm());
+        let mut player = Player::new(untouched, self.program, self.bounds);
         let mut lowest: Option<(f64, Finding)> = None;
         for op in &self.program.ops {
             player.op(op.site, op.action);

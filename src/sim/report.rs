@@ -65,7 +65,8 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, timing: Timing) -> R
     }
 }
 
-fn area_under(corners: &[Point2]) -> f64 {
+/// Area of the cross-section under a surface, in mm2.
+pub(crate) fn area_under(corners: &[Point2]) -> f64 {
     let strip = |(a, b): (&Point2, &Point2)| (b.x - a.x) * (a.z + b.z) / 2.0;
     corners.iter().zip(corners.iter().skip(1)).map(strip).sum()
 }
@@ -78,7 +79,8 @@ const SCALLOP_TOLERANCE: f64 = 1e-3;
 /// Corners of the surface come first. Between two of them the distance may still be larger, over the middle of a hollow;
 /// but it never changes faster than the place, so on a stretch of length `l` between points `a` and `b` away from the part
 /// it is at most `(a + b + l) / 2`. Stretches where that is no more than what is known are left out, others are halved.
-fn highest(corners: &[Point2], part: &Profile) -> Scallop {
+#[must_use]
+pub fn highest(corners: &[Point2], part: &Profile) -> Scallop {
     let mut highest = Scallop {
         height: Length::ZERO,
         peak: Point2 { x: 0.0, z: 0.0 },

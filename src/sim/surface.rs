@@ -29,6 +29,7 @@ pub struct Surface {
     left: Vec<Point2>,
     /// Corners right of the place of work, nearest last; never empty unless the place of work is the right side.
     right: Vec<Point2>,
+    width: f64,
     top: f64,
     /// Slope of the steepest flank cut so far: flanks at least as steep can never meet material again.
     steepest: f64,
@@ -59,6 +60,8 @@ pub struct FlankRun {
     pub exit: Point2,
     /// Height of that point above the tip.
     pub reach: f64,
+    /// x of the tip of the older V in which it comes out; of the exit itself where that is not in one.
+    pub met: f64,
     /// Where, beyond its exit, material stands in the way of the blade's body again.
     pub blocked_at: Option<Point2>,
 }
@@ -67,6 +70,7 @@ pub struct FlankRun {
 struct FlankWalk {
     passed: usize,
     exit: Point2,
+    met: f64,
 }
 
 impl Surface {
@@ -76,9 +80,22 @@ impl Surface {
         Self {
             left: vec![Point2 { x: 0.0, z: top }],
             right: vec![Point2 { x: width, z: top }],
+            width,
             top,
             steepest: 0.0,
         }
+    }
+
+    /// Width of the stock.
+    #[must_use]
+    pub const fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Height of the stock.
+    #[must_use]
+    pub const fn top(&self) -> f64 {
+        self.top
     }
 
     /// Height at x.
@@ -96,13 +113,14 @@ impl Surface {
     pub fn flank(&mut self, vee: Vee, side: Side) -> FlankRun {
         self.go_to(vee.tip.x);
         let walk = self.walk(vee, side);
-        let blocked_at = if vee.slope < self.steepest - 1e-12 {
-            self.beyond(vee, side, walk.passed)
-        } else {
+        let blocked_at = if self.is_final_for(vee.slope) {
             None
+        } else {
+            self.beyond(vee, side, walk.passed)
         };
         FlankRun {
             exit: walk.exit,
+            met: walk.met,
             reach: walk.exit.z - vee.tip.z,
             blocked_at,
         }
@@ -112,11 +130,17 @@ impl Surface {
     /// any: the tip then lies in an older, narrower cut, and the V would cut its walls from below.
     pub fn obstacle(&mut self, vee: Vee) -> Option<Point2> {
         self.go_to(vee.tip.x);
-        if vee.slope >= self.steepest - 1e-12 {
+        if self.is_final_for(vee.slope) {
             return None;
         }
         self.beyond(vee, Side::Left, 0)
             .or_else(|| self.beyond(vee, Side::Right, 0))
+    }
+
+    /// Whether flanks of that slope can never meet material again once they are out: none that was cut before is steeper.
+    #[must_use]
+    pub fn is_final_for(&self, slope: f64) -> bool {
+        slope >= self.steepest - 1e-12
     }
 
     /// Takes the chip of a V out. A V whose tip is not covered changes nothing.
@@ -182,16 +206,17 @@ impl Surface {
                 above_before / (above_before - above)
             };
             let x = before.x + (corner.x - before.x) * share;
-            return FlankWalk {
-                passed,
-                exit: Point2 { x, z: vee.height(x) },
-            };
+            let exit = Point2 { x, z: vee.height(x) };
+            // The surface falls from the exit to the older tip, unless it is the stock's flat top.
+            let met = if corner.z < exit.z - TOUCH { corner.x } else { x };
+            return FlankWalk { passed, exit, met };
         }
         // Out at the side of the stock.
         let x = before.x;
         FlankWalk {
             passed: stack.len(),
             exit: Point2 { x, z: vee.height(x) },
+            met: x,
         }
     }
 

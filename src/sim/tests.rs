@@ -2,12 +2,13 @@
 
 use super::prove::{Bound, CutFault, Findings, replay};
 use super::timing::timing;
+use crate::choice::choose;
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{Auto, Operation, Residual};
 use crate::lower::lower;
+use crate::plan::PlannedOperation;
 use crate::plan::tests::{operation, paper_job};
-use crate::plan::{PlannedOperation, choose};
 use crate::source::SourceMap;
 use crate::verdict::prove;
 use vcutc_backend_api::units::{Angle, Length};
@@ -57,7 +58,7 @@ fn a_cut_into_the_part_is_found_with_its_place_and_depth() {
         .cuts
         .iter()
         .rev()
-        .find(|cut| cut.tip.z <= lowest)
+        .find(|cut| cut.tip.z <= lowest && (1.0..84.0).contains(&cut.tip.x))
         .unwrap()
         .tip;
     let bump = Profile::new(vec![

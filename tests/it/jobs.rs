@@ -224,9 +224,11 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
     let auto = |name: &str, is_auto: bool| format!("{name} {}", if is_auto { "auto" } else { "given" });
     for Operation::RoughVcut(asked) in &job.operations {
         subjects.extend([
-            format!("{:?} {:?}", asked.lattice.value, asked.order.value),
             format!("{:?} {:?}", asked.blade.edges, asked.direction.value),
             format!("residual {:?}", asked.residual.value),
+            auto("lattice", asked.lattice.value == Auto::Auto),
+            auto("order", asked.order.value == Auto::Auto),
+            auto("sequence", asked.sequence.value == Auto::Auto),
             auto("swing", asked.swing.value == Auto::Auto),
             auto("layer", asked.layer.value == Auto::Auto),
             auto("step", asked.step.value == Auto::Auto),
@@ -235,6 +237,15 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
         ]);
     }
     for PlannedOperation::RoughVcut(vcut) in &outcome.plan.as_ref().unwrap().operations {
+        subjects.extend([
+            format!("{:?} {:?}", vcut.parameters.lattice, vcut.order),
+            format!("{:?} by {:?}", vcut.sequence, vcut.order),
+        ]);
+        subjects.extend(
+            vcut.decisions
+                .iter()
+                .map(|decision| format!("{} compared", decision.field)),
+        );
         for cut in &vcut.cuts {
             subjects.insert(match cut.origin {
                 TipOrigin::Lattice => "tip on the lattice".to_owned(),
@@ -245,7 +256,7 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
         }
         for pair in vcut.cuts.windows(2) {
             if pair[0].layer == pair[1].layer && pair[1].way == Way::Over {
-                subjects.insert(format!("over the safe plane, {:?}", vcut.asked.order.value));
+                subjects.insert(format!("over the safe plane, {:?}", vcut.order));
             }
         }
     }
@@ -270,10 +281,22 @@ fn jobs_cover_the_process() {
         "Double Backward",
         "Single Alternate",
         "Single Forward",
-        "residual Discard",
-        "residual Lift",
-        "residual Shift",
+        "residual Given(Discard)",
+        "residual Given(Lift)",
+        "residual Given(Shift)",
+        "residual Given(Mixed)",
         "residual Auto",
+        "residual compared",
+        "lattice auto",
+        "lattice compared",
+        "order auto",
+        "sequence auto",
+        "sequence compared",
+        "Rows by Point",
+        "Rows by Layer",
+        "Boustrophedon by Point",
+        "Boustrophedon by Layer",
+        "Nearest by Point",
         "swing auto",
         "swing given",
         "layer auto",

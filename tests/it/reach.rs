@@ -3,11 +3,11 @@
 
 use crate::pipeline::{Files, compile, emit, told};
 use crate::repository::root;
+use vcutc::choice;
 use vcutc::driver::Outcome;
 use vcutc::job::CheckedJob;
 use vcutc::kinematics::Joints;
 use vcutc::lower::lower;
-use vcutc::plan;
 use vcutc::reach::demand::Demand;
 use vcutc::reach::legs::{Leg, Poses, legs};
 use vcutc::reach::path::prove;
@@ -62,7 +62,7 @@ fn abb(direction: &str, base: &str) -> Files {
 
 /// The program of a job as it is before reach looks at it.
 fn program(job: &CheckedJob) -> VerifiedProgram {
-    let plan = plan::choose(job).0.unwrap();
+    let plan = choice::choose(job).0.unwrap();
     verify(lower(&plan, &SourceMap::default())).unwrap()
 }
 

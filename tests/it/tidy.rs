@@ -32,6 +32,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
+    ("choice", &["diag", "job", "lower", "plan", "sim", "source"]),
     ("summary", &["plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
@@ -63,16 +64,18 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "placement",
         &[
-            "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source", "verdict",
+            "choice", "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source",
+            "verdict",
         ],
     ),
     (
         "verdict",
-        &["diag", "geom", "job", "lower", "plan", "sim", "source"],
+        &["choice", "diag", "geom", "job", "lower", "plan", "sim", "source"],
     ),
     (
         "driver",
         &[
+            "choice",
             "diag",
             "job",
             "machine",

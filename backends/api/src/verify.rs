@@ -4,7 +4,7 @@
 //! it vibrates), and checks each op against that. What it promises to backends: every table reference is valid, every
 //! number finite, every speed positive, every straight motion starts from a known pose, the first motion is `Home` where
 //! there is a home and the next one a move of all axes, no rotation is ambiguous, the blade only meets the stock in cuts,
-//! and cuts come in pairs.
+//! and the two flanks of every V are there once.
 
 mod capability;
 #[cfg(test)]
@@ -20,6 +20,7 @@ use crate::ir::{
 };
 use crate::units::{Angle, Duration, Length, Mass};
 use core::fmt;
+use core::num::NonZeroU32;
 
 /// A program that has passed [`verify`].
 #[derive(Clone, Debug, PartialEq)]
@@ -100,7 +101,8 @@ pub enum Rule {
     Ending,
     /// Every V-cut has one left and one right flank.
     CutPair,
-    /// Operations and layers come in order.
+    /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation
+    /// visits them is for the proof to judge.
     Order,
 }
 
@@ -122,7 +124,7 @@ impl fmt::Display for Rule {
             Self::ReadyNotAwaited => "the generator is not awaited before a cut",
             Self::Ending => "the program does not end at home with the generator off",
             Self::CutPair => "a V-cut without exactly one left and one right flank",
-            Self::Order => "operations or layers are out of order",
+            Self::Order => "operations are out of order, or a layer's cuts are not all there",
         })
     }
 }
@@ -144,7 +146,10 @@ pub fn verify(program: Program) -> Result<VerifiedProgram, Vec<Fault>> {
         walk.op(OpId(index), op);
     }
     walk.ending();
-    let Walk { faults, needs, .. } = walk;
+    let Walk {
+        mut faults, needs, ..
+    } = walk;
+    faults.sort_by_key(|fault| fault.op);
     if faults.is_empty() {
         Ok(VerifiedProgram { program, needs })
     } else {
@@ -171,15 +176,24 @@ enum Generator {
     Running,
 }
 
+/// A cut of one flank.
+#[derive(Clone, Copy)]
+struct Pass {
+    layer: NonZeroU32,
+    cut: NonZeroU32,
+    flank: Flank,
+    op: OpId,
+}
+
 struct Walk<'p> {
     program: &'p Program,
     faults: Vec<Fault>,
     needs: Capabilities,
     at: Where,
     generator: Generator,
-    /// Which flanks of the cuts of the layer at hand are done, by cut number less one.
-    layer: Option<(OperationId, u32)>,
-    flanks: Vec<(bool, bool)>,
+    operation: Option<OperationId>,
+    /// The passes of the operation at hand.
+    passes: Vec<Pass>,
     current: OpId,
 }
 
@@ -191,17 +205,18 @@ impl<'p> Walk<'p> {
             needs: Capabilities::NONE,
             at: Where::Start,
             generator: Generator::Off,
-            layer: None,
-            flanks: Vec::new(),
+            operation: None,
+            passes: Vec::new(),
             current: OpId(0),
         }
     }
 
     fn fault(&mut self, rule: Rule) {
-        self.faults.push(Fault {
-            op: Some(self.current),
-            rule,
-        });
+        self.fault_at(self.current, rule);
+    }
+
+    fn fault_at(&mut self, op: OpId, rule: Rule) {
+        self.faults.push(Fault { op: Some(op), rule });
     }
 
     fn require(&mut self, holds: bool, rule: Rule) {
@@ -269,21 +284,37 @@ impl<'p> Walk<'p> {
         if let Some(operation) = site.operation() {
             self.require(self.operation(operation).is_some(), Rule::TableReference);
         }
-        let (Site::Layer { operation, layer } | Site::Cut { operation, layer, .. }) = site else {
+        let Some(here) = site.operation() else {
             return;
         };
-        let here = (operation, layer.get());
-        if self.layer != Some(here) {
-            self.require(self.layer.is_none_or(|before| before < here), Rule::Order);
-            self.finish_layer();
-            self.layer = Some(here);
+        if self.operation != Some(here) {
+            self.require(self.operation.is_none_or(|before| before < here), Rule::Order);
+            self.finish_operation();
+            self.operation = Some(here);
         }
     }
 
-    fn finish_layer(&mut self) {
-        let complete = self.flanks.iter().all(|&(left, right)| left && right);
-        self.flanks.clear();
-        self.require(complete, Rule::CutPair);
+    /// Each V has both flanks once, each layer its cuts from 1 on.
+    fn finish_operation(&mut self) {
+        let mut passes = core::mem::take(&mut self.passes);
+        passes.sort_by_key(|pass| (pass.layer, pass.cut, pass.flank as u8));
+        let mut before: Option<(NonZeroU32, u32)> = None;
+        for cut in passes.chunk_by(|a, b| (a.layer, a.cut) == (b.layer, b.cut)) {
+            let [first, ..] = cut else { continue };
+            let follows = match before {
+                Some((layer, number)) if layer == first.layer => first.cut.get() == number.saturating_add(1),
+                Some(_) | None => first.cut.get() == 1,
+            };
+            if !follows {
+                self.fault_at(first.op, Rule::Order);
+            }
+            match cut {
+                [left, right] if left.flank != right.flank => {}
+                [.., last] => self.fault_at(last.op, Rule::CutPair),
+                [] => {}
+            }
+            before = Some((first.layer, first.cut.get()));
+        }
     }
 
     fn home(&mut self) {
@@ -373,7 +404,12 @@ impl<'p> Walk<'p> {
                 Generator::Running => {}
             }
         }
-        let Site::Cut { operation, cut, .. } = site else {
+        let Site::Cut {
+            operation,
+            layer,
+            cut,
+        } = site
+        else {
             self.fault(Rule::CutPair);
             return;
         };
@@ -381,25 +417,12 @@ impl<'p> Walk<'p> {
             let good = posture_fits(operation, orientation, flank, to.y - from.y);
             self.require(good, Rule::CutPosture);
         }
-        self.mark_flank(cut.get() as usize - 1, flank);
-    }
-
-    fn mark_flank(&mut self, cut: usize, flank: Flank) {
-        if self.flanks.len() <= cut {
-            // Cuts of a layer are numbered in order, so the list grows by one at a time; a wild number is a fault.
-            self.require(cut == self.flanks.len(), Rule::Order);
-            self.flanks.push((false, false));
-        }
-        let Some((left, right)) = self.flanks.get_mut(cut) else {
-            return;
-        };
-        let done = match flank {
-            Flank::Left => left,
-            Flank::Right => right,
-        };
-        let first = !*done;
-        *done = true;
-        self.require(first, Rule::CutPair);
+        self.passes.push(Pass {
+            layer,
+            cut,
+            flank,
+            op: self.current,
+        });
     }
 
     fn turn(&mut self, site: Site, to: OrientationId, rate: RateId) {
@@ -451,7 +474,7 @@ impl<'p> Walk<'p> {
     }
 
     fn ending(&mut self) {
-        self.finish_layer();
+        self.finish_operation();
         let rests = match self.at {
             Where::Start => true,
             Where::Home => self.has_home(),

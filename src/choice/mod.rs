@@ -1,0 +1,348 @@
+//! Choices that a job leaves open and that no formula makes: lattice, residual strategy, order of the flanks and sequence
+//! of the Vs (`docs/process.md`, "Choices").
+//!
+//! Each way to cut an operation is planned, written down as a program and timed as that; where what it leaves differs, it
+//! is replayed on what the operations before left, too. Ways whose chips all come free and that leave no more than they may
+//! come first, then the least time, then the least material left, then the order in which the language names them. What was
+//! compared is kept as a [`Decision`]. Operations are decided one after the other, for each depends on the surface that
+//! those before left.
+//!
+//! An operation of more than [`MOST_CUTS_COMPARED`] cuts is not compared with itself in other guises: it is cut `mixed`,
+//! `boustrophedon` and by `point`.
+
+mod bench;
+mod route;
+#[cfg(test)]
+mod tests;
+
+use crate::diag::Diagnostic;
+use crate::job::{Auto, CheckedJob, Objective, Operation, Residual, RoughVcut};
+use crate::plan::decision::{Candidate, Decision, Standing};
+use crate::plan::parameters::VcutParameters;
+use crate::plan::residual::Strategies;
+use crate::plan::{
+    LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, PlannedVcut, blade_reach, lay_out, parameters,
+    refuse_operations,
+};
+use bench::Bench;
+use core::cmp::Ordering;
+use vcutc_backend_api::units::{Area, Duration, Length};
+
+/// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
+/// are chosen by.
+pub const MOST_CUTS_COMPARED: usize = 20_000;
+
+/// A lattice whose time by the mean-value model is longer than this many times the best planned time is not planned.
+const FAR_BEHIND: f64 = 1.5;
+
+/// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,
+/// which not every machine can follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Latitude {
+    /// All of them.
+    Full,
+    /// Those that cut V by V.
+    ByPoint,
+    /// Rows, V by V: what leaves the machine the most freedom.
+    RowsByPoint,
+}
+
+impl Latitude {
+    /// What is considered next where the machine cannot carry out what came of this.
+    const fn narrower(self) -> Option<Self> {
+        match self {
+            Self::Full => Some(Self::ByPoint),
+            Self::ByPoint => Some(Self::RowsByPoint),
+            Self::RowsByPoint => None,
+        }
+    }
+
+    /// The next one under which something else would come out than this plan.
+    #[must_use]
+    pub fn narrower_than(self, plan: &PlannedJob) -> Option<Self> {
+        let mut next = self.narrower();
+        while let Some(latitude) = next {
+            let is_same = plan.operations.iter().all(|PlannedOperation::RoughVcut(vcut)| {
+                route::allows(latitude, &vcut.asked, (vcut.sequence, vcut.order))
+            });
+            if !is_same {
+                break;
+            }
+            next = latitude.narrower();
+        }
+        next
+    }
+}
+
+/// Makes every choice. Without errors there is a plan.
+#[must_use]
+pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    choose_within(job, Latitude::Full)
+}
+
+/// Makes every choice, with some routes left out.
+#[must_use]
+pub fn choose_within(job: &CheckedJob, latitude: Latitude) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    if let Some(refused) = refuse_operations(job) {
+        return (None, vec![refused]);
+    }
+    let mut diagnostics = Vec::new();
+    let mut bench = Bench::new(job, latitude);
+    let mut operations = Vec::new();
+    let mut cuts_left = MOST_CUTS;
+    for operation in &job.operations {
+        let Operation::RoughVcut(asked) = operation;
+        match best_lattice(&bench, asked, cuts_left) {
+            Ok(LaidOut { vcut, after, .. }) => {
+                cuts_left -= vcut.cuts.len();
+                bench.before = after;
+                operations.push(PlannedOperation::RoughVcut(vcut));
+            }
+            Err(told) => diagnostics.extend(told),
+        }
+    }
+    let planned = (operations.len() == job.operations.len()).then(|| PlannedJob {
+        name: job.name.clone(),
+        stock: job.stock,
+        profile: job.profile.clone(),
+        machine: job.machine.clone(),
+        operations,
+    });
+    (planned, diagnostics)
+}
+
+/// A way to cut an operation, and what came of it.
+struct Contender {
+    laid: LaidOut,
+    standing: Standing,
+    time: Duration,
+    /// The most that is left, along the part's normal.
+    height: Length,
+    residual: Area,
+}
+
+impl Contender {
+    fn candidate(&self, what: &str) -> Candidate {
+        Candidate {
+            what: what.to_owned(),
+            standing: self.standing,
+        }
+    }
+
+    /// Fails if it leaves more than that.
+    fn held_to(mut self, limit: Option<Length>) -> Self {
+        // The search for the highest point works in floating point; a micrometre over the limit is no excess.
+        let excess = limit.filter(|&limit| self.height > limit + Length::mm(1e-3));
+        if let (Standing::Takes(_), Some(limit)) = (self.standing, excess) {
+            let height = self.height;
+            self.standing = Standing::Leaves { height, limit };
+        }
+        self
+    }
+
+    /// The better one first.
+    fn cmp(&self, other: &Self) -> Ordering {
+        if let (Standing::Fails(_), Standing::Fails(_)) = (self.standing, other.standing) {
+            return Ordering::Equal;
+        }
+        self.standing
+            .cmp(&other.standing)
+            .then(self.time.total_cmp(&other.time))
+            .then(self.residual.total_cmp(&other.residual))
+    }
+}
+
+/// The best of those planned, and what was said of the others. The first one stands among equals.
+struct Contest {
+    best: Option<(&'static str, Contender)>,
+    others: Vec<Candidate>,
+}
+
+impl Contest {
+    const fn new() -> Self {
+        Self {
+            best: None,
+            others: Vec::new(),
+        }
+    }
+
+    fn enter(&mut self, what: &'static str, contender: Contender) {
+        match &self.best {
+            Some((_, best)) if contender.cmp(best) != Ordering::Less => {
+                self.others.push(contender.candidate(what));
+            }
+            Some(_) | None => {
+                if let Some((beaten, best)) = self.best.replace((what, contender)) {
+                    self.others.push(best.candidate(beaten));
+                }
+            }
+        }
+    }
+
+    fn rule_out(&mut self, what: &'static str, standing: Standing) {
+        self.others.push(Candidate {
+            what: what.to_owned(),
+            standing,
+        });
+    }
+
+    /// The best one, which remembers what it was compared with.
+    fn finish(self, field: &'static str) -> Option<Contender> {
+        let (what, mut best) = self.best?;
+        if !self.others.is_empty() {
+            let taken = best.candidate(what);
+            best.laid.vcut.decisions.insert(
+                0,
+                Decision {
+                    field,
+                    taken,
+                    others: sorted(self.others),
+                },
+            );
+        }
+        Some(best)
+    }
+}
+
+/// The best first.
+fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
+    others.sort_by(|a, b| a.standing.cmp(&b.standing));
+    others
+}
+
+/// The strategies beside `mixed`.
+const OTHERS: [(&str, Residual); 3] = [
+    ("discard", Residual::Discard),
+    ("lift", Residual::Lift),
+    ("shift", Residual::Shift),
+];
+
+/// The operation on the best lattice, or on the one that it asks for.
+fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
+    let mut told = Vec::new();
+    let Some(resolved) = parameters::resolve(bench.job, asked, &mut told) else {
+        return Err(told);
+    };
+    match (asked.lattice.value, asked.objective.value) {
+        (Auto::Auto, Objective::Time) => compare_lattices(bench, asked, cuts_left),
+        // Other objectives are none of the plan's: what the formulas say stands.
+        (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {
+            best_residual(bench, asked, &resolved, cuts_left)
+        }
+    }
+}
+
+fn compare_lattices(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    cuts_left: usize,
+) -> Result<LaidOut, Vec<Diagnostic>> {
+    let mut refused = None;
+    let mut by_model: Vec<(Duration, VcutParameters)> = Vec::new();
+    for lattice in parameters::open_lattices(asked) {
+        let mut told = Vec::new();
+        // A lattice on which the operation cannot be had is no fault of the job while there is another.
+        if let Some(found) = parameters::resolve_on(bench.job, asked, vec![lattice], &mut told) {
+            let model = found.time_model(bench.job, asked);
+            by_model.push((model.estimate(found.swing, found.layer, found.step), found));
+        }
+    }
+    by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    let mut contest = Contest::new();
+    for (time, found) in &by_model {
+        let what = parameters::lattice_word(found.lattice);
+        let best = contest.best.as_ref().map(|(_, best)| best);
+        if best
+            .is_some_and(|best| matches!(best.standing, Standing::Takes(_)) && *time > best.time * FAR_BEHIND)
+        {
+            contest.rule_out(what, Standing::ByModel(*time));
+            continue;
+        }
+        match best_residual(bench, asked, found, cuts_left) {
+            Ok(laid) if laid.vcut.cuts.len() > MOST_CUTS_COMPARED => {
+                let mut laid = laid;
+                laid.vcut
+                    .decisions
+                    .insert(0, not_compared("lattice", what.to_owned()));
+                return Ok(laid);
+            }
+            Ok(laid) => {
+                let limit = asked.limits.scallop.map(|limit| limit.value);
+                contest.enter(what, bench.weigh(laid).held_to(limit));
+            }
+            Err(told) => {
+                contest.rule_out(what, Standing::Impossible);
+                refused.get_or_insert(told);
+            }
+        }
+    }
+    match contest.finish("lattice") {
+        Some(best) => Ok(best.laid),
+        None => Err(refused.unwrap_or_default()),
+    }
+}
+
+/// The operation with the best residual strategy, or with the one that it asks for, along the best route.
+fn best_residual(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    found: &VcutParameters,
+    cuts_left: usize,
+) -> Result<LaidOut, Vec<Diagnostic>> {
+    let first = lay_out(bench.job, asked, found.clone(), cuts_left, &bench.before)?;
+    let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
+    let mut first = route::best(bench, first);
+    if !is_open {
+        return Ok(first);
+    }
+    if first.vcut.cuts.len() > MOST_CUTS_COMPARED {
+        first
+            .vcut
+            .decisions
+            .insert(0, not_compared("residual", "mixed".to_owned()));
+        return Ok(first);
+    }
+    let mut contest = Contest::new();
+    let mixed = bench.weigh(first);
+    // Where the job sets no limit, none may leave more than `mixed` or the lattice itself does.
+    let limit = match asked.limits.scallop {
+        Some(limit) => limit.value,
+        None => mixed.height.max(inherent(&mixed.laid.vcut)),
+    };
+    contest.enter("mixed", mixed.held_to(Some(limit)));
+    for (what, residual) in OTHERS {
+        let mut asked = asked.clone();
+        asked.residual.value = Auto::Given(residual);
+        match lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before) {
+            Ok(mut laid) => {
+                laid.vcut.asked.residual.value = Auto::Auto;
+                let contender = bench.weigh(route::best(bench, laid));
+                contest.enter(what, contender.held_to(Some(limit)));
+            }
+            Err(_) => contest.rule_out(what, Standing::Impossible),
+        }
+    }
+    contest
+        .finish("residual")
+        .map_or_else(|| Err(Vec::new()), |best| Ok(best.laid))
+}
+
+/// A choice for which nothing else was tried.
+fn not_compared(field: &'static str, what: String) -> Decision {
+    Decision {
+        field,
+        taken: Candidate {
+            what,
+            standing: Standing::NotCompared,
+        },
+        others: Vec::new(),
+    }
+}
+
+/// What the lattice leaves on the part anyway, with the allowance and the standoff.
+fn inherent(vcut: &PlannedVcut) -> Length {
+    let p = &vcut.parameters;
+    blade_reach::scallop_bound(p.lattice, p.layer, p.step, p.flanks.slope)
+        + vcut.asked.allowance.value
+        + p.drop
+}

@@ -1,0 +1,175 @@
+//! Order of the flanks and sequence of the Vs: all that the job leaves open, the fastest taken.
+
+use super::bench::Bench;
+use super::{Latitude, MOST_CUTS_COMPARED, not_compared};
+use crate::job::{Auto, Order, RoughVcut, Sequence};
+use crate::plan::decision::{Candidate, Decision, Standing};
+use crate::plan::{LaidOut, PlannedVcut, route};
+use vcutc_backend_api::units::Duration;
+
+const ORDERS: [Order; 2] = [Order::Point, Order::Layer];
+
+const SEQUENCES: [Sequence; 3] = [Sequence::Rows, Sequence::Boustrophedon, Sequence::Nearest];
+
+/// A sequence with an order.
+pub(super) type Route = (Sequence, Order);
+
+/// The operation along its fastest route; the first among equals.
+pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
+    let along = |vcut: PlannedVcut, (sequence, order): Route| {
+        vcut.along(order, sequence, &bench.before, bench.job.stock)
+    };
+    let LaidOut {
+        vcut,
+        after,
+        strategies,
+    } = laid;
+    let open = Open::of(&vcut.asked);
+    let routes: Vec<Route> = routes(&vcut)
+        .into_iter()
+        .filter(|&route| allows(bench.latitude, &vcut.asked, route))
+        .collect();
+    let usual = (
+        vcut.asked.sequence.value.or(match bench.latitude {
+            Latitude::Full | Latitude::ByPoint => Sequence::Boustrophedon,
+            Latitude::RowsByPoint => Sequence::Rows,
+        }),
+        vcut.asked.order.value.or(Order::Point),
+    );
+    let vcut = match (open, &routes[..]) {
+        (Open::Nothing, _) => along(vcut, usual),
+        (Open::Something(field), [only]) => match bench.latitude {
+            Latitude::Full => along(vcut, *only),
+            Latitude::ByPoint | Latitude::RowsByPoint => beyond_the_rest(along(vcut, *only), field, *only),
+        },
+        (Open::Something(field), _) if vcut.cuts.len() > MOST_CUTS_COMPARED => {
+            let decision = not_compared(field, words(&vcut.asked, usual));
+            remembering(along(vcut, usual), decision)
+        }
+        (Open::Something(field), _) => fastest(bench, vcut, field, &routes, along),
+    };
+    LaidOut {
+        vcut,
+        after,
+        strategies,
+    }
+}
+
+/// Whether a route is one of those that are considered.
+pub(super) fn allows(latitude: Latitude, asked: &RoughVcut, (sequence, order): Route) -> bool {
+    let by_point = order == Order::Point || asked.order.value != Auto::Auto;
+    let in_rows = sequence == Sequence::Rows || asked.sequence.value != Auto::Auto;
+    match latitude {
+        Latitude::Full => true,
+        Latitude::ByPoint => by_point,
+        Latitude::RowsByPoint => by_point && in_rows,
+    }
+}
+
+/// Says that it came out so because the machine does not follow anything else.
+fn beyond_the_rest(vcut: PlannedVcut, field: &'static str, route: Route) -> PlannedVcut {
+    let taken = Candidate {
+        what: words(&vcut.asked, route),
+        standing: Standing::Last,
+    };
+    let others = Vec::new();
+    remembering(vcut, Decision { field, taken, others })
+}
+
+fn fastest(
+    bench: &Bench<'_>,
+    vcut: PlannedVcut,
+    field: &'static str,
+    routes: &[Route],
+    along: impl Fn(PlannedVcut, Route) -> PlannedVcut,
+) -> PlannedVcut {
+    let mut timed: Vec<(Candidate, PlannedVcut, Duration)> = Vec::new();
+    for &route in routes {
+        let planned = along(vcut.clone(), route);
+        let same = |(_, known, _): &(Candidate, PlannedVcut, Duration)| {
+            (known.order, &known.runs) == (planned.order, &planned.runs)
+        };
+        if timed.iter().any(same) {
+            continue;
+        }
+        if let Some(time) = bench.time(&planned) {
+            let candidate = Candidate {
+                what: words(&vcut.asked, route),
+                standing: Standing::Takes(time),
+            };
+            timed.push((candidate, planned, time));
+        }
+    }
+    timed.sort_by(|(.., a), (.., b)| a.total_cmp(b));
+    let mut timed = timed.into_iter();
+    let Some((taken, planned, _)) = timed.next() else {
+        return vcut;
+    };
+    let others: Vec<Candidate> = timed.map(|(candidate, ..)| candidate).collect();
+    if others.is_empty() {
+        return planned;
+    }
+    remembering(planned, Decision { field, taken, others })
+}
+
+fn remembering(mut vcut: PlannedVcut, decision: Decision) -> PlannedVcut {
+    vcut.decisions.push(decision);
+    vcut
+}
+
+/// What of the route is open.
+#[derive(Clone, Copy)]
+enum Open {
+    Nothing,
+    /// The field that the decision is told for.
+    Something(&'static str),
+}
+
+impl Open {
+    const fn of(asked: &RoughVcut) -> Self {
+        match (asked.sequence.value, asked.order.value) {
+            (Auto::Given(_), Auto::Given(_)) => Self::Nothing,
+            (Auto::Given(_), Auto::Auto) => Self::Something("order"),
+            (Auto::Auto, _) => Self::Something("sequence"),
+        }
+    }
+}
+
+/// The routes that the operation leaves open, without those that cannot differ from another.
+fn routes(vcut: &PlannedVcut) -> Vec<Route> {
+    let sequences: Vec<Sequence> = match vcut.asked.sequence.value {
+        Auto::Given(sequence) => vec![sequence],
+        Auto::Auto => SEQUENCES
+            .into_iter()
+            .filter(|&sequence| match sequence {
+                Sequence::Rows | Sequence::Boustrophedon => true,
+                // Where no layer falls apart there is one stretch to go on with, and its nearer end.
+                Sequence::Nearest => route::falls_apart(&vcut.cuts),
+            })
+            .collect(),
+    };
+    let orders: Vec<Order> = match vcut.asked.order.value {
+        Auto::Given(order) => vec![order],
+        Auto::Auto => ORDERS.to_vec(),
+    };
+    let with_orders = |sequence| orders.iter().map(move |&order| (sequence, order));
+    sequences.into_iter().flat_map(with_orders).collect()
+}
+
+/// A route as far as it was open: `boustrophedon by point`.
+fn words(asked: &RoughVcut, (sequence, order): Route) -> String {
+    let sequence = match sequence {
+        Sequence::Rows => "rows",
+        Sequence::Boustrophedon => "boustrophedon",
+        Sequence::Nearest => "nearest",
+    };
+    let order = match order {
+        Order::Point => "point",
+        Order::Layer => "layer",
+    };
+    match (asked.sequence.value, asked.order.value) {
+        (Auto::Auto, Auto::Given(_)) => sequence.to_owned(),
+        (Auto::Given(_), Auto::Auto) => order.to_owned(),
+        (Auto::Auto, Auto::Auto) | (Auto::Given(_), Auto::Given(_)) => format!("{sequence} by {order}"),
+    }
+}

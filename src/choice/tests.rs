@@ -1,0 +1,248 @@
+//! Random jobs along every route: the same surface, no cut before those it relies on, and the best of all taken.
+
+use super::choose;
+use crate::geom::curve::Point2;
+use crate::job::{Auto, CheckedJob, Order, Residual, Sequence};
+use crate::plan::decision::Standing;
+use crate::plan::route::{Heading, layers};
+use crate::plan::tests::{a_job, operation, paper_job};
+use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
+use crate::sim::surface::{Side, Surface, Vee};
+use crate::source::SourceMap;
+use crate::verdict::{self, Proven};
+use proptest::prelude::*;
+use vcutc_backend_api::units::{Angle, Length};
+
+const ROUTES: [(Sequence, Order); 6] = [
+    (Sequence::Rows, Order::Point),
+    (Sequence::Rows, Order::Layer),
+    (Sequence::Boustrophedon, Order::Point),
+    (Sequence::Boustrophedon, Order::Layer),
+    (Sequence::Nearest, Order::Point),
+    (Sequence::Nearest, Order::Layer),
+];
+
+fn along(job: &CheckedJob, (sequence, order): (Sequence, Order)) -> Option<(PlannedJob, Proven)> {
+    let mut job = job.clone();
+    let asked = operation(&mut job);
+    asked.sequence.value = Auto::Given(sequence);
+    asked.order.value = Auto::Given(order);
+    planned_and_proven(&job)
+}
+
+fn planned_and_proven(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
+    let plan = choose(job).0?;
+    let proven = verdict::prove(&plan, &SourceMap::default()).unwrap();
+    Some((plan, proven))
+}
+
+fn vcut(plan: &PlannedJob) -> &PlannedVcut {
+    let PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
+    vcut
+}
+
+/// What a plan's cuts leave.
+fn surface_after(plan: &PlannedJob) -> Vec<Point2> {
+    let program =
+        vcutc_backend_api::verify::verify(crate::lower::lower(plan, &SourceMap::default())).unwrap();
+    verdict::replay(plan, &program).surface.corners().collect()
+}
+
+fn untouched(plan: &PlannedJob) -> Surface {
+    Surface::flat(plan.stock.width.to_mm(), plan.stock.height.to_mm())
+}
+
+/// Holds every cut of a route against what the planner relied on: the surface that all layers above its own leave. Where the
+/// cut is made, as far as its flanks go, the surface must not stand higher, and the flanks must not need more.
+fn relies_on_nothing_to_come(plan: &PlannedJob) -> Result<(), TestCaseError> {
+    let vcut = vcut(plan);
+    let vee = |index: usize| Vee {
+        tip: vcut.cuts[index].tip,
+        slope: vcut.parameters.flanks.slope,
+    };
+    let mut planned = Vec::new();
+    let mut above = untouched(plan);
+    for layer in layers(&vcut.cuts) {
+        for index in layer.clone() {
+            let runs = [Side::Left, Side::Right].map(|side| above.flank(vee(index), side));
+            let [from, to] = runs.map(|run| run.exit.x);
+            let corners: Vec<Point2> = above.corners_between(from, to).collect();
+            planned.push((runs, corners));
+        }
+        layer.for_each(|index| above.release(vee(index)));
+    }
+    let mut now = untouched(plan);
+    let mut made = 0;
+    for run in &vcut.runs {
+        let mut order: Vec<usize> = run.cuts.clone().collect();
+        if run.heading == Heading::Leftwards {
+            order.reverse();
+        }
+        for &index in &order {
+            let (runs, corners) = &planned[index];
+            made += 1;
+            for corner in corners {
+                prop_assert!(now.height(corner.x) <= corner.z + 1e-6, "{index} {corner:?}");
+            }
+            if !now.covers(vee(index).tip) {
+                now.release(vee(index));
+                continue;
+            }
+            for (side, relied) in [Side::Left, Side::Right].into_iter().zip(runs) {
+                let run = now.flank(vee(index), side);
+                prop_assert!(run.reach <= relied.reach + 1e-6, "{index} {run:?} {relied:?}");
+                prop_assert!(relied.blocked_at.is_some() || run.blocked_at.is_none());
+            }
+            now.release(vee(index));
+        }
+    }
+    prop_assert_eq!(made, vcut.cuts.len());
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn every_route_leaves_the_same_surface(mut job in a_job()) {
+        operation(&mut job).residual.value = Auto::Given(Residual::Mixed);
+        let Some((rows, proven)) = along(&job, ROUTES[0]) else { return Ok(()) };
+        let corners = surface_after(&rows);
+        for route in &ROUTES[1..] {
+            let (plan, other) = along(&job, *route).unwrap();
+            prop_assert_eq!(&vcut(&plan).cuts, &vcut(&rows).cuts);
+            prop_assert_eq!(&other.findings, &proven.findings, "{:?}", route);
+            prop_assert_eq!(&other.report.layers, &proven.report.layers);
+            let others = surface_after(&plan);
+            let mut one = untouched(&rows);
+            for cut in &vcut(&rows).cuts {
+                one.release(Vee { tip: cut.tip, slope: vcut(&rows).parameters.flanks.slope });
+            }
+            prop_assert!((other.report.removed.to_mm2() - proven.report.removed.to_mm2()).abs() < 1e-4);
+            for corner in corners.iter().chain(&others) {
+                prop_assert!((one.height(corner.x) - corner.z).abs() < 1e-5, "{:?} {:?}", route, corner);
+            }
+            relies_on_nothing_to_come(&plan)?;
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn the_best_of_all_is_taken(mut job in a_job(), limit in prop::option::of(4.0..20.0_f64)) {
+        let asked = operation(&mut job);
+        asked.residual.value = Auto::Auto;
+        asked.order.value = Auto::Auto;
+        asked.sequence.value = Auto::Auto;
+        asked.limits.scallop = limit.map(|limit| crate::job::Sourced { value: Length::mm(limit), span: None });
+        let Some((best, proven)) = planned_and_proven(&job) else { return Ok(()) };
+        let taken = proven.report.timing.total().to_s();
+        let is_sound = |plan: &PlannedJob, proven: &Proven, highest: f64| {
+            proven.findings.iter().count() == 0
+                && proven.report.scallop.height.to_mm() <= highest
+                && verdict::scallop_excess(plan, &proven.report).is_none()
+        };
+        // Without a limit, none may leave more than `mixed` or the lattice would.
+        let mut inherent = f64::INFINITY;
+        if limit.is_none() {
+            operation(&mut job).residual.value = Auto::Given(Residual::Mixed);
+            let (mixed, with_mixed) = along(&job, ROUTES[0]).unwrap();
+            inherent = super::inherent(vcut(&mixed)).max(with_mixed.report.scallop.height).to_mm() + 1e-3;
+        }
+        let mut any = false;
+        for residual in [Residual::Mixed, Residual::Lift, Residual::Shift, Residual::Discard] {
+            operation(&mut job).residual.value = Auto::Given(residual);
+            for route in ROUTES {
+                let Some((plan, other)) = along(&job, route) else { continue };
+                if is_sound(&plan, &other, inherent) {
+                    any = true;
+                    let time = other.report.timing.total().to_s();
+                    prop_assert!(taken <= time + 1e-9, "{:?} {:?} {} {}", residual, route, time, taken);
+                }
+            }
+        }
+        prop_assert!(!any || is_sound(&best, &proven, inherent));
+    }
+}
+
+/// Two hollows with a hill between them.
+fn hollows() -> CheckedJob {
+    let corners = [
+        (0.0, 10.0),
+        (15.0, 10.0),
+        (38.0, 45.0),
+        (47.0, 45.0),
+        (70.0, 10.0),
+        (85.0, 10.0),
+    ];
+    let mut job = paper_job(corners.map(|(x, z)| Point2 { x, z }).to_vec());
+    let asked = operation(&mut job);
+    asked.blade.cutting_length.value = Length::mm(20.0);
+    asked.swing.value = Auto::Given(Angle::deg(30.0));
+    job
+}
+
+#[test]
+fn nearest_finishes_a_hollow_before_it_crosses_the_hill() {
+    for order in [Order::Point, Order::Layer] {
+        let (plan, proven) = along(&hollows(), (Sequence::Nearest, order)).unwrap();
+        assert_eq!(proven.findings.iter().count(), 0);
+        let vcut = vcut(&plan);
+        let sides: Vec<bool> = vcut
+            .runs
+            .iter()
+            .map(|run| vcut.cuts[run.cuts.start].tip.x < 42.5)
+            .collect();
+        let crossings = sides.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        let (rows, _) = along(&hollows(), (Sequence::Rows, order)).unwrap();
+        assert!(vcut.runs.len() > self::vcut(&rows).runs.len());
+        assert!(crossings <= 2, "{sides:?}");
+    }
+}
+
+#[test]
+fn boustrophedon_turns_round_and_stays_beside_the_work() {
+    let mut job = hollows();
+    job.profile =
+        crate::geom::profile::Profile::new(vec![Point2 { x: 0.0, z: 5.0 }, Point2 { x: 85.0, z: 5.0 }])
+            .unwrap();
+    let (plan, proven) = along(&job, (Sequence::Boustrophedon, Order::Point)).unwrap();
+    let runs = &vcut(&plan).runs;
+    assert!(runs.len() > 2);
+    for (index, run) in runs.iter().enumerate() {
+        let expected = if index % 2 == 0 {
+            Heading::Rightwards
+        } else {
+            Heading::Leftwards
+        };
+        assert_eq!(run.heading, expected);
+        assert_eq!(run.way == crate::plan::Way::Over, index == 0, "{run:?}");
+    }
+    let (_, rows) = along(&job, (Sequence::Rows, Order::Point)).unwrap();
+    assert!(proven.report.timing.travel < rows.report.timing.travel);
+}
+
+#[test]
+fn large_operations_are_not_compared() {
+    let mut job = paper_job(vec![Point2 { x: 0.0, z: 5.0 }, Point2 { x: 85.0, z: 5.0 }]);
+    let asked = operation(&mut job);
+    asked.layer.value = Auto::Given(Length::mm(0.15));
+    asked.step.value = Auto::Given(Length::mm(1.0));
+    asked.order.value = Auto::Auto;
+    asked.sequence.value = Auto::Auto;
+    let plan = choose(&job).0.unwrap();
+    let vcut = vcut(&plan);
+    assert!(vcut.cuts.len() > super::MOST_CUTS_COMPARED);
+    assert_eq!(
+        (vcut.sequence, vcut.order),
+        (Sequence::Boustrophedon, Order::Point)
+    );
+    let standings: Vec<Standing> = vcut
+        .decisions
+        .iter()
+        .map(|decision| decision.taken.standing)
+        .collect();
+    assert_eq!(standings, [Standing::NotCompared]);
+}

@@ -1,0 +1,74 @@
+//! Why a choice that the job leaves open came out as it did: what was compared, as data.
+
+use core::cmp::Ordering;
+use vcutc_backend_api::units::{Duration, Length};
+
+/// A choice that was made by comparing plans.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// The field of the language that was left open; where `order` is decided with it, that one is part of the words.
+    pub field: &'static str,
+    /// What was taken.
+    pub taken: Candidate,
+    /// What was not, the best first.
+    pub others: Vec<Candidate>,
+}
+
+/// One way to cut the operation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// As a person would write it: `boustrophedon by point`.
+    pub what: String,
+    /// What came of it.
+    pub standing: Standing,
+}
+
+/// What came of a way to cut an operation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Standing {
+    /// It takes this time, and nothing is wrong with it.
+    Takes(Duration),
+    /// More stays on the part than may.
+    Leaves {
+        /// How much, along the part's normal.
+        height: Length,
+        /// How much may stay.
+        limit: Length,
+    },
+    /// So many cuts do not come free or are blocked.
+    Fails(usize),
+    /// It cannot be planned, or cuts nothing.
+    Impossible,
+    /// It was not planned: this is its time by the mean-value model, far above that of another one.
+    ByModel(Duration),
+    /// The operation is too large to compare what could be had.
+    NotCompared,
+    /// The machine does not follow the faster ones.
+    Last,
+}
+
+impl Standing {
+    /// The better one first. Ways that fail are all alike: none of them can be taken as it is.
+    #[must_use]
+    pub fn cmp(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            (Self::Takes(time), Self::Takes(than)) | (Self::ByModel(time), Self::ByModel(than)) => {
+                time.total_cmp(than)
+            }
+            (Self::Leaves { height, .. }, Self::Leaves { height: than, .. }) => height.total_cmp(than),
+            (one, other) => one.kind().cmp(&other.kind()),
+        }
+    }
+
+    const fn kind(&self) -> u8 {
+        match self {
+            Self::Takes(_) => 0,
+            Self::Leaves { .. } => 1,
+            Self::Fails(_) => 2,
+            Self::ByModel(_) => 3,
+            Self::NotCompared => 4,
+            Self::Last => 5,
+            Self::Impossible => 6,
+        }
+    }
+}
