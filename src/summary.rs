@@ -1,5 +1,8 @@
 //! The figures of a program for people: a few lines behind a compilation.
 
+pub mod times;
+
+use crate::pace::Basis;
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach_summary::{self, ReachFigures};
@@ -11,7 +14,7 @@ const LISTED_LAYERS: usize = 24;
 
 /// The lines of the summary.
 #[must_use]
-pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>) -> Vec<String> {
+pub fn summary(plan: &PlannedJob, report: &Report, basis: Basis, reach: Option<&ReachFigures>) -> Vec<String> {
     let (cuts, layers) = (report.cuts(), report.layers.len());
     let mut lines = vec![format!(
         "{}: {cuts} {} in {layers} {}",
@@ -32,18 +35,8 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
             lines.push(row("auto", &choices.join(", ")));
         }
     }
-    let t = &report.timing;
-    lines.push(row(
-        "time",
-        &format!(
-            "{} = cutting {} + turning {} + travel {} + waiting {}",
-            time(t.total()),
-            time(t.cutting),
-            time(t.turning),
-            time(t.travel),
-            time(t.waiting)
-        ),
-    ));
+    lines.push(row("time", &times::in_all(&report.timing)));
+    lines.push(row("basis", &times::basis(basis)));
     let estimate = plan
         .operations
         .iter()

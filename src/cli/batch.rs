@@ -232,6 +232,7 @@ fn settle(unit: &Unit, done: Done, fate: Fate, console: &Console) -> (End, Exit)
         job: &unit.job,
         diagnostics: &diagnostics,
         lines: &[],
+        times: None,
         reach: None,
         placed: &made.placed,
         remark: Some(&remark(unit, &diagnostics, &made, fate)),

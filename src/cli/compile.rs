@@ -210,6 +210,7 @@ fn tell(
         job,
         diagnostics: &outcome.diagnostics,
         lines: compiled.map_or(&[], |compiled| &compiled.summary),
+        times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
         placed: &made.placed,
         remark: remark(product, is_wrong, made).as_deref(),

@@ -10,6 +10,7 @@ use super::output::Placed;
 use super::snapshot::Differences;
 use crate::diag::{Diagnostic, Severity, github, json, render};
 use crate::reach_summary::{self, ReachFigures};
+use crate::summary::times::{self, TimeFigures};
 use crate::source::SourceMap;
 use anstream::AutoStream;
 use serde::Serialize;
@@ -36,7 +37,7 @@ pub(super) enum Detail {
     DiagnosticsOnly,
     /// The summary, and progress.
     Summary,
-    /// Every axis of the machine and how long each stage took, too.
+    /// Every axis of the machine, every layer's time, and how long each stage of the run took, too.
     Everything,
 }
 
@@ -71,6 +72,8 @@ pub(super) struct Summary<'a> {
     pub(super) diagnostics: &'a [Diagnostic],
     /// What was planned, a line each.
     pub(super) lines: &'a [String],
+    /// Where the time goes.
+    pub(super) times: Option<&'a TimeFigures>,
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
     /// Files of its program, as people see them.
@@ -96,6 +99,8 @@ struct SummaryBody<'a> {
     errors: usize,
     warnings: usize,
     lines: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times: Option<&'a TimeFigures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<&'a ReachFigures>,
     files: Vec<&'a str>,
@@ -215,6 +220,7 @@ impl Console {
                     errors,
                     warnings,
                     lines: summary.lines,
+                    times: summary.times,
                     reach: summary.reach,
                     files: summary.placed.iter().map(Placed::path).collect(),
                     unchanged: unchanged(summary.placed),
@@ -229,7 +235,8 @@ impl Console {
     fn human_summary(&self, summary: &Summary<'_>, errors: usize, warnings: usize) {
         let mut text: String = summary.lines.iter().map(|line| format!("{line}\n")).collect();
         if self.detail == Detail::Everything {
-            let table = summary.reach.map(reach_summary::table).unwrap_or_default();
+            let mut table = summary.reach.map(reach_summary::table).unwrap_or_default();
+            table.extend(summary.times.map(times::table).unwrap_or_default());
             text.extend(table.iter().map(|line| format!("{line}\n")));
             for (stage, time) in summary.timings {
                 text += &format!("{stage:<10} {:>9.1} ms\n", milliseconds(*time));

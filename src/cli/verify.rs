@@ -65,6 +65,7 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         job: disk.job(),
         diagnostics: &outcome.diagnostics,
         lines: &verdict.lines,
+        times: None,
         reach: None,
         placed: &[],
         remark: None,

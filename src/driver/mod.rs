@@ -9,6 +9,7 @@ pub use crate::sema::Typed;
 
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
+use crate::pace::{self, Paced};
 use crate::plan::{self, PlannedJob};
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary::{self, ReachFigures};
@@ -16,8 +17,9 @@ use crate::reach_verdict;
 use crate::readback::{Astray, Written};
 use crate::sema;
 use crate::sim::report::Report;
-use crate::sim::timing::{op_times, timing};
+use crate::sim::timing::times;
 use crate::source::{Loader, SourceMap};
+use crate::summary::times::{TimeFigures, figures as time_figures};
 use crate::summary::summary;
 use crate::syntax::ast::Ast;
 use crate::verdict;
@@ -121,6 +123,8 @@ pub struct Compiled {
     pub report: Report,
     /// How long each op takes.
     pub op_times: Vec<Duration>,
+    /// Where the time goes, and what it is based on.
+    pub times: TimeFigures,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
 }
@@ -181,15 +185,17 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
                     Ok(program) => {
                         let figures = program.reached().map(reach_summary::figures);
                         let mut report = proven.report;
-                        // Travels that became moves of all axes take another time.
-                        report.timing = timing(program.verified());
-                        let op_times = op_times(program.verified());
-                        let summary = summary(&plan, &report, figures.as_ref());
+                        let paced = paced(job, &program);
+                        let times = times(program.verified(), &paced.times);
+                        (report.timing, report.layer_times) = (times.all, times.layers);
+                        let summary = summary(&plan, &report, paced.basis, figures.as_ref());
+                        let times = time_figures(&report, paced.basis);
                         outcome.compiled = Some(Compiled {
                             program,
                             figures,
                             report,
-                            op_times,
+                            op_times: paced.times,
+                            times,
                             summary,
                         });
                     }
@@ -200,6 +206,14 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
         Err(faults) => outcome.diagnostics.push(internal(job, &rules_broken(&faults))),
     }
     outcome.plan = Some(plan);
+}
+
+/// How long each op takes on the job's machine, or without one.
+fn paced(job: &CheckedJob, program: &Finished) -> Paced {
+    match (program.reached(), &job.machine) {
+        (Some(reached), Some(machine)) => pace::paced(&reached.program, &machine.model),
+        (None, _) | (_, None) => pace::programmed(program.verified()),
+    }
 }
 
 /// Finds how the job's machine carries out its program; a job without a machine has nothing to find.

@@ -31,7 +31,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
-    ("summary", &["plan", "reach_summary", "sim"]),
+    ("pace", &["kinematics", "machine", "reach", "sim"]),
+    ("summary", &["pace", "plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
     (
@@ -75,6 +76,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "diag",
             "job",
             "machine",
+            "pace",
             "plan",
             "reach",
             "reach_summary",
@@ -107,6 +109,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "readback",
             "registry",
             "source",
+            "summary",
         ],
     ),
 ];
@@ -116,7 +119,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diag/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
-    ("rayon::", &["src/reach/"]),
+    ("rayon::", &["src/pace/", "src/reach/"]),
     ("strsim::", &["src/diag/suggest.rs"]),
     (
         "glam::",
