@@ -14,7 +14,12 @@ const LISTED_LAYERS: usize = 24;
 
 /// The lines of the summary.
 #[must_use]
-pub fn summary(plan: &PlannedJob, report: &Report, basis: Basis, reach: Option<&ReachFigures>) -> Vec<String> {
+pub fn summary(
+    plan: &PlannedJob,
+    report: &Report,
+    basis: Basis,
+    reach: Option<&ReachFigures>,
+) -> Vec<String> {
     let (cuts, layers) = (report.cuts(), report.layers.len());
     let mut lines = vec![format!(
         "{}: {cuts} {} in {layers} {}",

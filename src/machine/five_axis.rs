@@ -26,8 +26,8 @@ use super::facts::Sources;
 use super::sheet::{Body, Form};
 use crate::document::flaw::Flaw;
 use crate::document::table::{
-    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_JERK, SLIDING_RATE, TURNING_ACCELERATION, TURNING_JERK,
-    TURNING_RATE, Table,
+    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_JERK, SLIDING_RATE, TURNING_ACCELERATION,
+    TURNING_JERK, TURNING_RATE, Table,
 };
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense, Unfit};
@@ -56,7 +56,13 @@ const ARRANGEMENT_LINES: &[(&str, &str)] = &[
 const ROTARY_NAMES: &[&str] = &["a", "b", "c", "s"];
 const LINEAR_NAMES: [&str; 3] = ["x", "y", "z"];
 
-const LINEAR_KEYS: &[&str] = &["travel_mm", "rate_mm_s", "acceleration_mm_s2", "jerk_mm_s3", "source"];
+const LINEAR_KEYS: &[&str] = &[
+    "travel_mm",
+    "rate_mm_s",
+    "acceleration_mm_s2",
+    "jerk_mm_s3",
+    "source",
+];
 const ROTARY_KEYS: &[&str] = &[
     "about",
     "centre_mm",

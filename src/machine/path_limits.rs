@@ -13,9 +13,7 @@
 
 use super::facts::Sources;
 use crate::document::flaw::Flaw;
-use crate::document::table::{
-    SLIDING_ACCELERATION, SLIDING_JERK, TURNING_ACCELERATION, TURNING_JERK, Table,
-};
+use crate::document::table::{SLIDING_ACCELERATION, SLIDING_JERK, TURNING_ACCELERATION, TURNING_JERK, Table};
 
 /// The heading of the table.
 pub(super) const KEY: &str = "path";

@@ -5,7 +5,9 @@
 use super::facts::Sources;
 use super::sheet::{Body, Form};
 use crate::document::flaw::Flaw;
-use crate::document::table::{ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE, Table};
+use crate::document::table::{
+    ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE, Table,
+};
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
@@ -217,7 +219,10 @@ fn axes(root: &Table<'_>, maker: Maker, body: &mut Body, flaws: &mut Vec<Flaw>) 
         Maker::Kuka => 'A',
         Maker::Abb | Maker::Other => 'J',
     };
-    let rows = ranges?.into_iter().zip(rates).zip(accelerations.into_iter().zip(jerks));
+    let rows = ranges?
+        .into_iter()
+        .zip(rates)
+        .zip(accelerations.into_iter().zip(jerks));
     let axes = (1..)
         .zip(rows)
         .map(|(number, (((min, max), rate), (acceleration, jerk)))| Axis {

@@ -65,7 +65,11 @@ impl Weights {
 }
 
 fn dot(weights: &[f64; POINTS], values: &[f64; POINTS]) -> f64 {
-    weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
+    weights
+        .iter()
+        .zip(values)
+        .map(|(weight, value)| weight * value)
+        .sum()
 }
 
 /// `k` of `n` as an angle from 0 to half a turn.
@@ -119,7 +123,10 @@ mod tests {
     fn derivatives_are_those_of_the_function() {
         let weights = Weights::new();
         let values = weights.points.map(|x| libm::sin(2.0 * x) + libm::exp(x));
-        let ends = weights.ends.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+        let ends = weights
+            .ends
+            .windows(2)
+            .map(|pair| f64::midpoint(pair[0], pair[1]));
         for (x, [first, second, third]) in ends.zip(weights.derivatives(&values)) {
             let (s, c, e) = (libm::sin(2.0 * x), libm::cos(2.0 * x), libm::exp(x));
             assert!((first - (2.0 * c + e)).abs() < 1e-10);

