@@ -1,7 +1,7 @@
 //! Pace: how long the machine takes for every op of a program.
 //!
 //! What emitted programs ask of a controller is followed. Every motion begins and ends at rest: KRL without `C_DIS`, RAPID with
-//! `fine`, G-code with `G61.1`, `G61` or `G60`, and Heidenhain's knife-straight corners stop exactly, and rounding
+//! `fine`, G-code with `G61.1`, `G61` or `G60`; rounding
 //! (`approximation`) is off unless asked for; a rounded corner takes less time than is computed here. Where an ABB program is given
 //! [waypoints](vcutc_backend_api::motion::Waypoint) it stops at each of them.
 //!
