@@ -1,3 +1,5 @@
+//! Ways of known shape and of a real arm, timed in ways of their own.
+
 use super::chebyshev::Weights;
 use super::profile::Bounds;
 use super::track::{Part, Slopes};
