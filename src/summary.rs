@@ -1,5 +1,8 @@
 //! The figures of a program for people: a few lines behind a compilation.
 
+pub mod times;
+
+use crate::pace::Basis;
 use crate::plan::decision::{Decision, Standing};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation};
@@ -12,7 +15,12 @@ const LISTED_LAYERS: usize = 24;
 
 /// The lines of the summary.
 #[must_use]
-pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>) -> Vec<String> {
+pub fn summary(
+    plan: &PlannedJob,
+    report: &Report,
+    basis: Basis,
+    reach: Option<&ReachFigures>,
+) -> Vec<String> {
     let (cuts, layers) = (report.cuts(), report.layers.len());
     let mut lines = vec![format!(
         "{}: {cuts} {} in {layers} {}",
@@ -40,18 +48,8 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
             lines.push(row(decision.field, &compared(decision)));
         }
     }
-    let t = &report.timing;
-    lines.push(row(
-        "time",
-        &format!(
-            "{} = cutting {} + turning {} + travel {} + waiting {}",
-            time(t.total()),
-            time(t.cutting),
-            time(t.turning),
-            time(t.travel),
-            time(t.waiting)
-        ),
-    ));
+    lines.push(row("time", &times::in_all(&report.timing)));
+    lines.push(row("basis", &times::basis(basis)));
     let estimate = plan
         .operations
         .iter()
@@ -62,7 +60,7 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
         &format!(
             "{} by the mean-value model, from the parameters alone{}",
             time(estimate),
-            against(estimate, t.total())
+            against(estimate, report.timing.total())
         ),
     ));
     lines.push(row(

@@ -43,7 +43,7 @@ impl<'j> Bench<'j> {
 
     /// How long an operation takes; none where the compiler is at fault, which the proof of the whole then shows.
     pub(super) fn time(&self, vcut: &PlannedVcut) -> Option<Duration> {
-        self.program(vcut).map(|program| timing(&program).total())
+        self.program(vcut).map(|program| timing(&program).all.total())
     }
 
     /// What comes of an operation.
@@ -64,7 +64,7 @@ impl<'j> Bench<'j> {
             edge: vcut.asked.limits.edge.map(|limit| limit.value),
         };
         let replay = replay_on(self.before.clone(), &program, &[bound]);
-        let time = timing(&program).total();
+        let time = timing(&program).all.total();
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());

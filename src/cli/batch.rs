@@ -312,6 +312,7 @@ fn tell(
         diagnostics,
         lines: &[],
         numbers,
+        times: None,
         reach: None,
         placed: &made.placed,
         remark: Some(&remark(unit, diagnostics, made, fate)),

@@ -212,6 +212,7 @@ fn tell(
         diagnostics: &outcome.diagnostics,
         lines: compiled.map_or(&[], |compiled| &compiled.summary),
         numbers: compiled.map(|compiled| &compiled.numbers),
+        times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
         placed: &made.placed,
         remark: remark(product, is_wrong, made).as_deref(),

@@ -12,6 +12,7 @@ use crate::diag::{Diagnostic, Severity, github, json, render};
 use crate::numbers::Numbers;
 use crate::reach_summary::{self, ReachFigures};
 use crate::source::SourceMap;
+use crate::summary::times::{self, TimeFigures};
 use anstream::AutoStream;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -37,7 +38,7 @@ pub(super) enum Detail {
     DiagnosticsOnly,
     /// The summary, and progress.
     Summary,
-    /// Every axis of the machine and how long each stage took, too.
+    /// Every axis of the machine, every layer's time, and how long each stage of the run took, too.
     Everything,
 }
 
@@ -74,6 +75,8 @@ pub(super) struct Summary<'a> {
     pub(super) lines: &'a [String],
     /// The figures of the program.
     pub(super) numbers: Option<&'a Numbers>,
+    /// Where the time goes.
+    pub(super) times: Option<&'a TimeFigures>,
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
     /// Files of its program, as people see them.
@@ -101,6 +104,7 @@ struct SummaryBody<'a> {
     lines: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     numbers: Option<&'a Numbers>,
+    times: Option<&'a TimeFigures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<&'a ReachFigures>,
     files: Vec<&'a str>,
@@ -221,6 +225,7 @@ impl Console {
                     warnings,
                     lines: summary.lines,
                     numbers: summary.numbers,
+                    times: summary.times,
                     reach: summary.reach,
                     files: summary.placed.iter().map(Placed::path).collect(),
                     unchanged: unchanged(summary.placed),
@@ -235,7 +240,8 @@ impl Console {
     fn human_summary(&self, summary: &Summary<'_>, errors: usize, warnings: usize) {
         let mut text: String = summary.lines.iter().map(|line| format!("{line}\n")).collect();
         if self.detail == Detail::Everything {
-            let table = summary.reach.map(reach_summary::table).unwrap_or_default();
+            let mut table = summary.reach.map(reach_summary::table).unwrap_or_default();
+            table.extend(summary.times.map(times::table).unwrap_or_default());
             text.extend(table.iter().map(|line| format!("{line}\n")));
             for (stage, time) in summary.timings {
                 text += &format!("{stage:<10} {:>9.1} ms\n", milliseconds(*time));

@@ -196,6 +196,7 @@ mod tests {
             max: max.to_radians(),
             rate: None,
             acceleration: None,
+            jerk: None,
         }
     }
 

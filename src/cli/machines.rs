@@ -9,6 +9,7 @@ use super::files::Disk;
 use crate::diag::Code;
 use crate::document::flaw::Flaw;
 use crate::machine::facts::{Dynamics, Facts, FkCheck};
+use crate::machine::path_limits::PathLimits;
 use crate::machine::sheet::{self, Sheet};
 use crate::machine::{self, FileKind, Model, Origin, catalogue};
 use crate::source::{Loader, SourceMap, text_from_bytes};
@@ -157,6 +158,7 @@ fn in_json(description: &Description) -> Value {
         "maker": maker_word(model.maker),
         "axes": model.axes.iter().map(axis_in_json).collect::<Vec<_>>(),
         "mechanism": mechanism::in_json(&model.mechanism),
+        "path": path_in_json(&model.path),
     });
     if let (Some(sheet), Some(object)) = (sheet, value.as_object_mut()) {
         let more = [
@@ -180,7 +182,52 @@ fn axis_in_json(axis: &Axis) -> Value {
         "max": unit.of(axis.max),
         "rate": axis.rate.map(|rate| unit.of(rate)),
         "acceleration": axis.acceleration.map(|acceleration| unit.of(acceleration)),
+        "jerk": axis.jerk.map(|jerk| unit.of(jerk)),
     })
+}
+
+/// An object with a key for each number that is known.
+fn path_in_json(path: &PathLimits) -> Value {
+    let known = path_numbers(path)
+        .into_iter()
+        .filter_map(|number| Some((number.key.to_owned(), json!(number.value?))));
+    Value::Object(known.collect())
+}
+
+/// A number of the controller's planner.
+struct PathNumber {
+    /// As sheets call it.
+    key: &'static str,
+    /// For people.
+    words: &'static str,
+    unit: &'static str,
+    value: Option<f64>,
+}
+
+fn path_numbers(path: &PathLimits) -> [PathNumber; 4] {
+    let number = |key, words, unit, value| PathNumber {
+        key,
+        words,
+        unit,
+        value,
+    };
+    let degrees = |value: Option<f64>| value.map(|value| DEGREES.of(value));
+    [
+        number("acceleration_mm_s2", "acceleration", "mm/s2", path.acceleration),
+        number("jerk_mm_s3", "jerk", "mm/s3", path.jerk),
+        number(
+            "turning_acceleration_deg_s2",
+            "acceleration of turning",
+            "deg/s2",
+            degrees(path.turning_acceleration),
+        ),
+        number(
+            "turning_jerk_deg_s3",
+            "jerk of turning",
+            "deg/s3",
+            degrees(path.turning_jerk),
+        ),
+    ]
 }
 
 /// The unit in which people read an axis.

@@ -66,6 +66,7 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         diagnostics: &outcome.diagnostics,
         lines: &verdict.lines,
         numbers: None,
+        times: None,
         reach: None,
         placed: &[],
         remark: None,

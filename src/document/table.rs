@@ -32,6 +32,10 @@ pub(crate) const TURNING_ACCELERATION: Measure = measure("deg/s2", 0.001, 10_000
 pub(crate) const SLIDING_RATE: Measure = measure("mm/s", 0.001, 1_000_000.0);
 /// Accelerations of linear axes.
 pub(crate) const SLIDING_ACCELERATION: Measure = measure("mm/s2", 0.001, 100_000_000.0);
+/// Jerks of rotary axes.
+pub(crate) const TURNING_JERK: Measure = measure("deg/s3", 0.001, 1e9);
+/// Jerks of linear axes.
+pub(crate) const SLIDING_JERK: Measure = measure("mm/s3", 0.001, 1e10);
 /// Masses.
 pub(crate) const MASS: Measure = measure("kg", 0.0, 1_000_000.0);
 /// Pure numbers from -1 to 1.

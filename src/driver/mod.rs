@@ -11,6 +11,7 @@ use crate::choice::{self, Latitude};
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::numbers::Numbers;
+use crate::pace::{self, Paced};
 use crate::plan::PlannedJob;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary::{self, ReachFigures};
@@ -18,9 +19,10 @@ use crate::reach_verdict;
 use crate::readback::{Astray, Written};
 use crate::sema;
 use crate::sim::report::Report;
-use crate::sim::timing::{op_times, timing};
+use crate::sim::timing::times;
 use crate::source::{Loader, SourceMap};
 use crate::summary::summary;
+use crate::summary::times::{TimeFigures, figures as time_figures};
 use crate::syntax::ast::Ast;
 use crate::verdict;
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
@@ -125,6 +127,8 @@ pub struct Compiled {
     pub op_times: Vec<Duration>,
     /// Its figures for other programs.
     pub numbers: Numbers,
+    /// Where the time goes, and what it is based on.
+    pub times: TimeFigures,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
 }
@@ -186,7 +190,7 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
                 told.extend(verdict::diagnose(job, &plan, &proven));
                 if !has_errors(&told) {
                     match reach(job, proven.program, progress) {
-                        Ok(program) => outcome.compiled = Some(compiled(program, &plan, proven.report)),
+                        Ok(program) => outcome.compiled = Some(compiled(job, program, &plan, proven.report)),
                         Err(unreached) => {
                             // The fastest routes ask the most of a machine.
                             if let Some(narrower) = latitude.narrower_than(&plan) {
@@ -206,19 +210,27 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
     }
 }
 
-fn compiled(program: Finished, plan: &PlannedJob, mut report: Report) -> Compiled {
+fn compiled(job: &CheckedJob, program: Finished, plan: &PlannedJob, mut report: Report) -> Compiled {
     let figures = program.reached().map(reach_summary::figures);
-    // Travels that became moves of all axes take another time.
-    report.timing = timing(program.verified());
-    let op_times = op_times(program.verified());
-    let summary = summary(plan, &report, figures.as_ref());
+    let paced = paced(job, &program);
+    let times = times(program.verified(), &paced.times);
+    (report.timing, report.layer_times) = (times.all, times.layers);
     Compiled {
+        numbers: Numbers::of(plan, &report),
+        summary: summary(plan, &report, paced.basis, figures.as_ref()),
+        times: time_figures(&report, paced.basis),
+        op_times: paced.times,
         program,
         figures,
-        numbers: Numbers::of(plan, &report),
         report,
-        op_times,
-        summary,
+    }
+}
+
+/// How long each op takes on the job's machine, or without one.
+fn paced(job: &CheckedJob, program: &Finished) -> Paced {
+    match (program.reached(), &job.machine) {
+        (Some(reached), Some(machine)) => pace::paced(&reached.program, &machine.model),
+        (None, _) | (_, None) => pace::programmed(program.verified()),
     }
 }
 

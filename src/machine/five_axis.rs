@@ -26,7 +26,8 @@ use super::facts::Sources;
 use super::sheet::{Body, Form};
 use crate::document::flaw::Flaw;
 use crate::document::table::{
-    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_RATE, TURNING_ACCELERATION, TURNING_RATE, Table,
+    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_JERK, SLIDING_RATE, TURNING_ACCELERATION,
+    TURNING_JERK, TURNING_RATE, Table,
 };
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense, Unfit};
@@ -55,13 +56,20 @@ const ARRANGEMENT_LINES: &[(&str, &str)] = &[
 const ROTARY_NAMES: &[&str] = &["a", "b", "c", "s"];
 const LINEAR_NAMES: [&str; 3] = ["x", "y", "z"];
 
-const LINEAR_KEYS: &[&str] = &["travel_mm", "rate_mm_s", "acceleration_mm_s2", "source"];
+const LINEAR_KEYS: &[&str] = &[
+    "travel_mm",
+    "rate_mm_s",
+    "acceleration_mm_s2",
+    "jerk_mm_s3",
+    "source",
+];
 const ROTARY_KEYS: &[&str] = &[
     "about",
     "centre_mm",
     "range_deg",
     "rate_deg_s",
     "acceleration_deg_s2",
+    "jerk_deg_s3",
     "source",
 ];
 const SPINDLE_KEYS: &[&str] = &[
@@ -69,6 +77,7 @@ const SPINDLE_KEYS: &[&str] = &[
     "range_deg",
     "rate_deg_s",
     "acceleration_deg_s2",
+    "jerk_deg_s3",
     "source",
 ];
 
@@ -218,6 +227,7 @@ fn linear_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Ax
     let range = table.range("travel_mm", LENGTH, LONGEST_TRAVEL, flaws);
     let rate = optional(&table, "rate_mm_s", SLIDING_RATE, flaws);
     let acceleration = optional(&table, "acceleration_mm_s2", SLIDING_ACCELERATION, flaws);
+    let jerk = optional(&table, "jerk_mm_s3", SLIDING_JERK, flaws);
     let (min, max) = range?;
     Some(Axis {
         name: name.to_uppercase(),
@@ -226,6 +236,7 @@ fn linear_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Ax
         max,
         rate: rate?,
         acceleration: acceleration?,
+        jerk: jerk?,
     })
 }
 
@@ -261,6 +272,7 @@ fn turning_axis(table: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<
     let range = table.range("range_deg", ANGLE, WIDEST_RANGE, flaws);
     let rate = optional(table, "rate_deg_s", TURNING_RATE, flaws);
     let acceleration = optional(table, "acceleration_deg_s2", TURNING_ACCELERATION, flaws);
+    let jerk = optional(table, "jerk_deg_s3", TURNING_JERK, flaws);
     let (min, max) = range?;
     Some(Axis {
         name: name.to_uppercase(),
@@ -269,6 +281,7 @@ fn turning_axis(table: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<
         max: max.to_radians(),
         rate: rate?.map(f64::to_radians),
         acceleration: acceleration?.map(f64::to_radians),
+        jerk: jerk?.map(f64::to_radians),
     })
 }
 

@@ -5,12 +5,14 @@ pub mod catalogue;
 pub mod facts;
 mod five_axis;
 pub mod habits;
+pub mod path_limits;
 mod robot;
 pub mod sheet;
 pub mod urdf;
 
 use crate::document::flaw::Flaw;
 use crate::kinematics::Mechanism;
+use path_limits::PathLimits;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 
 /// A machine as the compiler needs it, wherever its description came from.
@@ -24,6 +26,8 @@ pub struct Model {
     pub axes: Vec<Axis>,
     /// How the axes move the flange (of a robot) or the spindle nose (of a five-axis machine).
     pub mechanism: Mechanism,
+    /// What its controller keeps along the way of the tip.
+    pub path: PathLimits,
 }
 
 impl Model {

@@ -5,7 +5,9 @@
 use super::facts::Sources;
 use super::sheet::{Body, Form};
 use crate::document::flaw::Flaw;
-use crate::document::table::{ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_RATE, Table};
+use crate::document::table::{
+    ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE, Table,
+};
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
@@ -39,6 +41,8 @@ const LIMIT_KEYS: &[&str] = &[
     "speeds_source",
     "accelerations_deg_s2",
     "accelerations_source",
+    "jerks_deg_s3",
+    "jerks_source",
     "joint_effort_limit_nm",
     "joint_effort_source",
     ELBOW_LIMIT,
@@ -194,6 +198,7 @@ fn axes(root: &Table<'_>, maker: Maker, body: &mut Body, flaws: &mut Vec<Flaw>) 
         ("limits", "limits_source"),
         ("speeds", "speeds_source"),
         ("accelerations", "accelerations_source"),
+        ("jerks", "jerks_source"),
     ] {
         body.sources.push(Sources {
             of,
@@ -206,6 +211,7 @@ fn axes(root: &Table<'_>, maker: Maker, body: &mut Body, flaws: &mut Vec<Flaw>) 
     let before = flaws.len();
     let rates = optional(&table, "speeds_deg_s", TURNING_RATE, flaws);
     let accelerations = optional(&table, "accelerations_deg_s2", TURNING_ACCELERATION, flaws);
+    let jerks = optional(&table, "jerks_deg_s3", TURNING_JERK, flaws);
     if flaws.len() > before {
         return None;
     }
@@ -213,16 +219,20 @@ fn axes(root: &Table<'_>, maker: Maker, body: &mut Body, flaws: &mut Vec<Flaw>) 
         Maker::Kuka => 'A',
         Maker::Abb | Maker::Other => 'J',
     };
-    let rows = ranges?.into_iter().zip(rates).zip(accelerations);
+    let rows = ranges?
+        .into_iter()
+        .zip(rates)
+        .zip(accelerations.into_iter().zip(jerks));
     let axes = (1..)
         .zip(rows)
-        .map(|(number, (((min, max), rate), acceleration))| Axis {
+        .map(|(number, (((min, max), rate), (acceleration, jerk)))| Axis {
             name: format!("{letter}{number}"),
             kind: AxisKind::Rotary,
             min: min.to_radians(),
             max: max.to_radians(),
             rate: rate.map(f64::to_radians),
             acceleration: acceleration.map(f64::to_radians),
+            jerk: jerk.map(f64::to_radians),
         });
     Some(axes.collect())
 }

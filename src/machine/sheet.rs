@@ -5,6 +5,7 @@
 //! and one for five-axis machines; the key `kind` says which.
 
 use super::facts::{self, Facts, FkCheck, Sources};
+use super::path_limits::{self, PathLimits};
 use super::{Model, five_axis, robot};
 use crate::document::flaw::Flaw;
 use crate::document::table::{MASS, Table};
@@ -27,6 +28,8 @@ pub struct Sheet {
     pub axes: Vec<Axis>,
     /// How the axes move the flange or the spindle nose.
     pub mechanism: Mechanism,
+    /// What its controller keeps along the way of the tip.
+    pub path: PathLimits,
     /// For people.
     pub facts: Facts,
 }
@@ -80,6 +83,7 @@ const COMMON_KEYS: &[&str] = &[
     "rated_payload_kg",
     "payload_source",
     "confidence",
+    path_limits::KEY,
 ];
 
 /// How messages speak of sheets.
@@ -117,6 +121,7 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
     let body = (form.read)(root, maker(manufacturer), flaws)?;
     facts.sources.extend(body.sources);
     facts.remarks.extend(body.remarks);
+    let path = path_limits::read(root, &mut facts.sources, &mut facts.remarks, flaws);
     let mechanism = body.mechanism?;
     let missed = |check: &FkCheck| check.missed(&mechanism, &body.axes);
     flaws.extend(facts.fk_checks.iter().filter_map(missed));
@@ -127,6 +132,7 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
         confidence,
         axes: body.axes,
         mechanism,
+        path,
         facts,
     })
 }
@@ -183,6 +189,7 @@ impl Sheet {
             maker: self.maker(),
             axes: self.axes.clone(),
             mechanism: self.mechanism.clone(),
+            path: self.path,
         }
     }
 }

@@ -20,6 +20,7 @@ mod tests;
 mod tree;
 
 use super::Model;
+use super::path_limits::PathLimits;
 use crate::document::flaw::Flaw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::{JointAxis, SerialArm};
@@ -73,6 +74,7 @@ fn read(name: &str, text: &str, flange: Flange<'_>) -> Result<Model, Vec<Flaw>> 
         maker: Maker::Other,
         axes: joints.iter().map(axis).collect(),
         mechanism: recognise::closed_form(&arm).unwrap_or(Mechanism::Serial(arm)),
+        path: PathLimits::UNKNOWN,
     })
 }
 
@@ -84,6 +86,7 @@ fn axis(joint: &MovingJoint) -> Axis {
         max: joint.limits.range.1,
         rate: joint.limits.rate,
         acceleration: None,
+        jerk: None,
     }
 }
 

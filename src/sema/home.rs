@@ -215,6 +215,7 @@ mod tests {
             max: 1_234.567_89,
             rate: None,
             acceleration: None,
+            jerk: None,
         };
         let written = |value| edit(&axis, &Place { value, span }).replacement;
         assert_eq!(written(2000.0), "1234.5678 mm");

@@ -1,7 +1,7 @@
 //! The figures of a proven program: what people want to see before they run it.
 
 use super::prove::{Replay, merge_heights};
-use super::timing::Timing;
+use super::timing::{LayerTime, Times, Timing};
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use vcutc_backend_api::ir::{OperationId, Stock};
@@ -12,8 +12,10 @@ use vcutc_backend_api::units::{Area, Length};
 pub struct Report {
     /// Cuts of each layer, operation by operation.
     pub layers: Vec<(OperationId, usize)>,
-    /// Times.
+    /// Times by what they are spent on.
     pub timing: Timing,
+    /// The same for each layer.
+    pub layer_times: Vec<LayerTime>,
     /// Area of the stock's cross-section that is cut away.
     pub removed: Area,
     /// Area that stays on the part.
@@ -47,7 +49,7 @@ impl Report {
 
 /// Gathers the figures of a replay.
 #[must_use]
-pub fn report(replay: Replay, stock: Stock, part: &Profile, timing: Timing) -> Report {
+pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Report {
     let corners: Vec<Point2> = replay.surface.corners().collect();
     let machined = area_under(&corners);
     let theoretical = part.area_below(0.0, stock.width.to_mm());
@@ -55,7 +57,8 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, timing: Timing) -> R
     let residual = Area::mm2(machined) - theoretical;
     Report {
         layers: replay.layers,
-        timing,
+        timing: times.all,
+        layer_times: times.layers,
         removed: Area::mm2(whole - machined),
         residual,
         scallop: highest(&corners, part),

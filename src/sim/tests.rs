@@ -139,7 +139,7 @@ fn program_time_is_the_papers_time_of_each_cut() {
     let plan = choose(&job).0.unwrap();
     let proven = prove(&plan, &SourceMap::default()).unwrap();
     let PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
-    let t = timing(&proven.program);
+    let t = timing(&proven.program).all;
     let cuts = f64::from(u32::try_from(vcut.cuts.len()).unwrap());
     let layers = f64::from(vcut.cuts.last().unwrap().layer);
     // [Cui 9]: (2D + 4b) / v1 for the two flanks, phi / omega for the turn between them.

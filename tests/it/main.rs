@@ -29,6 +29,8 @@ mod krl_text;
 #[cfg(feature = "krl")]
 mod mutations;
 mod opw_peer;
+#[cfg(feature = "krl")]
+mod pace;
 mod pages;
 #[cfg(feature = "krl")]
 mod pipeline;

@@ -33,7 +33,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
     ("choice", &["diag", "job", "lower", "plan", "sim", "source"]),
-    ("summary", &["plan", "reach_summary", "sim"]),
+    ("pace", &["kinematics", "machine", "reach", "sim"]),
+    ("summary", &["pace", "plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
     (
@@ -80,6 +81,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "job",
             "machine",
             "numbers",
+            "pace",
             "plan",
             "reach",
             "reach_summary",
@@ -113,6 +115,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "readback",
             "registry",
             "source",
+            "summary",
         ],
     ),
 ];
@@ -122,7 +125,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diag/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
-    ("rayon::", &["src/reach/"]),
+    ("rayon::", &["src/pace/", "src/reach/"]),
     ("strsim::", &["src/diag/suggest.rs"]),
     (
         "glam::",

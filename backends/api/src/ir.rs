@@ -125,6 +125,9 @@ pub struct Axis {
     pub rate: Option<f64>,
     /// Highest acceleration, when known.
     pub acceleration: Option<f64>,
+    /// Highest jerk, when known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<f64>,
 }
 
 /// How an axis moves.

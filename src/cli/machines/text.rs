@@ -1,8 +1,9 @@
 //! Machines as people read them: columns, and wrapped lists.
 
-use super::{Description, axis_unit, kind_word, maker_word, mechanism};
+use super::{Description, axis_unit, kind_word, maker_word, mechanism, path_numbers};
 use crate::machine::catalogue::Summary;
 use crate::machine::facts::{Dynamics, Facts, FkCheck};
+use crate::machine::path_limits::PathLimits;
 use crate::machine::sheet::{Confidence, Sheet};
 use std::fmt::Write;
 use vcutc_backend_api::ir::{Axis, AxisKind};
@@ -52,6 +53,7 @@ pub(super) fn machine(description: &Description) -> String {
     }
     text.push('\n');
     text.push_str(&axes(&model.axes));
+    text.push_str(&path(&model.path));
     text.push('\n');
     text.push_str(&mechanism::text(&model.mechanism));
     if let Some(sheet) = sheet {
@@ -86,13 +88,25 @@ fn of_sheet(sheet: &Sheet) -> Vec<String> {
     lines
 }
 
+/// A line with what the controller keeps along the way of the tip; nothing when nothing is known.
+fn path(path: &PathLimits) -> String {
+    let known: Vec<String> = path_numbers(path)
+        .iter()
+        .filter_map(|number| Some(format!("{} {} {}", number.words, number.value?, number.unit)))
+        .collect();
+    if known.is_empty() {
+        return String::new();
+    }
+    format!("  along the way of the tip: {}\n", known.join(", "))
+}
+
 fn axes(axes: &[Axis]) -> String {
-    let head = ["axis", "from", "to", "rate", "acceleration"].map(str::to_owned);
+    let head = ["axis", "from", "to", "rate", "acceleration", "jerk"].map(str::to_owned);
     let rows = axes.iter().map(|axis| {
         let unit = axis_unit(axis);
-        let (rate, acceleration) = match axis.kind {
-            AxisKind::Rotary => ("deg/s", "deg/s2"),
-            AxisKind::Linear => ("mm/s", "mm/s2"),
+        let (rate, acceleration, jerk) = match axis.kind {
+            AxisKind::Rotary => ("deg/s", "deg/s2", "deg/s3"),
+            AxisKind::Linear => ("mm/s", "mm/s2", "mm/s3"),
         };
         [
             axis.name.clone(),
@@ -100,6 +114,7 @@ fn axes(axes: &[Axis]) -> String {
             with_unit(Some(unit.of(axis.max)), unit.name),
             with_unit(axis.rate.map(|value| unit.of(value)), rate),
             with_unit(axis.acceleration.map(|value| unit.of(value)), acceleration),
+            with_unit(axis.jerk.map(|value| unit.of(value)), jerk),
         ]
     });
     columns(core::iter::once(head).chain(rows).collect(), "  ")

@@ -46,6 +46,7 @@ fn axes(reach: f64) -> Vec<Axis> {
             max: reach,
             rate: None,
             acceleration: None,
+            jerk: None,
         })
         .collect()
 }

@@ -82,6 +82,7 @@ pub use worst::worst;
 
 use super::five_axis_path;
 use super::rig::Rig;
+use crate::kinematics::five_axis::FiveAxis;
 use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
@@ -230,10 +231,51 @@ pub fn joints_on(
     place: f64,
     near: &Joints,
 ) -> Option<Joints> {
-    if let Mechanism::FiveAxis(machine) = rig.mechanism {
-        return Some(five_axis_path::joints_between(machine, rig, course, ends, place));
+    Followed::new(rig, course, branch, ends)?.joints_at(place, near)
+}
+
+/// A course that the axes follow on a branch: the same as [`joints_on`] for many places.
+pub struct Followed<'r>(Follower<'r>);
+
+enum Follower<'r> {
+    Arm(Way<'r>),
+    FiveAxis {
+        machine: &'r FiveAxis,
+        rig: &'r Rig<'r>,
+        course: &'r Course,
+        ends: [&'r Joints; 2],
+    },
+}
+
+impl<'r> Followed<'r> {
+    /// None for a branch that the machine does not have, and for a course that cannot be.
+    #[must_use]
+    pub fn new(rig: &'r Rig<'r>, course: &'r Course, branch: Branch, ends: [&'r Joints; 2]) -> Option<Self> {
+        Some(Self(if let Mechanism::FiveAxis(machine) = rig.mechanism {
+            Follower::FiveAxis {
+                machine,
+                rig,
+                course,
+                ends,
+            }
+        } else {
+            Follower::Arm(Way::new(rig, course, branch)?)
+        }))
     }
-    Way::new(rig, course, branch)?.joints_at(place, near)
+
+    /// The axes at a place from 0 to 1; those of an arm within half a turn of `near`.
+    #[must_use]
+    pub fn joints_at(&self, place: f64, near: &Joints) -> Option<Joints> {
+        match &self.0 {
+            Follower::Arm(way) => way.joints_at(place, near),
+            Follower::FiveAxis {
+                machine,
+                rig,
+                course,
+                ends,
+            } => Some(five_axis_path::joints_between(machine, rig, course, *ends, place)),
+        }
+    }
 }
 
 /// A machine on a branch that carries the blade along a course.

@@ -7,6 +7,7 @@ mod windows;
 
 use super::*;
 use crate::kinematics::opw::{Coupling, Opw};
+use crate::machine::path_limits::PathLimits;
 use crate::machine::{Model, catalogue};
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DQuat, DVec3};
@@ -113,12 +114,14 @@ fn made_up(arm: Opw, limits: [(f64, f64); 6]) -> Model {
         max: f64::to_radians(max),
         rate: Some(f64::to_radians(110.0)),
         acceleration: None,
+        jerk: None,
     });
     Model {
         name: "test/made_up".to_owned(),
         maker: Maker::Other,
         axes: axes.to_vec(),
         mechanism: Mechanism::OrthoParallel(arm),
+        path: PathLimits::UNKNOWN,
     }
 }
 

@@ -43,6 +43,7 @@ pub fn axes() -> Vec<Axis> {
             max: LIMIT.to_rad(),
             rate: Some(2.0),
             acceleration: None,
+            jerk: None,
         })
         .collect()
 }

@@ -24,6 +24,7 @@ pub fn five_axes() -> Vec<Axis> {
         max: far,
         rate: Some(rate),
         acceleration: None,
+        jerk: None,
     };
     vec![
         axis("X", AxisKind::Linear, 200_000.0, 500.0),

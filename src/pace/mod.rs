@@ -1,0 +1,314 @@
+//! Pace: how long the machine takes for every op of a program.
+//!
+//! What emitted programs ask of a controller is followed. Every motion begins and ends at rest: KRL without `C_DIS`, RAPID with
+//! `fine`, G-code with `G61.1`, `G61` or `G60`; rounding
+//! (`approximation`) is off unless asked for; a rounded corner takes less time than is computed here. Where an ABB program is given
+//! [waypoints](vcutc_backend_api::motion::Waypoint) it stops at each of them.
+//!
+//! - **Straight motions and turns.** Tip and blade move together: both do the same part `u` of their way at any time, and the
+//!   slower decides. The programmed feed and rate bound `u'`; so do the path's acceleration and jerk, over the way of the tip
+//!   and the angle of the blade. Without numbers of the axes the profile is closed ([`profile`]). With their accelerations it
+//!   is the fastest that the axes can follow ([`phase`]), with jerk one that is proven and close to it ([`smooth`]); how the
+//!   axes move along the way is told by [`track`].
+//! - **Moves of all axes** are synchronous: all axes do the same part of their way, so that the one that needs longest decides.
+//! - **The rest** waits as long as it says.
+//!
+//! A sheet without accelerations leaves speeds alone: stopping and starting then take no time ([`Kept`]). Nothing is assumed that
+//! a sheet does not say.
+
+mod chebyshev;
+mod phase;
+mod profile;
+mod smooth;
+#[cfg(test)]
+mod tests;
+mod track;
+
+use crate::kinematics::Joints;
+use crate::machine::Model;
+use crate::machine::path_limits::PathLimits;
+use crate::reach::legs::{Leg, Poses, Stroke, Taught, legs, numbered};
+use crate::reach::path::{Course, Followed};
+use crate::reach::rig::Rig;
+use crate::reach::solve::rig;
+use crate::sim::timing::op_times;
+use chebyshev::Weights;
+use profile::Bounds;
+use rayon::prelude::*;
+use track::Part;
+use vcutc_backend_api::ir::{Axis, MOST_AXES, Maker, OpId, Program};
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::verify::VerifiedProgram;
+
+/// What of a machine the times of a program keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// Programmed speeds and highest rates of axes: starting and stopping take no time.
+    Speeds,
+    /// The accelerations that the machine's sheet states, too.
+    Accelerations,
+    /// The jerks that it states, too.
+    Jerks,
+}
+
+/// What the times of a program are based on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Basis {
+    /// What they keep.
+    pub kept: Kept,
+    /// How many moves of all axes have no time: the machine, where they begin, or the rate of an axis is not known.
+    pub untimed: usize,
+}
+
+/// How long a program takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Paced {
+    /// How long each op takes, in the order of the program; nothing for those whose time is not known.
+    pub times: Vec<Duration>,
+    /// What that is based on.
+    pub basis: Basis,
+}
+
+/// The times of a program that no machine carries out: at programmed speeds.
+#[must_use]
+pub fn programmed(program: &VerifiedProgram) -> Paced {
+    let is_by_axes = |leg: &Leg| matches!(leg, Leg::Home | Leg::ByAxes(_));
+    Paced {
+        times: op_times(program),
+        basis: Basis {
+            kept: Kept::Speeds,
+            untimed: legs(program.program())
+                .iter()
+                .filter(|leg| is_by_axes(leg))
+                .count(),
+        },
+    }
+}
+
+/// The times of a program on its machine.
+#[must_use]
+pub fn paced(reached: &ReachableProgram, model: &Model) -> Paced {
+    let mut paced = programmed(reached.verified());
+    let Some(cell) = &reached.program().cell else {
+        return paced;
+    };
+    let clock = Clock {
+        reached,
+        rig: rig(model, cell),
+        maker: cell.maker,
+        axes: axis_bounds(&model.axes),
+        path: model.path,
+        weights: Weights::new(),
+    };
+    let legs = legs(reached.program());
+    let starts = starts(&legs, reached, cell.home.map(|home| home.0));
+    let known: Vec<Option<f64>> = legs
+        .par_iter()
+        .zip(&starts)
+        .enumerate()
+        .map(|(index, (leg, start))| clock.leg(OpId(u32::try_from(index).ok()?), leg, start.as_ref()))
+        .collect();
+    paced.basis = Basis {
+        kept: clock.kept(),
+        untimed: 0,
+    };
+    for ((leg, known), time) in legs.iter().zip(known).zip(&mut paced.times) {
+        match (leg, known) {
+            (Leg::Still, _) => {}
+            (_, Some(seconds)) => *time = Duration::s(seconds),
+            (Leg::Home | Leg::ByAxes(_), None) => paced.basis.untimed += 1,
+            // Stays at the programmed speed.
+            (Leg::Along(_), None) => {}
+        }
+    }
+    paced
+}
+
+/// The axes at the beginning of every op, where known.
+fn starts(legs: &[Leg], reached: &ReachableProgram, home: Option<Joints>) -> Vec<Option<Joints>> {
+    let mut at = home;
+    numbered(legs)
+        .map(|(op, leg)| {
+            let start = at;
+            match leg {
+                Leg::Still => {}
+                Leg::Home | Leg::ByAxes(_) | Leg::Along(_) => at = reached.axes_after(op).map(|end| end.0),
+            }
+            start
+        })
+        .collect()
+}
+
+fn axis_bounds(axes: &[Axis]) -> [Bounds; MOST_AXES] {
+    core::array::from_fn(|index| {
+        axes.get(index).map_or_else(Bounds::default, |axis| Bounds {
+            rate: axis.rate,
+            acceleration: axis.acceleration,
+            jerk: axis.jerk,
+        })
+    })
+}
+
+/// All that times depend on.
+struct Clock<'r> {
+    reached: &'r ReachableProgram,
+    rig: Rig<'r>,
+    maker: Maker,
+    axes: [Bounds; MOST_AXES],
+    path: PathLimits,
+    weights: Weights,
+}
+
+impl Clock<'_> {
+    fn kept(&self) -> Kept {
+        let path = [
+            Bounds {
+                rate: None,
+                acceleration: self.path.acceleration,
+                jerk: self.path.jerk,
+            },
+            Bounds {
+                rate: None,
+                acceleration: self.path.turning_acceleration,
+                jerk: self.path.turning_jerk,
+            },
+        ];
+        let all = || self.axes.iter().chain(&path);
+        if all().any(|bounds| bounds.jerk.is_some()) {
+            Kept::Jerks
+        } else if all().any(|bounds| bounds.acceleration.is_some()) {
+            Kept::Accelerations
+        } else {
+            Kept::Speeds
+        }
+    }
+
+    /// How long an op takes, in s.
+    fn leg(&self, op: OpId, leg: &Leg, start: Option<&Joints>) -> Option<f64> {
+        match leg {
+            Leg::Still => None,
+            Leg::Home | Leg::ByAxes(_) => self.by_axes(start?, &self.reached.axes_after(op)?.0),
+            Leg::Along(stroke) => match self.kept() {
+                Kept::Speeds => Some(stroke.duration),
+                Kept::Accelerations | Kept::Jerks => self.along(op, stroke, start?),
+            },
+        }
+    }
+
+    /// All axes at once, each straight to its value.
+    fn by_axes(&self, from: &Joints, to: &Joints) -> Option<f64> {
+        let mut bounds = Bounds::default();
+        for (axis, (from, to)) in self.axes.iter().zip(from.iter().zip(to)) {
+            let way = (to - from).abs();
+            if way > 0.0 {
+                axis.rate?;
+                bounds = bounds.and(axis.over(way));
+            }
+        }
+        match bounds.rate {
+            Some(_) => bounds.duration(1.0),
+            None => Some(0.0),
+        }
+    }
+
+    /// A straight motion or a turn, from stop to stop.
+    fn along(&self, op: OpId, stroke: &Stroke, start: &Joints) -> Option<f64> {
+        let way = Ways::of(self.reached.program(), stroke)?;
+        let moves_axes = |bounds: &Bounds| bounds.acceleration.is_some() || bounds.jerk.is_some();
+        if !self.axes.iter().any(moves_axes) {
+            return self
+                .stops(op)
+                .windows(2)
+                .map(|ends| self.path_bounds(&way, stroke, share(ends)).duration(1.0))
+                .sum();
+        }
+        let end = self.reached.axes_after(op)?.0;
+        let course: Course = Poses::of(self.reached.program()).course(stroke)?;
+        let branch = self.reached.branch_after(op)?;
+        let followed = Followed::new(&self.rig, &course, branch, [start, &end])?;
+        let mut near = *start;
+        let mut seconds = 0.0;
+        for ends in self.stops(op).windows(2) {
+            let share = share(ends);
+            let begin = ends.first().copied().unwrap_or_default();
+            let parts = track::parts(&self.weights, &near, |place, near| {
+                followed.joints_at(begin + share * place, near)
+            })?;
+            seconds += self.portion(&parts, self.path_bounds(&way, stroke, share))?;
+            near = followed.joints_at(begin + share, &near)?;
+        }
+        Some(seconds)
+    }
+
+    fn portion(&self, parts: &[Part], path: Bounds) -> Option<f64> {
+        let rate = path.rate?;
+        match self.kept() {
+            Kept::Speeds | Kept::Accelerations => Some(phase::duration(parts, &self.axes, rate, path)),
+            Kept::Jerks => smooth::ride(parts, &self.axes, rate, path).map(|ride| ride.time),
+        }
+    }
+
+    /// Bounds of the part of a motion that is done, or of a share of the motion.
+    fn path_bounds(&self, way: &Ways, stroke: &Stroke, share: f64) -> Bounds {
+        let tip = Bounds {
+            rate: None,
+            acceleration: self.path.acceleration,
+            jerk: self.path.jerk,
+        };
+        let blade = Bounds {
+            rate: None,
+            acceleration: self.path.turning_acceleration,
+            jerk: self.path.turning_jerk,
+        };
+        let programmed = Bounds {
+            rate: Some(1.0 / (stroke.duration * share)),
+            ..Bounds::default()
+        };
+        programmed
+            .and(tip.over(way.tip * share))
+            .and(blade.over(way.blade * share))
+    }
+
+    /// Where on the way of an op the machine stops, from 0 to 1.
+    fn stops(&self, op: OpId) -> Vec<f64> {
+        let waypoints = match self.maker {
+            Maker::Abb => &self.reached.motion().waypoints[..],
+            Maker::Kuka | Maker::Other => &[],
+        };
+        let first = waypoints.partition_point(|waypoint| waypoint.op < op);
+        let own = waypoints
+            .iter()
+            .skip(first)
+            .take_while(|waypoint| waypoint.op == op);
+        let between = own.map(|waypoint| waypoint.done);
+        core::iter::once(0.0)
+            .chain(between)
+            .chain(core::iter::once(1.0))
+            .collect()
+    }
+}
+
+/// How much of a motion lies between two stops.
+fn share(ends: &[f64]) -> f64 {
+    match ends {
+        [begin, end] => end - begin,
+        _ => 0.0,
+    }
+}
+
+/// How far the tip goes (mm), and how far the blade turns (rad).
+struct Ways {
+    tip: f64,
+    blade: f64,
+}
+
+impl Ways {
+    fn of(program: &Program, stroke: &Stroke) -> Option<Self> {
+        let held = |taught: Taught| program.orientations.get(taught.held.0 as usize).copied();
+        Some(Self {
+            tip: stroke.from.tip.distance(stroke.to.tip).to_mm(),
+            blade: held(stroke.from)?.angle_to(held(stroke.to)?).to_rad(),
+        })
+    }
+}

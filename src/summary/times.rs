@@ -1,0 +1,133 @@
+//! Where the time of a program goes, for people and for programs: the [`TimeFigures`], their lines and their table.
+
+use super::time;
+use crate::pace::{Basis, Kept};
+use crate::sim::report::Report;
+use crate::sim::timing::{LayerTime, Timing};
+use serde::Serialize;
+
+/// Where the time of a program goes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimeFigures {
+    /// `speeds`, `accelerations` or `jerks`: what of the machine the times keep.
+    pub basis: &'static str,
+    /// How many moves of all axes have no time, because it is not known.
+    pub untimed: usize,
+    /// Of the whole program.
+    #[serde(flatten)]
+    pub all: KindFigures,
+    /// Layer by layer.
+    pub layers: Vec<LayerFigure>,
+}
+
+/// Time by what it is spent on, in s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct KindFigures {
+    /// All of it.
+    pub total_s: f64,
+    /// Through the work.
+    pub cutting_s: f64,
+    /// Turning about the still tip.
+    pub turning_s: f64,
+    /// Through the air.
+    pub travel_s: f64,
+    /// Moves of all axes.
+    pub axes_s: f64,
+    /// Waiting.
+    pub waiting_s: f64,
+}
+
+/// The time of a layer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LayerFigure {
+    /// The operation, from 0.
+    pub operation: u16,
+    /// The layer, from 1.
+    pub layer: u32,
+    /// Its time.
+    #[serde(flatten)]
+    pub time: KindFigures,
+}
+
+/// The figures of a report.
+#[must_use]
+pub fn figures(report: &Report, basis: Basis) -> TimeFigures {
+    let layer = |layer: &LayerTime| LayerFigure {
+        operation: layer.operation.0,
+        layer: layer.layer,
+        time: kinds(&layer.timing),
+    };
+    TimeFigures {
+        basis: match basis.kept {
+            Kept::Speeds => "speeds",
+            Kept::Accelerations => "accelerations",
+            Kept::Jerks => "jerks",
+        },
+        untimed: basis.untimed,
+        all: kinds(&report.timing),
+        layers: report.layer_times.iter().map(layer).collect(),
+    }
+}
+
+fn kinds(timing: &Timing) -> KindFigures {
+    KindFigures {
+        total_s: timing.total().to_s(),
+        cutting_s: timing.cutting.to_s(),
+        turning_s: timing.turning.to_s(),
+        travel_s: timing.travel.to_s(),
+        axes_s: timing.axes.to_s(),
+        waiting_s: timing.waiting.to_s(),
+    }
+}
+
+/// The whole time and what it is made of.
+pub(super) fn in_all(timing: &Timing) -> String {
+    let mut kinds = vec![
+        ("cutting", timing.cutting),
+        ("turning", timing.turning),
+        ("travel", timing.travel),
+        ("waiting", timing.waiting),
+    ];
+    if timing.axes.to_s() > 0.0 {
+        kinds.push(("moves of all axes", timing.axes));
+    }
+    let kinds: Vec<String> = kinds
+        .iter()
+        .map(|(name, spent)| format!("{name} {}", time(*spent)))
+        .collect();
+    format!("{} = {}", time(timing.total()), kinds.join(" + "))
+}
+
+/// What the times are based on.
+pub(super) fn basis(basis: Basis) -> String {
+    let kept = match basis.kept {
+        Kept::Speeds => "programmed speeds; starting and stopping take no time",
+        Kept::Accelerations => "accelerations of the machine, from stop to stop",
+        Kept::Jerks => "accelerations and jerks of the machine, from stop to stop",
+    };
+    match basis.untimed {
+        0 => kept.to_owned(),
+        1 => format!("{kept}; 1 move of all axes not counted"),
+        more => format!("{kept}; {more} moves of all axes not counted"),
+    }
+}
+
+/// A line for each layer.
+#[must_use]
+pub fn table(figures: &TimeFigures) -> Vec<String> {
+    let head = format!(
+        "{:<10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
+        "layer, s", "all", "cutting", "turning", "travel", "all axes", "waiting"
+    );
+    let line = |layer: &LayerFigure| {
+        let t = &layer.time;
+        let name = format!("{}.{}", u32::from(layer.operation) + 1, layer.layer);
+        format!(
+            "{name:<10} {:>10.1} {:>10.1} {:>10.1} {:>10.1} {:>10.1} {:>10.1}",
+            t.total_s, t.cutting_s, t.turning_s, t.travel_s, t.axes_s, t.waiting_s
+        )
+    };
+    core::iter::once(head)
+        .chain(figures.layers.iter().map(line))
+        .collect()
+}
