@@ -224,9 +224,11 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
     let auto = |name: &str, is_auto: bool| format!("{name} {}", if is_auto { "auto" } else { "given" });
     for Operation::RoughVcut(asked) in &job.operations {
         subjects.extend([
-            format!("{:?} {:?}", asked.lattice.value, asked.order.value),
             format!("{:?} {:?}", asked.blade.edges, asked.direction.value),
-            format!("residual {:?}", asked.residual.value),
+            match asked.residual.value {
+                Auto::Auto => "residual Auto".to_owned(),
+                Auto::Given(residual) => format!("residual {residual:?}"),
+            },
             auto("swing", asked.swing.value == Auto::Auto),
             auto("layer", asked.layer.value == Auto::Auto),
             auto("step", asked.step.value == Auto::Auto),
@@ -235,6 +237,7 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
         ]);
     }
     for PlannedOperation::RoughVcut(vcut) in &outcome.plan.as_ref().unwrap().operations {
+        subjects.insert(format!("{:?} {:?}", vcut.parameters.lattice, vcut.order));
         for cut in &vcut.cuts {
             subjects.insert(match cut.origin {
                 TipOrigin::Lattice => "tip on the lattice".to_owned(),
@@ -245,7 +248,7 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
         }
         for pair in vcut.cuts.windows(2) {
             if pair[0].layer == pair[1].layer && pair[1].way == Way::Over {
-                subjects.insert(format!("over the safe plane, {:?}", vcut.asked.order.value));
+                subjects.insert(format!("over the safe plane, {:?}", vcut.order));
             }
         }
     }
