@@ -219,7 +219,7 @@ fn keeps<T: Copy + PartialOrd>(value: T, bounds: Bounds<T>) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(128))]
+    #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
     fn what_is_chosen_keeps_the_limits_and_is_proven(job in an_open_job()) {

@@ -385,7 +385,7 @@ impl Read<'_> {
         let (message, label) = match finding.fault {
             CutFault::NotFreed { needed, available } => (
                 format!(
-                    "{place} needs {} mm of edge, the blade has {} mm",
+                    "{place} needs {} mm of edge, {} mm may be used",
                     show(needed.to_mm()),
                     show(available.to_mm())
                 ),

@@ -225,10 +225,13 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
     for Operation::RoughVcut(asked) in &job.operations {
         subjects.extend([
             format!("{:?} {:?}", asked.blade.edges, asked.direction.value),
-            format!("residual {:?}", asked.residual.value),
             auto("lattice", asked.lattice.value == Auto::Auto),
             auto("order", asked.order.value == Auto::Auto),
             auto("sequence", asked.sequence.value == Auto::Auto),
+            match asked.residual.value {
+                Auto::Auto => "residual Auto".to_owned(),
+                Auto::Given(residual) => format!("residual {residual:?}"),
+            },
             auto("swing", asked.swing.value == Auto::Auto),
             auto("layer", asked.layer.value == Auto::Auto),
             auto("step", asked.step.value == Auto::Auto),

@@ -228,3 +228,43 @@ fn lattices_need_the_edge_that_the_reference_says() {
     );
     assert!((1.5..=2.0).contains(&free), "{free}");
 }
+
+/// The block with everything open within the limits of table 1, and what else is said.
+fn open_block(more: &str) -> Outcome {
+    let text = format!(
+        "job \"block\"
+        stock {{ size = (85 mm, 50 mm, 50 mm) }}
+        profile {{ {ARC} }}
+        blade dagger {{ cutting_length = 10 mm, half_apex = 7.13 deg, thickness = 0 mm, edges = double }}
+        rough vcut {{
+            blade = dagger, rake = 60 deg, limits {{ swing <= 50 deg, scallop <= 10 mm }}, {more}
+            feed {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}
+            clearance = 10 mm
+        }}"
+    );
+    let outcome = compile("block.vcut", &Files::default().with("block.vcut", text));
+    assert_eq!(told(&outcome.diagnostics, &outcome), "");
+    outcome
+}
+
+#[test]
+fn what_is_left_open_comes_out_as_the_optimum_of_the_paper() {
+    let outcome = open_block("model = paper");
+    let chosen = &planned(&outcome).parameters;
+    // Table 1, to the digits that the formulas give: 34.155 deg, 4.398 mm, 5.968 mm.
+    assert!((chosen.swing.to_deg() - 34.155).abs() < 2e-3, "{chosen:?}");
+    assert!((chosen.layer.to_mm() - 4.398).abs() < 2e-3, "{chosen:?}");
+    assert!((chosen.step.to_mm() - 5.968).abs() < 2e-3, "{chosen:?}");
+}
+
+#[test]
+fn the_exact_formulas_and_the_free_choice_of_the_lattice_are_faster() {
+    let seconds = |more: &str| planned(&open_block(more)).estimate.to_s();
+    let (paper, orthogonal, best) = (
+        seconds("model = paper"),
+        seconds("lattice = orthogonal"),
+        seconds("lattice = auto"),
+    );
+    assert!(orthogonal < paper, "{orthogonal} {paper}");
+    assert!(best < orthogonal, "{best} {orthogonal}");
+}

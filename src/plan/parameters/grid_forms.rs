@@ -31,7 +31,7 @@ fn around(value: Length, unit: f64) -> [Length; 3] {
 }
 
 /// Interlaced rows lie half a step apart, so half a step must be on the grid for all tips to be.
-const fn tips_per_step(lattice: Lattice) -> f64 {
+pub(super) const fn tips_per_step(lattice: Lattice) -> f64 {
     match lattice {
         Lattice::Interlaced => 2.0,
         Lattice::Orthogonal | Lattice::Free => 1.0,

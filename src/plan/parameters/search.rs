@@ -3,7 +3,7 @@
 use super::super::blade_reach;
 use super::super::grid;
 use super::super::optimum::{self, Bound, Extension, Infeasible, Optimum, Problem, Range, Work};
-use super::grid_forms::{fits, widest_step};
+use super::grid_forms::{fits, tips_per_step, widest_step};
 use super::{edge_overhang, flanks_at};
 use crate::job::{Auto, Bounds, CheckedJob, Formulas, Lattice, Objective, RoughVcut};
 use vcutc_backend_api::units::{Angle, Area, Length};
@@ -22,6 +22,9 @@ const OPEN_OVERLAPS: Range<f64> = Range {
 
 /// Swings are chosen to a thousandth of a degree.
 const SWINGS_PER_DEG: f64 = 1000.0;
+
+/// How often the distance of swings from the optimum is doubled: up to a quarter of a degree.
+const MOST_DOUBLINGS: u32 = 9;
 
 /// How many grid spacings from the optimum a layer is looked for that keeps all limits after rounding.
 const MOST_SPACINGS: i32 = 200;
@@ -172,12 +175,14 @@ pub(super) fn choose(
         problem: &problem,
         best: &best,
     };
-    let rounded = swings(asked, &problem, &best)
-        .into_iter()
-        .filter_map(|swing| rounding.at(swing));
     let measure = |found: &Optimum| objective(problem.objective, found);
-    let (layer, step, found) = rounded
-        .min_by(|(.., one), (.., two)| measure(one).total_cmp(&measure(two)))
+    let (layer, step, found) = (0..=MOST_DOUBLINGS)
+        .find_map(|doublings| {
+            let near = swings(asked, &problem, &best, doublings);
+            near.into_iter()
+                .filter_map(|swing| rounding.at(swing))
+                .min_by(|(.., one), (.., two)| measure(one).total_cmp(&measure(two)))
+        })
         .ok_or(Unchosen::OffGrid)?;
     Ok(Chosen {
         lattice: best.lattice,
@@ -217,31 +222,29 @@ const fn is_open(asked: &RoughVcut, bound: Bound) -> bool {
     }
 }
 
-/// The swings next to the optimum that can be said, within the limits; a given one as it is.
-fn swings(asked: &RoughVcut, problem: &Problem, best: &Optimum) -> Vec<Angle> {
+/// The swings next to the optimum that can be said, within the limits; a given one as it is. Where none of these do,
+/// because a layer and step that touch several bounds have nowhere to be rounded to, others a little farther off, at a
+/// distance that doubles.
+fn swings(asked: &RoughVcut, problem: &Problem, best: &Optimum, doublings: u32) -> Vec<Angle> {
     if let Auto::Given(swing) = asked.swing.value {
-        return vec![swing];
+        return if doublings == 0 { vec![swing] } else { Vec::new() };
     }
-    // A limit that the optimum touches is taken as it is written.
     let Range { least, most } = problem.swing;
-    if let Some(end) = [least, most]
-        .into_iter()
-        .find(|end| (*end - best.swing).to_deg().abs() < 1e-6)
-    {
-        return vec![end];
-    }
     let thousandths = best.swing.to_deg() * SWINGS_PER_DEG;
-    let mut swings: Vec<Angle> = [thousandths.floor(), thousandths.ceil()]
+    let off = if doublings == 0 {
+        0.0
+    } else {
+        f64::from(1_u32 << (doublings - 1))
+    };
+    let near = [thousandths.floor() - off, thousandths.ceil() + off]
         .map(|count| Angle::deg(count / SWINGS_PER_DEG))
         .into_iter()
-        .filter(|swing| *swing >= least && *swing <= most)
-        .collect();
-    swings.dedup();
-    // Between two thousandths only the optimum itself may be left.
-    if swings.is_empty() {
-        swings.push(best.swing);
-    }
-    swings
+        .filter(|swing| *swing >= least && *swing <= most);
+    // A limit that the optimum touches is taken as it is written.
+    let touched = [least, most]
+        .into_iter()
+        .filter(|end| doublings == 0 && (*end - best.swing).to_deg().abs() < 1e-6);
+    near.chain(touched).collect()
 }
 
 /// The way from the optimum to the grid.
@@ -267,7 +270,10 @@ impl Rounding<'_> {
         let flanks = flanks_at(self.asked, swing);
         let keeps = |layer: Length| {
             let step = self.step(layer, &flanks);
-            if !fits(self.best.lattice, layer, step, &flanks) {
+            // Neighbouring Vs meet, but for what rounding takes.
+            let unit = Length::mm(grid::SPACING * tips_per_step(self.best.lattice));
+            let meet = step <= layer * (2.0 / flanks.slope) + unit;
+            if !meet || !fits(self.best.lattice, layer, step, &flanks) {
                 return None;
             }
             let found = optimum::any(&self.pinned(swing, layer, step))?;
@@ -305,10 +311,7 @@ impl Rounding<'_> {
             Auto::Auto => {
                 let widest = widest_step(self.best.lattice, layer, self.overlap(), flanks);
                 let Range { least, most } = self.problem.step;
-                let unit = match self.best.lattice {
-                    Lattice::Interlaced => 2.0,
-                    Lattice::Orthogonal | Lattice::Free => 1.0,
-                };
+                let unit = tips_per_step(self.best.lattice);
                 // Half a step of an interlaced lattice lies on the grid too.
                 let up = Length::mm(grid::up(least.to_mm() / unit) * unit);
                 let down = Length::mm(grid::down(most.to_mm() / unit) * unit);
