@@ -34,7 +34,8 @@ impl TimeModel {
     pub fn estimate(&self, swing: Angle, layer: Length, step: Length) -> Duration {
         let points = self.width / step + 0.5;
         let mean_depth = self.area.to_mm2() / self.width.to_mm();
-        let layers = mean_depth / layer.to_mm() - 0.5;
+        // Less than one layer is still one.
+        let layers = (mean_depth / layer.to_mm() - 0.5).max(1.0);
         let turn = Angle::rad(2.0 * libm::acos(swing.cos() * self.rake.sin())) / self.reorient_rate;
         let cuts = (2.0 * self.depth + 4.0 * self.extension) / self.cut_feed;
         let per_point = cuts + turn + turn.max(step / self.travel_feed);

@@ -4,8 +4,9 @@
 //! filter: Chinneck, Feasibility and Infeasibility in Optimization, 2008). What remains conflicts, and without any one of it
 //! nothing does.
 
-use super::any;
 use super::problem::{Bound, Infeasible, Problem};
+use super::search::Measure;
+use super::{any, least};
 
 /// The order in which bounds are dropped: first those that people rarely set, so that what remains is what they know.
 const ORDER: [Bound; 12] = [
@@ -69,5 +70,19 @@ fn nearest(problem: &Problem, bound: Bound) -> Option<f64> {
             None => fails = middle,
         }
     }
-    Some(works)
+    eased(problem, bound, works, works - asked)
+}
+
+/// A value that was just found to do, or one as little farther on as parameters are found under it for certain: at the very
+/// edge rounding decides.
+fn eased(problem: &Problem, bound: Bound, value: f64, onward: f64) -> Option<f64> {
+    let mut ease = 0.0;
+    while ease < 1e-3 {
+        let value = value + ease * value.abs().max(FINE).copysign(onward);
+        if least(&bound.replaced(problem, value), Measure::Time).is_some() {
+            return Some(value);
+        }
+        ease = (8.0 * ease).max(0.1 * FINE);
+    }
+    None
 }

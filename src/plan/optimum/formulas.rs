@@ -94,7 +94,7 @@ pub(super) struct Model {
     time: Option<f64>,
     cuts: Option<f64>,
     /// Layers thicker than this are only considered where the bounds ask for them.
-    thickest: f64,
+    pub(super) thickest: f64,
     pub(super) layer: [f64; 2],
     pub(super) step: [f64; 2],
     /// Ranges of tangent, share and aspect.
@@ -170,7 +170,10 @@ impl Model {
             Extension::EdgeInUse => edge,
             Extension::Leaning { .. } => 2.0 * self.upright_reach * self.cos_rake.abs() / self.sin_rake,
         };
-        if self.width * along < self.step[1] * grows {
+        let [flattest, steepest] = self.ranges.tangent;
+        let thickest = self.layer[1].min(self.upright_reach / (1.0 + flattest * flattest).sqrt());
+        let widest = self.step[1].min(2.0 * self.ranges.share[1] * steepest * thickest);
+        if self.width * along < widest * grows {
             self.thickest = self.depth / 1.5;
         }
         self

@@ -18,10 +18,13 @@ use std::collections::BinaryHeap;
 pub(super) const KEPT: f64 = 1e-11;
 
 /// A box that promises less than this share of improvement is not looked into.
-const GAP: f64 = 1e-9;
+const GAP: f64 = 1e-7;
 
-/// Most boxes that one search looks into.
+/// Most boxes that a search for the best shape looks into.
 const MOST_BOXES: u32 = 6000;
+
+/// Most boxes that a search for any shape looks into: without one so far there is none but for a hair.
+const MOST_FOR_ANY: u32 = 1000;
 
 /// After so many boxes the best shape is improved where it is, so that it throws away more boxes.
 const FIRST_LOOK: u32 = 12;
@@ -255,7 +258,11 @@ impl Search<'_> {
             if self.hopeless(candidate.least) {
                 break;
             }
-            if self.boxes >= MOST_BOXES {
+            let most = match self.goal {
+                Goal::Best => MOST_BOXES,
+                Goal::Any => MOST_FOR_ANY,
+            };
+            if self.boxes >= most {
                 self.remaining = self.remaining.min(candidate.least);
                 break;
             }
