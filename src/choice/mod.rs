@@ -141,12 +141,12 @@ impl Contender {
     }
 
     /// The better one first.
-    fn cmp(&self, other: &Self) -> Ordering {
+    fn compare(&self, other: &Self) -> Ordering {
         if let (Standing::Fails(_), Standing::Fails(_)) = (self.standing, other.standing) {
             return Ordering::Equal;
         }
         self.standing
-            .cmp(&other.standing)
+            .compare(&other.standing)
             .then(self.time.total_cmp(&other.time))
             .then(self.residual.total_cmp(&other.residual))
     }
@@ -168,7 +168,7 @@ impl Contest {
 
     fn enter(&mut self, what: &'static str, contender: Contender) {
         match &self.best {
-            Some((_, best)) if contender.cmp(best) != Ordering::Less => {
+            Some((_, best)) if contender.compare(best) != Ordering::Less => {
                 self.others.push(contender.candidate(what));
             }
             Some(_) | None => {
@@ -206,7 +206,7 @@ impl Contest {
 
 /// The best first.
 fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
-    others.sort_by(|a, b| a.standing.cmp(&b.standing));
+    others.sort_by(|a, b| a.standing.compare(&b.standing));
     others
 }
 

@@ -50,7 +50,7 @@ pub enum Standing {
 impl Standing {
     /// The better one first. Ways that fail are all alike: none of them can be taken as it is.
     #[must_use]
-    pub fn cmp(&self, other: &Self) -> Ordering {
+    pub fn compare(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::Takes(time), Self::Takes(than)) | (Self::ByModel(time), Self::ByModel(than)) => {
                 time.total_cmp(than)
