@@ -103,11 +103,34 @@ pub struct Replay {
 /// Replays a program's cuts. `bounds` are the operations' own, in order.
 #[must_use]
 pub fn replay(program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
+    watched(program, bounds, &mut |_, _| {})
+}
+
+/// As [`replay`], and shows the surface before each V is released from it.
+#[must_use]
+pub fn watched(
+    program: &VerifiedProgram,
+    bounds: &[Bound<'_>],
+    watch: &mut dyn FnMut(&mut Surface, Release),
+) -> Replay {
     let mut player = Player::new(program.program(), bounds);
     for op in &program.program().ops {
-        player.op(op.site, op.action);
+        player.op(op.site, op.action, watch);
     }
     player.finish()
+}
+
+/// A V whose chip comes free: its second flank has just been cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Release {
+    /// The operation.
+    pub operation: OperationId,
+    /// Its layer, from the top.
+    pub layer: NonZeroU32,
+    /// The cut in its layer.
+    pub cut: NonZeroU32,
+    /// The V.
+    pub vee: Vee,
 }
 
 /// Depth below which an overcut is rounding: a nanometre.
@@ -160,7 +183,7 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn op(&mut self, site: Site, action: Action) {
+    fn op(&mut self, site: Site, action: Action, watch: &mut dyn FnMut(&mut Surface, Release)) {
         match action {
             Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation } => {
                 (self.tip, self.held) = (to, orientation);
@@ -175,7 +198,7 @@ impl<'p> Player<'p> {
                     cut,
                 } = site
                 {
-                    self.cut(operation, layer, cut, flank);
+                    self.cut(operation, layer, cut, flank, watch);
                 }
             }
             Action::Home
@@ -186,7 +209,14 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn cut(&mut self, operation: OperationId, layer: NonZeroU32, cut: NonZeroU32, flank: Flank) {
+    fn cut(
+        &mut self,
+        operation: OperationId,
+        layer: NonZeroU32,
+        cut: NonZeroU32,
+        flank: Flank,
+        watch: &mut dyn FnMut(&mut Surface, Release),
+    ) {
         self.enter(operation, layer);
         let Some(&geometry) = self.flanks.get(self.held.0 as usize) else {
             return;
@@ -232,7 +262,13 @@ impl<'p> Player<'p> {
             };
             note(&mut self.findings.blocked, finding, |_, _| false);
         }
-        self.finish_flank(operation, cut, flank, vee);
+        let release = Release {
+            operation,
+            layer,
+            cut,
+            vee,
+        };
+        self.finish_flank(release, flank, watch);
     }
 
     /// Notes a flank that needs more edge than the blade has.
@@ -256,7 +292,10 @@ impl<'p> Player<'p> {
     }
 
     /// Takes the chip out once both flanks are cut.
-    fn finish_flank(&mut self, operation: OperationId, cut: NonZeroU32, flank: Flank, vee: Vee) {
+    fn finish_flank(&mut self, release: Release, flank: Flank, watch: &mut dyn FnMut(&mut Surface, Release)) {
+        let Release {
+            operation, cut, vee, ..
+        } = release;
         let index = cut.get() as usize - 1;
         // The verifier has made sure that cuts of a layer are numbered without gaps.
         if self.half_done.len() <= index {
@@ -272,6 +311,7 @@ impl<'p> Player<'p> {
             *done = Some(flank);
             return;
         }
+        watch(&mut self.surface, release);
         self.surface.release(vee);
         let index = usize::from(operation.0);
         if let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) {
@@ -348,7 +388,7 @@ impl<'p> Player<'p> {
         let mut player = Player::new(self.program, self.bounds);
         let mut lowest: Option<(f64, Finding)> = None;
         for op in &self.program.ops {
-            player.op(op.site, op.action);
+            player.op(op.site, op.action, &mut |_, _| {});
             let (
                 Action::Cut { .. },
                 Site::Cut {
