@@ -49,10 +49,9 @@ pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
     let (machined, chips) = machined(material);
     let report = &material.compiled.report;
     let subtitle = format!(
-        "highest scallop {:.2} mm, {:.2} mm on average; {:.0} mm2 removed, {:.0} mm2 stay",
+        "highest scallop {:.2} mm, {:.2} mm on average; {:.1} mm2 stay on the part",
         report.scallop.height.to_mm(),
         report.mean_scallop.to_mm(),
-        report.removed.to_mm2(),
         report.residual.to_mm2()
     );
     contour::draw(&contour::Contour {
@@ -210,7 +209,7 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
     layers
 }
 
-/// How many cuts there are, and how they are laid out.
+/// How the cuts are laid out.
 fn laid_out(material: &Material<'_>) -> String {
     let report = &material.compiled.report;
     let (cuts, layers) = (report.cuts(), report.layers.len());
@@ -218,7 +217,7 @@ fn laid_out(material: &Material<'_>) -> String {
         1 => format!("1 {one}"),
         count => format!("{count} {one}s"),
     };
-    let counts = format!("{} in {}", counted(cuts, "cut"), counted(layers, "layer"));
+    let layers = counted(layers, "layer");
     let mut vcuts = vcuts(material);
     match (vcuts.next(), vcuts.next()) {
         (Some(vcut), None) => {
@@ -229,12 +228,16 @@ fn laid_out(material: &Material<'_>) -> String {
                 Lattice::Free => "free",
             };
             format!(
-                "{name}, {counts}; swing {} deg, layer {} mm, step {} mm",
+                "{name}, {layers}; swing {} deg, layer {} mm, step {} mm",
                 show(chosen.swing.to_deg()),
                 show(chosen.layer.to_mm()),
                 show(chosen.step.to_mm())
             )
         }
-        (_, _) => format!("{counts} of {} operations", material.plan.operations.len()),
+        (_, _) => format!(
+            "{} in {layers} of {} operations",
+            counted(cuts, "cut"),
+            material.plan.operations.len()
+        ),
     }
 }
