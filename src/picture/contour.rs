@@ -44,8 +44,14 @@ pub struct Highest {
 }
 
 const SHADES: [&str; 2] = ["#f7f2e4", "#e8dec4"];
-const MACHINED: &str = "fill=\"none\" stroke=\"#2b2a27\" stroke-width=\"1.6\" stroke-linejoin=\"round\"";
 const HIGHEST: &str = "#a3005c";
+
+/// The machined contour's line, finer where its teeth are many, so that it can be enlarged.
+fn line(contour: &Contour<'_>) -> String {
+    let teeth = (contour.machined.len() as f64 / 2.0).max(1.0);
+    let width = (120.0 / teeth).clamp(0.3, 1.6);
+    format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\"")
+}
 
 /// Writes the picture as SVG.
 #[must_use]
@@ -64,7 +70,10 @@ pub fn draw(contour: &Contour<'_>) -> String {
         &format!("fill=\"{ORANGE}\""),
     );
     svg.path(section.below(contour.part).text(), PART);
-    svg.path(Trace::through(section.curve(contour.machined)).text(), MACHINED);
+    svg.path(
+        Trace::through(section.curve(contour.machined)).text(),
+        &line(contour),
+    );
     section.stock(&mut svg, &format!("fill=\"none\" stroke=\"{INK}\""));
     highest(&mut svg, contour, &section);
     section.axes(&mut svg);
@@ -96,7 +105,7 @@ fn legend(contour: &Contour<'_>) -> Vec<Entry> {
         legend.push(Entry::area(format!("fill=\"{}\"", SHADES[0]), words));
     }
     legend.push(Entry::area(format!("fill=\"{ORANGE}\""), "stays on the part"));
-    legend.push(Entry::line(MACHINED, "machined contour"));
+    legend.push(Entry::line(line(contour), "machined contour"));
     legend.push(Entry::area(PART, "part"));
     legend.push(Entry::line(
         format!("stroke=\"{HIGHEST}\" stroke-width=\"3\""),

@@ -4,7 +4,7 @@
 use super::plot::Plot;
 use super::scale::Scale;
 use super::section::most_ticks;
-use super::sheet::{self, BLUE, Entry, INK, LEFT, ORANGE, RIGHT, TOP, VERMILION};
+use super::sheet::{self, BLUE, Entry, INK, LEFT, RIGHT, TOP, VERMILION};
 use super::svg::{Anchor, Svg, number};
 use super::times::KINDS;
 use super::trace::Trace;
@@ -65,6 +65,7 @@ const GAP: f64 = 16.0;
 const PANEL: f64 = HEAD + VALUES + RATES + GAP;
 const CURVE: &str = "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-linejoin=\"round\"";
 const BEYOND: &str = "fill=\"#d55e00\" fill-opacity=\"0.25\"";
+const USED: &str = "fill=\"#8a8577\"";
 const RATE: &str = "fill=\"#6d5a8c\"";
 
 /// Writes the picture as SVG.
@@ -134,7 +135,7 @@ fn legend(joints: &Joints<'_>) -> Vec<Entry> {
         Entry::line(CURVE, "value"),
         Entry::area(RATE, "rate as share of the highest"),
         Entry::area(BEYOND, "beyond a limit"),
-        Entry::area(format!("fill=\"{ORANGE}\""), "used of the range (right)"),
+        Entry::area(USED, "used of the range (right)"),
     ]);
     legend
 }
@@ -273,10 +274,7 @@ fn gauge(svg: &mut Svg, axis: &Axis, [top, bottom]: [f64; 2]) {
     let left = RIGHT + 12.0;
     svg.rect([left, top, 16.0, bottom - top], "fill=\"#ffffff\"");
     let (upper, lower) = (range.at(high), range.at(low));
-    svg.rect(
-        [left, upper, 16.0, (lower - upper).max(1.5)],
-        &format!("fill=\"{ORANGE}\""),
-    );
+    svg.rect([left, upper, 16.0, (lower - upper).max(1.5)], USED);
     svg.rect(
         [left, top, 16.0, bottom - top],
         &format!("fill=\"none\" stroke=\"{INK}\""),
@@ -285,9 +283,9 @@ fn gauge(svg: &mut Svg, axis: &Axis, [top, bottom]: [f64; 2]) {
 
 /// The smallest margin over time.
 fn margin(svg: &mut Svg, joints: &Joints<'_>, top: f64, bottom: f64) -> Plot {
-    let [least, most] = extremes(joints.margin);
-    let words = format!("smallest margin of any axis, %: at least {:.1}", least * 100.0);
-    svg.text((24.0, top + 20.0), Anchor::Start, "", &words);
+    let [_, most] = extremes(joints.margin);
+    let words = "smallest margin of any axis, %";
+    svg.text((24.0, top + 20.0), Anchor::Start, "", words);
     let percent: Vec<[f64; 2]> = joints
         .margin
         .iter()

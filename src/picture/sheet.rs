@@ -1,7 +1,7 @@
 //! What pictures have around their plot: headings above, a legend below.
 //!
 //! Sheets are as wide as a page and a phone allow: letters of 15 in a width of 680 can still be read on a screen of a third
-//! that is held close. Colours are those that people who do not tell red from green tell apart [Okabe, Ito 2008], and marks
+//! that is held close. Colours are those that people who do not tell red from green tell apart [Okabe 2008], and marks
 //! differ in shape too.
 
 use super::Prefix;

@@ -1,7 +1,7 @@
 //! Curves of any number of points in no more than can be seen.
 //!
 //! A curve is looked at column by column. Of the points in a column are kept the first, the lowest, the highest and the last
-//! one, as they are: drawn with lines between them the picture is the same, and no extreme is lost [Jugel et al. 2014, "M4"].
+//! one, as they are: drawn with lines between them the picture is the same, and no extreme is lost [Jugel 2014].
 
 /// A curve under construction, from left to right.
 #[derive(Debug)]
