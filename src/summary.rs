@@ -74,11 +74,12 @@ pub fn summary(
     lines.push(row(
         "scallop",
         &format!(
-            "at most {:.2} mm at x {:.1} mm, {:.2} mm on average; contours correlate to {:.2} %",
+            "at most {:.2} mm at x {:.1} mm, {:.2} mm on average; contours correlate to {:.2} %{}",
             report.scallop.height.to_mm(),
             report.scallop.peak.x,
             report.mean_scallop.to_mm(),
-            report.correlation * 100.0
+            report.correlation * 100.0,
+            hollow(report)
         ),
     ));
     lines.push(row(
@@ -117,6 +118,19 @@ fn standing(standing: Standing) -> String {
     }
 }
 
+/// What there is to say where the part is farther from the machined contour than that is from the part.
+fn hollow(report: &Report) -> String {
+    let deepest = report.deepest;
+    if deepest.height.to_mm() < report.scallop.height.to_mm() + 0.005 {
+        return String::new();
+    }
+    format!(
+        "; the part lies up to {:.2} mm from the machined contour at x {:.1} mm",
+        deepest.height.to_mm(),
+        deepest.peak.x
+    )
+}
+
 fn row(name: &str, text: &str) -> String {
     format!("  {name:<10} {text}")
 }
@@ -148,7 +162,8 @@ fn cuts_per_layer(report: &Report) -> String {
 }
 
 /// `1 h 02 min 03 s`, `2 min 05.4 s`, `5.4 s`.
-fn time(duration: Duration) -> String {
+#[must_use]
+pub fn time(duration: Duration) -> String {
     // From an hour on, tenths of a second say nothing; rounding before dividing never gives 60 seconds.
     let whole = duration.to_s().round();
     if whole >= 3600.0 {

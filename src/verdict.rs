@@ -10,8 +10,9 @@ use crate::lower;
 use crate::plan::grid;
 use crate::plan::parameters::{self, show};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
-use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Replay};
+use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
 use crate::sim::report::{Report, report};
+use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
 use crate::source::{SourceMap, Span};
 use vcutc_backend_api::ir::OperationId;
@@ -50,6 +51,16 @@ pub fn prove(plan: &PlannedJob, sources: &SourceMap) -> Result<Proven, Vec<Fault
 #[must_use]
 pub fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
     prove::replay(program, &bounds(plan))
+}
+
+/// As [`replay`], and shows the surface before each V is released from it.
+#[must_use]
+pub fn watched(
+    plan: &PlannedJob,
+    program: &VerifiedProgram,
+    watch: &mut dyn FnMut(&mut Surface, Release),
+) -> Replay {
+    prove::watched(program, &bounds(plan), watch)
 }
 
 /// What each operation must stay out of.

@@ -5,8 +5,9 @@ use crate::job::CheckedJob;
 use crate::lower::lower;
 use crate::plan::decision::Standing;
 use crate::plan::{LaidOut, PlannedJob, PlannedOperation, PlannedVcut};
+use crate::sim::contour::farthest;
 use crate::sim::prove::{Bound, replay_on};
-use crate::sim::report::{area_under, highest};
+use crate::sim::report::area_under;
 use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
 use crate::source::SourceMap;
@@ -75,7 +76,7 @@ impl<'j> Bench<'j> {
                 _ => Standing::Fails(failing),
             },
             time,
-            height: highest(&corners, &self.job.profile).height,
+            height: farthest(&corners, &self.job.profile).height,
             residual: Area::mm2(area_under(&corners)) - part,
         }
     }

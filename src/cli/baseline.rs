@@ -5,7 +5,7 @@ use super::Exit;
 use super::args::BuildArgs;
 use super::console::{Console, Failure};
 use super::files::load_file;
-use super::output::write_file;
+use super::output::one_file;
 use crate::diag::{Code, Diagnostic};
 use crate::manifest::{Manifest, Tolerance};
 use crate::numbers::Numbers;
@@ -134,7 +134,7 @@ impl Keeper {
             .into_iter()
             .filter(|record| listed.contains(&record.name) && !is_fresh(&record.name));
         let records: Vec<Record> = kept.chain(fresh.iter().cloned()).collect();
-        match write_file(Path::new(&self.path), baseline::write(records).as_bytes()) {
+        match one_file(Path::new(&self.path), baseline::write(records).as_bytes()) {
             Ok(_) => Exit::Success,
             Err(reason) => console.failure(&Failure::new(reason)),
         }

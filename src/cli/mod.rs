@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
+//! | the picture of `plot` | standard output, or the file of `-o` |
 //! | pages of `explain`, `machines`, answers of `fk` and `ik`, list of `targets`, help | standard output |
 //! | diagnostics, summary, timings, progress, what `verify` finds | standard error |
 //!
@@ -44,6 +45,7 @@ mod kinematics;
 mod machines;
 mod output;
 mod place;
+mod plot;
 mod progress;
 mod snapshot;
 mod targets;
@@ -101,6 +103,7 @@ pub fn run(linked: &Targets) -> ExitCode {
             quaternion,
         }) => kinematics::inverse(cell, pose, quaternion.as_deref(), &console),
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
+        Some(Command::Plot(plot)) => plot::plot(plot, targets, &console),
         Some(Command::Targets { target: None }) => targets::list(linked, &outside, &console),
         Some(Command::Targets { target: Some(target) }) => targets::describe(targets, target, &console),
         Some(Command::Verify(verify)) => verify::verify(verify, linked, targets, &console),

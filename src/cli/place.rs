@@ -3,7 +3,7 @@
 use super::args::PlaceArgs;
 use super::console::{Console, Failure};
 use super::files::Disk;
-use super::output::write_file;
+use super::output::one_file;
 use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::driver::{Request, Typed};
@@ -52,10 +52,8 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
 }
 
 fn tell(placement: &Placement, map: Option<&str>, console: &Console) -> Exit {
-    let written = match map
-        .map(|path| write_file(Path::new(path), placement.svg().as_bytes()))
-        .transpose()
-    {
+    let write = |path| one_file(Path::new(path), placement.svg().as_bytes());
+    let written = match map.map(write).transpose() {
         Ok(files) => files.unwrap_or_default(),
         Err(reason) => return console.failure(&Failure::new(reason)),
     };

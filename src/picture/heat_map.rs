@@ -3,6 +3,7 @@
 //! Colours are of the scale viridis, which grows in lightness all along: the order can be read without seeing colours. Cells
 //! out of reach are hatched, not coloured.
 
+use super::Prefix;
 use super::svg::{Anchor, Svg, number};
 
 /// What a heat map shows.
@@ -39,6 +40,8 @@ const LONGEST: f64 = 480.0;
 const SHORTEST: f64 = 160.0;
 /// Room for the legend, beside the plot.
 const LEGEND: f64 = 190.0;
+/// Size of letters.
+const FONT: u32 = 13;
 /// Distance of lines in the legend.
 const LINE: f64 = 22.0;
 
@@ -50,8 +53,9 @@ pub fn draw(map: &HeatMap<'_>) -> String {
     let legend_lines = scale.classes + 4;
     let height = plot.height.max(f64::from(legend_lines) * LINE) + CORNER.1 + 60.0;
     let mut svg = Svg::new(
-        CORNER.0 + plot.width + LEGEND,
-        height,
+        [CORNER.0 + plot.width + LEGEND, height],
+        FONT,
+        Prefix::NONE,
         map.title,
         &description(map, scale),
     );

@@ -3,6 +3,7 @@
 //! What lies above and to the right of a curve can be had, what lies below cannot. Curves differ in their dashes as well as in
 //! their colours, so that they can be told apart without seeing colours.
 
+use super::Prefix;
 use super::svg::{Anchor, Svg, number};
 
 /// What a Pareto picture shows. Places are scallop in mm and time in s.
@@ -32,6 +33,8 @@ pub struct Curve<'a> {
 }
 
 /// The plot's upper left corner.
+/// Height of letters.
+const FONT: u32 = 13;
 const CORNER: (f64, f64) = (86.0, 74.0);
 /// The plot's width and height.
 const SIZE: (f64, f64) = (480.0, 340.0);
@@ -55,8 +58,9 @@ const BEYOND: &str = "fill=\"url(#hatch)\" fill-opacity=\"0.55\"";
 pub fn draw(pareto: &Pareto<'_>) -> String {
     let plot = Plot::of(pareto);
     let mut svg = Svg::new(
-        CORNER.0 + SIZE.0 + LEGEND,
-        CORNER.1 + SIZE.1 + 60.0,
+        [CORNER.0 + SIZE.0 + LEGEND, CORNER.1 + SIZE.1 + 60.0],
+        FONT,
+        Prefix::NONE,
         pareto.title,
         &description(pareto),
     );

@@ -1,5 +1,6 @@
 //! The little of SVG that pictures here need.
 
+use super::Prefix;
 use core::fmt::Write;
 
 /// An SVG text under construction. Coordinates are written with two decimals, so that they are the same everywhere.
@@ -21,17 +22,24 @@ pub(super) enum Anchor {
 impl Svg {
     /// A picture of this size, with what it shows in words for those who do not see it, on a ground of its own: viewers
     /// with a dark page show it as it is.
-    pub(super) fn new(width: f64, height: f64, title: &str, description: &str) -> Self {
+    pub(super) fn new(
+        [width, height]: [f64; 2],
+        font: u32,
+        ids: Prefix,
+        title: &str,
+        description: &str,
+    ) -> Self {
         let mut svg = Self { text: String::new() };
         let (width, height) = (number(width), number(height));
+        let ids = ids.0;
         svg.line(&format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-             height=\"{height}\" role=\"img\" aria-labelledby=\"title description\" font-family=\"sans-serif\" \
-             font-size=\"13\">"
+             height=\"{height}\" role=\"img\" aria-labelledby=\"{ids}title {ids}description\" font-family=\"sans-serif\" \
+             font-size=\"{font}\">"
         ));
-        svg.line(&format!("  <title id=\"title\">{}</title>", escaped(title)));
+        svg.line(&format!("  <title id=\"{ids}title\">{}</title>", escaped(title)));
         svg.line(&format!(
-            "  <desc id=\"description\">{}</desc>",
+            "  <desc id=\"{ids}description\">{}</desc>",
             escaped(description)
         ));
         svg.line(&format!(

@@ -3,3 +3,30 @@
 pub mod page;
 pub mod pictures;
 pub mod playback;
+
+use crate::driver::{Compiled, Outcome};
+use crate::job::CheckedJob;
+use crate::plan::PlannedJob;
+
+/// What a report is made from: a job that compiled, with all that came of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Material<'a> {
+    /// The checked job.
+    pub job: &'a CheckedJob,
+    /// Its plan.
+    pub plan: &'a PlannedJob,
+    /// Its program and figures.
+    pub compiled: &'a Compiled,
+}
+
+impl<'a> Material<'a> {
+    /// The material of an outcome; none when errors kept the job from compiling.
+    #[must_use]
+    pub fn of(outcome: &'a Outcome) -> Option<Self> {
+        Some(Self {
+            job: outcome.job.as_ref()?,
+            plan: outcome.plan.as_ref()?,
+            compiled: outcome.compiled.as_ref()?,
+        })
+    }
+}

@@ -1,1 +1,250 @@
-//! The pictures of a report.
+//! The pictures of a report, each from what came of a job: plain numbers for the modules of `picture`.
+//!
+//! Chips and the machined contour are those of the proof: the program's cuts are replayed, and each chip is what the surface
+//! before it loses.
+
+mod joints;
+mod time;
+
+pub use joints::joints;
+pub use time::time;
+
+use super::Material;
+use crate::geom::curve::Point2;
+use crate::job::Lattice;
+use crate::picture::{Prefix, contour, correlation, deviation, lattice};
+use crate::plan::parameters::show;
+use crate::plan::{PlannedOperation, PlannedVcut, TipOrigin};
+use crate::sim::contour::{SAMPLES, Sampled, sampled};
+use crate::verdict;
+
+/// The lattice: tips by origin, flanks, layers (`picture::lattice`).
+#[must_use]
+pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
+    let (_, chips) = machined(material);
+    let vees: Vec<[[f64; 2]; 3]> = chips.iter().filter_map(|chip| vee(&chip.outline)).collect();
+    let bounds: Vec<Vec<[f64; 2]>> = vcuts(material)
+        .filter(|vcut| vcut.asked.allowance.value.to_mm() > 0.0)
+        .map(|vcut| pairs(vcut.bound.points()))
+        .collect();
+    let bounds: Vec<&[[f64; 2]]> = bounds.iter().map(Vec::as_slice).collect();
+    lattice::draw(&lattice::Lattice {
+        heading: lattice::Heading {
+            ids,
+            title: &format!("{}: lattice", material.plan.name),
+            subtitle: &laid_out(material),
+        },
+        stock: stock(material),
+        part: &pairs(material.plan.profile.points()),
+        bounds: &bounds,
+        tips: &tips(material),
+        vees: &vees,
+        layers: &layers(material),
+    })
+}
+
+/// The machined contour, chips and scallops above the part (`picture::contour`).
+#[must_use]
+pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
+    let (machined, chips) = machined(material);
+    let report = &material.compiled.report;
+    let subtitle = format!(
+        "highest scallop {:.2} mm, {:.2} mm on average; {:.1} mm2 stay on the part",
+        report.scallop.height.to_mm(),
+        report.mean_scallop.to_mm(),
+        report.residual.to_mm2()
+    );
+    contour::draw(&contour::Contour {
+        heading: contour::Heading {
+            ids,
+            title: &format!("{}: machined contour", material.plan.name),
+            subtitle: &subtitle,
+        },
+        stock: stock(material),
+        part: &pairs(material.plan.profile.points()),
+        machined: &machined,
+        chips: &chips,
+        highest: contour::Highest {
+            peak: pair(report.scallop.peak),
+            height: report.scallop.height.to_mm(),
+        },
+    })
+}
+
+/// How far the machined contour stands off the part, along the whole profile (`picture::deviation`).
+#[must_use]
+pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
+    let report = &material.compiled.report;
+    // With the corners, so that no tooth is missed between two of the points.
+    let mut points = corners(material);
+    points.extend(sampled(&points));
+    points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    let subtitle = format!(
+        "largest deviation of the contours {:.2} mm; they correlate to {:.2} %",
+        report.largest_deviation().to_mm(),
+        report.correlation * 100.0
+    );
+    deviation::draw(&deviation::Deviation {
+        heading: deviation::Heading {
+            ids,
+            title: &format!("{}: deviation along the profile", material.plan.name),
+            subtitle: &subtitle,
+        },
+        curve: &distances(&points, material),
+        largest: [report.scallop.peak.x, report.scallop.height.to_mm()],
+        mean: report.mean_scallop.to_mm(),
+        limit: limit(material),
+    })
+}
+
+/// The distance of the machined contour from the part, in mm, at 1000 evenly spaced x, in mm.
+#[must_use]
+pub fn deviation_curve(material: &Material<'_>) -> Vec<[f64; 2]> {
+    distances(&sampled(&corners(material)), material)
+}
+
+/// Distances of points from the part, over their x.
+fn distances(points: &[Point2], material: &Material<'_>) -> Vec<[f64; 2]> {
+    let profile = &material.plan.profile;
+    let distance = |&point: &Point2| [point.x, profile.nearest_distance(point)];
+    points.iter().map(distance).collect()
+}
+
+/// The smallest limit of any operation to what stays on the part, in mm.
+fn limit(material: &Material<'_>) -> Option<f64> {
+    let limits = vcuts(material).filter_map(|vcut| vcut.asked.limits.scallop);
+    limits.map(|limit| limit.value.to_mm()).min_by(f64::total_cmp)
+}
+
+/// How machined contour and part correlate over the lag (`picture::correlation`) [Cui fig. 15].
+#[must_use]
+pub fn correlation(material: &Material<'_>, ids: Prefix) -> String {
+    let profile = &material.plan.profile;
+    let sampled = Sampled::of(&corners(material), profile.points());
+    let subtitle = format!(
+        "machined contour and part at {SAMPLES} points, {:.3} mm apart",
+        stock(material)[0] / f64::from(SAMPLES - 1)
+    );
+    correlation::draw(&correlation::Correlation {
+        heading: correlation::Heading {
+            ids,
+            title: &format!("{}: cross-correlation of the contours", material.plan.name),
+            subtitle: &subtitle,
+        },
+        values: &sampled.correlations(),
+    })
+}
+
+/// The machined contour, from left to right.
+fn corners(material: &Material<'_>) -> Vec<Point2> {
+    let program = material.compiled.program.verified();
+    verdict::replay(material.plan, program)
+        .surface
+        .corners()
+        .collect()
+}
+
+/// The machined contour from left to right, and the chips in the order in which they come free.
+fn machined(material: &Material<'_>) -> (Vec<[f64; 2]>, Vec<contour::Chip>) {
+    let mut chips = Vec::new();
+    let program = material.compiled.program.verified();
+    let replay = verdict::watched(material.plan, program, &mut |surface, release| {
+        if let Some(outline) = surface.chip(release.vee) {
+            chips.push(contour::Chip {
+                layer: release.layer.get(),
+                outline: pairs(&outline),
+            });
+        }
+    });
+    (replay.surface.corners().map(pair).collect(), chips)
+}
+
+/// Where the left flank comes out, the tip, and where the right flank comes out: the ends of a chip's outline.
+fn vee(outline: &[[f64; 2]]) -> Option<[[f64; 2]; 3]> {
+    let (&[right, tip], &left) = (outline.last_chunk()?, outline.first()?);
+    Some([left, tip, right])
+}
+
+fn vcuts<'a>(material: &Material<'a>) -> impl Iterator<Item = &'a PlannedVcut> {
+    let operations = material.plan.operations.iter();
+    operations.map(|PlannedOperation::RoughVcut(vcut)| vcut)
+}
+
+fn stock(material: &Material<'_>) -> [f64; 2] {
+    let stock = material.plan.stock;
+    [stock.width.to_mm(), stock.height.to_mm()]
+}
+
+fn pair(point: Point2) -> [f64; 2] {
+    [point.x, point.z]
+}
+
+fn pairs(points: &[Point2]) -> Vec<[f64; 2]> {
+    points.iter().copied().map(pair).collect()
+}
+
+fn tips(material: &Material<'_>) -> Vec<lattice::Tip> {
+    let cuts = vcuts(material).flat_map(|vcut| &vcut.cuts);
+    cuts.map(|cut| lattice::Tip {
+        at: pair(cut.tip),
+        origin: match cut.origin {
+            TipOrigin::Lattice => lattice::Origin::Lattice,
+            TipOrigin::Lifted => lattice::Origin::Lifted,
+            TipOrigin::Shifted => lattice::Origin::Shifted,
+            TipOrigin::Relieved => lattice::Origin::Relieved,
+        },
+    })
+    .collect()
+}
+
+/// Layers by number, those of several operations as `operation.layer`, at the height of their lowest tip.
+fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
+    let several = material.plan.operations.len() > 1;
+    let mut layers = Vec::new();
+    for (operation, vcut) in (1_u32..).zip(vcuts(material)) {
+        for layer in vcut.cuts.chunk_by(|a, b| a.layer == b.layer) {
+            let number = layer.first().map_or(0, |cut| cut.layer);
+            let name = if several {
+                format!("{operation}.{number}")
+            } else {
+                number.to_string()
+            };
+            let lowest = layer.iter().map(|cut| cut.tip.z).fold(f64::INFINITY, f64::min);
+            layers.push((name, lowest));
+        }
+    }
+    layers
+}
+
+/// How the cuts are laid out.
+fn laid_out(material: &Material<'_>) -> String {
+    let report = &material.compiled.report;
+    let (cuts, layers) = (report.cuts(), report.layers.len());
+    let counted = |count: usize, one: &str| match count {
+        1 => format!("1 {one}"),
+        count => format!("{count} {one}s"),
+    };
+    let layers = counted(layers, "layer");
+    let mut vcuts = vcuts(material);
+    match (vcuts.next(), vcuts.next()) {
+        (Some(vcut), None) => {
+            let chosen = &vcut.parameters;
+            let name = match chosen.lattice {
+                Lattice::Orthogonal => "orthogonal",
+                Lattice::Interlaced => "interlaced",
+                Lattice::Free => "free",
+            };
+            format!(
+                "{name}, {layers}; swing {} deg, layer {} mm, step {} mm",
+                show(chosen.swing.to_deg()),
+                show(chosen.layer.to_mm()),
+                show(chosen.step.to_mm())
+            )
+        }
+        (_, _) => format!(
+            "{} in {layers} of {} operations",
+            counted(cuts, "cut"),
+            material.plan.operations.len()
+        ),
+    }
+}

@@ -106,19 +106,51 @@ pub struct Replay {
 /// Replays a program's cuts. `bounds` are the operations' own, in order.
 #[must_use]
 pub fn replay(program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
+    watched(program, bounds, &mut |_, _| {})
+}
+
+/// As [`replay`], and shows the surface before each V is released from it.
+#[must_use]
+pub fn watched(
+    program: &VerifiedProgram,
+    bounds: &[Bound<'_>],
+    watch: &mut dyn FnMut(&mut Surface, Release),
+) -> Replay {
     let stock = program.program().stock;
     let untouched = Surface::flat(stock.width.to_mm(), stock.height.to_mm());
-    replay_on(untouched, program, bounds)
+    played(untouched, program, bounds, watch)
 }
 
 /// Replays the cuts of a program on what others have left of the stock.
 #[must_use]
 pub fn replay_on(surface: Surface, program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
+    played(surface, program, bounds, &mut |_, _| {})
+}
+
+fn played(
+    surface: Surface,
+    program: &VerifiedProgram,
+    bounds: &[Bound<'_>],
+    watch: &mut dyn FnMut(&mut Surface, Release),
+) -> Replay {
     let mut player = Player::new(surface, program.program(), bounds);
     for op in &program.program().ops {
-        player.op(op.site, op.action);
+        player.op(op.site, op.action, watch);
     }
     player.finish()
+}
+
+/// A V whose chip comes free: its second flank has just been cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Release {
+    /// The operation.
+    pub operation: OperationId,
+    /// Its layer, from the top.
+    pub layer: NonZeroU32,
+    /// The cut in its layer.
+    pub cut: NonZeroU32,
+    /// The V.
+    pub vee: Vee,
 }
 
 /// Depth below which an overcut is rounding: a nanometre.
@@ -170,7 +202,7 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn op(&mut self, site: Site, action: Action) {
+    fn op(&mut self, site: Site, action: Action, watch: &mut dyn FnMut(&mut Surface, Release)) {
         match action {
             Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation } => {
                 (self.tip, self.held) = (to, orientation);
@@ -185,7 +217,7 @@ impl<'p> Player<'p> {
                     cut,
                 } = site
                 {
-                    self.cut(operation, layer, cut, flank);
+                    self.cut(operation, layer, cut, flank, watch);
                 }
             }
             Action::Home
@@ -196,7 +228,14 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn cut(&mut self, operation: OperationId, layer: NonZeroU32, cut: NonZeroU32, flank: Flank) {
+    fn cut(
+        &mut self,
+        operation: OperationId,
+        layer: NonZeroU32,
+        cut: NonZeroU32,
+        flank: Flank,
+        watch: &mut dyn FnMut(&mut Surface, Release),
+    ) {
         self.enter(operation);
         let Some(&geometry) = self.flanks.get(self.held.0 as usize) else {
             return;
@@ -242,7 +281,13 @@ impl<'p> Player<'p> {
             };
             note(&mut self.findings.blocked, finding, |_, _| false);
         }
-        self.finish_flank(operation, (layer, cut), vee);
+        let release = Release {
+            operation,
+            layer,
+            cut,
+            vee,
+        };
+        self.finish_flank(release, watch);
     }
 
     /// Notes a flank that needs more edge than there is.
@@ -269,13 +314,20 @@ impl<'p> Player<'p> {
     }
 
     /// Takes the chip out once both flanks are cut.
-    fn finish_flank(&mut self, operation: OperationId, cut: (NonZeroU32, NonZeroU32), vee: Vee) {
+    fn finish_flank(&mut self, release: Release, watch: &mut dyn FnMut(&mut Surface, Release)) {
+        let Release {
+            operation,
+            layer,
+            cut,
+            vee,
+        } = release;
         // The verifier has made sure that every V has both flanks, once each.
-        if !self.half_done.remove(&cut) {
-            self.half_done.insert(cut);
-            *self.layers.entry((operation, cut.0)).or_default() += 1;
+        if !self.half_done.remove(&(layer, cut)) {
+            self.half_done.insert((layer, cut));
+            *self.layers.entry((operation, layer)).or_default() += 1;
             return;
         }
+        watch(&mut self.surface, release);
         self.surface.release(vee);
         let index = usize::from(operation.0);
         if let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) {
@@ -353,7 +405,7 @@ impl<'p> Player<'p> {
         let mut player = Player::new(untouched, self.program, self.bounds);
         let mut lowest: Option<(f64, Finding)> = None;
         for op in &self.program.ops {
-            player.op(op.site, op.action);
+            player.op(op.site, op.action, &mut |_, _| {});
             let (
                 Action::Cut { .. },
                 Site::Cut {

@@ -143,6 +143,21 @@ impl Surface {
         slope >= self.steepest - 1e-12
     }
 
+    /// The chip that a V would take out: its outline from where the left flank comes out along the surface to where the right
+    /// one does, and last the tip. None for a V whose tip is not covered.
+    pub fn chip(&mut self, vee: Vee) -> Option<Vec<Point2>> {
+        if !self.covers(vee.tip) {
+            return None;
+        }
+        let left = self.walk(vee, Side::Left);
+        let right = self.walk(vee, Side::Right);
+        let mut outline = vec![left.exit];
+        outline.extend(self.left.iter().skip(self.left.len() - left.passed));
+        outline.extend(self.right.iter().rev().take(right.passed));
+        outline.extend([right.exit, vee.tip]);
+        Some(outline)
+    }
+
     /// Takes the chip of a V out. A V whose tip is not covered changes nothing.
     pub fn release(&mut self, vee: Vee) {
         if !self.covers(vee.tip) {

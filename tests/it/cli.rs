@@ -12,6 +12,7 @@ mod machines;
 #[cfg(unix)]
 mod outside;
 mod place;
+mod plot;
 mod profiles;
 mod refusals;
 mod snapshot;

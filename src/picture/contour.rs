@@ -1,0 +1,195 @@
+//! What the cuts leave: the part, the machined contour above it, the chips that were taken out, and the highest scallop.
+
+use super::lattice::{MOST_DRAWN, PART};
+use super::section::{BELOW, Section};
+use super::sheet::{self, Entry, HALO, INK, ORANGE};
+use super::svg::{Anchor, Svg, number};
+use super::trace::Trace;
+
+pub use super::sheet::Heading;
+
+/// What a picture of a contour shows. Lengths are in mm, points are x and z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contour<'a> {
+    /// What it is about.
+    pub heading: Heading<'a>,
+    /// Width and height of the stock.
+    pub stock: [f64; 2],
+    /// The part's profile, from left to right.
+    pub part: &'a [[f64; 2]],
+    /// The machined contour, from left to right.
+    pub machined: &'a [[f64; 2]],
+    /// The chips in the order in which they come free. None are drawn when there are more than [`MOST_DRAWN`].
+    pub chips: &'a [Chip],
+    /// The highest scallop.
+    pub highest: Highest,
+}
+
+/// The chip of a V.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chip {
+    /// The layer it belongs to: neighbouring layers are shaded differently.
+    pub layer: u32,
+    /// Its outline.
+    pub outline: Vec<[f64; 2]>,
+}
+
+/// The highest material on the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Highest {
+    /// Its peak.
+    pub peak: [f64; 2],
+    /// Its height along the part's normal.
+    pub height: f64,
+}
+
+const SHADES: [&str; 2] = ["#f7f2e4", "#e8dec4"];
+const HIGHEST: &str = "#a3005c";
+
+/// The machined contour's line, finer where its teeth are many, so that it can be enlarged.
+fn line(contour: &Contour<'_>) -> String {
+    let teeth = (contour.machined.len() as f64 / 2.0).max(1.0);
+    let width = (120.0 / teeth).clamp(0.3, 1.6);
+    format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\"")
+}
+
+/// Writes the picture as SVG.
+#[must_use]
+pub fn draw(contour: &Contour<'_>) -> String {
+    let section = Section::of(contour.stock);
+    let legend = legend(contour);
+    let mut svg = sheet::sheet(
+        contour.heading,
+        &description(contour),
+        section.bottom + BELOW,
+        &legend,
+    );
+    chips(&mut svg, contour, &section);
+    svg.path(
+        section.below(contour.machined).text(),
+        &format!("fill=\"{ORANGE}\""),
+    );
+    svg.path(section.below(contour.part).text(), PART);
+    svg.path(
+        Trace::through(section.curve(contour.machined)).text(),
+        &line(contour),
+    );
+    section.stock(&mut svg, &format!("fill=\"none\" stroke=\"{INK}\""));
+    highest(&mut svg, contour, &section);
+    section.axes(&mut svg);
+    svg.finish()
+}
+
+fn description(contour: &Contour<'_>) -> String {
+    let Highest { peak, height } = contour.highest;
+    format!(
+        "{}. Section of a stock {:.1} mm wide and {:.1} mm high with the part, the machined contour and {} chips. The highest \
+         scallop stands {height:.2} mm above the part at x {:.1} mm, z {:.1} mm.",
+        contour.heading.subtitle,
+        contour.stock[0],
+        contour.stock[1],
+        contour.chips.len(),
+        peak[0],
+        peak[1]
+    )
+}
+
+fn legend(contour: &Contour<'_>) -> Vec<Entry> {
+    let mut legend = Vec::new();
+    if contour.chips.len() <= MOST_DRAWN {
+        let shade = |index: usize| format!("fill=\"{}\" stroke=\"{EDGE}\"", SHADES[index]);
+        legend.push(Entry::area(shade(0), "chips of odd layers"));
+        legend.push(Entry::area(shade(1), "even layers"));
+    } else {
+        let words = format!("more than {MOST_DRAWN} cuts: chips are not drawn");
+        legend.push(Entry::area(format!("fill=\"{}\"", SHADES[0]), words));
+    }
+    legend.push(Entry::area(format!("fill=\"{ORANGE}\""), "stays on the part"));
+    legend.push(Entry::line(line(contour), "machined contour"));
+    legend.push(Entry::area(PART, "part"));
+    legend.push(Entry::line(
+        format!("stroke=\"{HIGHEST}\" stroke-width=\"3\""),
+        "highest scallop",
+    ));
+    legend
+}
+
+/// Outlines of chips.
+const EDGE: &str = "#8f7f57";
+
+/// Chips of odd and of even layers are a path each.
+fn chips(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
+    section.stock(svg, &format!("fill=\"{}\"", SHADES[0]));
+    if contour.chips.len() > MOST_DRAWN {
+        return;
+    }
+    let mut layers = [Trace::default(), Trace::default()];
+    for chip in contour.chips {
+        let [odd, even] = &mut layers;
+        let trace = if chip.layer % 2 == 1 { odd } else { even };
+        trace.closed(chip.outline.iter().map(|&point| section.at(point)));
+    }
+    let width = (12.0 / (contour.chips.len() as f64 + 1.0).sqrt()).clamp(0.15, 0.8);
+    for (trace, shade) in layers.iter().zip(SHADES) {
+        if !trace.is_empty() {
+            svg.path(
+                trace.text(),
+                &format!(
+                    "fill=\"{shade}\" stroke=\"{EDGE}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\""
+                ),
+            );
+        }
+    }
+}
+
+/// The way from the part to the highest peak, and its length.
+fn highest(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
+    let Highest { peak, height } = contour.highest;
+    if height <= 0.0 {
+        return;
+    }
+    let [from, to] = [nearest(contour.part, peak), peak].map(|point| section.at(point));
+    svg.path(
+        &format!(
+            "M{} {}L{} {}",
+            number(from[0]),
+            number(from[1]),
+            number(to[0]),
+            number(to[1])
+        ),
+        &format!("stroke=\"{HIGHEST}\" stroke-width=\"3\" stroke-linecap=\"round\""),
+    );
+    let [left, right] = section.x.places;
+    let share = (to[0] - left) / (right - left);
+    let (x, anchor) = match share {
+        share if share < 0.15 => (to[0].max(left + 6.0), Anchor::Start),
+        share if share > 0.85 => (to[0].min(right - 6.0), Anchor::End),
+        _ => (to[0], Anchor::Middle),
+    };
+    svg.text(
+        (x, to[1] - 9.0),
+        anchor,
+        &format!("font-weight=\"bold\" {HALO}"),
+        &format!("{height:.2} mm"),
+    );
+}
+
+/// The point of a polyline nearest to another.
+fn nearest(line: &[[f64; 2]], point: [f64; 2]) -> [f64; 2] {
+    let to_piece = |pair: &[[f64; 2]]| {
+        let (from, way) = (pair[0], [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]]);
+        let length = way[0] * way[0] + way[1] * way[1];
+        let along = (point[0] - from[0]) * way[0] + (point[1] - from[1]) * way[1];
+        let share = if length > 0.0 {
+            (along / length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        [from[0] + way[0] * share, from[1] + way[1] * share]
+    };
+    let squared =
+        |to: [f64; 2]| (to[0] - point[0]) * (to[0] - point[0]) + (to[1] - point[1]) * (to[1] - point[1]);
+    let feet = line.windows(2).map(to_piece);
+    feet.min_by(|a, b| squared(*a).total_cmp(&squared(*b)))
+        .unwrap_or(point)
+}
