@@ -41,6 +41,7 @@ mod reach;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod referees;
 mod repository;
+mod scallop;
 mod schema;
 #[cfg(feature = "krl")]
 mod serial_arm;
