@@ -13,6 +13,7 @@ pub mod kinematics;
 pub mod lower;
 pub mod machine;
 pub mod manifest;
+pub mod optimisation;
 pub mod picture;
 pub mod placement;
 pub mod plan;

@@ -21,6 +21,7 @@ Examples:
                                           Where these axis values bring the flange
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
                                           All axis values that bring the flange there
+  vcutc optimize rib.vcut                 See what limits cost, and what a finer surface would take
   vcutc targets                           See what programs can be written, and with which options
   vcutc verify rib.vcut out/rib.src out/rib.dat
                                           See whether a program still is what its job says
@@ -128,6 +129,12 @@ pub(super) enum Command {
     /// Looks for the place of the work (and its turn about z) where the smallest margin of the whole job is largest, proves
     /// the whole program there, and prints the frame to paste. The job file is not changed.
     Place(PlaceArgs),
+    /// Tell what open parameters come out as, what binds them, and what a finer surface costs
+    ///
+    /// Solves each operation's parameters on every lattice, by the formulas of the paper and by the exact ones; plans and
+    /// simulates the chosen ones; tells which limits bind and what relaxing each by 1 % would save; and lists the least
+    /// time for a row of limits of the scallop. The job file is not changed.
+    Optimize(OptimizeArgs),
     /// List the machines of the catalogue, or show one
     ///
     /// Shown are lengths, limits and speeds, where the numbers come from, where sources differ, and how far they can be
@@ -328,6 +335,25 @@ pub(super) struct PlaceArgs {
 
     /// Draw a map of the margin over x and y into this file
     #[arg(short, long, value_name = "FILE.svg")]
+    pub(super) output: Option<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct OptimizeArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// How many limits of the scallop are tried for the trade-off
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(2..=100))]
+    pub(super) points: u32,
+
+    /// Draw time against scallop into this file, or into a file of this folder
+    ///
+    /// Jobs of several operations get a picture for each, with its number behind the name.
+    #[arg(short, long, value_name = "FILE.svg|DIR")]
     pub(super) output: Option<String>,
 
     #[command(flatten)]

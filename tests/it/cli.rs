@@ -8,6 +8,7 @@ mod gallery;
 mod jobs;
 mod kinematics;
 mod machines;
+mod optimize;
 #[cfg(unix)]
 mod outside;
 mod place;

@@ -28,6 +28,7 @@ mod kinematics;
 mod krl_text;
 #[cfg(feature = "krl")]
 mod mutations;
+mod optimum_table;
 mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]

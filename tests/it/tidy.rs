@@ -66,6 +66,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "optimisation",
+        &["diag", "driver", "job", "picture", "plan", "source"],
+    ),
+    (
         "verdict",
         &["diag", "geom", "job", "lower", "plan", "sim", "source"],
     ),
@@ -100,6 +104,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "kinematics",
             "machine",
             "manifest",
+            "optimisation",
             "placement",
             "plan",
             "reach",
