@@ -11,7 +11,7 @@ mod trade_off;
 pub use bounds::Relaxed;
 pub use trade_off::TradeOff;
 
-use crate::diag::{Diagnostic, has_errors};
+use crate::diag::Diagnostic;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut};
 use crate::picture::pareto::{self, Curve, Pareto};
@@ -135,7 +135,6 @@ pub fn optimise(
     else {
         return Err(Refusal::Diagnostics(outcome.diagnostics, outcome.sources));
     };
-    debug_assert!(!has_errors(&diagnostics), "errors leave nothing compiled");
     progress(Stage::Optimising);
     let operations = operations(&job, &plan, &compiled, &sources, points);
     Ok(Optimisation {
