@@ -15,6 +15,7 @@ pub mod lower;
 pub mod machine;
 pub mod manifest;
 pub mod numbers;
+pub mod optimisation;
 pub mod pace;
 pub mod picture;
 pub mod placement;

@@ -23,6 +23,7 @@ Examples:
                                           All axis values that bring the flange there
   vcutc plot rib.vcut --what contour -o rib.svg
                                           See what the cuts leave on the part
+  vcutc optimize rib.vcut                 See what limits cost, and what a finer surface would take
   vcutc targets                           See what programs can be written, and with which options
   vcutc verify rib.vcut out/rib.src out/rib.dat
                                           See whether a program still is what its job says
@@ -130,6 +131,12 @@ pub(super) enum Command {
     /// Looks for the place of the work (and its turn about z) where the smallest margin of the whole job is largest, proves
     /// the whole program there, and prints the frame to paste. The job file is not changed.
     Place(PlaceArgs),
+    /// Tell what open parameters come out as, what binds them, and what a finer surface costs
+    ///
+    /// Solves each operation's parameters on every lattice, by the formulas of the paper and by the exact ones; plans and
+    /// simulates the chosen ones; tells which limits bind and what relaxing each by 1 % would save; and lists the least
+    /// time for a row of limits of the scallop. The job file is not changed.
+    Optimize(OptimizeArgs),
     /// List the machines of the catalogue, or show one
     ///
     /// Shown are lengths, limits and speeds, where the numbers come from, where sources differ, and how far they can be
@@ -376,6 +383,25 @@ pub(super) enum What {
     Joints,
     /// What the time is spent on, by kind of motion and by layer
     Time,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct OptimizeArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// How many limits of the scallop are tried for the trade-off
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(2..=100))]
+    pub(super) points: u32,
+
+    /// Draw time against scallop into this file, or into a file of this folder
+    ///
+    /// Jobs of several operations get a picture for each, with its number behind the name.
+    #[arg(short, long, value_name = "FILE.svg|DIR")]
+    pub(super) output: Option<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
 }
 
 /// What the command line says over what the job says.

@@ -43,6 +43,7 @@ mod inner;
 mod joints;
 mod kinematics;
 mod machines;
+mod optimize;
 mod output;
 mod place;
 mod plot;
@@ -95,6 +96,7 @@ pub fn run(linked: &Targets) -> ExitCode {
         Some(Command::Build(args)) => build::build(args, targets, &console),
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
+        Some(Command::Optimize(optimize)) => optimize::optimize(optimize, targets, &console),
         Some(Command::Place(place)) => place::place(place, targets, &console),
         Some(Command::Fk { cell, joints }) => kinematics::forward(cell, joints, &console),
         Some(Command::Ik {

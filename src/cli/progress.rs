@@ -121,6 +121,7 @@ const fn name(stage: Stage) -> &'static str {
         Stage::Proving => "proving",
         Stage::Reaching => "reaching",
         Stage::Placing => "placing",
+        Stage::Optimising => "optimising",
         Stage::Emitting => "emitting",
         Stage::Verifying => "verifying",
     }
@@ -133,6 +134,7 @@ const fn words(stage: Stage) -> &'static str {
         Stage::Proving => "proving that every chip comes free and no cut enters the part",
         Stage::Reaching => "proving that the machine reaches every pose at speed",
         Stage::Placing => "searching for the best place of the work",
+        Stage::Optimising => "solving for other parameters",
         Stage::Emitting => "writing the program",
         Stage::Verifying => "holding the program against the job",
     }

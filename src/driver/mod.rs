@@ -62,6 +62,8 @@ pub enum Stage {
     Reaching,
     /// Searching for the best place of the work.
     Placing,
+    /// Solving for other parameters.
+    Optimising,
     /// Writing the program.
     Emitting,
     /// Holding a program against its job.

@@ -9,6 +9,7 @@ mod gallery;
 mod jobs;
 mod kinematics;
 mod machines;
+mod optimize;
 #[cfg(unix)]
 mod outside;
 mod place;

@@ -28,6 +28,7 @@ mod kinematics;
 mod krl_text;
 #[cfg(feature = "krl")]
 mod mutations;
+mod optimum_table;
 mod opw_peer;
 #[cfg(feature = "krl")]
 mod pace;
@@ -45,6 +46,7 @@ mod reach;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod referees;
 mod repository;
+mod scallop;
 mod schema;
 #[cfg(feature = "krl")]
 mod serial_arm;

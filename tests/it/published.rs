@@ -11,13 +11,13 @@ use vcutc::plan::{PlannedOperation, PlannedVcut};
 use vcutc::sim::surface::{Surface, Vee};
 
 /// Rake less half the apex angle of the blade of Cui et al.: what the leading edge makes with the feed.
-const LEAD_DEG: f64 = 60.0 - 7.13;
+pub(crate) const LEAD_DEG: f64 = 60.0 - 7.13;
 
 /// The block down to a plane.
 const PLANE: &str = "start (0 mm, 13.1 mm) line to (85 mm, 13.1 mm)";
 
 /// The block with 3137 mm2 to remove.
-const ARC: &str = "start (0 mm, 6 mm) arc to (85 mm, 6 mm) through (42.5 mm, 16.514 mm)";
+pub(crate) const ARC: &str = "start (0 mm, 6 mm) arc to (85 mm, 6 mm) through (42.5 mm, 16.514 mm)";
 
 /// The parameters of a lattice: swing in degrees, layer and step in mm, and the edge length of the blade.
 struct Parameters {

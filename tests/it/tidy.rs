@@ -85,6 +85,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "optimisation",
+        &["diag", "driver", "job", "picture", "plan", "source"],
+    ),
+    (
         "verdict",
         &["choice", "diag", "geom", "job", "lower", "plan", "sim", "source"],
     ),
@@ -124,6 +128,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "manifest",
             "numbers",
             "picture",
+            "optimisation",
             "placement",
             "plan",
             "reach",

@@ -1,0 +1,302 @@
+//! `vcutc optimize`: what the open parameters of a job come out as, what else there would be, and what it would cost.
+//!
+//! The job is compiled as ever, so that what is told of the chosen parameters was planned, proven and timed. Beside it the
+//! problem of each operation ([`crate::plan::optimum`]) is solved again: on every lattice, by the paper's formulas and by the
+//! exact ones, with each binding bound relaxed, and for a row of limits of the scallop. Those answers are the model's alone.
+
+mod bounds;
+pub mod report;
+mod trade_off;
+
+pub use bounds::Relaxed;
+pub use trade_off::TradeOff;
+
+use crate::diag::Diagnostic;
+use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
+use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut};
+use crate::picture::pareto::{self, Curve, Pareto};
+use crate::plan::optimum::{self, Infeasible, Optimum, Problem};
+use crate::plan::parameters;
+use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
+use crate::source::SourceMap;
+use vcutc_backend_api::ir::{OperationId, Site};
+use vcutc_backend_api::units::{Duration, Length};
+
+/// What came of a job's open parameters.
+#[derive(Debug)]
+pub struct Optimisation {
+    /// The job's name.
+    pub job: String,
+    /// Its operations, in order.
+    pub operations: Vec<OperationOptimum>,
+    /// The simulated scallop of the whole job.
+    pub scallop: Length,
+    /// What there was to warn of.
+    pub warnings: Vec<Diagnostic>,
+    /// The texts that warnings point into.
+    pub sources: SourceMap,
+}
+
+/// What came of one operation's open parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OperationOptimum {
+    /// Which operation of the job it is, counted from 1.
+    pub number: u16,
+    /// Where it stands: `rib.vcut:12:1`.
+    pub place: String,
+    /// What is made least.
+    pub objective: Objective,
+    /// By which formulas.
+    pub formulas: Formulas,
+    /// Where the lattice is given, if it is: the others are shown for comparison only.
+    pub lattice_given: Option<String>,
+    /// The best parameters on every lattice by both formulas.
+    pub rows: Vec<Row>,
+    /// What was planned.
+    pub planned: Planned,
+    /// Bounds that bind, and what relaxing them would buy.
+    pub binding: Vec<Relaxed>,
+    /// Least times for a row of limits of the scallop.
+    pub trade_off: TradeOff,
+}
+
+/// The best parameters on one lattice, by one kind of formulas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The lattice.
+    pub lattice: Lattice,
+    /// The formulas.
+    pub formulas: Formulas,
+    /// Whether these are the job's.
+    pub standing: Standing,
+    /// The best parameters, or why there are none.
+    pub best: Result<Optimum, Infeasible>,
+}
+
+/// How a row stands to the job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The job is cut with it, but for rounding to the grid.
+    Chosen,
+    /// For comparison.
+    Other,
+}
+
+/// What the plan of an operation comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Planned {
+    /// Time of its moves.
+    pub time: Duration,
+    /// Time by the model, of the parameters on the grid.
+    pub model: Duration,
+    /// V-cuts.
+    pub cuts: usize,
+    /// Layers with cuts.
+    pub layers: usize,
+}
+
+impl Planned {
+    /// How far the model is above the planned time, as a share of that; none when nothing takes time.
+    #[must_use]
+    pub fn model_above(&self) -> Option<f64> {
+        let planned = self.time.to_s();
+        (planned > 0.0).then(|| self.model.to_s() / planned - 1.0)
+    }
+}
+
+/// Why nothing was optimised.
+#[derive(Debug)]
+pub enum Refusal {
+    /// The job file cannot be read.
+    Unreadable(String),
+    /// The job has errors.
+    Diagnostics(Vec<Diagnostic>, SourceMap),
+}
+
+/// Optimises a job, with so many limits of the scallop in the trade-off.
+///
+/// # Errors
+/// When the job does not compile.
+pub fn optimise(
+    request: Request<'_>,
+    points: u32,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Optimisation, Refusal> {
+    let outcome = driver::compile(request, progress)
+        .map_err(|RequestError::Unreadable(reason)| Refusal::Unreadable(reason))?;
+    let Outcome {
+        sources,
+        diagnostics,
+        job: Some(job),
+        plan: Some(plan),
+        compiled: Some(compiled),
+        ..
+    } = outcome
+    else {
+        return Err(Refusal::Diagnostics(outcome.diagnostics, outcome.sources));
+    };
+    progress(Stage::Optimising);
+    let operations = operations(&job, &plan, &compiled, &sources, points);
+    Ok(Optimisation {
+        job: job.name,
+        operations,
+        scallop: compiled.report.scallop.height,
+        warnings: diagnostics,
+        sources,
+    })
+}
+
+fn operations(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    compiled: &Compiled,
+    sources: &SourceMap,
+    points: u32,
+) -> Vec<OperationOptimum> {
+    let pairs = (0..).zip(job.operations.iter().zip(&plan.operations));
+    let mut operations = Vec::new();
+    for (index, (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut))) in pairs {
+        operations.extend(operation(
+            job,
+            asked,
+            vcut,
+            sources,
+            planned(vcut, compiled, OperationId(index)),
+            Scale { index, points },
+        ));
+    }
+    operations
+}
+
+/// Which operation, and how many limits its trade-off has.
+#[derive(Clone, Copy)]
+struct Scale {
+    index: u16,
+    points: u32,
+}
+
+fn operation(
+    job: &CheckedJob,
+    asked: &RoughVcut,
+    vcut: &PlannedVcut,
+    sources: &SourceMap,
+    planned: Planned,
+    Scale { index, points }: Scale,
+) -> Option<OperationOptimum> {
+    let problem = parameters::problem(job, asked)?;
+    let chosen = vcut.parameters.lattice;
+    let formulas = asked.formulas.value;
+    let rows = rows(&problem, chosen);
+    let best = rows.iter().find_map(|row| match row.standing {
+        Standing::Chosen => row.best.as_ref().ok(),
+        Standing::Other => None,
+    });
+    let binding = best.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
+    Some(OperationOptimum {
+        number: index.saturating_add(1),
+        place: bounds::place(sources, asked.head_span),
+        objective: asked.objective.value,
+        formulas,
+        lattice_given: match asked.lattice.value {
+            Auto::Auto => None,
+            Auto::Given(_) => Some(bounds::place(
+                sources,
+                asked.lattice.span.unwrap_or(asked.head_span),
+            )),
+        },
+        planned,
+        binding,
+        trade_off: TradeOff::of(&problem, chosen, points),
+        rows,
+    })
+}
+
+const LATTICES: [Lattice; 3] = [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free];
+
+/// Every lattice by both formulas, all else as the job has it.
+fn rows(problem: &Problem, chosen: Lattice) -> Vec<Row> {
+    let kinds = LATTICES
+        .into_iter()
+        .flat_map(|lattice| [Formulas::Paper, Formulas::Exact].map(|formulas| (lattice, formulas)));
+    kinds
+        .map(|(lattice, formulas)| Row {
+            lattice,
+            formulas,
+            standing: if lattice == chosen && formulas == problem.formulas {
+                Standing::Chosen
+            } else {
+                Standing::Other
+            },
+            best: optimum::solve(&Problem {
+                formulas,
+                lattices: vec![lattice],
+                ..problem.clone()
+            }),
+        })
+        .collect()
+}
+
+/// What an operation's plan comes to, from the times of its ops.
+fn planned(vcut: &PlannedVcut, compiled: &Compiled, operation: OperationId) -> Planned {
+    let ops = &compiled.program.verified().program().ops;
+    let own = ops
+        .iter()
+        .zip(&compiled.op_times)
+        .filter(|(op, _)| match op.site {
+            Site::Program => false,
+            Site::Operation(of) | Site::Layer { operation: of, .. } | Site::Cut { operation: of, .. } => {
+                of == operation
+            }
+        });
+    let layers = compiled.report.layers.iter();
+    Planned {
+        time: own.map(|(_, &time)| time).sum(),
+        model: vcut.estimate,
+        cuts: vcut.cuts.len(),
+        layers: layers.filter(|(of, _)| *of == operation).count(),
+    }
+}
+
+impl Optimisation {
+    /// The Pareto picture of an operation as SVG.
+    #[must_use]
+    pub fn svg(&self, operation: &OperationOptimum) -> String {
+        let title = format!("{}: time against scallop", self.job);
+        let subtitle = format!(
+            "operation {}, {} formulas, {}",
+            operation.number,
+            report::formulas(operation.formulas),
+            report::objective(operation.objective)
+        );
+        let trade_off = &operation.trade_off;
+        let places = |optimum: &Optimum| [optimum.scallop.to_mm(), optimum.time.to_s()];
+        let curves: Vec<Curve<'_>> = trade_off
+            .curves
+            .iter()
+            .map(|curve| Curve {
+                name: report::lattice(curve.lattice),
+                points: curve.points.iter().map(places).collect(),
+            })
+            .collect();
+        let chosen = operation.chosen().map_or([0.0, 0.0], places);
+        pareto::draw(&Pareto {
+            title: &title,
+            subtitle: &subtitle,
+            curves: &curves,
+            chosen,
+            planned: Some([self.scallop.to_mm(), operation.planned.time.to_s()]),
+            limit: trade_off.limit.map(Length::to_mm),
+        })
+    }
+}
+
+impl OperationOptimum {
+    /// The best parameters by the job's formulas on the lattice it is cut with.
+    #[must_use]
+    pub fn chosen(&self) -> Option<&Optimum> {
+        self.rows.iter().find_map(|row| match row.standing {
+            Standing::Chosen => row.best.as_ref().ok(),
+            Standing::Other => None,
+        })
+    }
+}

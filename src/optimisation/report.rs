@@ -1,0 +1,422 @@
+//! What came of optimising, for people and for programs.
+
+use super::bounds::{Relaxed, name, value};
+use super::{OperationOptimum, Optimisation, Planned, Row, Standing};
+use crate::job::{Formulas, Lattice, Objective};
+use crate::plan::optimum::{Bound, Infeasible, Optimum};
+use crate::plan::parameters::show;
+use serde::Serialize;
+use std::fmt::Write;
+use vcutc_backend_api::units::{Duration, Length};
+
+/// A lattice as jobs write it.
+#[must_use]
+pub const fn lattice(lattice: Lattice) -> &'static str {
+    match lattice {
+        Lattice::Orthogonal => "orthogonal",
+        Lattice::Interlaced => "interlaced",
+        Lattice::Free => "free",
+    }
+}
+
+/// Formulas as jobs write them.
+#[must_use]
+pub const fn formulas(formulas: Formulas) -> &'static str {
+    match formulas {
+        Formulas::Paper => "paper",
+        Formulas::Exact => "exact",
+    }
+}
+
+/// An objective in words.
+#[must_use]
+pub const fn objective(objective: Objective) -> &'static str {
+    match objective {
+        Objective::Time => "least time",
+        Objective::Scallop => "least scallop",
+        Objective::Cuts => "fewest cuts",
+        Objective::BladeLoad => "least edge in use",
+    }
+}
+
+/// Tables for people: for each operation the best parameters, what was planned, what binds, and the trade-off.
+#[must_use]
+pub fn text(optimisation: &Optimisation) -> String {
+    let mut text = String::new();
+    for operation in &optimisation.operations {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        text += &operation_text(&optimisation.job, operation, optimisation.scallop);
+    }
+    text
+}
+
+fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> String {
+    let mut text = format!(
+        "{job}: operation {} ({}), {} by the {} formulas\n\n",
+        operation.number,
+        operation.place,
+        objective(operation.objective),
+        formulas(operation.formulas)
+    );
+    text += &table(
+        &[
+            "", "lattice", "model", "swing", "layer", "step", "overlap", "time", "cuts", "scallop", "edge",
+        ],
+        &operation.rows.iter().map(row_cells).collect::<Vec<_>>(),
+    );
+    if let Some(place) = &operation.lattice_given {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "\n  The lattice is given ({place}); the others are there for comparison."
+        );
+    }
+    let _ = write!(
+        text,
+        "\n  planned    {}\n",
+        planned_words(&operation.planned, scallop)
+    );
+    text += &binding_text(&operation.binding);
+    text += "\n  Least time by the model for other limits of the scallop:\n\n";
+    text += &table(
+        &["", "scallop", "time", "lattice", "swing", "layer", "step", "cuts"],
+        &operation
+            .trade_off
+            .points
+            .iter()
+            .map(|best| point_cells(best, operation.chosen()))
+            .collect::<Vec<_>>(),
+    );
+    text
+}
+
+/// `280.9 s for 95 cuts in 5 layers; the model says 4.2 % less; scallop 9.31 mm`.
+fn planned_words(planned: &Planned, scallop: Length) -> String {
+    let model = match planned.model_above() {
+        Some(share) if share.abs() >= 5e-4 => {
+            let way = if share > 0.0 { "more" } else { "less" };
+            format!("the model says {:.1} % {way}", share.abs() * 100.0)
+        }
+        Some(_) | None => "as the model says".to_owned(),
+    };
+    format!(
+        "{} for {} cuts in {} layers; {model}; simulated scallop of the job {:.2} mm",
+        seconds(planned.time),
+        planned.cuts,
+        planned.layers,
+        scallop.to_mm()
+    )
+}
+
+fn binding_text(binding: &[Relaxed]) -> String {
+    let mut text = String::new();
+    for (index, relaxed) in binding.iter().enumerate() {
+        let head = if index == 0 { "binds" } else { "" };
+        let place = relaxed
+            .place
+            .as_ref()
+            .map_or(String::new(), |place| format!(" ({place})"));
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  {head:<10} {}{place}; {} would save {} ({} %)",
+            relaxed.words,
+            relaxed.relaxed,
+            seconds(relaxed.saves),
+            percent(relaxed.share)
+        );
+    }
+    text
+}
+
+fn percent(share: f64) -> String {
+    let text = format!("{:.2}", share * 100.0);
+    if text == "-0.00" { "0.00".to_owned() } else { text }
+}
+
+fn seconds(time: Duration) -> String {
+    let text = format!("{:.1} s", time.to_s());
+    if text == "-0.0 s" {
+        "0.0 s".to_owned()
+    } else {
+        text
+    }
+}
+
+fn row_cells(row: &Row) -> Vec<String> {
+    let mark = match row.standing {
+        Standing::Chosen => "*",
+        Standing::Other => "",
+    };
+    let head = [mark, lattice(row.lattice), formulas(row.formulas)].map(str::to_owned);
+    let rest = match &row.best {
+        Ok(best) => vec![
+            format!("{:.3} deg", best.swing.to_deg()),
+            format!("{:.3} mm", best.layer.to_mm()),
+            format!("{:.3} mm", best.step.to_mm()),
+            show(best.overlap),
+            seconds(best.time),
+            format!("{:.1}", best.cuts),
+            format!("{:.2} mm", best.scallop.to_mm()),
+            format!("{:.2} mm", best.edge.to_mm()),
+        ],
+        Err(infeasible) => vec![why_not(infeasible)],
+    };
+    head.into_iter().chain(rest).collect()
+}
+
+/// Why a lattice has no parameters: `none: scallop <= and step >= conflict`.
+#[must_use]
+pub fn why_not(infeasible: &Infeasible) -> String {
+    match infeasible {
+        Infeasible::Conflict { bounds, nearest } => {
+            let names: Vec<&str> = bounds.iter().map(|&bound| name(bound)).collect();
+            let works = bounds.iter().zip(nearest).find_map(|(&bound, nearest)| {
+                nearest.map(|nearest| format!("; {} {} would do", name(bound), value(bound, nearest)))
+            });
+            format!(
+                "none: {} conflict{}",
+                names.join(" and "),
+                works.unwrap_or_default()
+            )
+        }
+        Infeasible::Unbounded => "none: the objective falls with the layer for ever".to_owned(),
+    }
+}
+
+fn point_cells(best: &Optimum, chosen: Option<&Optimum>) -> Vec<String> {
+    let is_chosen = chosen.is_some_and(|chosen| chosen.lattice == best.lattice && alike(chosen, best));
+    let mark = if is_chosen { "*" } else { "" };
+    vec![
+        mark.to_owned(),
+        format!("{:.2} mm", best.scallop.to_mm()),
+        seconds(best.time),
+        lattice(best.lattice).to_owned(),
+        format!("{:.3} deg", best.swing.to_deg()),
+        format!("{:.3} mm", best.layer.to_mm()),
+        format!("{:.3} mm", best.step.to_mm()),
+        format!("{:.1}", best.cuts),
+    ]
+}
+
+/// Scallop and time that are the same as far as they are printed.
+fn alike(a: &Optimum, b: &Optimum) -> bool {
+    (a.scallop - b.scallop).abs() < Length::mm(0.005) && (a.time - b.time).abs() < Duration::s(0.05)
+}
+
+/// Cells in columns, those of numbers to the right. A row may be shorter than the head; its last cell then runs on.
+fn table(head: &[&str], rows: &[Vec<String>]) -> String {
+    let whole = || rows.iter().filter(|row| row.len() == head.len());
+    let columns: Vec<Column> = (0..head.len())
+        .map(|column| {
+            let cells = || whole().filter_map(|row| row.get(column));
+            let words = head.get(column).map_or(0, |word| word.len());
+            Column {
+                width: cells().map(String::len).fold(words, usize::max),
+                // Every number has a unit or none, and may be a bound.
+                side: if cells().any(|cell| cell.contains(|c: char| c.is_ascii_digit())) {
+                    Side::Right
+                } else {
+                    Side::Left
+                },
+            }
+        })
+        .collect();
+    let head: Vec<String> = head.iter().map(|&word| word.to_owned()).collect();
+    let lines = [&head].into_iter().chain(rows);
+    lines.map(|cells| line(cells, &columns, head.len())).collect()
+}
+
+struct Column {
+    width: usize,
+    side: Side,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
+}
+
+fn line(cells: &[String], columns: &[Column], whole: usize) -> String {
+    let padded = cells
+        .iter()
+        .zip(columns)
+        .enumerate()
+        .map(|(index, (cell, column))| {
+            let width = column.width;
+            let runs_on = cells.len() < whole && index + 1 == cells.len();
+            match column.side {
+                Side::Right if !runs_on => format!("{cell:>width$}"),
+                Side::Right | Side::Left => format!("{cell:<width$}"),
+            }
+        });
+    let line = padded.collect::<Vec<_>>().join("  ");
+    format!("  {}\n", line.trim_end())
+}
+
+/// The same for programs.
+#[derive(Debug, Serialize)]
+pub struct OptimisationBody<'a> {
+    job: &'a str,
+    /// In mm, simulated.
+    scallop: f64,
+    operations: Vec<OperationBody<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct OperationBody<'a> {
+    operation: u16,
+    place: &'a str,
+    objective: &'static str,
+    model: &'static str,
+    lattice_given: Option<&'a str>,
+    best: Vec<RowBody>,
+    planned: PlannedBody,
+    binding: Vec<BindingBody<'a>>,
+    trade_off: Vec<ParametersBody>,
+}
+
+#[derive(Debug, Serialize)]
+struct RowBody {
+    lattice: &'static str,
+    model: &'static str,
+    chosen: bool,
+    parameters: Option<ParametersBody>,
+    trouble: Option<String>,
+}
+
+/// Lengths in mm, angles in deg, times in s.
+#[derive(Debug, Serialize)]
+struct ParametersBody {
+    lattice: &'static str,
+    swing: f64,
+    layer: f64,
+    step: f64,
+    overlap: f64,
+    time: f64,
+    cuts: f64,
+    scallop: f64,
+    edge: f64,
+    gap: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct PlannedBody {
+    /// In s.
+    time: f64,
+    /// In s, by the model.
+    model: f64,
+    /// As a share of the planned time.
+    model_above: Option<f64>,
+    cuts: usize,
+    layers: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct BindingBody<'a> {
+    bound: &'static str,
+    words: &'a str,
+    place: Option<&'a str>,
+    relaxed: &'a str,
+    /// In s.
+    saves: f64,
+    /// Of the objective.
+    share: f64,
+}
+
+/// What came of optimising, for programs.
+#[must_use]
+pub fn body(optimisation: &Optimisation) -> OptimisationBody<'_> {
+    OptimisationBody {
+        job: &optimisation.job,
+        scallop: optimisation.scallop.to_mm(),
+        operations: optimisation.operations.iter().map(operation_body).collect(),
+    }
+}
+
+fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
+    let planned = &operation.planned;
+    OperationBody {
+        operation: operation.number,
+        place: &operation.place,
+        objective: objective_key(operation.objective),
+        model: formulas(operation.formulas),
+        lattice_given: operation.lattice_given.as_deref(),
+        best: operation.rows.iter().map(row_body).collect(),
+        planned: PlannedBody {
+            time: planned.time.to_s(),
+            model: planned.model.to_s(),
+            model_above: planned.model_above(),
+            cuts: planned.cuts,
+            layers: planned.layers,
+        },
+        binding: operation.binding.iter().map(binding_body).collect(),
+        trade_off: operation.trade_off.points.iter().map(parameters_body).collect(),
+    }
+}
+
+/// An objective as jobs write it.
+const fn objective_key(objective: Objective) -> &'static str {
+    match objective {
+        Objective::Time => "time",
+        Objective::Scallop => "scallop",
+        Objective::Cuts => "cuts",
+        Objective::BladeLoad => "blade_load",
+    }
+}
+
+fn row_body(row: &Row) -> RowBody {
+    RowBody {
+        lattice: lattice(row.lattice),
+        model: formulas(row.formulas),
+        chosen: row.standing == Standing::Chosen,
+        parameters: row.best.as_ref().ok().map(parameters_body),
+        trouble: row.best.as_ref().err().map(why_not),
+    }
+}
+
+fn parameters_body(best: &Optimum) -> ParametersBody {
+    ParametersBody {
+        lattice: lattice(best.lattice),
+        swing: best.swing.to_deg(),
+        layer: best.layer.to_mm(),
+        step: best.step.to_mm(),
+        overlap: best.overlap,
+        time: best.time.to_s(),
+        cuts: best.cuts,
+        scallop: best.scallop.to_mm(),
+        edge: best.edge.to_mm(),
+        gap: best.gap,
+    }
+}
+
+fn binding_body(relaxed: &Relaxed) -> BindingBody<'_> {
+    BindingBody {
+        bound: bound_key(relaxed.bound),
+        words: &relaxed.words,
+        place: relaxed.place.as_deref(),
+        relaxed: &relaxed.relaxed,
+        saves: relaxed.saves.to_s(),
+        share: relaxed.share,
+    }
+}
+
+const fn bound_key(bound: Bound) -> &'static str {
+    match bound {
+        Bound::SwingLeast => "swing_least",
+        Bound::SwingMost => "swing_most",
+        Bound::LayerLeast => "layer_least",
+        Bound::LayerMost => "layer_most",
+        Bound::StepLeast => "step_least",
+        Bound::StepMost => "step_most",
+        Bound::OverlapLeast => "overlap_least",
+        Bound::OverlapMost => "overlap_most",
+        Bound::Scallop => "scallop",
+        Bound::Edge => "edge",
+        Bound::Time => "time",
+        Bound::Cuts => "cuts",
+    }
+}

@@ -1,0 +1,48 @@
+//! Time against scallop: the least time for each of a row of limits.
+
+use super::LATTICES;
+use crate::job::Lattice;
+use crate::plan::optimum::{self, Optimum, Problem};
+use vcutc_backend_api::units::Length;
+
+/// What limits of the scallop cost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TradeOff {
+    /// The job's own limit.
+    pub limit: Option<Length>,
+    /// The fastest parameters that the job allows for a row of scallops, by growing scallop.
+    pub points: Vec<Optimum>,
+    /// The same for each lattice on its own; the chosen one comes first, and lattices that cannot keep the other bounds are
+    /// left out.
+    pub curves: Vec<LatticeCurve>,
+}
+
+/// The fastest parameters of one lattice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LatticeCurve {
+    /// The lattice.
+    pub lattice: Lattice,
+    /// The parameters, by growing scallop; at least one.
+    pub points: Vec<Optimum>,
+}
+
+impl TradeOff {
+    /// Solves the problem for so many limits.
+    pub(super) fn of(problem: &Problem, chosen: Lattice, points: u32) -> Self {
+        let mut lattices = LATTICES;
+        lattices.sort_by_key(|&lattice| lattice != chosen);
+        let curve = |lattice: Lattice| {
+            let alone = Problem {
+                lattices: vec![lattice],
+                ..problem.clone()
+            };
+            let points = optimum::trade_off(&alone, points);
+            (!points.is_empty()).then_some(LatticeCurve { lattice, points })
+        };
+        Self {
+            limit: problem.scallop,
+            points: optimum::trade_off(problem, points),
+            curves: lattices.into_iter().filter_map(curve).collect(),
+        }
+    }
+}

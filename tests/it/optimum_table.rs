@@ -1,0 +1,195 @@
+//! The table in `docs/optimum.md`: the block of Cui et al. at the parameters of the paper and at the optima, each planned,
+//! proven and simulated by the whole compiler.
+//!
+//! `UPDATE_DOCS=1 cargo test --test it optimum_table` writes it anew.
+
+use crate::pipeline::{Files, compile, told};
+use crate::published::{ARC, LEAD_DEG};
+use crate::repository::{read, root};
+use vcutc::driver::Outcome;
+use vcutc::job::{Formulas, Lattice, Objective};
+use vcutc::plan::optimum::{Extension, Optimum, Problem, Range, Work, solve};
+use vcutc::plan::{PlannedOperation, blade_reach};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Length, Speed};
+
+const PAGE: &str = "docs/optimum.md";
+const BEGIN: &str = "<!-- table: written by tests/it/optimum_table.rs -->";
+const END: &str = "<!-- end of table -->";
+
+/// Table 1 of the paper. How far cuts run out follows from the edge in use [Cui 5].
+fn table_1(formulas: Formulas, lattice: Lattice) -> Problem {
+    Problem {
+        objective: Objective::Time,
+        formulas,
+        lattices: vec![lattice],
+        work: Work {
+            width: Length::mm(85.0),
+            depth: Length::mm(50.0),
+            area: Area::mm2(3137.0),
+            clearance: Length::mm(10.0),
+            cutting_length: Length::mm(10.0),
+            half_apex: Angle::deg(7.13),
+            rake: Angle::deg(60.0),
+            allowance: Length::ZERO,
+            standoff: Length::ZERO,
+            extension: Extension::EdgeInUse,
+            cut_feed: Speed::mm_per_s(200.0),
+            travel_feed: Speed::mm_per_s(200.0),
+            reorient_rate: AngularSpeed::deg_per_s(90.0),
+        },
+        swing: between(Angle::deg(1.0), Angle::deg(50.0)),
+        layer: between(Length::mm(0.01), Length::mm(50.0)),
+        step: between(Length::mm(0.01), Length::mm(85.0)),
+        overlap: Range {
+            least: 0.0,
+            most: 0.95,
+        },
+        scallop: Some(Length::mm(10.0)),
+        edge: None,
+        time: None,
+        cuts: None,
+    }
+}
+
+fn between<T>(least: T, most: T) -> Range<T> {
+    Range { least, most }
+}
+
+/// The parameters that the paper begins with.
+fn initial() -> Problem {
+    let fixed = |value| between(Length::mm(value), Length::mm(value));
+    Problem {
+        swing: between(Angle::deg(45.0), Angle::deg(45.0)),
+        layer: fixed(3.0),
+        step: fixed(6.0),
+        ..table_1(Formulas::Paper, Lattice::Orthogonal)
+    }
+}
+
+/// A row of the table.
+struct Row {
+    name: &'static str,
+    model: Optimum,
+    outcome: Outcome,
+}
+
+impl Row {
+    fn of(name: &'static str, problem: &Problem) -> Self {
+        let model = solve(problem).unwrap();
+        let outcome = planned(&model);
+        assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name}");
+        Self { name, model, outcome }
+    }
+
+    /// Time by the model and of the plan in s, scallop bound and simulated scallop in mm.
+    fn figures(&self) -> [f64; 4] {
+        let report = &self.outcome.compiled.as_ref().unwrap().report;
+        let model = &self.model;
+        [
+            model.time.to_s(),
+            report.timing.total().to_s(),
+            model.scallop.to_mm(),
+            report.scallop.height.to_mm(),
+        ]
+    }
+
+    fn line(&self) -> String {
+        let Self { name, model, outcome } = self;
+        let [time, planned, bound, scallop] = self.figures();
+        let report = &outcome.compiled.as_ref().unwrap().report;
+        let freed = report.cuts();
+        format!(
+            "| {name} | {:.3} | {:.3} | {:.3} | {:.2} | {time:.1} | {planned:.1} | {:+.1} % | {:.1} | {} | {} | {bound:.2} | {scallop:.2} | {freed} of {freed} |\n",
+            model.swing.to_deg(),
+            model.layer.to_mm(),
+            model.step.to_mm(),
+            model.overlap.max(0.0),
+            (time / planned - 1.0) * 100.0,
+            model.cuts,
+            report.cuts(),
+            report.layers.len(),
+        )
+    }
+}
+
+/// The block cut with these parameters, the layer rounded down to the grid.
+fn planned(model: &Optimum) -> Outcome {
+    let lattice = match model.lattice {
+        Lattice::Orthogonal => "orthogonal",
+        Lattice::Interlaced => "interlaced",
+        Lattice::Free => "free",
+    };
+    // Two micrometres less leave room for rounding the step.
+    let layer = ((model.layer.to_mm() * 1000.0).round() - 2.0) / 1000.0;
+    // The blade is as long as its edge in use, so that it may run out as short as the paper's.
+    let edge = (model.edge.to_mm() * 1000.0).ceil() / 1000.0;
+    let extension = edge * LEAD_DEG.to_radians().cos() + 0.001;
+    let text = format!(
+        "job \"block\"
+        stock {{ size = (85 mm, 50 mm, 50 mm) }}
+        profile {{ {ARC} }}
+        blade dagger {{ cutting_length = {edge} mm, half_apex = 7.13 deg, thickness = 0 mm, edges = double }}
+        rough vcut {{
+            blade = dagger, lattice = {lattice}, rake = 60 deg, residual = mixed, order = point, sequence = rows
+            swing = {:.6} deg, layer = {layer:.3} mm, overlap = {:.9}, step = auto, extension = {extension} mm
+            feed {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}
+            clearance = 10 mm
+        }}",
+        model.swing.to_deg(),
+        model.overlap.max(0.0),
+    );
+    compile("block.vcut", &Files::default().with("block.vcut", text))
+}
+
+fn rows() -> Vec<Row> {
+    let exact = |lattice| table_1(Formulas::Exact, lattice);
+    vec![
+        Row::of("paper, as it begins", &initial()),
+        Row::of("paper, optimum", &table_1(Formulas::Paper, Lattice::Orthogonal)),
+        Row::of("exact, orthogonal", &exact(Lattice::Orthogonal)),
+        Row::of("exact, interlaced", &exact(Lattice::Interlaced)),
+        Row::of("exact, free", &exact(Lattice::Free)),
+    ]
+}
+
+#[test]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "the test writes a committed file when asked to"
+)]
+fn the_table_of_optima_is_current_and_the_papers() {
+    let rows = rows();
+    let published = [515.3, 307.6, 261.6, 169.6];
+    for (row, published) in rows.iter().zip(published) {
+        let [model, planned, bound, simulated] = row.figures();
+        assert!((model - published).abs() < 0.35, "{}: {model}", row.name);
+        assert!((planned / model - 1.0).abs() < 0.25, "{}: {planned}", row.name);
+        assert!(simulated <= bound + 1e-3, "{}: {simulated} {bound}", row.name);
+        // What the planner needs for the lattice it has planned is within the edge in use.
+        let PlannedOperation::RoughVcut(vcut) = &row.outcome.plan.as_ref().unwrap().operations[0];
+        let p = &vcut.parameters;
+        let needed = blade_reach::needed_reach(p.lattice, p.layer, p.step, p.flanks.slope);
+        assert!(needed <= p.flanks.reach + Length::mm(1e-6), "{}", row.name);
+    }
+    let lines: String = rows.iter().map(Row::line).collect();
+    let table = format!(
+        "{BEGIN}\n\
+        | Parameters | Swing, deg | Layer, mm | Step, mm | Overlap | Model, s | Planned, s | Model against plan | Cuts by the model | Cuts | Layers | Scallop bound, mm | Simulated, mm | Chips freed |\n\
+        | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n\
+        {lines}{END}"
+    );
+    let page = read(PAGE);
+    let (before, rest) = page
+        .split_once(BEGIN)
+        .expect("the page has a place for the table");
+    let (_, after) = rest.split_once(END).expect("the table ends");
+    let fresh = format!("{before}{table}{after}");
+    if std::env::var("UPDATE_DOCS").is_ok() {
+        std::fs::write(root().join(PAGE), &fresh).unwrap();
+    } else {
+        assert!(
+            page == fresh,
+            "{PAGE} is out of date: run the test with UPDATE_DOCS=1 and commit it\n{table}"
+        );
+    }
+}
