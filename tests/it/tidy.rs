@@ -34,6 +34,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("summary", &["plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
+    ("report", &["driver", "geom", "kinematics", "plan", "reach"]),
     (
         "remedy",
         &[
