@@ -32,6 +32,8 @@ mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]
 mod pipeline;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod playback;
 #[cfg(feature = "krl")]
 mod process_errors;
 #[cfg(feature = "krl")]

@@ -56,7 +56,8 @@ pub fn bodies(linkage: &Linkage, axes: &[Axis], corners: &[Point3]) -> Vec<Body>
     let size = size(linkage, arm);
     let mut bodies = links(linkage, slides, arm, size);
     if let (3, Some(first)) = (slides, arm.first().or(linkage.tool.last())) {
-        bodies.extend(gantry(point(first.line.point), axes, size));
+        let floor = linkage.mount_at_zero.position.z;
+        bodies.extend(gantry(point(first.line.point), floor, axes, size));
         bodies.push(table(linkage, corners, size));
     }
     bodies
@@ -112,34 +113,50 @@ fn links(linkage: &Linkage, slides: usize, arm: &[Joint], size: f64) -> Vec<Body
     bodies
 }
 
-/// A bridge along Y that X moves, a carriage that Y moves besides, and a ram with the head at its end.
-fn gantry(head: Point3, axes: &[Axis], size: f64) -> Vec<Body> {
+/// A bridge along Y on two posts that X moves, a carriage that Y moves besides, and a ram above the head. The posts end at
+/// `floor`.
+fn gantry(head: Point3, floor: f64, axes: &[Axis], size: f64) -> Vec<Body> {
     let range = |axis: usize| axes.get(axis).map_or([0.0, 0.0], |axis| [axis.min, axis.max]);
     let (y, z) = (range(1), range(2));
     let half = size * 0.18;
     let bridge = head.z + z[1] + 2.0 * half;
+    let (behind, ends) = (head.x + half, [head.y + y[0] - half, head.y + y[1] + half]);
     let block = |joints, low: [f64; 3], high: [f64; 3]| Body {
         carrier: Carrier::Tool(joints),
         shape: Shape::Block {
-            low: Point3::new(low[0], low[1], low[2]),
-            high: Point3::new(high[0], high[1], high[2]),
+            low: point(low),
+            high: point(high),
         },
     };
-    vec![
+    let post = |from: f64| {
+        let to = from + 2.0 * half;
         block(
             1,
-            [head.x + half, head.y + y[0] - half, bridge],
-            [head.x + 2.6 * half, head.y + y[1] + half, bridge + 2.0 * half],
+            [behind, from, floor.min(bridge)],
+            [behind + 1.6 * half, to, bridge],
+        )
+    };
+    vec![
+        post(ends[0] - 2.0 * half),
+        post(ends[1]),
+        block(
+            1,
+            [behind, ends[0] - 2.0 * half, bridge],
+            [behind + 1.6 * half, ends[1] + 2.0 * half, bridge + 2.0 * half],
         ),
         block(
             2,
             [head.x - half * 0.2, head.y - 1.4 * half, bridge - half * 0.4],
-            [head.x + 2.8 * half, head.y + 1.4 * half, bridge + 2.4 * half],
+            [behind + 1.8 * half, head.y + 1.4 * half, bridge + 2.4 * half],
         ),
         block(
             3,
-            [head.x - half, head.y - half, head.z],
-            [head.x + half, head.y + half, bridge + 2.0 * half + z[1] - z[0]],
+            [head.x - half * 0.7, head.y - half * 0.7, head.z + half],
+            [
+                head.x + half * 0.7,
+                head.y + half * 0.7,
+                bridge + 2.0 * half + z[1] - z[0],
+            ],
         ),
     ]
 }

@@ -151,3 +151,49 @@ fn track(track: &Track, axes: usize) -> Value {
         "step": track.step,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::linkage::Linkage;
+    use crate::machine::catalogue;
+    use vcutc_backend_api::units::Length;
+
+    #[test]
+    fn no_name_ends_the_element_that_holds_it() {
+        let model = catalogue::find("kuka/kr210_r3100_ultra").unwrap();
+        let name = "</script><script>alert(1)</script><!-- & \u{2028}\"'\\";
+        let mut axes = model.axes.clone();
+        axes[0].name = name.to_owned();
+        let playback = Playback {
+            stock: Stock {
+                width: Length::mm(1.0),
+                depth: Length::mm(1.0),
+                height: Length::mm(1.0),
+            },
+            part: &[],
+            operations: &[],
+            orientations: &[],
+            timeline: Timeline::default(),
+            cell: Some(Cell {
+                axes: &axes,
+                linkage: Linkage::from(&model.mechanism),
+                blade_in_flange: Pose::IDENTITY,
+                work_in_mount: Pose::IDENTITY,
+                bodies: Vec::new(),
+                track: Track {
+                    start: [0.0; 6],
+                    counts: Vec::new(),
+                    done: Vec::new(),
+                    values: Vec::new(),
+                    low: Vec::new(),
+                    step: Vec::new(),
+                },
+            }),
+        };
+        let text = text(&playback);
+        assert!(!text.contains(['<', '>', '&']), "{text}");
+        let read: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(read["cell"]["axes"][0]["name"], name);
+    }
+}

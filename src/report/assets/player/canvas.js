@@ -26,8 +26,9 @@ void main() { ink = paint; gl_Position = view * model * vec4(place, 1.0); }`;
 
 const LINE_FRAGMENT = `#version 300 es
 precision highp float;
+uniform float strength;
 in vec3 ink; out vec4 shown;
-void main() { shown = vec4(ink, 1.0); }`;
+void main() { shown = vec4(ink, strength); }`;
 
 /** @typedef {{array: WebGLVertexArrayObject, buffer: WebGLBuffer, count: number}} Mesh */
 
@@ -40,7 +41,7 @@ class Canvas {
     this.element = element;
     this.gl = gl;
     this.bodies = linked(gl, BODY_VERTEX, BODY_FRAGMENT, ["view", "model", "colour", "eye"]);
-    this.inks = linked(gl, LINE_VERTEX, LINE_FRAGMENT, ["view", "model"]);
+    this.inks = linked(gl, LINE_VERTEX, LINE_FRAGMENT, ["view", "model", "strength"]);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
@@ -121,20 +122,26 @@ class Canvas {
   }
 
   /**
-   * Draws lines, two corners each.
+   * Draws lines, two corners each, nearer by a hair: they lie on the faces that they belong to.
    * @param {Mesh} mesh
    * @param {Matrix} model
+   * @param {number} [strength] opacity
    * @param {number} [first]
    * @param {number} [count]
    */
-  lines(mesh, model, first = 0, count = mesh.count) {
+  lines(mesh, model, strength = 1, first = 0, count = mesh.count) {
     if (count <= 0) return;
     const { gl, inks } = this;
     gl.useProgram(inks.program);
     gl.uniformMatrix4fv(inks.places.view, false, this.view);
     gl.uniformMatrix4fv(inks.places.model, false, new Float32Array(model));
+    gl.uniform1f(inks.places.strength, strength);
     gl.bindVertexArray(mesh.array);
+    gl.enable(gl.BLEND);
+    gl.depthRange(0, 0.9999);
     gl.drawArrays(gl.LINES, first, count);
+    gl.depthRange(0, 1);
+    gl.disable(gl.BLEND);
   }
 }
 

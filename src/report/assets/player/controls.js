@@ -106,17 +106,28 @@ class Player {
    */
   step(way) {
     const { starts, ops } = this.program;
-    const { op, done } = this.timeline.at(this.time);
+    const { op, done } = this.now.moment;
     let next = way < 0 && done > 0 ? op : op + way;
     // Ops that take no time are passed over.
     while (next > 0 && next < ops && (starts[next] === starts[next + 1] || !this.isSelected(next))) next += way;
     this.seek(next >= ops ? this.end : starts[Math.max(0, next)]);
   }
 
+  /**
+   * What is being done. At the end of what is shown it is the op that ends there, not the one that begins.
+   * @returns {Moment}
+   */
+  moment() {
+    const moment = this.timeline.at(this.time);
+    let { op } = moment;
+    while (op > 0 && !this.isSelected(op) && this.program.starts[op] >= this.time) op -= 1;
+    return op === moment.op ? moment : { op, done: 1 };
+  }
+
   /** @returns {Picture} */
   picture() {
     const { program, timeline } = this;
-    const moment = timeline.at(this.time);
+    const moment = this.moment();
     const { op, done } = moment;
     const { cell } = program;
     const axes = cell === null ? [] : axesDuring(cell.track, op, done);
@@ -273,6 +284,7 @@ function showState(player) {
   time.max = player.end;
   time.value = player.time;
   time.setAttribute("aria-valuetext", `${player.time.toFixed(2)} s`);
+  element("speed").value = player.speed;
   element("from").value = player.from;
   element("to").value = player.to;
 }

@@ -3,8 +3,8 @@
 /** Triangles under construction. */
 class Triangles {
   constructor() {
-    /** @type {number[]} */
-    this.numbers = [];
+    this.numbers = new Float32Array(1 << 12);
+    this.count = 0;
   }
 
   /**
@@ -31,11 +31,23 @@ class Triangles {
    * @param {Vector} normal
    */
   corner(at, normal) {
-    this.numbers.push(at[0], at[1], at[2], normal[0], normal[1], normal[2]);
+    if (this.count + 6 > this.numbers.length) {
+      const more = new Float32Array(this.numbers.length * 2);
+      more.set(this.numbers);
+      this.numbers = more;
+    }
+    const { numbers, count } = this;
+    numbers[count] = at[0];
+    numbers[count + 1] = at[1];
+    numbers[count + 2] = at[2];
+    numbers[count + 3] = normal[0];
+    numbers[count + 4] = normal[1];
+    numbers[count + 5] = normal[2];
+    this.count += 6;
   }
 
   done() {
-    return new Float32Array(this.numbers);
+    return this.numbers.subarray(0, this.count);
   }
 }
 

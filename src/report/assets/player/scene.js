@@ -4,10 +4,12 @@ const COLOURS = {
   stock: [0.87, 0.76, 0.5, 1],
   clear: [0.87, 0.76, 0.5, 0.3],
   part: [0.36, 0.55, 0.74, 1],
-  blade: [0.75, 0.78, 0.82, 1],
+  blade: [0.2, 0.25, 0.36, 1],
   shank: [0.45, 0.47, 0.5, 1],
-  machine: [0.93, 0.5, 0.16, 1],
-  joints: [0.3, 0.32, 0.36, 1],
+  machine: [
+    [0.93, 0.5, 0.16, 1],
+    [0.8, 0.41, 0.12, 1],
+  ],
   table: [0.6, 0.62, 0.65, 1],
   cut: [0.8, 0.1, 0.12],
   way: [0.25, 0.45, 0.25],
@@ -81,16 +83,21 @@ class Scene {
     canvas.begin(camera.view(clientWidth / Math.max(1, clientHeight)), camera.axes().eye);
     const { workpiece, blade } = picture;
     if (shown.part) canvas.body(this.part, workpiece, COLOURS.part, shown.stock ? 0.5 : 1);
-    if (shown.path && picture.layer > 0) {
-      const first = this.pathStarts[picture.layer - 1];
-      canvas.lines(this.path, workpiece, first, this.pathStarts[picture.layer] - first);
-    }
-    this.drawKerfs(picture);
     this.drawBlade(picture.operation, blade);
     if (picture.machine && shown.robot) this.drawMachine(picture);
     this.drawTriad(workpiece, this.timeline.program.stock[0] * 0.3);
-    // Last, because one may look through it.
+    // After what stands in it, because one may look through it.
     canvas.body(this.stock, workpiece, shown.stock ? COLOURS.stock : COLOURS.clear, 1);
+    this.drawKerfs(picture);
+    if (shown.path) this.drawPath(picture);
+  }
+
+  /** @param {Picture} picture */
+  drawPath({ layer, workpiece }) {
+    if (layer === 0) return;
+    const first = this.pathStarts[layer - 1];
+    // Weak enough that many cuts beside one another do not cover the work.
+    this.canvas.lines(this.path, workpiece, 0.45, first, this.pathStarts[layer] - first);
   }
 
   /** @param {Picture} picture */
@@ -106,9 +113,9 @@ class Scene {
    */
   drawBlade(operation, blade) {
     const { canvas } = this;
-    const { from, neck, to, radius } = this.shanks[operation];
+    const { from, neck, slim, to, radius } = this.shanks[operation];
     canvas.body(this.blades[operation], blade, COLOURS.blade);
-    this.bar(blade, [0, 0, from], [0, 0, neck], radius * 0.6, COLOURS.shank);
+    this.bar(blade, [0, 0, from], [0, 0, neck], slim, COLOURS.shank);
     this.bar(blade, [0, 0, neck], to, radius, COLOURS.shank);
   }
 
@@ -117,10 +124,10 @@ class Scene {
     const { cell } = this.timeline.program;
     for (const body of cell.bodies) {
       const frame = product(scene, machine[body.chain][body.joints]);
+      const colour = body.chain === "work" ? COLOURS.table : COLOURS.machine[body.joints % 2];
       if (body.shape === "bar") {
-        this.bar(frame, body.from, body.to, body.radius, COLOURS.machine);
+        this.bar(frame, body.from, body.to, body.radius, colour);
       } else {
-        const colour = body.chain === "work" ? COLOURS.table : COLOURS.machine;
         this.canvas.body(this.box, product(frame, boxed(body.from, body.to)), colour, 2);
       }
     }
@@ -177,7 +184,8 @@ function shankOf(blade, cell) {
   const flange = cell === null ? null : origin(inverse(cell.bladeInFlange));
   const to = /** @type {Vector} */ (flange !== null && flange[2] < top * 2.5 ? flange : [0, 0, top * 6]);
   const from = top * 1.5;
-  return { from, neck: from + (to[2] - from) * 0.3, to, radius: Math.max(half * 1.6, -to[2] * 0.05) };
+  const neck = from + (to[2] - from) * 0.3;
+  return { from, neck, slim: half * 1.3, to, radius: Math.max(half * 1.6, -to[2] * 0.05) };
 }
 
 /**
