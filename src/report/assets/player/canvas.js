@@ -44,7 +44,8 @@ class Canvas {
     this.inks = linked(gl, LINE_VERTEX, LINE_FRAGMENT, ["view", "model", "strength"]);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
-    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    // The page behind the picture shines through where nothing is drawn, and only there.
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
   /**

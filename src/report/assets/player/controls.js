@@ -42,8 +42,8 @@ class Player {
     this.playing = false;
     this.selectLayers(1, this.timeline.layers.length);
     const { cell } = program;
-    // The scene's frame is W as it is at the start: it may move later, on a table that turns.
-    this.scene = cell === null ? identity() : inverse(posed(cell, cell.track.start).workpiece);
+    // The scene's frame is W while all axes are at zero: on a table that turns it moves, and the scene must not.
+    this.scene = cell === null ? identity() : inverse(posed(cell, cell.axes.map(() => 0)).workpiece);
     this.holdFrames();
   }
 

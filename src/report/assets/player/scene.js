@@ -97,7 +97,7 @@ class Scene {
     if (layer === 0) return;
     const first = this.pathStarts[layer - 1];
     // Weak enough that many cuts beside one another do not cover the work.
-    this.canvas.lines(this.path, workpiece, 0.45, first, this.pathStarts[layer] - first);
+    this.canvas.lines(this.path, workpiece, 0.6, first, this.pathStarts[layer] - first);
   }
 
   /** @param {Picture} picture */
