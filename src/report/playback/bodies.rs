@@ -51,7 +51,11 @@ pub struct Body {
 /// The bodies of a machine with these axes, on which work with these corners is mounted; they are seen from the mount.
 #[must_use]
 pub fn bodies(linkage: &Linkage, axes: &[Axis], corners: &[Point3]) -> Vec<Body> {
-    let slides = linkage.tool.iter().take_while(|joint| is_linear(joint)).count();
+    let slides = linkage
+        .tool
+        .iter()
+        .take_while(|joint| joint.kind == AxisKind::Linear)
+        .count();
     let arm = linkage.tool.get(slides..).unwrap_or_default();
     let size = size(linkage, arm);
     let mut bodies = links(linkage, slides, arm, size);
@@ -61,13 +65,6 @@ pub fn bodies(linkage: &Linkage, axes: &[Axis], corners: &[Point3]) -> Vec<Body>
         bodies.push(table(linkage, corners, size));
     }
     bodies
-}
-
-fn is_linear(joint: &Joint) -> bool {
-    match joint.kind {
-        AxisKind::Linear => true,
-        AxisKind::Rotary => false,
-    }
 }
 
 /// The length of the way along all links, at least 200 mm: what thicknesses are measured by.

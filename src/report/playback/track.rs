@@ -2,8 +2,9 @@
 //!
 //! The axes at the end of every op are kept, and between them the fewest places (knots) from which the way of the axes can
 //! be told again. Between knots axes follow the cubic through the four nearest ones of the same op, its start among them; a
-//! motion of all axes needs no knots of its own, a straight cut one or two. Every sample of [`trajectory_by`] at
-//! [`SPACING`] is told again to within [`TURN_ERROR`] and [`WAY_ERROR`]; knots are added until it is.
+//! motion of all axes needs no knots of its own, a straight cut one or two. Knots
+//! are added until every sample of [`trajectory_by`] at [`SPACING`] is told again well within [`TURN_ERROR`] and [`WAY_ERROR`],
+//! so that closer samples are within them.
 //!
 //! Values are kept in 16 bits over the range that the axis uses, which the errors take into account.
 
@@ -19,14 +20,14 @@ use vcutc_backend_api::motion::ReachableProgram;
 pub const TURN_ERROR: f64 = core::f64::consts::PI / 3600.0;
 /// Largest error of a linear axis, in mm.
 pub const WAY_ERROR: f64 = 0.2;
-/// How close the samples are that are told again: 20 mm of the tip's way, 5 deg of turning.
+/// How close the samples are that are told again: 10 mm of the tip's way, 2.5 deg of turning.
 pub const SPACING: Spacing = Spacing {
-    way: 20.0,
-    turn: core::f64::consts::PI / 36.0,
+    way: 10.0,
+    turn: core::f64::consts::PI / 72.0,
 };
-/// Share of the errors that thinning may use up. 16 bits over four whole turns are half of a hundredth of a degree, over
-/// 10 m less than 0.08 mm.
-const FOR_THINNING: f64 = 0.5;
+/// Share of the errors that thinning may use up; the rest is for what happens between samples, and for 16 bits. These are
+/// half of a hundredth of a degree over two whole turns, and less than 0.08 mm over 10 m.
+const FOR_THINNING: f64 = 0.4;
 /// Steps of 16 bits.
 const STEPS: f64 = 65_535.0;
 
