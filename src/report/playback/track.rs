@@ -2,9 +2,9 @@
 //!
 //! The axes at the end of every op are kept, and between them the fewest places (knots) from which the way of the axes can
 //! be told again. Between knots axes follow the cubic through the four nearest ones of the same op, its start among them; a
-//! motion of all axes needs no knots of its own, a straight cut one or two. Knots
-//! are added until every sample of [`trajectory_by`] at [`SPACING`] is told again well within [`TURN_ERROR`] and [`WAY_ERROR`],
-//! so that closer samples are within them.
+//! motion of all axes needs no knots of its own, a straight cut one or two. Knots are added until every sample of
+//! [`trajectory_by`] at [`SPACING`] is told again well within [`TURN_ERROR`] and [`WAY_ERROR`], so that closer samples are
+//! within them.
 //!
 //! Values are kept in 16 bits over the range that the axis uses, which the errors take into account.
 

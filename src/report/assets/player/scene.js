@@ -82,7 +82,7 @@ class Scene {
     const { clientWidth, clientHeight } = canvas.element;
     canvas.begin(camera.view(clientWidth / Math.max(1, clientHeight)), camera.axes().eye);
     const { workpiece, blade } = picture;
-    if (shown.part) canvas.body(this.part, workpiece, COLOURS.part, shown.stock ? 0.5 : 1);
+    if (shown.part) canvas.body(this.part, workpiece, COLOURS.part);
     this.drawBlade(picture.operation, blade);
     if (picture.machine && shown.robot) this.drawMachine(picture);
     this.drawTriad(workpiece, this.timeline.program.stock[0] * 0.3);
