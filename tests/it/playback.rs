@@ -276,15 +276,16 @@ fn the_pages_machine_brings_the_blade_where_the_program_has_it() {
 }
 
 #[test]
-fn ten_thousand_cuts_take_less_than_eight_megabytes() {
+fn ten_thousand_cuts_take_less_than_twelve_megabytes() {
     for (job, _) in compiling() {
         let outcome = compile(&job, &folder());
         let page = shown(&outcome);
         let (_, rest) = page.split_once("id=\"vcut-playback-data\">").unwrap();
         let size = rest.split_once("</script>").unwrap().0.len();
         let cuts = outcome.compiled.as_ref().unwrap().report.cuts();
-        // The machine, the contour and the postures come once.
-        assert!(size < 40_000 + 750 * cuts, "{job}: {size} bytes for {cuts} cuts");
+        // The machine, the contour and the postures come once. Single-edged blades turn half round between cuts, which takes the
+        // most.
+        assert!(size < 40_000 + 1200 * cuts, "{job}: {size} bytes for {cuts} cuts");
     }
 }
 
