@@ -37,6 +37,8 @@ mod pages;
 mod pictures;
 #[cfg(feature = "krl")]
 mod pipeline;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod playback;
 #[cfg(feature = "krl")]
 mod process_errors;
 #[cfg(feature = "krl")]

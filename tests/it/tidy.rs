@@ -37,6 +37,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("summary", &["pace", "plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
+    ("report", &["driver", "geom", "kinematics", "plan", "reach"]),
     (
         "report",
         &[

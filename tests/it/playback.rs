@@ -1,0 +1,308 @@
+//! The playback of a report, read back from the page: it is the program, and its machine is the one that was proven.
+//!
+//! The readers here are made for these tests: base64 by arithmetic, matrices as lists of rows.
+
+use crate::pipeline::{Files, compile, compile_on};
+use crate::repository::read;
+use crate::shop::{compiling, folder};
+use serde_json::Value;
+use std::convert::Infallible;
+use vcutc::driver::Outcome;
+use vcutc::reach::solve::rig;
+use vcutc::reach::trajectory::trajectory;
+use vcutc::report::playback::section;
+use vcutc::report::playback::timeline::KINDS;
+use vcutc::report::playback::track::{Knot, TURN_ERROR, WAY_ERROR, between};
+use vcutc_backend_api::ir::{Action, AxisKind, Flank, OpId, Program, Site};
+use vcutc_backend_api::motion::pose_after;
+
+fn shown(outcome: &Outcome) -> String {
+    section(outcome.plan.as_ref().unwrap(), outcome.compiled.as_ref().unwrap())
+}
+
+fn program(outcome: &Outcome) -> &Program {
+    outcome.compiled.as_ref().unwrap().program.verified().program()
+}
+
+/// The data in a page.
+fn data(page: &str) -> Value {
+    let (_, rest) = page.split_once("id=\"vcut-playback-data\">").unwrap();
+    let (text, _) = rest.split_once("</script>").unwrap();
+    serde_json::from_str(text).unwrap()
+}
+
+fn bytes(text: &Value) -> Vec<u8> {
+    let digit = |c: char| {
+        let alphabet = ('A'..='Z').chain('a'..='z').chain('0'..='9').chain(['+', '/']);
+        alphabet.into_iter().position(|other| other == c)
+    };
+    let mut bits = Vec::new();
+    for value in text.as_str().unwrap().chars().filter_map(digit) {
+        bits.extend((0..6).rev().map(|bit| value >> bit & 1));
+    }
+    let whole = bits.chunks_exact(8);
+    whole
+        .map(|bits| bits.iter().fold(0, |byte, &bit| byte << 1 | u8::from(bit == 1)))
+        .collect()
+}
+
+fn numbers<const SIZE: usize, N>(text: &Value, read: fn([u8; SIZE]) -> N) -> Vec<N> {
+    let bytes = bytes(text);
+    let chunks = bytes.chunks_exact(SIZE);
+    chunks.map(|chunk| read(chunk.try_into().unwrap())).collect()
+}
+
+fn list(value: &Value) -> Vec<f64> {
+    let numbers = value.as_array().unwrap().iter();
+    numbers.map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// The axes at all knots of each op, after where they were before it.
+fn knots(cell: &Value) -> Vec<Vec<Knot>> {
+    let track = &cell["track"];
+    let (low, step) = (list(&track["low"]), list(&track["step"]));
+    let done = numbers(&track["done"], u16::from_le_bytes);
+    let values = numbers(&track["values"], u16::from_le_bytes);
+    let mut at = [0.0; 6];
+    at[..low.len()].copy_from_slice(&list(&track["start"]));
+    let mut all = done.iter().zip(values.chunks(low.len())).map(|(done, values)| {
+        let mut joints = [0.0; 6];
+        for (axis, &value) in values.iter().enumerate() {
+            joints[axis] = low[axis] + step[axis] * f64::from(value);
+        }
+        let done = f64::from(*done) / 65_535.0;
+        Knot { done, joints }
+    });
+    let counts = numbers(&track["counts"], u32::from_le_bytes);
+    let of_op = |count: u32| {
+        let start = Knot {
+            done: 0.0,
+            joints: at,
+        };
+        let mut knots = vec![start];
+        knots.extend(all.by_ref().take(count as usize));
+        at = knots.last().unwrap().joints;
+        knots
+    };
+    counts.into_iter().map(of_op).collect()
+}
+
+fn name(action: &Action) -> &'static str {
+    match action {
+        Action::Home => "home",
+        Action::Travel { .. } => "travel",
+        Action::AxisTravel { .. } => "axis_travel",
+        Action::Approach { .. } => "approach",
+        Action::Retract { .. } => "retract",
+        Action::Cut {
+            flank: Flank::Left, ..
+        } => "cut_left",
+        Action::Cut {
+            flank: Flank::Right, ..
+        } => "cut_right",
+        Action::Turn { .. } => "turn",
+        Action::Ultrasonic { .. } => "ultrasonic",
+        Action::AwaitReady => "await_ready",
+        Action::Dwell { .. } => "dwell",
+        Action::ToolChange { .. } => "tool_change",
+    }
+}
+
+fn counted(site: Site) -> (u16, u32, u32) {
+    match site {
+        Site::Program => (0, 0, 0),
+        Site::Operation(operation) => (operation.0 + 1, 0, 0),
+        Site::Layer { operation, layer } => (operation.0 + 1, layer.get(), 0),
+        Site::Cut {
+            operation,
+            layer,
+            cut,
+        } => (operation.0 + 1, layer.get(), cut.get()),
+    }
+}
+
+#[test]
+fn a_page_says_every_op_of_the_program() {
+    for (job, _) in compiling() {
+        let outcome = compile(&job, &folder());
+        let data = data(&shown(&outcome));
+        let columns = &data["timeline"];
+        let kinds = bytes(&columns["kinds"]);
+        let operations = numbers(&columns["operations"], u16::from_le_bytes);
+        let layers = numbers(&columns["layers"], u32::from_le_bytes);
+        let cuts = numbers(&columns["cuts"], u32::from_le_bytes);
+        let tips = numbers(&columns["tips"], i32::from_le_bytes);
+        let held = numbers(&columns["held"], u32::from_le_bytes);
+        let seconds = numbers(&columns["seconds"], f64::from_le_bytes);
+        let times = &outcome.compiled.as_ref().unwrap().op_times;
+        let program = program(&outcome);
+        assert_eq!(kinds.len(), program.ops.len(), "{job}");
+        let mut pose = None;
+        for (i, op) in program.ops.iter().enumerate() {
+            pose = pose_after(pose, &op.action);
+            assert_eq!(KINDS[usize::from(kinds[i])], name(&op.action), "{job} {i}");
+            assert_eq!((operations[i], layers[i], cuts[i]), counted(op.site), "{job} {i}");
+            assert_eq!(seconds[i], times[i].to_s(), "{job} {i}");
+            assert_eq!(held[i], pose.map_or(0, |(_, held)| held.0 + 1), "{job} {i}");
+            if let Some((tip, _)) = pose {
+                // To the last bit, for the section is cut with them.
+                let read = tips[3 * i..3 * i + 3].iter().map(|&tip| f64::from(tip) / 1000.0);
+                assert_eq!(read.collect::<Vec<_>>(), [tip.x, tip.y, tip.z], "{job} {i}");
+            }
+        }
+    }
+}
+
+#[test]
+fn axes_are_told_again_all_along_the_program() {
+    for (job, pairings) in compiling() {
+        for pairing in pairings {
+            let outcome = compile_on(pairing.machine, &job, &folder());
+            let knots = knots(&data(&shown(&outcome))["cell"]);
+            let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
+            let cell = program(&outcome).cell.as_ref().unwrap();
+            let machine = outcome.job.as_ref().unwrap().machine.as_ref().unwrap();
+            let rig = rig(&machine.model, cell);
+            let taken: Result<(), Infallible> = trajectory(&reached.program, &rig, |sample| {
+                let told = between(&knots[sample.op.0 as usize], sample.done);
+                for (axis, (told, joint)) in cell.axes.iter().zip(told.iter().zip(sample.joints)) {
+                    let most = match axis.kind {
+                        AxisKind::Rotary => TURN_ERROR,
+                        AxisKind::Linear => WAY_ERROR,
+                    };
+                    let off = (told - joint).abs();
+                    assert!(
+                        off <= most,
+                        "{job}, {pairing:?}: {} off by {off} in {sample:?}",
+                        axis.name
+                    );
+                }
+                Ok(())
+            });
+            assert!(taken.is_ok());
+        }
+    }
+}
+
+type Rows = [[f64; 4]; 4];
+
+fn product(a: &Rows, b: &Rows) -> Rows {
+    core::array::from_fn(|row| core::array::from_fn(|column| (0..4).map(|i| a[row][i] * b[i][column]).sum()))
+}
+
+fn rows(value: &Value) -> Rows {
+    let columns = list(value);
+    core::array::from_fn(|row| core::array::from_fn(|column| columns[column * 4 + row]))
+}
+
+/// The motion of a joint: by quaternions, turned about a line through a point.
+fn motion(joint: &Value, axes: &[f64]) -> Rows {
+    let weights = list(&joint["weights"]);
+    let amount: f64 = weights.iter().zip(axes).map(|(weight, axis)| weight * axis).sum();
+    let (point, direction) = (list(&joint["point"]), list(&joint["direction"]));
+    let slides = joint["kind"] == "linear";
+    let (sine, w) = if slides {
+        (0.0, 1.0)
+    } else {
+        (amount / 2.0).sin_cos()
+    };
+    let q: Vec<f64> = direction.iter().map(|part| part * sine).collect();
+    let square: f64 = q.iter().map(|part| part * part).sum();
+    let turn = |i: usize, j: usize| {
+        let across = match (3 + j - i) % 3 {
+            0 => return w * w - square + 2.0 * q[i] * q[i],
+            1 => -q[(i + 2) % 3],
+            _ => q[(i + 1) % 3],
+        };
+        2.0 * (q[i] * q[j] + w * across)
+    };
+    let shift = |i: usize| {
+        let turned: f64 = (0..3).map(|j| turn(i, j) * point[j]).sum();
+        point[i] - turned + if slides { direction[i] * amount } else { 0.0 }
+    };
+    core::array::from_fn(|i| {
+        core::array::from_fn(|j| match (i, j) {
+            (3, 3) => 1.0,
+            (3, _) => 0.0,
+            (_, 3) => shift(i),
+            (_, _) => turn(i, j),
+        })
+    })
+}
+
+fn chain(joints: &Value, axes: &[f64], ends: [&Value; 2]) -> Rows {
+    let moved = joints.as_array().unwrap().iter().map(|joint| motion(joint, axes));
+    let constant = ends.into_iter().map(rows);
+    moved
+        .chain(constant)
+        .reduce(|outer, inner| product(&outer, &inner))
+        .unwrap()
+}
+
+/// The tip in W by products of the page's matrices: seen from the work, whose frame is brought to the machine's.
+fn tip(cell: &Value, axes: &[f64]) -> [f64; 3] {
+    let blade = chain(
+        &cell["tool"],
+        axes,
+        [&cell["flangeAtZero"], &cell["bladeInFlange"]],
+    );
+    let work = chain(&cell["work"], axes, [&cell["mountAtZero"], &cell["workInMount"]]);
+    let away: Vec<f64> = (0..3).map(|i| blade[i][3] - work[i][3]).collect();
+    core::array::from_fn(|axis| (0..3).map(|i| work[i][axis] * away[i]).sum())
+}
+
+#[test]
+fn the_pages_machine_brings_the_blade_where_the_program_has_it() {
+    for (job, pairings) in compiling() {
+        for pairing in pairings {
+            let outcome = compile_on(pairing.machine, &job, &folder());
+            let data = data(&shown(&outcome));
+            let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
+            let mut pose = None;
+            for (number, op) in (0..).zip(&program(&outcome).ops) {
+                pose = pose_after(pose, &op.action);
+                let (Some((wanted, _)), Some(axes)) = (pose, reached.program.axes_after(OpId(number))) else {
+                    continue;
+                };
+                let [x, y, z] = tip(&data["cell"], &axes.0);
+                let off = (x - wanted.x)
+                    .abs()
+                    .max((y - wanted.y).abs())
+                    .max((z - wanted.z).abs());
+                assert!(off < 1e-5, "{job}, {pairing:?}: op {number} off by {off} mm");
+            }
+        }
+    }
+}
+
+#[test]
+fn ten_thousand_cuts_take_less_than_twelve_megabytes() {
+    for (job, _) in compiling() {
+        let outcome = compile(&job, &folder());
+        let page = shown(&outcome);
+        let (_, rest) = page.split_once("id=\"vcut-playback-data\">").unwrap();
+        let size = rest.split_once("</script>").unwrap().0.len();
+        let cuts = outcome.compiled.as_ref().unwrap().report.cuts();
+        // The machine, the contour and the postures come once. Single-edged blades turn half round between cuts, which takes the
+        // most.
+        assert!(size < 40_000 + 1200 * cuts, "{job}: {size} bytes for {cuts} cuts");
+    }
+}
+
+#[test]
+fn the_same_job_gives_the_same_page_and_asks_nothing_of_the_network() {
+    let page = || shown(&compile("block_cui.vcut", &folder()));
+    let first = page();
+    assert_eq!(first, page());
+    for outside in ["http:", "https:", "import(", "fetch(", "src=", "url("] {
+        assert!(!first.contains(outside), "{outside}");
+    }
+}
+
+#[test]
+fn a_job_without_a_machine_is_played_by_its_blade() {
+    let text = read("examples/block_cui.vcut");
+    let (job, _) = text.split_once("machine cell").unwrap();
+    let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
+    assert_eq!(data(&shown(&outcome))["cell"], Value::Null);
+}
