@@ -110,6 +110,24 @@ impl Sink for Output {
     }
 }
 
+/// Writes one file whole or not at all, and tells what became of it. Its folder is made if there is none.
+pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<Vec<Placed>, String> {
+    let name = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent.to_owned(),
+        Some(_) | None => PathBuf::from("."),
+    };
+    let mut output = Output::to(&Destination::Folder(folder));
+    output
+        .file(name)
+        .and_then(|()| output.write(bytes))
+        .map_err(|error| error.to_string())?;
+    output.publish()
+}
+
 /// Files on their way into a folder.
 pub(super) struct Folder {
     path: PathBuf,

@@ -3,13 +3,12 @@
 use super::args::PlaceArgs;
 use super::console::{Console, Failure};
 use super::files::Disk;
-use super::output::{Destination, Output, Placed};
+use super::output::{Placed, write_file};
 use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::driver::{Request, Typed};
 use crate::placement::{self, Asked, Placement, Refusal, report};
-use std::path::{Path, PathBuf};
-use vcutc_backend_api::bundle::Sink;
+use std::path::Path;
 
 /// Places one job.
 pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> Exit {
@@ -53,35 +52,19 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
 }
 
 fn tell(placement: &Placement, map: Option<&str>, console: &Console) -> Exit {
-    let written = match map.map(|path| write_map(placement, Path::new(path))).transpose() {
+    let written = match map
+        .map(|path| write_file(Path::new(path), placement.svg().as_bytes()))
+        .transpose()
+    {
         Ok(files) => files.unwrap_or_default(),
         Err(reason) => return console.failure(&Failure::new(reason)),
     };
     let mut text = report::text(placement);
-    for file in &written {
+    for file in written.into_iter().map(Placed::into_path) {
         text += &format!("\nwrote {file}\n");
     }
     match console.answer("placement", &text, report::body(placement)) {
         Exit::Success if placement.best.is_none() && placement.now.room.is_err() => Exit::JobHasErrors,
         exit => exit,
     }
-}
-
-/// Writes the map whole or not at all.
-fn write_map(placement: &Placement, path: &Path) -> Result<Vec<String>, String> {
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent.to_owned(),
-        Some(_) | None => PathBuf::from("."),
-    };
-    let mut output = Output::to(&Destination::Folder(folder));
-    output.file(name).map_err(|error| error.to_string())?;
-    output
-        .write(placement.svg().as_bytes())
-        .map_err(|error| error.to_string())?;
-    let placed = output.publish()?;
-    Ok(placed.into_iter().map(Placed::into_path).collect())
 }
