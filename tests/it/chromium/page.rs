@@ -1,0 +1,150 @@
+//! The page of `vcutc report` as people meet it.
+
+use super::browser::{Browser, Tab};
+use crate::cli::vcutc;
+use crate::repository::root;
+use serde_json::json;
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+/// The report of an example, in a folder of its own.
+fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("report.html");
+    let job = format!("examples/{example}.vcut");
+    let arguments = [&["report", "-q", &job, "-o", file.to_str().unwrap()], more].concat();
+    let run = vcutc(root(), &arguments);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    (folder, file)
+}
+
+fn assert_is_calm(tab: &Tab<'_>) {
+    let complaints = tab.complaints();
+    assert!(complaints.is_empty(), "{complaints:#?}");
+}
+
+fn view_box(tab: &Tab<'_>) -> Vec<f64> {
+    let text = tab.value("document.querySelector('[data-zoom] svg').getAttribute('viewBox')");
+    let numbers = text.as_str().unwrap().split(' ');
+    numbers.map(|number| number.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_page_loads_by_itself_and_shows_what_it_should() {
+    let Some(browser) = Browser::start() else { return };
+    for (example, more) in [
+        ("spoiler_clarky", &[][..]),
+        ("spoiler_clarky", &["--machine", "gantry"]),
+        ("block_cui", &[]),
+    ] {
+        let (_folder, file) = report(example, more);
+        let tab = browser.open(&file, 1280, 900);
+        assert_eq!(
+            tab.value("document.title"),
+            json!(format!("{example} - vcutc report"))
+        );
+        for selector in [
+            "header h1",
+            ".verdict",
+            ".key dd",
+            "#cross-section svg",
+            "#machine table",
+            "#time table",
+            "#parameters td a",
+            "#job li",
+        ] {
+            assert!(
+                tab.holds(&format!("document.querySelector('{selector}') !== null")),
+                "{example}: {selector}"
+            );
+        }
+        // Every link leads to a place, no two places have one name.
+        assert!(tab.holds(
+            "[...document.querySelectorAll('a[href^=\"#\"]')].every((link) => document.getElementById(link.hash.slice(1)))"
+        ));
+        assert!(tab.holds(
+            "(() => { const ids = [...document.querySelectorAll('[id]')].map((one) => one.id); \
+             return new Set(ids).size === ids.length; })()"
+        ));
+        let colours = tab.colours(&tab.picture());
+        assert!(colours > 20.0, "{colours} colours");
+        assert_is_calm(&tab);
+    }
+}
+
+#[test]
+fn pictures_are_enlarged_by_keys_buttons_and_the_wheel() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("block_cui", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    let whole = view_box(&tab);
+
+    let middle = tab.middle("[data-zoom] .view");
+    tab.mouse("mouseWheel", middle, &json!({ "deltaX": 0, "deltaY": -120 }));
+    assert_eq!(
+        view_box(&tab),
+        whole,
+        "the wheel scrolls the page until the picture was clicked"
+    );
+    let middle = tab.middle("[data-zoom] .view");
+    tab.click(middle);
+    tab.mouse("mouseWheel", middle, &json!({ "deltaX": 0, "deltaY": -120 }));
+    tab.wait_until("document.querySelector('[data-zoom]').classList.contains('enlarged')");
+    let enlarged = view_box(&tab);
+    assert!(enlarged[2] < whole[2] && enlarged[3] < whole[3], "{enlarged:?}");
+
+    for (kind, x) in [
+        ("mousePressed", 0.0),
+        ("mouseMoved", 40.0),
+        ("mouseReleased", 40.0),
+    ] {
+        let at = [middle[0] + x, middle[1]];
+        tab.mouse(
+            kind,
+            at,
+            &json!({ "button": "left", "buttons": 1, "clickCount": 1 }),
+        );
+    }
+    let moved = view_box(&tab);
+    assert!(moved[0] < enlarged[0], "what is seen follows the hand: {moved:?}");
+    tab.key("ArrowRight");
+    assert!(view_box(&tab)[0] > moved[0]);
+    tab.key("0");
+    assert_eq!(view_box(&tab), whole);
+    tab.key("+");
+    assert!(view_box(&tab)[2] < whole[2]);
+
+    tab.click(tab.middle("[data-do=all]"));
+    assert_eq!(view_box(&tab), whole);
+    tab.click(tab.middle("[data-do=in]"));
+    assert!(view_box(&tab)[2] < whole[2]);
+    tab.click(tab.middle("[data-do=out]"));
+    assert_eq!(view_box(&tab)[2], whole[2]);
+    assert_is_calm(&tab);
+}
+
+#[test]
+fn a_telephone_does_not_scroll_sideways() {
+    let Some(browser) = Browser::start() else { return };
+    for example in ["spoiler_clarky", "block_cui", "wavy_panel"] {
+        let (_folder, file) = report(example, &[]);
+        let tab = browser.open(&file, 360, 740);
+        let (width, screen) = (
+            tab.number("document.documentElement.scrollWidth"),
+            tab.number("innerWidth"),
+        );
+        assert!(width <= screen, "{example}: {width} of {screen}");
+        assert_is_calm(&tab);
+    }
+}
+
+#[test]
+fn a_link_to_a_line_unfolds_its_text() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("spoiler_clarky", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    assert!(tab.holds("!document.querySelector('#text-1-1').closest('details').open"));
+    tab.value("location.hash = 'text-1-1'");
+    tab.wait_until("document.querySelector('#text-1-1').closest('details').open");
+    assert_is_calm(&tab);
+}
