@@ -104,7 +104,8 @@ fn cuts_per_layer(report: &Report) -> String {
 }
 
 /// `1 h 02 min 03 s`, `2 min 05.4 s`, `5.4 s`.
-pub(crate) fn time(duration: Duration) -> String {
+#[must_use]
+pub fn time(duration: Duration) -> String {
     // From an hour on, tenths of a second say nothing; rounding before dividing never gives 60 seconds.
     let whole = duration.to_s().round();
     if whole >= 3600.0 {

@@ -22,6 +22,8 @@ Examples:
                                           Where these axis values bring the flange
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
                                           All axis values that bring the flange there
+  vcutc plot rib.vcut --what contour -o rib.svg
+                                          See what the cuts leave on the part
   vcutc targets                           See what programs can be written, and with which options
   vcutc verify rib.vcut out/rib.src out/rib.dat
                                           See whether a program still is what its job says
@@ -165,6 +167,10 @@ pub(super) enum Command {
         #[arg(long, value_name = "W,X,Y,Z", allow_hyphen_values = true)]
         quaternion: Option<String>,
     },
+    /// Draw a picture of a job as SVG
+    ///
+    /// Compiles the job and draws one aspect of what comes of it. docs/pictures.md shows each of them.
+    Plot(PlotArgs),
     /// List the targets and their options, or describe one
     ///
     /// Programs `vcutc-backend-NAME` on the PATH are listed by their names; they are only run to be described.
@@ -351,6 +357,40 @@ pub(super) struct ReportArgs {
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct PlotArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// What to draw
+    #[arg(long, value_enum, value_name = "PICTURE")]
+    pub(super) what: What,
+
+    /// The file to draw into, or - for standard output [default: standard output]
+    #[arg(short, long, value_name = "FILE.svg|-")]
+    pub(super) output: Option<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
+}
+
+/// What `vcutc plot` draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum What {
+    /// The tips of all cuts by how they came to be there, their flanks and layers
+    Lattice,
+    /// The part, the machined contour, the chips, and the highest scallop
+    Contour,
+    /// How far the machined contour stands off the part, all along it
+    Deviation,
+    /// How machined contour and part correlate, shifted against each other
+    Correlation,
+    /// Angles, rates and margins of the machine's axes over time
+    Joints,
+    /// What the time is spent on, by kind of motion and by layer
+    Time,
 }
 
 /// What the command line says over what the job says.

@@ -268,11 +268,7 @@ fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) 
     match inner::write(form, outcome, job, &mut output) {
         Ok(Progressed::Written) => published(output),
         Ok(Progressed::NotSoFar) => Ok(Made::default()),
-        Ok(Progressed::WithoutMachine) => {
-            Err(Failure::new("the job has no machine, so there are no axes to show").help(
-                "add a block such as `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
-            ))
-        }
+        Ok(Progressed::WithoutMachine) => Err(without_machine()),
         Err(error) => Err(Failure::new(error.to_string())),
     }
 }
@@ -283,6 +279,13 @@ fn published(output: Output) -> Result<Made, Failure> {
         placed,
         ..Made::default()
     })
+}
+
+/// A job without a machine, where axes are asked for.
+pub(super) fn without_machine() -> Failure {
+    Failure::new("the job has no machine, so there are no axes to show").help(
+        "add a block such as `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
+    )
 }
 
 pub(super) fn unreadable(job: &str, reason: &str) -> Failure {

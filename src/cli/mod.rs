@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
+//! | the picture of `plot` | standard output, or the file of `-o` |
 //! | the page of `report` | the file of `-o`, or standard output with `-o -` |
 //! | pages of `explain`, `machines`, answers of `fk` and `ik`, list of `targets`, help | standard output |
 //! | diagnostics, summary, timings, progress, what `verify` finds | standard error |
@@ -44,6 +45,7 @@ mod kinematics;
 mod machines;
 mod output;
 mod place;
+mod plot;
 mod progress;
 mod report;
 mod snapshot;
@@ -102,6 +104,7 @@ pub fn run(linked: &Targets) -> ExitCode {
             quaternion,
         }) => kinematics::inverse(cell, pose, quaternion.as_deref(), &console),
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
+        Some(Command::Plot(plot)) => plot::plot(plot, targets, &console),
         Some(Command::Report(report)) => report::report(report, targets, &console),
         Some(Command::Targets { target: None }) => targets::list(linked, &outside, &console),
         Some(Command::Targets { target: Some(target) }) => targets::describe(targets, target, &console),

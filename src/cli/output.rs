@@ -57,13 +57,6 @@ impl Placed {
             Self::Written(path) | Self::Unchanged(path) => path,
         }
     }
-
-    /// Its path alone.
-    pub(super) fn into_path(self) -> String {
-        match self {
-            Self::Written(path) | Self::Unchanged(path) => path,
-        }
-    }
 }
 
 /// Files on their way.
@@ -92,6 +85,22 @@ impl Output {
     }
 }
 
+/// Writes one file whole or not at all, by its path. Returns what became of it.
+pub(super) fn one_file(path: &Path, bytes: &[u8]) -> Result<Vec<Placed>, String> {
+    let name = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent.to_owned(),
+        Some(_) | None => PathBuf::from("."),
+    };
+    let mut output = Output::to(&Destination::Folder(folder));
+    output.file(name).map_err(|error| error.to_string())?;
+    output.write(bytes).map_err(|error| error.to_string())?;
+    output.publish()
+}
+
 impl Sink for Output {
     fn file(&mut self, name: &str) -> Result<(), SinkError> {
         match self {
@@ -108,24 +117,6 @@ impl Sink for Output {
         }
         .map_err(SinkError)
     }
-}
-
-/// Writes one file whole or not at all, and tells what became of it. Its folder is made if there is none.
-pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<Vec<Placed>, String> {
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent.to_owned(),
-        Some(_) | None => PathBuf::from("."),
-    };
-    let mut output = Output::to(&Destination::Folder(folder));
-    output
-        .file(name)
-        .and_then(|()| output.write(bytes))
-        .map_err(|error| error.to_string())?;
-    output.publish()
 }
 
 /// Files on their way into a folder.

@@ -3,7 +3,7 @@
 use super::args::PlaceArgs;
 use super::console::{Console, Failure};
 use super::files::Disk;
-use super::output::{Placed, write_file};
+use super::output::one_file;
 use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::driver::{Request, Typed};
@@ -52,16 +52,14 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
 }
 
 fn tell(placement: &Placement, map: Option<&str>, console: &Console) -> Exit {
-    let written = match map
-        .map(|path| write_file(Path::new(path), placement.svg().as_bytes()))
-        .transpose()
-    {
+    let write = |path| one_file(Path::new(path), placement.svg().as_bytes());
+    let written = match map.map(write).transpose() {
         Ok(files) => files.unwrap_or_default(),
         Err(reason) => return console.failure(&Failure::new(reason)),
     };
     let mut text = report::text(placement);
-    for file in written.into_iter().map(Placed::into_path) {
-        text += &format!("\nwrote {file}\n");
+    for file in &written {
+        text += &format!("\nwrote {}\n", file.path());
     }
     match console.answer("placement", &text, report::body(placement)) {
         Exit::Success if placement.best.is_none() && placement.now.room.is_err() => Exit::JobHasErrors,

@@ -4,7 +4,7 @@ use super::args::ReportArgs;
 use super::compile::unreadable;
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
-use super::output::{Placed, write_file};
+use super::output::{Placed, one_file};
 use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
@@ -80,5 +80,5 @@ fn write(page: &str, to: &str, console: &Console) -> Result<Vec<Placed>, Exit> {
             exit @ (Exit::JobHasErrors | Exit::CannotRun) => Err(exit),
         };
     }
-    write_file(Path::new(to), page.as_bytes()).map_err(|reason| console.failure(&Failure::new(reason)))
+    one_file(Path::new(to), page.as_bytes()).map_err(|reason| console.failure(&Failure::new(reason)))
 }

@@ -2,7 +2,7 @@
 
 use super::lattice::{MOST_DRAWN, PART};
 use super::section::{BELOW, Section};
-use super::sheet::{self, Entry, INK, ORANGE};
+use super::sheet::{self, Entry, HALO, INK, ORANGE};
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 
@@ -160,7 +160,7 @@ fn highest(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
     svg.text(
         (x, to[1] - 9.0),
         anchor,
-        "font-weight=\"bold\" stroke=\"#fbfaf7\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+        &format!("font-weight=\"bold\" {HALO}"),
         &format!("{height:.2} mm"),
     );
 }

@@ -1,17 +1,22 @@
 //! Pictures: SVG texts, made without fonts, clocks or chance, so that the same data gives the same bytes.
 //!
 //! Each picture takes plain numbers and knows nothing of jobs, plans and programs. What several of them share: the sheet
-//! with its headings and legend (`sheet`), scales with round values (`scale`), the x-z section (`section`), paths in
-//! relative coordinates (`trace`), and curves of any number of points in as many as can be seen (`thin`).
+//! with its headings and legend (`sheet`), scales with round values (`scale`), the x-z section (`section`), plots of
+//! curves (`plot`), paths in relative coordinates (`trace`), and curves of any number of points in as many as can be seen (`thin`).
 
 pub mod contour;
+pub mod correlation;
+pub mod deviation;
 pub mod heat_map;
+pub mod joints;
 pub mod lattice;
+mod plot;
 mod scale;
 mod section;
 mod sheet;
 mod svg;
-mod thin;
+pub mod thin;
+pub mod times;
 mod trace;
 
 pub(crate) use svg::escaped;

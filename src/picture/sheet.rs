@@ -33,6 +33,10 @@ pub(super) const SKY: &str = "#56b4e9";
 /// Purple.
 pub(super) const PURPLE: &str = "#cc79a7";
 
+/// Lets a text be read on anything.
+pub(super) const HALO: &str =
+    "stroke=\"#fbfaf7\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
+
 /// What a picture is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heading<'a> {

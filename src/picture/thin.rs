@@ -5,7 +5,7 @@
 
 /// A curve under construction, from left to right.
 #[derive(Debug)]
-pub(super) struct Thinned {
+pub struct Thinned {
     left: f64,
     column_width: f64,
     kept: Vec<[f64; 2]>,
@@ -25,7 +25,8 @@ struct Column {
 
 impl Thinned {
     /// A curve from one x to a greater one, looked at in so many columns.
-    pub(super) fn new(left: f64, right: f64, columns: u32) -> Self {
+    #[must_use]
+    pub fn new(left: f64, right: f64, columns: u32) -> Self {
         Self {
             left,
             column_width: (right - left).max(f64::MIN_POSITIVE) / f64::from(columns.max(1)),
@@ -35,7 +36,8 @@ impl Thinned {
     }
 
     /// A whole curve.
-    pub(super) fn of(points: &[[f64; 2]], columns: u32) -> Vec<[f64; 2]> {
+    #[must_use]
+    pub fn of(points: &[[f64; 2]], columns: u32) -> Vec<[f64; 2]> {
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Vec::new();
         };
@@ -47,7 +49,7 @@ impl Thinned {
     }
 
     /// The next point.
-    pub(super) fn push(&mut self, point: [f64; 2]) {
+    pub fn push(&mut self, point: [f64; 2]) {
         let number = ((point[0] - self.left) / self.column_width).floor();
         match &mut self.column {
             Some(column) if column.number == number => column.add(point),
@@ -59,7 +61,8 @@ impl Thinned {
     }
 
     /// The points that are left, in their order.
-    pub(super) fn finish(mut self) -> Vec<[f64; 2]> {
+    #[must_use]
+    pub fn finish(mut self) -> Vec<[f64; 2]> {
         self.close();
         self.kept
     }

@@ -6,6 +6,7 @@
 //! but the job's own in it: the same job gives the same bytes.
 
 mod cross_section;
+mod deviation;
 mod figure;
 mod html;
 mod machine;
@@ -56,6 +57,7 @@ pub fn page(outcome: &Outcome) -> Option<String> {
     let listing = source::Listing::of(subject);
     let sections = [
         Some(cross_section::section(subject)),
+        Some(deviation::section(subject)),
         machine::section(subject),
         Some(times::section(subject)),
         Some(parameters::section(subject, &listing)),

@@ -3,12 +3,19 @@
 //! Chips and the machined contour are those of the proof: the program's cuts are replayed, and each chip is what the surface
 //! before it loses.
 
+mod joints;
+mod time;
+
+pub use joints::joints;
+pub use time::time;
+
 use super::Material;
 use crate::geom::curve::Point2;
 use crate::job::Lattice;
-use crate::picture::{Prefix, contour, lattice};
+use crate::picture::{Prefix, contour, correlation, deviation, lattice};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut, TipOrigin};
+use crate::sim::contour::{SAMPLES, Sampled, deviations};
 use crate::verdict;
 
 /// The lattice: tips by origin, flanks, layers (`picture::lattice`).
@@ -63,6 +70,72 @@ pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
             height: report.scallop.height.to_mm(),
         },
     })
+}
+
+/// How far the machined contour stands off the part, along the whole profile (`picture::deviation`).
+#[must_use]
+pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
+    let report = &material.compiled.report;
+    let subtitle = format!(
+        "largest deviation of the contours {:.2} mm; they correlate to {:.2} %",
+        report.largest_deviation().to_mm(),
+        report.correlation * 100.0
+    );
+    deviation::draw(&deviation::Deviation {
+        heading: deviation::Heading {
+            ids,
+            title: &format!("{}: deviation along the profile", material.plan.name),
+            subtitle: &subtitle,
+        },
+        curve: &deviation_curve(material),
+        largest: [report.scallop.peak.x, report.scallop.height.to_mm()],
+        mean: report.mean_scallop.to_mm(),
+        limit: limit(material),
+    })
+}
+
+/// The distance of the machined contour from the part, in mm, at 1000 evenly spaced x, in mm: what [`deviation`] draws.
+#[must_use]
+pub fn deviation_curve(material: &Material<'_>) -> Vec<[f64; 2]> {
+    let curve = deviations(&corners(material), &material.plan.profile);
+    curve
+        .into_iter()
+        .map(|(point, distance)| [point.x, distance])
+        .collect()
+}
+
+/// The smallest limit of any operation to what stays on the part, in mm.
+fn limit(material: &Material<'_>) -> Option<f64> {
+    let limits = vcuts(material).filter_map(|vcut| vcut.asked.limits.scallop);
+    limits.map(|limit| limit.value.to_mm()).min_by(f64::total_cmp)
+}
+
+/// How machined contour and part correlate over the lag (`picture::correlation`) [Cui fig. 15].
+#[must_use]
+pub fn correlation(material: &Material<'_>, ids: Prefix) -> String {
+    let profile = &material.plan.profile;
+    let sampled = Sampled::of(&corners(material), profile.points());
+    let subtitle = format!(
+        "machined contour and part at {SAMPLES} points, {:.3} mm apart",
+        stock(material)[0] / f64::from(SAMPLES - 1)
+    );
+    correlation::draw(&correlation::Correlation {
+        heading: correlation::Heading {
+            ids,
+            title: &format!("{}: cross-correlation of the contours", material.plan.name),
+            subtitle: &subtitle,
+        },
+        values: &sampled.correlations(),
+    })
+}
+
+/// The machined contour, from left to right.
+fn corners(material: &Material<'_>) -> Vec<Point2> {
+    let program = material.compiled.program.verified();
+    verdict::replay(material.plan, program)
+        .surface
+        .corners()
+        .collect()
 }
 
 /// The machined contour from left to right, and the chips in the order in which they come free.

@@ -10,16 +10,28 @@ impl Profile {
     /// the best so far. Takes logarithmic time in practice, also for points far above a profile of fine segments.
     #[must_use]
     pub fn nearest_distance(&self, point: Point2) -> f64 {
+        self.nearest_segment(point).1
+    }
+
+    /// The number of the segment nearest to a point, counted from the left, and its distance in mm. Found as for
+    /// [`Self::nearest_distance`].
+    #[must_use]
+    pub fn nearest_segment(&self, point: Point2) -> (usize, f64) {
         // All distances here are squared.
-        let mut best = f64::INFINITY;
+        let mut best = (0, f64::INFINITY);
         // Blocks still to look at, the next one last, with the distances of their boxes. At most one a level waits.
         let mut waiting = vec![(self.blocks.whole(), 0.0)];
         while let Some((block, box_distance)) = waiting.pop() {
-            if box_distance >= best {
+            if box_distance >= best.1 {
                 continue;
             }
             match block.halves() {
-                None => best = best.min(self.distance_to_segments(block, point)),
+                None => {
+                    let nearest = self.nearest_of_segments(block, point);
+                    if nearest.1 < best.1 {
+                        best = nearest;
+                    }
+                }
                 Some(halves) => {
                     let mut halves = halves.map(|half| (half, self.distance_to_box(half, point)));
                     halves.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -27,7 +39,7 @@ impl Profile {
                 }
             }
         }
-        best.sqrt()
+        (best.0, best.1.sqrt())
     }
 
     /// The squared distance to the box around a block; infinite for a block that does not exist.
@@ -46,16 +58,16 @@ impl Profile {
         }
     }
 
-    /// The squared distance to the segments of a block.
-    fn distance_to_segments(&self, block: Block, point: Point2) -> f64 {
+    /// The segment of a block that is nearest to a point, and its squared distance.
+    fn nearest_of_segments(&self, block: Block, point: Point2) -> (usize, f64) {
         let corners = block.corners();
         let end = corners.end.min(self.points.len());
-        self.points
-            .get(corners.start..end)
-            .unwrap_or_default()
-            .windows(2)
-            .map(|pair| squared_distance(point, pair[0], pair[1]))
-            .fold(f64::INFINITY, f64::min)
+        let pairs = self.points.get(corners.start..end).unwrap_or_default().windows(2);
+        let distances = pairs.map(|pair| squared_distance(point, pair[0], pair[1]));
+        (corners.start..).zip(distances).fold(
+            (0, f64::INFINITY),
+            |best, next| if next.1 < best.1 { next } else { best },
+        )
     }
 }
 

@@ -1,9 +1,12 @@
 //! What the job asks of its machine: angles, rates and margins.
 
+use super::figure::{Zoom, figure};
 use super::html::{Column, escaped, paragraph, percent, table};
 use super::{Section, Subject};
+use crate::picture::Prefix;
 use crate::plan::parameters::show;
 use crate::reach_summary::{self, AxisFigure, ReachFigures, SingularFigure};
+use crate::report::pictures;
 
 /// The section; none for a job without a machine.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
@@ -11,6 +14,10 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let mut body = String::new();
     for (_, line) in reach_summary::lines(figures) {
         body += &paragraph(&capitalised(&line));
+    }
+    if let Some(joints) = pictures::joints(&subject.material, Prefix::new("joints-")) {
+        let caption = "Angles, rates and margins of the axes over time.";
+        body += &figure(&joints, Zoom::Free, caption);
     }
     body += &axes(figures);
     if !figures.singular.is_empty() {

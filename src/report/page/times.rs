@@ -1,8 +1,11 @@
 //! Where the time goes: by kind of motion and by layer.
 
+use super::figure::{Zoom, figure};
 use super::html::{Column, paragraph, percent, table};
 use super::{Section, Subject};
+use crate::picture::Prefix;
 use crate::plan::PlannedOperation;
+use crate::report::pictures;
 use crate::summary::time;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, OperationId, Site};
@@ -45,6 +48,11 @@ type Place = Option<(OperationId, u32)>;
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let (whole, layers) = spent(subject);
     let mut body = paragraph(&agreement(subject, whole.total()));
+    body += &figure(
+        &pictures::time(&subject.material, Prefix::new("time-")),
+        Zoom::Fixed,
+        "What the time is spent on.",
+    );
     body += &by_kind(&whole);
     body += &by_layer(&layers);
     Section {
@@ -139,7 +147,7 @@ fn by_layer(layers: &BTreeMap<Place, (usize, Spent)>) -> String {
     let several = layers.keys().flatten().any(|(operation, _)| operation.0 > 0);
     let rows = layers.iter().map(|(place, (flanks, spent))| {
         let name = match place {
-            None => "none".to_owned(),
+            None => "outside of layers".to_owned(),
             Some((operation, layer)) if several => {
                 format!("{layer} of operation {}", u32::from(operation.0) + 1)
             }

@@ -1,0 +1,112 @@
+//! How far the machined contour stands off the part, along the whole profile.
+
+use super::plot::{BELOW, Plot};
+use super::sheet::{self, BLUE, Entry, GREEN, TOP, VERMILION};
+use super::svg::{Anchor, Svg, number};
+
+pub use super::sheet::Heading;
+
+/// What a picture of deviations shows; lengths in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deviation<'a> {
+    /// What it is about.
+    pub heading: Heading<'a>,
+    /// Distances of the machined contour from the part over x, from left to right.
+    pub curve: &'a [[f64; 2]],
+    /// The largest one, which may lie between the points of the curve.
+    pub largest: [f64; 2],
+    /// The mean.
+    pub mean: f64,
+    /// The limit, when the job has one.
+    pub limit: Option<f64>,
+}
+
+const HEIGHT: f64 = 240.0;
+const CURVE: &str = "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.5\" stroke-linejoin=\"round\"";
+
+/// Writes the picture as SVG.
+#[must_use]
+pub fn draw(deviation: &Deviation<'_>) -> String {
+    let [from, to] =
+        [deviation.curve.first(), deviation.curve.last()].map(|end| end.map_or(0.0, |end| end[0]));
+    let highest = deviation.largest[1]
+        .max(deviation.limit.unwrap_or_default())
+        .max(1e-3);
+    let bottom = TOP + HEIGHT;
+    let plot = Plot::new([from, to], [0.0, highest * 1.12], [TOP, bottom]);
+    let mut svg = sheet::sheet(
+        deviation.heading,
+        &description(deviation),
+        bottom + BELOW,
+        &legend(deviation),
+    );
+    plot.ground(&mut svg);
+    svg.path(
+        plot.area(deviation.curve).text(),
+        &format!("fill=\"{BLUE}\" fill-opacity=\"0.18\""),
+    );
+    svg.path(plot.curve(deviation.curve).text(), CURVE);
+    svg.path(&plot.level(deviation.mean), &mean());
+    if let Some(limit) = deviation.limit {
+        svg.path(&plot.level(limit), &self::limit());
+    }
+    largest(&mut svg, deviation, &plot);
+    plot.frame(&mut svg, "x, mm", "distance from the part, mm");
+    svg.finish()
+}
+
+fn mean() -> String {
+    format!("fill=\"none\" stroke=\"{GREEN}\" stroke-width=\"2\" stroke-dasharray=\"2 4\"")
+}
+
+fn limit() -> String {
+    format!("fill=\"none\" stroke=\"{VERMILION}\" stroke-width=\"2\" stroke-dasharray=\"9 4\"")
+}
+
+fn description(deviation: &Deviation<'_>) -> String {
+    let limit = match deviation.limit {
+        Some(limit) => format!("; the limit is {limit:.2} mm"),
+        None => String::new(),
+    };
+    format!(
+        "{}. Distance of the machined contour from the part over x: at most {:.2} mm, at x {:.1} mm, and {:.2} mm on \
+         average{limit}.",
+        deviation.heading.subtitle, deviation.largest[1], deviation.largest[0], deviation.mean
+    )
+}
+
+fn legend(deviation: &Deviation<'_>) -> Vec<Entry> {
+    let mut legend = vec![
+        Entry::line(CURVE, "distance"),
+        Entry::line(mean(), format!("mean, {:.2} mm", deviation.mean)),
+    ];
+    if let Some(value) = deviation.limit {
+        legend.push(Entry::line(limit(), format!("limit, {value:.2} mm")));
+    }
+    legend
+}
+
+fn largest(svg: &mut Svg, deviation: &Deviation<'_>, plot: &Plot) {
+    let [x, y] = plot.at(deviation.largest);
+    svg.line(&format!(
+        "  <circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{BLUE}\" stroke=\"#ffffff\" stroke-width=\"1.5\"/>",
+        number(x),
+        number(y)
+    ));
+    let [left, right] = plot.x.places;
+    let anchor = if x > f64::midpoint(left, right) {
+        Anchor::End
+    } else {
+        Anchor::Start
+    };
+    let side = match anchor {
+        Anchor::End => -10.0,
+        Anchor::Start | Anchor::Middle => 10.0,
+    };
+    svg.text(
+        (x + side, y - 4.0),
+        anchor,
+        &format!("font-weight=\"bold\" {}", sheet::HALO),
+        &format!("{:.2} mm", deviation.largest[1]),
+    );
+}

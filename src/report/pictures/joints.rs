@@ -1,0 +1,228 @@
+//! Where the axes are all along the program.
+//!
+//! Within an op the axes are taken to go on evenly in time. Rates are those at the programmed speeds, as the proof of reach
+//! takes them: what the axes do between two samples, over the time that the motion takes for it without speeding up and
+//! slowing down.
+
+use super::time::{KINDS, kind};
+use crate::kinematics::Joints;
+use crate::picture::thin::Thinned;
+use crate::picture::{Prefix, joints};
+use crate::reach::demand::axis_margin;
+use crate::reach::solve::rig;
+use crate::reach::trajectory::{Sample, trajectory};
+use crate::report::Material;
+use core::convert::Infallible;
+use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
+use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::stroke::Stroke;
+use vcutc_backend_api::units::Duration;
+
+/// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.
+#[must_use]
+pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
+    let reached = material.compiled.program.reached()?;
+    let program = reached.program.program();
+    let (machine, cell) = (material.job.machine.as_ref()?, program.cell.as_ref()?);
+    let clock = Clock::of(program, &material.compiled.op_times);
+    let home = cell.home.map(|home| home.0);
+    let mut curves = Curves::new(&cell.axes, &clock, home);
+    let taken = trajectory(&reached.program, &rig(&machine.model, cell), |sample| {
+        curves.take(&sample, &clock);
+        Ok::<(), Infallible>(())
+    });
+    match taken {
+        Ok(()) => {}
+        Err(never) => match never {},
+    }
+    let (axes, margin) = curves.finish();
+    let figures = material.compiled.figures.as_ref();
+    let least = figures.map_or(String::new(), |figures| {
+        format!(
+            "; least margin {:.1} % ({})",
+            figures.margin * 100.0,
+            figures.least.of
+        )
+    });
+    Some(joints::draw(&joints::Joints {
+        heading: joints::Heading {
+            ids,
+            title: &format!("{}: axes over time", material.plan.name),
+            subtitle: &format!("{}{least}", cell.model),
+        },
+        seconds: clock.total,
+        axes: &axes,
+        margin: &margin,
+        kinds: &KINDS,
+        spans: &clock.spans,
+        layers: &clock.layers,
+    }))
+}
+
+/// When ops begin, in s.
+struct Clock {
+    starts: Vec<f64>,
+    /// How long each takes.
+    lengths: Vec<f64>,
+    /// How long each takes at its programmed speeds; none for what is no motion along a line.
+    programmed: Vec<Option<f64>>,
+    total: f64,
+    spans: Vec<joints::Span>,
+    layers: Vec<(f64, String)>,
+}
+
+impl Clock {
+    fn of(program: &Program, op_times: &[Duration]) -> Self {
+        let mut clock = Self {
+            starts: Vec::with_capacity(program.ops.len()),
+            lengths: Vec::with_capacity(program.ops.len()),
+            programmed: Vec::with_capacity(program.ops.len()),
+            total: 0.0,
+            spans: Vec::new(),
+            layers: Vec::new(),
+        };
+        let several = program.operations.len() > 1;
+        let (mut at, mut layer) = (None, None);
+        for (op, time) in program.ops.iter().zip(op_times) {
+            let length = time.to_s();
+            let stroke = at.and_then(|from| Stroke::of(program, from, &op.action));
+            clock.starts.push(clock.total);
+            clock.lengths.push(length);
+            clock
+                .programmed
+                .push(stroke.map(|stroke| stroke.duration().to_s()));
+            let now = layer_of(op.site);
+            if let Some((operation, number)) = now.filter(|_| now != layer) {
+                let name = if several {
+                    format!("{operation}.{number}")
+                } else {
+                    number.to_string()
+                };
+                clock.layers.push((clock.total, name));
+            }
+            layer = now.or(layer);
+            if let Some(kind) = kind(&op.action).filter(|_| length > 0.0) {
+                let time = [clock.total, clock.total + length];
+                clock.spans.push(joints::Span { time, kind });
+            }
+            clock.total += length;
+            at = pose_after(at, &op.action);
+        }
+        clock
+    }
+
+    /// When so much of an op is done.
+    fn time(&self, op: OpId, done: f64) -> f64 {
+        let index = op.0 as usize;
+        match (self.starts.get(index), self.lengths.get(index)) {
+            (Some(start), Some(length)) => start + length * done,
+            (_, _) => self.total,
+        }
+    }
+}
+
+/// Operation and layer of a site, both from 1.
+fn layer_of(site: Site) -> Option<(u32, u32)> {
+    match site {
+        Site::Program | Site::Operation(_) => None,
+        Site::Layer { operation, layer } | Site::Cut { operation, layer, .. } => {
+            Some((u32::from(operation.0) + 1, layer.get()))
+        }
+    }
+}
+
+/// Curves of all axes under construction, thinned as they grow: programs have millions of samples.
+struct Curves<'a> {
+    axes: &'a [Axis],
+    values: Vec<Thinned>,
+    rates: Vec<Thinned>,
+    margin: Thinned,
+    before: Option<(OpId, f64, Joints)>,
+}
+
+impl<'a> Curves<'a> {
+    fn new(axes: &'a [Axis], clock: &Clock, home: Option<Joints>) -> Self {
+        let curve = || Thinned::new(0.0, clock.total, joints::COLUMNS);
+        let mut curves = Self {
+            axes,
+            values: axes.iter().map(|_| curve()).collect(),
+            rates: axes.iter().map(|_| curve()).collect(),
+            margin: curve(),
+            before: None,
+        };
+        if let Some(home) = home {
+            curves.place(0.0, &home);
+            curves.before = Some((OpId(0), 1.0, home));
+        }
+        curves
+    }
+
+    /// The axes at a time.
+    fn place(&mut self, time: f64, values: &Joints) {
+        let mut least = 1.0_f64;
+        for ((axis, &value), curve) in self.axes.iter().zip(values).zip(&mut self.values) {
+            curve.push([time, shown(axis, value)]);
+            least = least.min(axis_margin(axis, value, value));
+        }
+        self.margin.push([time, least]);
+    }
+
+    fn take(&mut self, sample: &Sample, clock: &Clock) {
+        let (op, done) = (sample.op, sample.done);
+        let time = clock.time(op, done);
+        let began = match self.before {
+            Some((before, done, _)) if before == op => done,
+            Some(_) | None => 0.0,
+        };
+        let programmed = clock.programmed.get(op.0 as usize).copied().flatten();
+        let seconds = programmed.map_or(0.0, |seconds| seconds * (done - began));
+        if let Some((_, _, from)) = self.before {
+            let start = clock.time(op, began);
+            for (index, (axis, curve)) in self.axes.iter().zip(&mut self.rates).enumerate() {
+                let way = (sample.joints[index] - from[index]).abs();
+                if let Some(highest) = axis.rate {
+                    let share = if seconds > 0.0 {
+                        way / seconds / highest
+                    } else {
+                        0.0
+                    };
+                    curve.push([start, share]);
+                    curve.push([time, share]);
+                }
+            }
+            // The axes stand still until the op begins.
+            if began == 0.0 {
+                self.place(start, &from);
+            }
+        }
+        self.place(time, &sample.joints);
+        self.before = Some((op, done, sample.joints));
+    }
+
+    fn finish(self) -> (Vec<joints::Axis>, Vec<[f64; 2]>) {
+        let curves = self.values.into_iter().zip(self.rates);
+        let axes = self
+            .axes
+            .iter()
+            .zip(curves)
+            .map(|(axis, (values, rates))| joints::Axis {
+                name: axis.name.clone(),
+                unit: match axis.kind {
+                    AxisKind::Rotary => "deg",
+                    AxisKind::Linear => "mm",
+                },
+                limits: [shown(axis, axis.min), shown(axis, axis.max)],
+                values: values.finish(),
+                rates: axis.rate.map(|_| rates.finish()),
+            });
+        (axes.collect(), self.margin.finish())
+    }
+}
+
+/// A value in deg or mm.
+fn shown(axis: &Axis, value: f64) -> f64 {
+    match axis.kind {
+        AxisKind::Rotary => value.to_degrees(),
+        AxisKind::Linear => value,
+    }
+}
