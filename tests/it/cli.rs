@@ -13,6 +13,7 @@ mod outside;
 mod place;
 mod profiles;
 mod refusals;
+pub(crate) mod report;
 mod snapshot;
 mod verify;
 

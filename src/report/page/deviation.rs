@@ -22,7 +22,7 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     Section {
         id: "deviation",
         title: "Deviation",
-        body: figures(subject) + &deviation + &correlation,
+        body: figures(subject) + &format!("<div class=\"pair\">\n{deviation}{correlation}</div>\n"),
     }
 }
 

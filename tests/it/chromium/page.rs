@@ -1,6 +1,7 @@
 //! The page of `vcutc report` as people meet it.
 
 use super::browser::{Browser, Tab};
+use crate::cli::report::hostile_rib;
 use crate::cli::vcutc;
 use crate::repository::root;
 use serde_json::json;
@@ -147,4 +148,24 @@ fn a_link_to_a_line_unfolds_its_text() {
     tab.value("location.hash = 'text-1-1'");
     tab.wait_until("document.querySelector('#text-1-1').closest('details').open");
     assert_is_calm(&tab);
+}
+
+#[test]
+fn nothing_that_a_job_is_called_runs() {
+    let Some(browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("rib.vcut"), hostile_rib()).unwrap();
+    let run = vcutc(folder.path(), &["report", "-q", "rib.vcut", "-o", "rib.html"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let tab = browser.open(&folder.path().join("rib.html"), 1280, 900);
+    assert!(tab.holds("top.hacked === undefined && document.querySelector('img') === null"));
+    assert!(tab.holds("document.querySelector('h1').textContent.includes('<script>top.hacked=1</script>')"));
+    assert_is_calm(&tab);
+    // The policy holds even for what would get past the escaping.
+    tab.value(
+        "(() => { const script = document.createElement('script'); script.textContent = 'top.hacked = 1'; \
+         document.body.append(script); })()",
+    );
+    assert!(tab.holds("top.hacked === undefined"));
+    assert_eq!(tab.complaints().len(), 1, "the browser tells of it");
 }
