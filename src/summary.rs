@@ -67,11 +67,12 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
     lines.push(row(
         "scallop",
         &format!(
-            "at most {:.2} mm at x {:.1} mm, {:.2} mm on average; contours correlate to {:.2} %",
+            "at most {:.2} mm at x {:.1} mm, {:.2} mm on average; contours correlate to {:.2} %{}",
             report.scallop.height.to_mm(),
             report.scallop.peak.x,
             report.mean_scallop.to_mm(),
-            report.correlation * 100.0
+            report.correlation * 100.0,
+            hollow(report)
         ),
     ));
     lines.push(row(
@@ -81,6 +82,19 @@ pub fn summary(plan: &PlannedJob, report: &Report, reach: Option<&ReachFigures>)
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
+}
+
+/// What there is to say where the part is farther from the machined contour than that is from the part.
+fn hollow(report: &Report) -> String {
+    let deepest = report.deepest;
+    if deepest.height.to_mm() < report.scallop.height.to_mm() + 0.005 {
+        return String::new();
+    }
+    format!(
+        "; the part lies up to {:.2} mm from the machined contour at x {:.1} mm",
+        deepest.height.to_mm(),
+        deepest.peak.x
+    )
 }
 
 fn row(name: &str, text: &str) -> String {

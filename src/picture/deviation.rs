@@ -3,6 +3,7 @@
 use super::plot::{BELOW, Plot};
 use super::sheet::{self, BLUE, Entry, GREEN, TOP, VERMILION};
 use super::svg::{Anchor, Svg, number};
+use super::thin::Thinned;
 
 pub use super::sheet::Heading;
 
@@ -22,6 +23,8 @@ pub struct Deviation<'a> {
 }
 
 const HEIGHT: f64 = 240.0;
+/// Columns that the curve is looked at in.
+const COLUMNS: u32 = 1140;
 const CURVE: &str = "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.5\" stroke-linejoin=\"round\"";
 
 /// Writes the picture as SVG.
@@ -41,11 +44,12 @@ pub fn draw(deviation: &Deviation<'_>) -> String {
         &legend(deviation),
     );
     plot.ground(&mut svg);
+    let curve = Thinned::of(deviation.curve, COLUMNS);
     svg.path(
-        plot.area(deviation.curve).text(),
+        plot.area(&curve).text(),
         &format!("fill=\"{BLUE}\" fill-opacity=\"0.18\""),
     );
-    svg.path(plot.curve(deviation.curve).text(), CURVE);
+    svg.path(plot.curve(&curve).text(), CURVE);
     svg.path(&plot.level(deviation.mean), &mean());
     if let Some(limit) = deviation.limit {
         svg.path(&plot.level(limit), &self::limit());

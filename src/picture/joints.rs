@@ -125,9 +125,10 @@ fn extremes(points: &[[f64; 2]]) -> [f64; 2] {
 }
 
 fn legend(joints: &Joints<'_>) -> Vec<Entry> {
-    let kinds = joints.kinds.iter().zip(KINDS);
+    let kinds = joints.kinds.iter().zip(KINDS).enumerate();
     let mut legend: Vec<Entry> = kinds
-        .map(|(kind, colour)| Entry::area(format!("fill=\"{colour}\""), *kind))
+        .filter(|(number, _)| joints.spans.iter().any(|span| span.kind == *number))
+        .map(|(_, (kind, colour))| Entry::area(format!("fill=\"{colour}\""), *kind))
         .collect();
     legend.extend([
         Entry::line(CURVE, "value"),
@@ -228,7 +229,7 @@ fn panel(svg: &mut Svg, axis: &Axis, time: &Scale, top: f64) {
     }
     svg.path(plot.curve(&axis.values).text(), CURVE);
     let mut marks = String::new();
-    for (value, text) in plot.y.ticks(most_ticks(VALUES, 26.0)) {
+    for (value, text) in plot.y.ticks(most_ticks(VALUES, 22.0)) {
         let y = plot.y.at(value);
         marks += &format!("M{} {}h-5", number(LEFT), number(y));
         svg.text((LEFT - 9.0, y + 5.0), Anchor::End, "", &text);

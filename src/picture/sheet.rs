@@ -89,7 +89,7 @@ impl Entry {
 
 /// About how wide a text is, in the usual letters.
 pub(super) fn text_width(text: &str) -> f64 {
-    text.chars().count() as f64 * f64::from(FONT) * 0.53
+    text.chars().count() as f64 * f64::from(FONT) * 0.57
 }
 
 /// Distance of rows in a legend.
@@ -100,14 +100,19 @@ pub(super) fn sheet(heading: Heading<'_>, description: &str, bottom: f64, legend
     let rows = rows(legend);
     let height = bottom + 18.0 + rows.len() as f64 * ROW;
     let mut svg = Svg::new([WIDTH, height], FONT, heading.ids, heading.title, description);
-    let title = shortened(heading.title, 62);
+    let title = shortened(heading.title, 56);
     svg.text(
         (24.0, 32.0),
         Anchor::Start,
         "font-size=\"18\" font-weight=\"bold\"",
         &title,
     );
-    svg.text((24.0, 56.0), Anchor::Start, "", &shortened(heading.subtitle, 84));
+    svg.text(
+        (24.0, 56.0),
+        Anchor::Start,
+        "font-size=\"14\"",
+        &shortened(heading.subtitle, 76),
+    );
     for (row, entries) in rows.iter().enumerate() {
         let y = bottom + ROW * (row as f64 + 0.5);
         let mut x = 24.0;

@@ -12,7 +12,7 @@ pub use super::sheet::Heading;
 pub struct Times<'a> {
     /// What it is about.
     pub heading: Heading<'a>,
-    /// The kinds.
+    /// The kinds. Those that take no time are not shown.
     pub kinds: &'a [Kind],
     /// The rows from the top, such as layers.
     pub rows: &'a [Row],
@@ -52,7 +52,8 @@ pub fn draw(times: &Times<'_>) -> String {
     let total: f64 = times.kinds.iter().map(|kind| kind.seconds).sum();
     let rows = gathered(times.rows);
     let by_kind = TOP + 22.0;
-    let by_row = by_kind + times.kinds.len() as f64 * ROW + 40.0;
+    let shown = shown(times);
+    let by_row = by_kind + shown.len() as f64 * ROW + 40.0;
     let bottom = by_row + rows.len() as f64 * ROW + 6.0;
     let longest = rows
         .iter()
@@ -71,7 +72,7 @@ pub fn draw(times: &Times<'_>) -> String {
         "by kind of motion",
     );
     let scale = Scale::new([0.0, longest_kind(times)], [LEFT, RIGHT - 170.0]);
-    for ((number, kind), colour) in (0_u32..).zip(times.kinds).zip(KINDS) {
+    for (number, (kind, colour)) in (0_u32..).zip(shown) {
         let y = by_kind + f64::from(number) * ROW;
         svg.text((LEFT - 10.0, y + 14.0), Anchor::End, "", kind.name);
         bar(&mut svg, &scale, [0.0, kind.seconds], y, colour);
@@ -106,6 +107,12 @@ pub fn draw(times: &Times<'_>) -> String {
         }
     }
     svg.finish()
+}
+
+/// The kinds that take time, with their colours.
+fn shown<'a>(times: &Times<'a>) -> Vec<(&'a Kind, &'static str)> {
+    let kinds = times.kinds.iter().zip(KINDS);
+    kinds.filter(|(kind, _)| kind.seconds > 0.0).collect()
 }
 
 fn longest_kind(times: &Times<'_>) -> f64 {
@@ -154,8 +161,8 @@ fn description(times: &Times<'_>, total: f64) -> String {
 }
 
 fn legend(times: &Times<'_>) -> Vec<Entry> {
-    let kinds = times.kinds.iter().zip(KINDS);
-    kinds
+    shown(times)
+        .into_iter()
         .map(|(kind, colour)| Entry::area(format!("fill=\"{colour}\""), kind.name))
         .collect()
 }

@@ -15,7 +15,7 @@ use crate::job::Lattice;
 use crate::picture::{Prefix, contour, correlation, deviation, lattice};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut, TipOrigin};
-use crate::sim::contour::{SAMPLES, Sampled, deviations};
+use crate::sim::contour::{SAMPLES, Sampled, sampled};
 use crate::verdict;
 
 /// The lattice: tips by origin, flanks, layers (`picture::lattice`).
@@ -49,10 +49,9 @@ pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
     let (machined, chips) = machined(material);
     let report = &material.compiled.report;
     let subtitle = format!(
-        "highest scallop {:.2} mm, {:.2} mm on average; {:.0} mm2 removed, {:.0} mm2 stay",
+        "highest scallop {:.2} mm, {:.2} mm on average; {:.1} mm2 stay on the part",
         report.scallop.height.to_mm(),
         report.mean_scallop.to_mm(),
-        report.removed.to_mm2(),
         report.residual.to_mm2()
     );
     contour::draw(&contour::Contour {
@@ -76,6 +75,10 @@ pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
 #[must_use]
 pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
     let report = &material.compiled.report;
+    // With the corners, so that no tooth is missed between two of the points.
+    let mut points = corners(material);
+    points.extend(sampled(&points));
+    points.sort_by(|a, b| a.x.total_cmp(&b.x));
     let subtitle = format!(
         "largest deviation of the contours {:.2} mm; they correlate to {:.2} %",
         report.largest_deviation().to_mm(),
@@ -87,21 +90,24 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
             title: &format!("{}: deviation along the profile", material.plan.name),
             subtitle: &subtitle,
         },
-        curve: &deviation_curve(material),
+        curve: &distances(&points, material),
         largest: [report.scallop.peak.x, report.scallop.height.to_mm()],
         mean: report.mean_scallop.to_mm(),
         limit: limit(material),
     })
 }
 
-/// The distance of the machined contour from the part, in mm, at 1000 evenly spaced x, in mm: what [`deviation`] draws.
+/// The distance of the machined contour from the part, in mm, at 1000 evenly spaced x, in mm.
 #[must_use]
 pub fn deviation_curve(material: &Material<'_>) -> Vec<[f64; 2]> {
-    let curve = deviations(&corners(material), &material.plan.profile);
-    curve
-        .into_iter()
-        .map(|(point, distance)| [point.x, distance])
-        .collect()
+    distances(&sampled(&corners(material)), material)
+}
+
+/// Distances of points from the part, over their x.
+fn distances(points: &[Point2], material: &Material<'_>) -> Vec<[f64; 2]> {
+    let profile = &material.plan.profile;
+    let distance = |&point: &Point2| [point.x, profile.nearest_distance(point)];
+    points.iter().map(distance).collect()
 }
 
 /// The smallest limit of any operation to what stays on the part, in mm.
@@ -210,7 +216,7 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
     layers
 }
 
-/// How many cuts there are, and how they are laid out.
+/// How the cuts are laid out.
 fn laid_out(material: &Material<'_>) -> String {
     let report = &material.compiled.report;
     let (cuts, layers) = (report.cuts(), report.layers.len());
@@ -218,7 +224,7 @@ fn laid_out(material: &Material<'_>) -> String {
         1 => format!("1 {one}"),
         count => format!("{count} {one}s"),
     };
-    let counts = format!("{} in {}", counted(cuts, "cut"), counted(layers, "layer"));
+    let layers = counted(layers, "layer");
     let mut vcuts = vcuts(material);
     match (vcuts.next(), vcuts.next()) {
         (Some(vcut), None) => {
@@ -229,12 +235,16 @@ fn laid_out(material: &Material<'_>) -> String {
                 Lattice::Free => "free",
             };
             format!(
-                "{name}, {counts}; swing {} deg, layer {} mm, step {} mm",
+                "{name}, {layers}; swing {} deg, layer {} mm, step {} mm",
                 show(chosen.swing.to_deg()),
                 show(chosen.layer.to_mm()),
                 show(chosen.step.to_mm())
             )
         }
-        (_, _) => format!("{counts} of {} operations", material.plan.operations.len()),
+        (_, _) => format!(
+            "{} in {layers} of {} operations",
+            counted(cuts, "cut"),
+            material.plan.operations.len()
+        ),
     }
 }

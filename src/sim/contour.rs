@@ -56,17 +56,11 @@ pub fn farthest(corners: &[Point2], from: &Profile) -> Scallop {
 /// Points that contours are compared by [Cui IV.B].
 pub const SAMPLES: u32 = 1000;
 
-/// How far a contour is from a profile at [`SAMPLES`] evenly spaced x: the points of the contour, and their distances in mm.
+/// The points of a contour at [`SAMPLES`] evenly spaced x.
 #[must_use]
-pub fn deviations(corners: &[Point2], part: &Profile) -> Vec<(Point2, f64)> {
-    let heights = resample(corners);
-    let points = grid(corners).into_iter().zip(heights);
-    points
-        .map(|(Point2 { x, .. }, z)| {
-            let point = Point2 { x, z };
-            (point, part.nearest_distance(point))
-        })
-        .collect()
+pub fn sampled(corners: &[Point2]) -> Vec<Point2> {
+    let points = grid(corners).into_iter().zip(resample(corners));
+    points.map(|(Point2 { x, .. }, z)| Point2 { x, z }).collect()
 }
 
 /// Two contours at [`SAMPLES`] evenly spaced x each.
@@ -88,8 +82,8 @@ impl Sampled {
         }
     }
 
-    /// The normalised cross-correlation at every lag [Cui 15], from the one where the first contour lies farthest to the right to
-    /// the one where it lies farthest to the left; lag zero is in the middle. Contours without height are alike.
+    /// The normalised cross-correlation at every lag [Cui 15], from 1 - n to n - 1: the sum of products of the first contour's
+    /// heights `lag` points on with the second's. Contours without height are alike.
     #[must_use]
     pub fn correlations(&self) -> Vec<f64> {
         let (a, b) = (&self.one, &self.other);
@@ -167,7 +161,62 @@ mod tests {
         line.windows(2).map(to_piece).fold(f64::INFINITY, f64::min)
     }
 
+    #[test]
+    fn the_ground_of_a_narrow_hollow_is_far_from_the_surface() {
+        let at = |x, z| Point2 { x, z };
+        let part = [
+            at(0.0, 10.0),
+            at(49.0, 10.0),
+            at(50.0, 0.0),
+            at(51.0, 10.0),
+            at(100.0, 10.0),
+        ];
+        let surface = [at(0.0, 12.0), at(100.0, 12.0)];
+        let [part, surface] = [
+            part,
+            [
+                surface[0],
+                at(20.0, 12.0),
+                at(30.0, 12.0),
+                at(40.0, 12.0),
+                surface[1],
+            ],
+        ]
+        .map(|points| Profile::new(points.to_vec()).unwrap());
+        let deepest = farthest(part.points(), &surface);
+        assert_eq!((deepest.height.to_mm(), deepest.peak), (12.0, at(50.0, 0.0)));
+        assert!((farthest(surface.points(), &part).height.to_mm() - libm::hypot(1.0, 2.0)).abs() < 2e-3);
+    }
+
+    /// The normalised cross-correlation by its definition [Cui 15]: points beyond the ends count as zero.
+    fn by_definition(a: &[f64], b: &[f64], lag: i32) -> f64 {
+        let at = |values: &[f64], i: i32| {
+            usize::try_from(i)
+                .ok()
+                .and_then(|i| values.get(i).copied())
+                .unwrap_or(0.0)
+        };
+        let sum =
+            |a: &[f64], b: &[f64], lag: i32| -> f64 { (-50..100).map(|i| at(a, i + lag) * at(b, i)).sum() };
+        sum(a, b, lag) / (sum(a, a, 0) * sum(b, b, 0)).sqrt()
+    }
+
     proptest! {
+        #[test]
+        fn correlations_are_those_of_the_definition(pairs in prop::collection::vec((0.1..9.0_f64, 0.1..9.0_f64), 2..30)) {
+            let (one, other): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
+            let count = i32::try_from(one.len()).unwrap();
+            let sampled = Sampled { one, other };
+            let found = sampled.correlations();
+            prop_assert_eq!(found.len(), 2 * sampled.one.len() - 1);
+            for (lag, value) in (1 - count..count).zip(&found) {
+                prop_assert!((value - by_definition(&sampled.one, &sampled.other, lag)).abs() < 1e-12);
+            }
+            prop_assert!(sampled.correlation() <= 1.0 + 1e-12);
+            let alike = Sampled { one: sampled.one.clone(), other: sampled.one.clone() };
+            prop_assert!((alike.correlation() - 1.0).abs() < 1e-12);
+        }
+
         #[test]
         fn the_highest_point_is_found_between_corners_too(
             part in prop::collection::vec(0.0..40.0_f64, 6),

@@ -11,6 +11,7 @@ mod machines;
 #[cfg(unix)]
 mod outside;
 mod place;
+mod plot;
 mod profiles;
 mod refusals;
 pub(crate) mod report;

@@ -33,6 +33,8 @@ mod mutations;
 mod opw_peer;
 mod pages;
 #[cfg(feature = "krl")]
+mod pictures;
+#[cfg(feature = "krl")]
 mod pipeline;
 #[cfg(feature = "krl")]
 mod process_errors;

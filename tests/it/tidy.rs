@@ -35,6 +35,21 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
     (
+        "report",
+        &[
+            "driver",
+            "geom",
+            "job",
+            "kinematics",
+            "picture",
+            "plan",
+            "reach",
+            "sim",
+            "summary",
+            "verdict",
+        ],
+    ),
+    (
         "remedy",
         &[
             "diag", "job", "lower", "machine", "plan", "reach", "source", "verdict",
@@ -117,6 +132,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "kinematics",
             "machine",
             "manifest",
+            "picture",
             "placement",
             "plan",
             "reach",

@@ -1,0 +1,86 @@
+//! `vcutc plot`: what it prints, what it writes, and what it refuses.
+
+use super::{folder, names, vcutc, vcutc_reading};
+use crate::repository::{read, root};
+use std::fs;
+
+const EXAMPLE: &str = "examples/wavy_panel.vcut";
+
+#[test]
+fn a_picture_goes_into_its_file_or_to_standard_output() {
+    let out = folder();
+    let file = out.path().join("times").join("time.svg");
+    let run = vcutc(
+        root(),
+        &["plot", EXAMPLE, "--what", "time", "-o", file.to_str().unwrap()],
+    );
+    assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
+    let told = format!("wrote {}\n{EXAMPLE}: no errors\n", file.display());
+    assert_eq!(run.stderr, told);
+    let drawn = fs::read_to_string(&file).unwrap();
+    assert_eq!(drawn, read("docs/images/wavy_panel_time.svg"));
+    for output in [&[][..], &["-o", "-"]] {
+        let run = vcutc(root(), &[&["plot", EXAMPLE, "--what", "time"], output].concat());
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+        assert_eq!(run.stdout, drawn);
+    }
+}
+
+#[test]
+fn every_picture_can_be_drawn() {
+    for what in ["lattice", "contour", "deviation", "correlation", "joints", "time"] {
+        let run = vcutc(root(), &["plot", EXAMPLE, "--what", what]);
+        assert_eq!(run.code, Some(0), "{what}: {}", run.stderr);
+        assert!(
+            run.stdout.starts_with("<svg ") && run.stdout.ends_with("</svg>\n"),
+            "{what}"
+        );
+    }
+}
+
+#[test]
+fn a_job_with_errors_is_not_drawn() {
+    let out = folder();
+    let file = out.path().join("x.svg");
+    let run = vcutc(
+        root(),
+        &[
+            "plot",
+            "examples/too_deep.vcut",
+            "--what",
+            "contour",
+            "-o",
+            file.to_str().unwrap(),
+        ],
+    );
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
+    assert!(run.stderr.contains("VC0401"), "{}", run.stderr);
+    assert!(
+        run.stderr.ends_with("1 error; nothing was drawn\n"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(names(out.path()), [""; 0]);
+}
+
+#[test]
+fn pictures_are_svg_and_axes_need_a_machine() {
+    let run = vcutc(root(), &["plot", EXAMPLE, "--what", "time", "-o", "time.png"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
+    assert_eq!(
+        run.stderr,
+        "error: pictures are in SVG: give `-o` the name of a file that ends in .svg, not time.png\n"
+    );
+    let job = read("examples/block_cui.vcut");
+    let (without_machine, _) = job.split_once("machine cell").unwrap();
+    let run = vcutc_reading(root(), &["plot", "-", "--what", "joints"], without_machine);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
+    assert!(
+        run.stderr
+            .starts_with("error: the job has no machine, so there are no axes to show\n  help: add a block"),
+        "{}",
+        run.stderr
+    );
+    let run = vcutc_reading(root(), &["plot", "-", "--what", "time"], without_machine);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+}

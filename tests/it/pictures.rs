@@ -1,0 +1,352 @@
+//! Pictures of jobs: what they show is what the report says, they stay within their sheets, and those in the documentation are
+//! true.
+
+use crate::pipeline::{compile, compile_on};
+use crate::repository::{read, root};
+use crate::shop::{compiling, folder};
+use std::collections::BTreeSet;
+use std::fs;
+use vcutc::driver::Outcome;
+use vcutc::geom::curve::Point2;
+use vcutc::picture::thin::Thinned;
+use vcutc::picture::{Prefix, contour, joints, lattice};
+use vcutc::report::{Material, pictures};
+use vcutc::verdict;
+
+/// The pictures of `docs/pictures.md`: example, what is drawn.
+const SHOWN: [(&str, &str); 6] = [
+    ("fairing", "lattice"),
+    ("fairing", "contour"),
+    ("fairing", "deviation"),
+    ("wavy_panel", "correlation"),
+    ("wavy_panel", "joints"),
+    ("wavy_panel", "time"),
+];
+
+fn outcome(example: &str) -> Outcome {
+    compile(&format!("{example}.vcut"), &folder())
+}
+
+fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
+    let material = Material::of(outcome).unwrap();
+    match what {
+        "lattice" => pictures::lattice(&material, ids),
+        "contour" => pictures::contour(&material, ids),
+        "deviation" => pictures::deviation(&material, ids),
+        "correlation" => pictures::correlation(&material, ids),
+        "joints" => pictures::joints(&material, ids).unwrap(),
+        "time" => pictures::time(&material, ids),
+        what => panic!("{what}"),
+    }
+}
+
+const ALL: [&str; 6] = ["lattice", "contour", "deviation", "correlation", "joints", "time"];
+
+#[test]
+fn pictures_in_the_documentation_are_true() {
+    let mut stale = Vec::new();
+    for (example, what) in SHOWN {
+        let path = format!("docs/images/{example}_{what}.svg");
+        let drawn = picture(what, &outcome(example), Prefix::NONE);
+        if std::env::var_os("UPDATE_PICTURES").is_some() {
+            fs::write(root().join(&path), drawn).unwrap();
+        } else if fs::read_to_string(root().join(&path)).unwrap_or_default() != drawn {
+            stale.push(path);
+        }
+        let page = read("docs/pictures.md");
+        assert!(
+            page.contains(&format!("images/{example}_{what}.svg")),
+            "{example} {what}"
+        );
+        assert!(page.contains(&format!("--what {what}")), "{what}");
+    }
+    assert_eq!(
+        stale, [""; 0],
+        "UPDATE_PICTURES=1 cargo test --test it pictures writes them anew; look at them before"
+    );
+}
+
+/// The area of a polygon, by the sum of its trapezoids.
+fn area(outline: &[Point2]) -> f64 {
+    let next = outline.iter().cycle().skip(1);
+    let strips = outline.iter().zip(next).map(|(a, b)| (b.x - a.x) * (a.z + b.z));
+    strips.sum::<f64>() / 2.0
+}
+
+#[test]
+fn chips_add_up_to_what_is_removed() {
+    for (example, pairings) in compiling() {
+        let outcome = compile_on(pairings[0].machine, &example, &folder());
+        let material = Material::of(&outcome).unwrap();
+        let program = material.compiled.program.verified();
+        let (mut chips, mut releases) = (0.0, 0);
+        let replay = verdict::watched(material.plan, program, &mut |surface, release| {
+            releases += 1;
+            let chip = surface.chip(release.vee).unwrap_or_default();
+            chips += area(&chip);
+            let lowest = chip.iter().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+            assert!(chip.is_empty() || lowest == release.vee.tip.z, "{example}");
+            let inside = |corner: &Point2| corner.z >= release.vee.height(corner.x) - 2e-6;
+            assert!(chip.iter().all(inside), "{example}: {chip:?}");
+        });
+        let report = &material.compiled.report;
+        let removed = report.removed.to_mm2();
+        assert!(
+            (chips - removed).abs() < 1e-6 * removed,
+            "{example}: {chips} {removed}"
+        );
+        assert_eq!(
+            (releases, replay.layers),
+            (report.cuts(), report.layers.clone()),
+            "{example}"
+        );
+    }
+}
+
+#[test]
+fn what_is_marked_is_what_the_report_says() {
+    for (example, pairings) in compiling() {
+        let outcome = compile_on(pairings[0].machine, &example, &folder());
+        let material = Material::of(&outcome).unwrap();
+        let report = &material.compiled.report;
+        let scallop = report.scallop.height.to_mm();
+        let marked = format!(">{scallop:.2} mm</text>");
+        for what in ["contour", "deviation"] {
+            assert!(
+                picture(what, &outcome, Prefix::NONE).contains(&marked),
+                "{example} {what}"
+            );
+        }
+        let curve = pictures::deviation_curve(&material);
+        assert_eq!(curve.len(), 1000, "{example}");
+        let highest = curve.iter().map(|point| point[1]).fold(0.0, f64::max);
+        assert!(highest <= scallop + 1e-3, "{example}: {highest} {scallop}");
+        assert!(report.largest_deviation() >= report.scallop.height);
+        let share = format!(">{:.4} at lag ", report.correlation);
+        assert!(
+            picture("correlation", &outcome, Prefix::NONE).contains(&share),
+            "{example}"
+        );
+    }
+}
+
+/// Every picture of every example is a document with a title and a description, has ids of its own, and draws nothing beside
+/// its sheet.
+#[test]
+fn pictures_stay_within_their_sheets() {
+    for (example, pairings) in compiling() {
+        let outcome = compile_on(pairings[0].machine, &example, &folder());
+        for what in ALL {
+            let svg = picture(what, &outcome, Prefix::new("here-"));
+            assert!(svg.len() < 300_000, "{example} {what}: {} bytes", svg.len());
+            let document = roxmltree::Document::parse(&svg).unwrap();
+            let sheet = document.root_element();
+            let ids: Vec<&str> = document
+                .descendants()
+                .filter_map(|node| node.attribute("id"))
+                .collect();
+            assert!(ids.iter().all(|id| id.starts_with("here-")), "{ids:?}");
+            assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
+            assert_eq!(
+                sheet.attribute("aria-labelledby"),
+                Some("here-title here-description")
+            );
+            assert!(ids.contains(&"here-title") && ids.contains(&"here-description"));
+            let size = ["width", "height"].map(|side| sheet.attribute(side).unwrap().parse::<f64>().unwrap());
+            for node in document.descendants() {
+                for [x, y] in node.attribute("d").map(corners).unwrap_or_default() {
+                    let shift = if node.attribute("transform").is_some() {
+                        20.0
+                    } else {
+                        0.0
+                    };
+                    let within = |value: f64, size: f64| (-shift..=size).contains(&value);
+                    assert!(
+                        within(x, size[0]) && within(y, size[1]),
+                        "{example} {what}: {x} {y}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// The corners of a path of any of the commands that are used.
+fn corners(path: &str) -> Vec<[f64; 2]> {
+    let mut corners = Vec::new();
+    let (mut at, mut start) = ([0.0, 0.0], [0.0, 0.0]);
+    let mut rest = path;
+    while let Some(command) = rest.chars().next() {
+        let end = rest[1..]
+            .find(|c: char| c.is_ascii_alphabetic())
+            .map_or(rest.len(), |end| end + 1);
+        let spaced = rest[1..end].replace('-', " -").replace(',', " ");
+        let numbers: Vec<f64> = spaced
+            .split_whitespace()
+            .map(|number| number.parse().unwrap())
+            .collect();
+        rest = &rest[end..];
+        let relative = command.is_ascii_lowercase();
+        match command.to_ascii_uppercase() {
+            'Z' => at = start,
+            'H' | 'V' => {
+                for number in numbers {
+                    let axis = usize::from(command.eq_ignore_ascii_case(&'v'));
+                    at[axis] = if relative { at[axis] + number } else { number };
+                    corners.push(at);
+                }
+            }
+            'M' | 'L' => {
+                for (index, pair) in numbers.chunks(2).enumerate() {
+                    let [dx, dy] = [pair[0], pair[1]];
+                    at = if relative {
+                        [at[0] + dx, at[1] + dy]
+                    } else {
+                        [dx, dy]
+                    };
+                    if index == 0 && command.eq_ignore_ascii_case(&'m') {
+                        start = at;
+                    }
+                    corners.push(at);
+                }
+            }
+            command => panic!("{command} in {path}"),
+        }
+    }
+    corners
+}
+
+const HEADING: lattice::Heading<'_> = lattice::Heading {
+    ids: Prefix::NONE,
+    title: "a large job",
+    subtitle: "",
+};
+
+/// Tips of so many cuts in layers of a hundred, with the V of each.
+fn many(count: u32) -> (Vec<lattice::Tip>, Vec<[[f64; 2]; 3]>) {
+    let at = |number: u32| {
+        let (column, layer) = (number % 100, number / 100);
+        [f64::from(column) * 10.0 + 5.0, 100.0 - 0.0007 * f64::from(layer)]
+    };
+    let origin = |number: u32| match number % 7 {
+        0 => lattice::Origin::Lifted,
+        1 => lattice::Origin::Shifted,
+        2 => lattice::Origin::Relieved,
+        _ => lattice::Origin::Lattice,
+    };
+    let tip = |number: u32| lattice::Tip {
+        at: at(number),
+        origin: origin(number),
+    };
+    let vee = |number: u32| {
+        let [x, z] = at(number);
+        [[x - 4.13, z + 3.77], [x, z], [x + 4.13, z + 3.77]]
+    };
+    ((0..count).map(tip).collect(), (0..count).map(vee).collect())
+}
+
+#[test]
+fn pictures_of_large_jobs_stay_small() {
+    let part = [[0.0, 10.0], [1000.0, 10.0]];
+    for (count, drawn) in [(10_000, true), (20_000, true), (20_001, false), (400_000, false)] {
+        let (tips, vees) = many(count);
+        let picture = lattice::draw(&lattice::Lattice {
+            heading: HEADING,
+            stock: [1000.0, 120.0],
+            part: &part,
+            bounds: &[],
+            tips: &tips,
+            vees: &vees,
+            layers: &[],
+        });
+        assert!(
+            picture.len() < 2_000_000,
+            "lattice of {count}: {} bytes",
+            picture.len()
+        );
+        assert_eq!(picture.contains("flanks, as far as they cut"), drawn, "{count}");
+        assert_eq!(picture.contains("flanks are not drawn"), !drawn, "{count}");
+        let chip = |(number, vee): (usize, &[[f64; 2]; 3])| contour::Chip {
+            layer: number as u32 / 100,
+            outline: vec![
+                vee[0],
+                [vee[1][0] - 2.0, vee[0][1]],
+                [vee[1][0] + 2.0, vee[0][1]],
+                vee[2],
+                vee[1],
+            ],
+        };
+        let chips: Vec<contour::Chip> = vees.iter().enumerate().map(chip).collect();
+        let machined: Vec<[f64; 2]> = (0..count)
+            .map(|i| [f64::from(i) * 1000.0 / f64::from(count), 20.0 + f64::from(i % 2)])
+            .collect();
+        let picture = contour::draw(&contour::Contour {
+            heading: HEADING,
+            stock: [1000.0, 120.0],
+            part: &part,
+            machined: &machined,
+            chips: &chips,
+            highest: contour::Highest {
+                peak: [500.0, 21.0],
+                height: 11.0,
+            },
+        });
+        assert!(
+            picture.len() < 2_000_000,
+            "contour of {count}: {} bytes",
+            picture.len()
+        );
+        assert_eq!(picture.contains("chips are not drawn"), !drawn, "{count}");
+    }
+}
+
+#[test]
+fn axes_of_large_jobs_stay_small_and_keep_their_extremes() {
+    let samples = 600_000_u32;
+    let curve = |axis: u32| {
+        let mut thinned = Thinned::new(0.0, f64::from(samples), joints::COLUMNS);
+        for sample in 0..samples {
+            let spike = if sample == 123_456 { 60.0 } else { 0.0 };
+            let value = f64::from(sample.wrapping_mul(2_654_435_761 + axis) >> 8) / f64::from(1 << 24) * 50.0;
+            thinned.push([f64::from(sample), value + spike]);
+        }
+        thinned.finish()
+    };
+    let axes: Vec<joints::Axis> = (0..6)
+        .map(|axis| joints::Axis {
+            name: format!("A{}", axis + 1),
+            unit: "deg",
+            limits: [-120.0, 185.0],
+            values: curve(axis),
+            rates: Some(
+                curve(axis)
+                    .into_iter()
+                    .map(|[time, value]| [time, value / 120.0])
+                    .collect(),
+            ),
+        })
+        .collect();
+    let span = |number: u32| joints::Span {
+        time: [f64::from(number) * 10.0, f64::from(number + 1) * 10.0],
+        kind: number as usize % 3,
+    };
+    let picture = joints::draw(&joints::Joints {
+        heading: HEADING,
+        seconds: f64::from(samples),
+        axes: &axes,
+        margin: &curve(9)
+            .into_iter()
+            .map(|[time, value]| [time, value / 200.0])
+            .collect::<Vec<_>>(),
+        kinds: &["cutting", "turning", "travel"],
+        spans: &(0..samples / 10).map(span).collect::<Vec<_>>(),
+        layers: &[(0.0, "1".to_owned())],
+    });
+    assert!(picture.len() < 300_000, "{} bytes", picture.len());
+    let highest = axes
+        .iter()
+        .flat_map(|axis| &axis.values)
+        .map(|point| point[1])
+        .fold(0.0, f64::max);
+    assert!(highest >= 60.0 && picture.contains(&format!(" to {highest:.1} deg")));
+}
