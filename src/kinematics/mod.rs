@@ -10,6 +10,7 @@ pub mod configuration;
 pub mod five_axis;
 pub mod jacobian;
 mod lanes;
+pub mod linkage;
 pub mod mounted;
 pub mod newton;
 pub mod opw;

@@ -14,6 +14,23 @@ pub const CLOSE_TURN: f64 = core::f64::consts::PI / 90.0;
 /// Most samples of one motion.
 const MOST_SAMPLES: f64 = 100_000.0;
 
+/// How close samples are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spacing {
+    /// Farthest that the tip, or a linear axis that moves by itself, moves from one to the next, in mm.
+    pub way: f64,
+    /// Farthest that the blade, or a rotary axis that moves by itself, turns from one to the next, in rad.
+    pub turn: f64,
+}
+
+impl Spacing {
+    /// Close enough to see all that the axes do.
+    pub const CLOSE: Self = Self {
+        way: CLOSE,
+        turn: CLOSE_TURN,
+    };
+}
+
 /// The axes at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -32,6 +49,19 @@ pub struct Sample {
 pub fn trajectory<E>(
     reached: &ReachableProgram,
     rig: &Rig<'_>,
+    take: impl FnMut(Sample) -> Result<(), E>,
+) -> Result<(), E> {
+    trajectory_by(reached, rig, &Spacing::CLOSE, take)
+}
+
+/// The same with samples at another distance.
+///
+/// # Errors
+/// What `take` returns.
+pub fn trajectory_by<E>(
+    reached: &ReachableProgram,
+    rig: &Rig<'_>,
+    spacing: &Spacing,
     mut take: impl FnMut(Sample) -> Result<(), E>,
 ) -> Result<(), E> {
     let program = reached.program();
@@ -47,14 +77,15 @@ pub fn trajectory<E>(
         match (leg, at) {
             (Leg::Still, _) => continue,
             (Leg::Home | Leg::ByAxes(_), Some(start)) => {
-                let steps = axis_steps(rig.axes, &start, &end);
+                let steps = axis_steps(rig.axes, spacing, &start, &end);
                 for done in fractions(steps) {
                     let joints = core::array::from_fn(|axis| start[axis] + (end[axis] - start[axis]) * done);
                     take(Sample { op, done, joints })?;
                 }
             }
             (Leg::Along(stroke), Some(start)) => {
-                along(reached, rig, op, stroke, [&start, &end], &mut take)?;
+                let steps = course_steps(program, spacing, stroke);
+                along(reached, rig, (op, stroke, steps), [&start, &end], &mut take)?;
             }
             (Leg::Home | Leg::ByAxes(_) | Leg::Along(_), None) => {}
         }
@@ -68,12 +99,11 @@ pub fn trajectory<E>(
     Ok(())
 }
 
-/// The samples of a course but its end.
+/// The samples of a course, divided into so many steps, but its end.
 fn along<E>(
     reached: &ReachableProgram,
     rig: &Rig<'_>,
-    op: OpId,
-    stroke: &Stroke,
+    (op, stroke, steps): (OpId, &Stroke, f64),
     ends: [&Joints; 2],
     take: &mut impl FnMut(Sample) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -82,7 +112,7 @@ fn along<E>(
         return Ok(());
     };
     let mut near = *ends[0];
-    for done in fractions(course_steps(program, stroke)) {
+    for done in fractions(steps) {
         if let Some(joints) = joints_on(rig, &course, branch, ends, done, &near) {
             take(Sample { op, done, joints })?;
             near = joints;
@@ -99,21 +129,21 @@ fn fractions(steps: f64) -> impl Iterator<Item = f64> {
         .map(move |step| step / steps)
 }
 
-fn course_steps(program: &Program, stroke: &Stroke) -> f64 {
+fn course_steps(program: &Program, spacing: &Spacing, stroke: &Stroke) -> f64 {
     let held = |taught: super::legs::Taught| program.orientations.get(taught.held.0 as usize).copied();
     let turn = match (held(stroke.from), held(stroke.to)) {
         (Some(from), Some(to)) => from.angle_to(to).to_rad(),
         (Some(_) | None, _) => 0.0,
     };
     let length = stroke.from.tip.distance(stroke.to.tip).to_mm();
-    (length / CLOSE).max(turn / CLOSE_TURN).ceil()
+    (length / spacing.way).max(turn / spacing.turn).ceil()
 }
 
-fn axis_steps(axes: &[Axis], from: &Joints, to: &Joints) -> f64 {
+fn axis_steps(axes: &[Axis], spacing: &Spacing, from: &Joints, to: &Joints) -> f64 {
     let steps = axes.iter().zip(from.iter().zip(to)).map(|(axis, (from, to))| {
         let close = match axis.kind {
-            AxisKind::Rotary => CLOSE_TURN,
-            AxisKind::Linear => CLOSE,
+            AxisKind::Rotary => spacing.turn,
+            AxisKind::Linear => spacing.way,
         };
         (to - from).abs() / close
     });

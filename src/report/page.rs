@@ -16,7 +16,7 @@ mod source;
 mod times;
 mod top;
 
-use super::Material;
+use super::{Material, playback};
 use crate::diag::Diagnostic;
 use crate::driver::Outcome;
 use crate::source::SourceMap;
@@ -58,6 +58,7 @@ pub fn page(outcome: &Outcome) -> Option<String> {
     let sections = [
         Some(cross_section::section(subject)),
         Some(deviation::section(subject)),
+        Some(played(subject)),
         machine::section(subject),
         Some(times::section(subject)),
         Some(parameters::section(subject, &listing)),
@@ -65,6 +66,16 @@ pub fn page(outcome: &Outcome) -> Option<String> {
     ];
     let sections: Vec<Section> = sections.into_iter().flatten().collect();
     Some(document(subject, &sections))
+}
+
+/// The cuts played back in space.
+fn played(subject: Subject<'_>) -> Section {
+    let Material { plan, compiled, .. } = subject.material;
+    Section {
+        id: "playback",
+        title: "Playback",
+        body: playback::section(plan, compiled),
+    }
 }
 
 /// The document around the sections.
@@ -77,7 +88,7 @@ fn document(subject: Subject<'_>, sections: &[Section]) -> String {
          <meta name=\"color-scheme\" content=\"light dark\">\n\
          <title>{name} - vcutc report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
          <a class=\"skip\" href=\"#content\">Skip to the content</a>\n",
-        policy::policy(&[SCRIPT]),
+        policy::policy(&[SCRIPT, playback::SCRIPT]),
     );
     page += &top::header(subject);
     page += &contents(sections);
@@ -85,7 +96,7 @@ fn document(subject: Subject<'_>, sections: &[Section]) -> String {
     page += &top::key_numbers(subject);
     for Section { id, title, body } in sections {
         page += &format!(
-            "<section id=\"{id}\" aria-labelledby=\"{id}-title\">\n<h2 id=\"{id}-title\">{title}</h2>\n{body}</section>\n"
+            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{title}</h2>\n{body}</section>\n"
         );
     }
     page += "</main>\n<footer>Made by vcutc ";

@@ -35,21 +35,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
     (
-        "report",
-        &[
-            "driver",
-            "geom",
-            "job",
-            "kinematics",
-            "picture",
-            "plan",
-            "reach",
-            "sim",
-            "summary",
-            "verdict",
-        ],
-    ),
-    (
         "remedy",
         &[
             "diag", "job", "lower", "machine", "plan", "reach", "source", "verdict",
@@ -87,6 +72,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "driver",
             "geom",
             "job",
+            "kinematics",
             "picture",
             "plan",
             "reach",

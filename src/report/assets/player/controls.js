@@ -1,0 +1,279 @@
+// The time that is shown, and what people do to change it.
+
+/**
+ * @typedef {object} Picture
+ * @property {Matrix} scene the machine's frame in the scene
+ * @property {Matrix} workpiece W in the scene
+ * @property {Matrix} blade T in the scene
+ * @property {Vector} tip in W
+ * @property {number[]} axes in rad and mm
+ * @property {{tool: Matrix[], work: Matrix[]} | null} machine
+ * @property {{kerf: Kerf, from: number, to: number}[]} kerfs
+ * @property {number} layer as the timeline numbers them; 0 is none
+ * @property {number} operation from 0
+ * @property {Moment} moment
+ */
+
+/** What kinds of op are called, by the names of the data. */
+const CALLED = {
+  home: "all axes to home",
+  travel: "through the air",
+  axis_travel: "all axes through the air",
+  approach: "down to the work",
+  retract: "away from the work",
+  cut_left: "cut, left flank",
+  cut_right: "cut, right flank",
+  turn: "turn about the tip",
+  ultrasonic: "ultrasonic switched",
+  await_ready: "wait for the generator",
+  dwell: "wait",
+  tool_change: "tool change",
+};
+
+/** The time that is shown, and what is there to be seen at it. */
+class Player {
+  /** @param {Program} program */
+  constructor(program) {
+    this.program = program;
+    this.timeline = new Timeline(program);
+    this.workpiece = new Workpiece(this.timeline);
+    this.time = 0;
+    this.speed = 1;
+    this.playing = false;
+    this.selectLayers(1, this.timeline.layers.length);
+    const { cell } = program;
+    // The scene's frame is W as it is at the start: it may move later, on a table that turns.
+    this.scene = cell === null ? identity() : inverse(posed(cell, cell.track.start).workpiece);
+    this.holdFrames();
+  }
+
+  /** Where machine and blade are before anybody asks again. */
+  holdFrames() {
+    this.now = this.picture();
+  }
+
+  /**
+   * Shows these layers only, counted from 1 in the order of work.
+   * @param {number} from
+   * @param {number} to
+   */
+  selectLayers(from, to) {
+    const count = this.timeline.layers.length;
+    this.from = Math.max(1, Math.min(from, count));
+    this.to = Math.max(this.from, Math.min(to, count));
+    const { ops, starts } = this.program;
+    let [first, end] = [0, ops - 1];
+    while (first < end && !this.isSelected(first)) first += 1;
+    while (end > first && !this.isSelected(end)) end -= 1;
+    this.begin = starts[first];
+    this.end = starts[end + 1];
+  }
+
+  /**
+   * Whether an op is shown. All layers together are the whole program.
+   * @param {number} op
+   */
+  isSelected(op) {
+    if (this.from === 1 && this.to === this.timeline.layers.length) return true;
+    const layer = this.timeline.layerOf[op];
+    return layer >= this.from && layer <= this.to;
+  }
+
+  /** @param {number} time */
+  seek(time) {
+    this.time = Math.max(this.begin, Math.min(this.end, time));
+    this.holdFrames();
+  }
+
+  /**
+   * Lets time go on, past the ops that are not shown.
+   * @param {number} seconds
+   */
+  advance(seconds) {
+    let time = this.time + seconds * this.speed;
+    let { op } = this.timeline.at(time);
+    while (op < this.program.ops - 1 && !this.isSelected(op)) {
+      op += 1;
+      time = this.program.starts[op];
+    }
+    if (time >= this.end) this.playing = false;
+    this.seek(time);
+  }
+
+  /**
+   * Goes to the beginning of the op after or before the present one.
+   * @param {1 | -1} way
+   */
+  step(way) {
+    const { starts, ops } = this.program;
+    const { op, done } = this.timeline.at(this.time);
+    let next = way < 0 && done > 0 ? op : op + way;
+    // Ops that take no time are passed over.
+    while (next > 0 && next < ops && (starts[next] === starts[next + 1] || !this.isSelected(next))) next += way;
+    this.seek(next >= ops ? this.end : starts[Math.max(0, next)]);
+  }
+
+  /** @returns {Picture} */
+  picture() {
+    const { program, timeline } = this;
+    const moment = timeline.at(this.time);
+    const { op, done } = moment;
+    const { cell } = program;
+    const axes = cell === null ? [] : axesDuring(cell.track, op, done);
+    const machine = cell === null ? null : posed(cell, axes);
+    const workpiece = machine === null ? identity() : product(this.scene, machine.workpiece);
+    const known = timeline.bladeAt(moment);
+    const inWork = known || (machine ? product(inverse(machine.workpiece), machine.blade) : timeline.nearestBlade(op));
+    return {
+      scene: this.scene,
+      workpiece,
+      blade: product(workpiece, inWork),
+      tip: origin(inWork),
+      axes,
+      machine,
+      kerfs: this.kerfs(moment, origin(inWork)[1]),
+      layer: timeline.layerOf[op],
+      operation: Math.max(0, program.operations[op] - 1),
+      moment,
+    };
+  }
+
+  /**
+   * The flanks that are cut while their chips are there, and the one that is being cut.
+   * @param {Moment} moment
+   * @param {number} y where the tip is
+   */
+  kerfs({ op, done }, y) {
+    const { kinds, stock, ops } = this.program;
+    const whole = this.timeline.kerfsAt(this.time).map((kerf) => ({ kerf, from: 0, to: stock[1] }));
+    const cuts = kinds[op] === CUT_LEFT || kinds[op] === CUT_RIGHT;
+    if (op === 0 || op >= ops || !cuts || done >= 1) return whole;
+    const forward = tipAfter(this.program, op)[1] >= tipAfter(this.program, op - 1)[1];
+    const come = Math.max(0, Math.min(stock[1], y));
+    return whole.concat([{ kerf: this.timeline.kerfOf(op), from: forward ? 0 : stock[1], to: come }]);
+  }
+
+  /** Brings the stock to the time that is shown. Tells whether it changed. */
+  cut() {
+    return this.workpiece.goTo(this.timeline.chipsFreeAt(this.time));
+  }
+
+  /** The present axes in deg and mm. */
+  shownAxes() {
+    const { cell } = this.program;
+    if (cell === null) return [];
+    return this.now.axes.map((value, axis) => (cell.axes[axis].kind === "rotary" ? (value * 180) / Math.PI : value));
+  }
+
+  /** A line of text about the present. */
+  words() {
+    const { program, timeline, now } = this;
+    const { op } = now.moment;
+    const several = program.blades.length > 1;
+    const parts = [
+      `${this.time.toFixed(2)} s of ${timeline.duration.toFixed(2)} s`,
+      `op ${op} of ${program.ops}: ${CALLED[program.names[program.kinds[op]]]}`,
+    ];
+    if (several && program.operations[op] > 0) parts.push(`operation ${program.operations[op]}`);
+    if (program.layers[op] > 0) parts.push(`layer ${program.layers[op]}`);
+    if (program.cuts[op] > 0) parts.push(`cut ${program.cuts[op]}`);
+    const [x, y, z] = now.tip.map((part) => part.toFixed(2));
+    parts.push(`tip ${x}, ${y}, ${z} mm`);
+    return parts.join(" · ");
+  }
+
+  /** The axes as text. */
+  axisWords() {
+    const { cell } = this.program;
+    if (cell === null) return "";
+    const shown = this.shownAxes();
+    return cell.axes
+      .map(({ name, kind }, axis) => `${name} ${shown[axis].toFixed(2)} ${kind === "rotary" ? "deg" : "mm"}`)
+      .join("   ");
+  }
+}
+
+/**
+ * An element of the section.
+ * @param {string} name
+ * @returns {any}
+ */
+function element(name) {
+  return document.getElementById(`vcut-playback-${name}`);
+}
+
+/**
+ * Ties buttons and fields to a player. `changed` is told when something else is to be seen.
+ * @param {Player} player
+ * @param {() => void} changed
+ */
+function bindControls(player, changed) {
+  const click = (/** @type {string} */ name, /** @type {() => void} */ act) => {
+    element(name).addEventListener("click", () => {
+      act();
+      changed();
+    });
+  };
+  click("play", () => toggle(player));
+  click("back", () => step(player, -1));
+  click("forth", () => step(player, 1));
+  element("time").addEventListener("input", () => {
+    player.seek(Number(element("time").value));
+    changed();
+  });
+  element("speed").addEventListener("change", () => {
+    player.speed = Number(element("speed").value);
+  });
+  for (const name of ["from", "to"]) {
+    element(name).max = player.timeline.layers.length;
+    element(name).addEventListener("change", () => {
+      chooseLayers(player, Number(element("from").value), Number(element("to").value));
+      changed();
+    });
+  }
+}
+
+/** @param {Player} player */
+function toggle(player) {
+  player.playing = !player.playing;
+  if (player.playing && player.time >= player.end) player.seek(player.begin);
+}
+
+/**
+ * @param {Player} player
+ * @param {1 | -1} way
+ */
+function step(player, way) {
+  player.playing = false;
+  player.step(way);
+}
+
+/**
+ * @param {Player} player
+ * @param {number} from
+ * @param {number} to
+ */
+function chooseLayers(player, from, to) {
+  player.selectLayers(Math.round(from) || 1, Math.round(to) || player.timeline.layers.length);
+  player.seek(player.time);
+}
+
+/**
+ * Brings the controls up to date.
+ * @param {Player} player
+ */
+function showState(player) {
+  const play = element("play");
+  play.textContent = player.playing ? "Pause" : "Play";
+  element("now").setAttribute("aria-live", player.playing ? "off" : "polite");
+  element("now").textContent = player.words();
+  element("axes").textContent = player.axisWords();
+  const time = element("time");
+  time.min = player.begin;
+  time.max = player.end;
+  time.value = player.time;
+  time.setAttribute("aria-valuetext", `${player.time.toFixed(2)} s`);
+  element("from").value = player.from;
+  element("to").value = player.to;
+}
+

@@ -1,0 +1,117 @@
+// The data of the page (src/report/playback/document.rs), unpacked.
+
+/**
+ * @typedef {object} Program
+ * @property {Vector} stock width, depth, height in mm
+ * @property {[number, number][]} part corners of the part's contour
+ * @property {{length: number, halfApex: number, thickness: number, edges: 1 | 2}[]} blades an operation each
+ * @property {number[][]} orientations quaternions
+ * @property {string[]} names of the kinds of op
+ * @property {number} ops how many there are
+ * @property {Uint8Array} kinds
+ * @property {Uint16Array} operations
+ * @property {Uint32Array} layers
+ * @property {Uint32Array} cuts
+ * @property {Int32Array} tips in micrometres
+ * @property {Uint32Array} held numbers of orientations, counted from 1
+ * @property {Float64Array} starts when each op starts, and when the last one ends
+ * @property {Cell | null} cell
+ */
+
+/**
+ * @typedef {object} Cell
+ * @property {{name: string, kind: "rotary" | "linear"}[]} axes
+ * @property {Joint[]} tool
+ * @property {Joint[]} work
+ * @property {Matrix} flangeAtZero
+ * @property {Matrix} mountAtZero
+ * @property {Matrix} bladeInFlange
+ * @property {Matrix} workInMount
+ * @property {Body[]} bodies
+ * @property {Track} track
+ */
+
+/** @typedef {{kind: "rotary" | "linear", point: Vector, direction: Vector, weights: number[]}} Joint */
+/** @typedef {{chain: "tool" | "work", joints: number, shape: "bar" | "block", from: Vector, to: Vector, radius?: number}} Body */
+/** @typedef {{start: number[], firsts: Uint32Array, done: Uint16Array, values: Uint16Array, low: number[], step: number[]}} Track */
+
+/** Numbers of kinds of op that matter here. */
+const HOME = 0;
+const AXIS_TRAVEL = 2;
+const CUT_LEFT = 5;
+const CUT_RIGHT = 6;
+
+/**
+ * The bytes of a column. Its numbers have their least significant byte first, as every machine has it that runs browsers.
+ * @param {string} text
+ */
+function bytesOf(text) {
+  const packed = atob(text);
+  const bytes = new Uint8Array(packed.length);
+  for (let i = 0; i < packed.length; i += 1) bytes[i] = packed.charCodeAt(i);
+  return bytes.buffer;
+}
+
+/**
+ * What came before each entry, and at the end the sum of all.
+ * @template {Float64Array | Uint32Array} T
+ * @param {ArrayLike<number>} parts
+ * @param {T} sums of one entry more
+ */
+function summed(parts, sums) {
+  for (let i = 0; i < parts.length; i += 1) sums[i + 1] = sums[i] + parts[i];
+  return sums;
+}
+
+/**
+ * @param {any} raw
+ * @returns {Program}
+ */
+function unpack(raw) {
+  const columns = raw.timeline;
+  const seconds = new Float64Array(bytesOf(columns.seconds));
+  return {
+    stock: raw.stock,
+    part: raw.part,
+    blades: raw.blades,
+    orientations: raw.orientations,
+    names: raw.kinds,
+    ops: seconds.length,
+    kinds: new Uint8Array(bytesOf(columns.kinds)),
+    operations: new Uint16Array(bytesOf(columns.operations)),
+    layers: new Uint32Array(bytesOf(columns.layers)),
+    cuts: new Uint32Array(bytesOf(columns.cuts)),
+    tips: new Int32Array(bytesOf(columns.tips)),
+    held: new Uint32Array(bytesOf(columns.held)),
+    starts: summed(seconds, new Float64Array(seconds.length + 1)),
+    cell: raw.cell && { ...raw.cell, track: unpackTrack(raw.cell.track) },
+  };
+}
+
+/**
+ * @param {any} raw
+ * @returns {Track}
+ */
+function unpackTrack(raw) {
+  const counts = new Uint32Array(bytesOf(raw.counts));
+  return {
+    start: raw.start,
+    firsts: summed(counts, new Uint32Array(counts.length + 1)),
+    done: new Uint16Array(bytesOf(raw.done)),
+    values: new Uint16Array(bytesOf(raw.values)),
+    low: raw.low,
+    step: raw.step,
+  };
+}
+
+/**
+ * Where the tip is when an op ends, in mm in W.
+ * @param {Program} program
+ * @param {number} op
+ * @returns {Vector}
+ */
+function tipAfter(program, op) {
+  const { tips } = program;
+  return [tips[3 * op] / 1000, tips[3 * op + 1] / 1000, tips[3 * op + 2] / 1000];
+}
+

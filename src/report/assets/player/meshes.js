@@ -1,0 +1,154 @@
+// Shapes as triangles: place and normal of every corner, six numbers.
+
+/** Triangles under construction. */
+class Triangles {
+  constructor() {
+    /** @type {number[]} */
+    this.numbers = [];
+  }
+
+  /**
+   * A quad a, b, c, d, flat.
+   * @param {Vector[]} corners
+   * @param {Vector} normal
+   */
+  quad([a, b, c, d], normal) {
+    for (const corner of [a, b, c, a, c, d]) this.corner(corner, normal);
+  }
+
+  /**
+   * @param {Vector} a
+   * @param {Vector} b
+   * @param {Vector} c
+   */
+  triangle(a, b, c) {
+    const normal = /** @type {Vector} */ (cross(minus(b, a), minus(c, a)));
+    for (const corner of [a, b, c]) this.corner(corner, normal);
+  }
+
+  /**
+   * @param {Vector} at
+   * @param {Vector} normal
+   */
+  corner(at, normal) {
+    this.numbers.push(at[0], at[1], at[2], normal[0], normal[1], normal[2]);
+  }
+
+  done() {
+    return new Float32Array(this.numbers);
+  }
+}
+
+/**
+ * The body below a contour, along y.
+ * @param {Point[]} contour from left to right
+ * @param {number} depth
+ */
+function extruded(contour, depth) {
+  const mesh = new Triangles();
+  for (let i = 1; i < contour.length; i += 1) {
+    const [a, b] = [contour[i - 1], contour[i]];
+    mesh.quad([[a.x, 0, a.z], [b.x, 0, b.z], [b.x, depth, b.z], [a.x, depth, a.z]], [a.z - b.z, 0, b.x - a.x]);
+    mesh.quad([[a.x, 0, 0], [b.x, 0, 0], [b.x, 0, b.z], [a.x, 0, a.z]], [0, -1, 0]);
+    mesh.quad([[a.x, depth, 0], [b.x, depth, 0], [b.x, depth, b.z], [a.x, depth, a.z]], [0, 1, 0]);
+  }
+  const [first, end] = [contour[0], last(contour)];
+  mesh.quad([[first.x, 0, 0], [first.x, 0, first.z], [first.x, depth, first.z], [first.x, depth, 0]], [-1, 0, 0]);
+  mesh.quad([[end.x, 0, 0], [end.x, 0, end.z], [end.x, depth, end.z], [end.x, depth, 0]], [1, 0, 0]);
+  mesh.quad([[first.x, 0, 0], [end.x, 0, 0], [end.x, depth, 0], [first.x, depth, 0]], [0, 0, -1]);
+  return mesh.done();
+}
+
+/** A box from the origin to (1, 1, 1). */
+function unitBox() {
+  const mesh = new Triangles();
+  for (let axis = 0; axis < 3; axis += 1) {
+    for (const side of [0, 1]) {
+      const corner = (/** @type {number} */ u, /** @type {number} */ v) => {
+        const at = [0, 0, 0];
+        at[axis] = side;
+        at[(axis + 1) % 3] = u;
+        at[(axis + 2) % 3] = v;
+        return /** @type {Vector} */ (at);
+      };
+      const normal = /** @type {Vector} */ ([0, 0, 0]);
+      normal[axis] = side * 2 - 1;
+      mesh.quad([corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)], normal);
+    }
+  }
+  return mesh.done();
+}
+
+/** How many sides round shapes have. */
+const ROUND = 24;
+
+/** A tube of radius 1 about z from 0 to 1, open. */
+function unitTube() {
+  const mesh = new Triangles();
+  for (let i = 0; i < ROUND; i += 1) {
+    const [a, b] = [onCircle(i), onCircle(i + 1)];
+    for (const [at, z] of /** @type {[number[], number][]} */ ([[a, 0], [b, 0], [b, 1], [a, 0], [b, 1], [a, 1]])) {
+      mesh.corner([at[0], at[1], z], [at[0], at[1], 0]);
+    }
+  }
+  return mesh.done();
+}
+
+/** A ball of radius 1. */
+function unitBall() {
+  const mesh = new Triangles();
+  const half = ROUND / 2;
+  const at = (/** @type {number} */ ring, /** @type {number} */ i) => {
+    const [sine, height] = [Math.sin((Math.PI * ring) / half), Math.cos((Math.PI * ring) / half)];
+    const [x, y] = onCircle(i);
+    return /** @type {Vector} */ ([x * sine, y * sine, height]);
+  };
+  for (let ring = 0; ring < half; ring += 1) {
+    for (let i = 0; i < ROUND; i += 1) {
+      const [a, b, c, d] = [at(ring, i), at(ring, i + 1), at(ring + 1, i + 1), at(ring + 1, i)];
+      for (const corner of [a, b, c, a, c, d]) mesh.corner(corner, corner);
+    }
+  }
+  return mesh.done();
+}
+
+/** @param {number} i */
+function onCircle(i) {
+  const angle = (2 * Math.PI * i) / ROUND;
+  return [Math.cos(angle), Math.sin(angle)];
+}
+
+/**
+ * A dagger in its own frame: tip at the origin, body towards -z, edges along x, thin along y.
+ * @param {{length: number, halfApex: number, thickness: number, edges: 1 | 2}} blade
+ * @param {number} shank where the shank begins, as z
+ */
+function dagger(blade, shank) {
+  const mesh = new Triangles();
+  const { half, back, top } = daggerSize(blade);
+  const thick = Math.max(blade.thickness, blade.length * 0.012) / 2;
+  const outline = [[0, 0], [half, top], [half, shank], [back, shank], [back, top]];
+  // The middle of the tip end is thin, so that the two sides of a V do not overlap there.
+  const side = (/** @type {number[]} */ [x, z], /** @type {number} */ y) => /** @type {Vector} */ ([x, y * (z === 0 ? 0 : 1), z]);
+  for (const y of [thick, -thick]) {
+    for (let i = 2; i < outline.length; i += 1) {
+      mesh.triangle(side(outline[0], y), side(outline[i - 1], y), side(outline[i], y));
+    }
+  }
+  outline.forEach((from, i) => {
+    const to = outline[(i + 1) % outline.length];
+    mesh.triangle(side(from, thick), side(to, thick), side(to, -thick));
+    mesh.triangle(side(from, thick), side(to, -thick), side(from, -thick));
+  });
+  return mesh.done();
+}
+
+/**
+ * The leading edge's end, the back's x and the edge's end as z of a dagger.
+ * @param {{length: number, halfApex: number, edges: 1 | 2}} blade
+ */
+function daggerSize({ length, halfApex, edges }) {
+  const half = Math.max(length * Math.sin(halfApex), length * 0.05);
+  return { half, back: edges === 2 ? -half : 0, top: -length * Math.cos(halfApex) };
+}
+

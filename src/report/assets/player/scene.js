@@ -1,0 +1,197 @@
+// What is to be seen at a moment.
+
+const COLOURS = {
+  stock: [0.87, 0.76, 0.5, 1],
+  clear: [0.87, 0.76, 0.5, 0.3],
+  part: [0.36, 0.55, 0.74, 1],
+  blade: [0.75, 0.78, 0.82, 1],
+  shank: [0.45, 0.47, 0.5, 1],
+  machine: [0.93, 0.5, 0.16, 1],
+  joints: [0.3, 0.32, 0.36, 1],
+  table: [0.6, 0.62, 0.65, 1],
+  cut: [0.8, 0.1, 0.12],
+  way: [0.25, 0.45, 0.25],
+  kerf: [0.35, 0.05, 0.05],
+  axes: [
+    [0.85, 0.15, 0.15],
+    [0.1, 0.6, 0.15],
+    [0.15, 0.3, 0.9],
+  ],
+};
+
+/** @typedef {{robot: boolean, part: boolean, path: boolean, stock: boolean}} Shown */
+
+class Scene {
+  /**
+   * @param {Canvas} canvas
+   * @param {Timeline} timeline
+   * @param {Workpiece} workpiece
+   */
+  constructor(canvas, timeline, workpiece) {
+    this.canvas = canvas;
+    this.timeline = timeline;
+    this.workpiece = workpiece;
+    const { program } = timeline;
+    const part = program.part.map(([x, z]) => ({ x, z }));
+    this.stock = canvas.mesh(extruded(workpiece.surface.corners(), program.stock[1]));
+    this.part = canvas.mesh(extruded(part, program.stock[1]));
+    this.tube = canvas.mesh(unitTube());
+    this.ball = canvas.mesh(unitBall());
+    this.box = canvas.mesh(unitBox());
+    this.kerfs = canvas.mesh(new Float32Array(0));
+    this.triad = canvas.mesh(triad());
+    this.shanks = program.blades.map((blade) => shankOf(blade, program.cell));
+    this.blades = program.blades.map((blade, i) => canvas.mesh(dagger(blade, this.shanks[i].from)));
+    this.layPath();
+  }
+
+  /** The path of all layers, one after the other, so that a layer is one stretch of the buffer. */
+  layPath() {
+    const { program, layerOf, layers } = this.timeline;
+    /** @type {number[][]} */
+    const parts = layers.map(() => []);
+    for (let op = 1; op < program.ops; op += 1) {
+      if (layerOf[op] === 0 || program.held[op - 1] === 0 || program.kinds[op] === AXIS_TRAVEL) continue;
+      const [from, to] = [tipAfter(program, op - 1), tipAfter(program, op)];
+      if (from.every((at, i) => at === to[i])) continue;
+      const cuts = program.kinds[op] === CUT_LEFT || program.kinds[op] === CUT_RIGHT;
+      const colour = cuts ? COLOURS.cut : COLOURS.way;
+      parts[layerOf[op] - 1].push(...from, ...colour, ...to, ...colour);
+    }
+    this.pathStarts = summed(parts.map((part) => part.length / 6), new Uint32Array(parts.length + 1));
+    const numbers = new Float32Array(6 * last(Array.from(this.pathStarts)));
+    parts.forEach((part, i) => numbers.set(part, 6 * this.pathStarts[i]));
+    this.path = this.canvas.mesh(numbers);
+  }
+
+  /** The stock's mesh anew, after chips came free. */
+  cut() {
+    this.canvas.refill(this.stock, extruded(this.workpiece.surface.corners(), this.timeline.program.stock[1]));
+  }
+
+  /**
+   * Draws a moment.
+   * @param {Picture} picture
+   * @param {Camera} camera
+   * @param {Shown} shown
+   */
+  draw(picture, camera, shown) {
+    const { canvas } = this;
+    const { clientWidth, clientHeight } = canvas.element;
+    canvas.begin(camera.view(clientWidth / Math.max(1, clientHeight)), camera.axes().eye);
+    const { workpiece, blade } = picture;
+    if (shown.part) canvas.body(this.part, workpiece, COLOURS.part, shown.stock ? 0.5 : 1);
+    if (shown.path && picture.layer > 0) {
+      const first = this.pathStarts[picture.layer - 1];
+      canvas.lines(this.path, workpiece, first, this.pathStarts[picture.layer] - first);
+    }
+    this.drawKerfs(picture);
+    this.drawBlade(picture.operation, blade);
+    if (picture.machine && shown.robot) this.drawMachine(picture);
+    this.drawTriad(workpiece, this.timeline.program.stock[0] * 0.3);
+    // Last, because one may look through it.
+    canvas.body(this.stock, workpiece, shown.stock ? COLOURS.stock : COLOURS.clear, 1);
+  }
+
+  /** @param {Picture} picture */
+  drawKerfs({ kerfs, workpiece }) {
+    const numbers = kerfs.flatMap(({ kerf, from, to }) => kerfLines(kerf, this.workpiece.surface, from, to));
+    this.canvas.refill(this.kerfs, new Float32Array(numbers));
+    this.canvas.lines(this.kerfs, workpiece);
+  }
+
+  /**
+   * @param {number} operation
+   * @param {Matrix} blade
+   */
+  drawBlade(operation, blade) {
+    const { canvas } = this;
+    const { from, neck, to, radius } = this.shanks[operation];
+    canvas.body(this.blades[operation], blade, COLOURS.blade);
+    this.bar(blade, [0, 0, from], [0, 0, neck], radius * 0.6, COLOURS.shank);
+    this.bar(blade, [0, 0, neck], to, radius, COLOURS.shank);
+  }
+
+  /** @param {Picture} picture */
+  drawMachine({ machine, scene }) {
+    const { cell } = this.timeline.program;
+    for (const body of cell.bodies) {
+      const frame = product(scene, machine[body.chain][body.joints]);
+      if (body.shape === "bar") {
+        this.bar(frame, body.from, body.to, body.radius, COLOURS.machine);
+      } else {
+        const colour = body.chain === "work" ? COLOURS.table : COLOURS.machine;
+        this.canvas.body(this.box, product(frame, boxed(body.from, body.to)), colour, 2);
+      }
+    }
+    const size = cell.bodies.reduce((most, body) => Math.max(most, body.radius || 0), 50);
+    this.drawTriad(scene, size * 4);
+  }
+
+  /**
+   * A bar with round ends.
+   * @param {Matrix} frame
+   * @param {Vector} from
+   * @param {Vector} to
+   * @param {number} radius
+   * @param {number[]} colour
+   */
+  bar(frame, from, to, radius, colour) {
+    this.canvas.body(this.tube, product(frame, along(from, to, radius)), colour);
+    for (const end of [from, to]) {
+      const ball = product(frame, product(shift(end), scaled(radius)));
+      this.canvas.body(this.ball, ball, colour);
+    }
+  }
+
+  /**
+   * The axes of a frame: x red, y green, z blue.
+   * @param {Matrix} frame
+   * @param {number} size
+   */
+  drawTriad(frame, size) {
+    this.canvas.lines(this.triad, product(frame, scaled(size)));
+  }
+}
+
+/**
+ * @param {number} factor
+ * @returns {Matrix}
+ */
+function scaled(factor) {
+  return [factor, 0, 0, 0, 0, factor, 0, 0, 0, 0, factor, 0, 0, 0, 0, 1];
+}
+
+function triad() {
+  const ends = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  return new Float32Array(ends.flatMap((end, i) => [0, 0, 0, ...COLOURS.axes[i], ...end, ...COLOURS.axes[i]]));
+}
+
+/**
+ * The shank between blade and flange, seen from the blade; without a machine it is drawn a few blades long.
+ * @param {{length: number, halfApex: number, edges: 1 | 2}} blade
+ * @param {Cell | null} cell
+ */
+function shankOf(blade, cell) {
+  const { half, top } = daggerSize(blade);
+  const flange = cell === null ? null : origin(inverse(cell.bladeInFlange));
+  const to = /** @type {Vector} */ (flange !== null && flange[2] < top * 2.5 ? flange : [0, 0, top * 6]);
+  const from = top * 1.5;
+  return { from, neck: from + (to[2] - from) * 0.3, to, radius: Math.max(half * 1.6, -to[2] * 0.05) };
+}
+
+/**
+ * The lines of a flank that is cut while its chip is still there: on the faces of the stock it has passed, and along the top.
+ * @param {Kerf} kerf
+ * @param {Surface} surface
+ * @param {number} from y where the cut begins
+ * @param {number} to y how far it has come
+ */
+function kerfLines({ vee, side }, surface, from, to) {
+  const exit = surface.exit(vee, side);
+  if (exit === vee.tip || to === from) return [];
+  const line = (/** @type {Vector} */ a, /** @type {Vector} */ b) => [...a, ...COLOURS.kerf, ...b, ...COLOURS.kerf];
+  const across = (/** @type {number} */ y) => line([vee.tip.x, y, vee.tip.z], [exit.x, y, exit.z]);
+  return [...across(from), ...across(to), ...line([exit.x, from, exit.z], [exit.x, to, exit.z])];
+}
+

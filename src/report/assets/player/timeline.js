@@ -1,0 +1,184 @@
+// What happens when: ops, poses, layers, and the cuts that free chips.
+
+/** @typedef {{op: number, done: number}} Moment */
+/** @typedef {{op: number, layer: number, vee: Vee, side: "left" | "right", freedBy: number}} Kerf */
+
+class Timeline {
+  /** @param {Program} program */
+  constructor(program) {
+    this.program = program;
+    this.duration = program.starts[program.ops];
+    this.findLayers();
+    this.findChips();
+  }
+
+  /** Numbers the layers of all operations in the order in which they are first worked on, from 1; 0 is none. */
+  findLayers() {
+    const { ops, operations, layers } = this.program;
+    const numbers = new Map();
+    this.layerOf = new Uint32Array(ops);
+    /** @type {{operation: number, layer: number}[]} */
+    this.layers = [];
+    for (let op = 0; op < ops; op += 1) {
+      if (layers[op] === 0) continue;
+      const key = operations[op] * 2 ** 32 + layers[op];
+      if (!numbers.has(key)) {
+        this.layers.push({ operation: operations[op], layer: layers[op] });
+        numbers.set(key, this.layers.length);
+      }
+      this.layerOf[op] = numbers.get(key);
+    }
+  }
+
+  /** Pairs the flanks of every V: with the second one its chip comes free, as src/sim/prove.rs has it. */
+  findChips() {
+    const { ops, kinds, cuts } = this.program;
+    /** @type {Kerf[]} first flanks in order */
+    this.kerfs = [];
+    /** @type {{op: number, vee: Vee}[]} */
+    this.chips = [];
+    const open = new Map();
+    for (let op = 0; op < ops; op += 1) {
+      if (kinds[op] !== CUT_LEFT && kinds[op] !== CUT_RIGHT) continue;
+      const key = this.layerOf[op] * 2 ** 32 + cuts[op];
+      const first = open.get(key);
+      if (first === undefined) {
+        const kerf = this.kerfOf(op);
+        open.set(key, kerf);
+        this.kerfs.push(kerf);
+      } else {
+        open.delete(key);
+        first.freedBy = op;
+        this.chips.push({ op, vee: this.veeOf(op) });
+      }
+    }
+  }
+
+  /**
+   * @param {number} op
+   * @returns {Kerf}
+   */
+  kerfOf(op) {
+    const side = this.program.kinds[op] === CUT_LEFT ? "left" : "right";
+    return { op, layer: this.layerOf[op], vee: this.veeOf(op), side, freedBy: Infinity };
+  }
+
+  /**
+   * The V that a cut is a flank of: its slope is that of the shank seen along y.
+   * @param {number} op
+   * @returns {Vee}
+   */
+  veeOf(op) {
+    const [x, , z] = tipAfter(this.program, op);
+    const m = pose(this.program.orientations[this.program.held[op] - 1], [0, 0, 0]);
+    return { tip: { x, z }, slope: -m[10] / Math.abs(m[8]) };
+  }
+
+  /**
+   * The op at a time and how much of it is done. At a border it is the op that begins there.
+   * @param {number} time
+   * @returns {Moment}
+   */
+  at(time) {
+    const { starts, ops } = this.program;
+    const op = Math.max(0, Math.min(countUpTo(starts, time) - 1, ops - 1));
+    const length = starts[op + 1] - starts[op];
+    return { op, done: length > 0 ? Math.min(1, Math.max(0, (time - starts[op]) / length)) : 1 };
+  }
+
+  /** @param {number} op */
+  endOf(op) {
+    return this.program.starts[op + 1];
+  }
+
+  /**
+   * How many chips are free at a time.
+   * @param {number} time
+   */
+  chipsFreeAt(time) {
+    return countWhile(this.chips, (chip) => this.endOf(chip.op) <= time);
+  }
+
+  /**
+   * First flanks that are cut at a time while their chips are not free.
+   * @param {number} time
+   * @returns {Kerf[]}
+   */
+  kerfsAt(time) {
+    const cut = countWhile(this.kerfs, (kerf) => this.endOf(kerf.op) <= time);
+    const wanted = cut - this.chipsFreeAt(time);
+    const found = [];
+    for (let i = cut - 1; i >= 0 && found.length < wanted; i -= 1) {
+      const kerf = this.kerfs[i];
+      if (kerf.freedBy === Infinity || this.endOf(kerf.freedBy) > time) found.push(kerf);
+    }
+    return found;
+  }
+
+  /**
+   * The blade in W as the program has it; none while only the axes know.
+   * @param {Moment} moment
+   * @returns {Matrix | null}
+   */
+  bladeAt({ op, done }) {
+    const { program } = this;
+    const { kinds, held, orientations } = program;
+    const axesOnly = kinds[op] === HOME || kinds[op] === AXIS_TRAVEL;
+    if (held[op] === 0 || (axesOnly && done < 1)) return null;
+    const then = orientations[held[op] - 1];
+    const to = tipAfter(program, op);
+    if (op === 0 || held[op - 1] === 0) return pose(then, to);
+    const from = tipAfter(program, op - 1);
+    const tip = from.map((part, i) => part + (to[i] - part) * done);
+    return pose(between(orientations[held[op - 1] - 1], then, done), /** @type {Vector} */ (tip));
+  }
+
+  /**
+   * The blade in W where only the axes know it and there are none: where it was last, else where it will first be.
+   * @param {number} op
+   * @returns {Matrix}
+   */
+  nearestBlade(op) {
+    const { held, ops, orientations } = this.program;
+    let known = op;
+    while (known >= 0 && held[known] === 0) known -= 1;
+    if (known < 0) {
+      known = op;
+      while (known < ops - 1 && held[known] === 0) known += 1;
+    }
+    const q = held[known] === 0 ? [1, 0, 0, 0] : orientations[held[known] - 1];
+    return pose(q, tipAfter(this.program, known));
+  }
+}
+
+/**
+ * How many sorted numbers are not above a value.
+ * @param {Float64Array} sorted
+ * @param {number} value
+ */
+function countUpTo(sorted, value) {
+  let [low, high] = [0, sorted.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (sorted[middle] <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/**
+ * How many entries at the beginning of a list a condition holds for that holds for none after them.
+ * @template T
+ * @param {T[]} list
+ * @param {(entry: T) => boolean} holds
+ */
+function countWhile(list, holds) {
+  let [low, high] = [0, list.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (holds(list[middle])) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+

@@ -1,1 +1,0 @@
-//! The playback of a report.

@@ -1,0 +1,153 @@
+//! The data of a playback as JSON, in a form that may stand inside of a page.
+
+use super::bodies::{Body, Carrier, Shape};
+use super::packing::column;
+use super::timeline::{KINDS, Timeline};
+use super::track::Track;
+use super::{Cell, Playback};
+use crate::geom::curve::Point2;
+use crate::kinematics::linkage::{Joint, Linkage};
+use crate::kinematics::pose::Pose;
+use serde_json::{Value, json};
+use vcutc_backend_api::geometry::{Orientation, Point3};
+use vcutc_backend_api::ir::{Axis, AxisKind, Blade, Edges, Operation, Stock};
+
+/// The data as JSON text. What could end the element that holds it is written as an escape: a `<` can stand in strings only.
+pub(super) fn text(playback: &Playback<'_>) -> String {
+    let value = json!({
+        "stock": stock(playback.stock),
+        "part": playback.part.iter().map(corner).collect::<Vec<_>>(),
+        "blades": playback.operations.iter().map(blade).collect::<Vec<_>>(),
+        "orientations": playback.orientations.iter().map(quaternion).collect::<Vec<_>>(),
+        "kinds": KINDS,
+        "timeline": timeline(&playback.timeline),
+        "cell": playback.cell.as_ref().map(cell),
+    });
+    value
+        .to_string()
+        .replace('<', "\\u003c")
+        .replace('>', "\\u003e")
+        .replace('&', "\\u0026")
+}
+
+fn stock(stock: Stock) -> Value {
+    let lengths = [stock.width, stock.depth, stock.height];
+    json!(lengths.map(|length| length.to_mm()))
+}
+
+fn corner(corner: &Point2) -> Value {
+    json!([corner.x, corner.z])
+}
+
+fn blade(operation: &Operation) -> Value {
+    let Blade {
+        cutting_length,
+        half_apex,
+        thickness,
+        edges,
+        name: _,
+    } = &operation.blade;
+    json!({
+        "length": cutting_length.to_mm(),
+        "halfApex": half_apex.to_rad(),
+        "thickness": thickness.to_mm(),
+        "edges": match edges {
+            Edges::Single => 1,
+            Edges::Double => 2,
+        },
+    })
+}
+
+fn quaternion(orientation: &Orientation) -> Value {
+    json!(orientation.quaternion())
+}
+
+fn timeline(timeline: &Timeline) -> Value {
+    json!({
+        "kinds": column(&timeline.kinds),
+        "operations": column(&timeline.operations),
+        "layers": column(&timeline.layers),
+        "cuts": column(&timeline.cuts),
+        "tips": column(&timeline.tips),
+        "held": column(&timeline.held),
+        "seconds": column(&timeline.seconds),
+    })
+}
+
+fn cell(cell: &Cell<'_>) -> Value {
+    let Linkage {
+        tool,
+        work,
+        flange_at_zero,
+        mount_at_zero,
+    } = &cell.linkage;
+    json!({
+        "axes": cell.axes.iter().map(axis).collect::<Vec<_>>(),
+        "tool": tool.iter().map(joint).collect::<Vec<_>>(),
+        "work": work.iter().map(joint).collect::<Vec<_>>(),
+        "flangeAtZero": matrix(flange_at_zero),
+        "mountAtZero": matrix(mount_at_zero),
+        "bladeInFlange": matrix(&cell.blade_in_flange),
+        "workInMount": matrix(&cell.work_in_mount),
+        "bodies": cell.bodies.iter().map(body).collect::<Vec<_>>(),
+        "track": track(&cell.track, cell.axes.len()),
+    })
+}
+
+fn axis(axis: &Axis) -> Value {
+    json!({ "name": axis.name, "kind": kind(axis.kind) })
+}
+
+const fn kind(kind: AxisKind) -> &'static str {
+    match kind {
+        AxisKind::Rotary => "rotary",
+        AxisKind::Linear => "linear",
+    }
+}
+
+fn joint(joint: &Joint) -> Value {
+    json!({
+        "kind": kind(joint.kind),
+        "point": joint.line.point.to_array(),
+        "direction": joint.line.direction.to_array(),
+        "weights": joint.weights,
+    })
+}
+
+/// Column by column, as WebGL has it.
+fn matrix(pose: &Pose) -> Value {
+    let turned = pose.rotation.to_cols_array_2d();
+    let column = |at: [f64; 3], last: f64| at.into_iter().chain([last]);
+    let columns = turned.into_iter().flat_map(|axis| column(axis, 0.0));
+    let all = columns.chain(column(pose.position.to_array(), 1.0));
+    json!(all.collect::<Vec<_>>())
+}
+
+fn body(body: &Body) -> Value {
+    let (chain, joints) = match body.carrier {
+        Carrier::Tool(joints) => ("tool", joints),
+        Carrier::Work(joints) => ("work", joints),
+    };
+    let point = |at: Point3| [at.x, at.y, at.z];
+    match body.shape {
+        Shape::Bar { from, to, radius } => json!({
+            "chain": chain, "joints": joints, "shape": "bar",
+            "from": point(from), "to": point(to), "radius": radius,
+        }),
+        Shape::Block { low, high } => json!({
+            "chain": chain, "joints": joints, "shape": "block",
+            "from": point(low), "to": point(high),
+        }),
+    }
+}
+
+fn track(track: &Track, axes: usize) -> Value {
+    json!({
+        "start": track.start.iter().take(axes).collect::<Vec<_>>(),
+        "counts": column(&track.counts),
+        "done": column(&track.done),
+        "values": column(&track.values),
+        "low": track.low,
+        "step": track.step,
+    })
+}

@@ -1,0 +1,161 @@
+//! The playback of a report: the blade, the stock and the machine in space, as time goes on.
+//!
+//! What is shown is taken from the finished program, not from the plan: poses op by op ([`timeline`]), times, and the axes
+//! that were proven ([`track`]). The viewer (`src/report/assets/player`, WebGL 2, no package of others) replays the cuts on a
+//! surface of its own, the one of `src/sim/surface.rs` over again, and moves the machine by products of matrices
+//! ([`crate::kinematics::linkage`]). Within an op the motion goes on evenly: how controllers speed up and slow down within
+//! it is not shown, how long it takes is.
+
+pub mod bodies;
+mod document;
+mod packing;
+pub mod timeline;
+pub mod track;
+
+use crate::driver::{Compiled, Finished};
+use crate::geom::curve::Point2;
+use crate::kinematics::linkage::Linkage;
+use crate::kinematics::pose::Pose;
+use crate::plan::PlannedJob;
+use crate::reach::solve::{Reached, rig};
+use bodies::{Body, bodies};
+use timeline::Timeline;
+use track::Track;
+use vcutc_backend_api::geometry::{Orientation, Point3};
+use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
+
+/// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.
+pub const MOST_OPS: usize = 400_000;
+
+/// All that the viewer needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Playback<'a> {
+    /// The stock.
+    pub stock: Stock,
+    /// The part's contour, from left to right, in W.
+    pub part: &'a [Point2],
+    /// The operations, for their blades.
+    pub operations: &'a [Operation],
+    /// How the blade is held.
+    pub orientations: &'a [Orientation],
+    /// What happens when.
+    pub timeline: Timeline,
+    /// The machine, if the job has one.
+    pub cell: Option<Cell<'a>>,
+}
+
+/// A machine, and where its axes are when.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell<'a> {
+    /// Its axes.
+    pub axes: &'a [Axis],
+    /// How they move it.
+    pub linkage: Linkage,
+    /// The blade frame T seen from the flange.
+    pub blade_in_flange: Pose,
+    /// The workpiece frame W seen from where the work is mounted.
+    pub work_in_mount: Pose,
+    /// What it looks like.
+    pub bodies: Vec<Body>,
+    /// Where the axes are.
+    pub track: Track,
+}
+
+impl<'a> Playback<'a> {
+    /// Of a compiled job.
+    #[must_use]
+    pub fn of(plan: &'a PlannedJob, compiled: &'a Compiled) -> Self {
+        let program = compiled.program.verified().program();
+        let cell = match &compiled.program {
+            Finished::WithoutMachine(_) => None,
+            Finished::Reached(reached) => cell(plan, reached),
+        };
+        Self {
+            stock: program.stock,
+            part: plan.profile.points(),
+            operations: &program.operations,
+            orientations: &program.orientations,
+            timeline: Timeline::of(program, &compiled.op_times),
+            cell,
+        }
+    }
+}
+
+fn cell<'a>(plan: &'a PlannedJob, reached: &'a Reached) -> Option<Cell<'a>> {
+    let model = &plan.machine.as_ref()?.model;
+    let cell: &ir::Cell = reached.program.program().cell.as_ref()?;
+    let rig = rig(model, cell);
+    let linkage = Linkage::from(&model.mechanism);
+    let bodies = bodies(&linkage, &model.axes, &corners(plan.stock, &rig.work_in_root));
+    Some(Cell {
+        axes: &model.axes,
+        linkage,
+        blade_in_flange: rig.flange_in_blade.inverse(),
+        work_in_mount: rig.work_in_root,
+        bodies,
+        track: Track::of(&reached.program, &rig),
+    })
+}
+
+/// The corners of the stock, seen from the mount.
+fn corners(stock: Stock, work_in_mount: &Pose) -> Vec<Point3> {
+    let size = [stock.width, stock.depth, stock.height].map(|length| length.to_mm());
+    let corner = |number: usize| {
+        let mut at = work_in_mount.position;
+        let axes = [
+            work_in_mount.rotation.x_axis,
+            work_in_mount.rotation.y_axis,
+            work_in_mount.rotation.z_axis,
+        ];
+        for (bit, (axis, length)) in axes.into_iter().zip(size).enumerate() {
+            if number >> bit & 1 == 1 {
+                at += axis * length;
+            }
+        }
+        Point3::new(at.x, at.y, at.z)
+    };
+    (0..8).map(corner).collect()
+}
+
+/// The elements of a page that play a compiled job: canvas, controls, style, script and data. They use nothing of the page
+/// and nothing of the network, and there may be one of them in a page.
+#[must_use]
+pub fn section(plan: &PlannedJob, compiled: &Compiled) -> String {
+    let ops = compiled.program.verified().program().ops.len();
+    if ops > MOST_OPS {
+        return format!(
+            "<p class=\"vcut-playback-absent\">The program has {ops} operations, too many to be played in a page (at most \
+             {MOST_OPS}).</p>\n"
+        );
+    }
+    [
+        "<style>\n",
+        include_str!("../assets/player/player.css"),
+        "</style>\n",
+        include_str!("../assets/player/player.html"),
+        "<script type=\"application/json\" id=\"vcut-playback-data\">",
+        &document::text(&Playback::of(plan, compiled)),
+        "</script>\n<script>",
+        SCRIPT,
+        "</script>\n",
+    ]
+    .concat()
+}
+
+/// The viewer, file by file, as one script: what stands between its tags, to the byte.
+pub const SCRIPT: &str = concat!(
+    "\n(() => {\n\"use strict\";\n",
+    include_str!("../assets/player/surface.js"),
+    include_str!("../assets/player/matrix.js"),
+    include_str!("../assets/player/data.js"),
+    include_str!("../assets/player/machine.js"),
+    include_str!("../assets/player/timeline.js"),
+    include_str!("../assets/player/workpiece.js"),
+    include_str!("../assets/player/meshes.js"),
+    include_str!("../assets/player/canvas.js"),
+    include_str!("../assets/player/camera.js"),
+    include_str!("../assets/player/scene.js"),
+    include_str!("../assets/player/controls.js"),
+    include_str!("../assets/player/start.js"),
+    "})();\n",
+);

@@ -1,0 +1,123 @@
+//! What happens when: the ops of a program as columns, an entry an op.
+//!
+//! Tips lie on the grid of a micrometre (`src/plan/grid.rs`), so they are kept as whole micrometres: who divides by 1000
+//! has the program's own numbers again, to the last bit, and can replay the cuts as the proof did.
+
+use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Site};
+use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::units::Duration;
+
+/// Kinds of op, in the order of the numbers by which the columns name them.
+pub const KINDS: [&str; 12] = [
+    "home",
+    "travel",
+    "axis_travel",
+    "approach",
+    "retract",
+    "cut_left",
+    "cut_right",
+    "turn",
+    "ultrasonic",
+    "await_ready",
+    "dwell",
+    "tool_change",
+];
+
+/// The columns. What counts from 1 has 0 where there is none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timeline {
+    /// Place of the op's kind in [`KINDS`].
+    pub kinds: Vec<u8>,
+    /// The operation that it serves, counted from 1.
+    pub operations: Vec<u16>,
+    /// The layer, counted from 1 in its operation.
+    pub layers: Vec<u32>,
+    /// The cut, counted from 1 in its layer.
+    pub cuts: Vec<u32>,
+    /// Where the tip is when the op ends, in W, in micrometres: three entries an op. Where no pose is known, the last.
+    pub tips: Vec<i32>,
+    /// How the blade is held when the op ends, as a number of the program's orientations counted from 1.
+    pub held: Vec<u32>,
+    /// How long it takes, in s.
+    pub seconds: Vec<f64>,
+}
+
+impl Timeline {
+    /// Of a program and the times of its ops.
+    #[must_use]
+    pub fn of(program: &Program, times: &[Duration]) -> Self {
+        let mut timeline = Self::default();
+        let mut pose = None;
+        let mut tip = [0; 3];
+        let times = times
+            .iter()
+            .map(|time| time.to_s())
+            .chain(core::iter::repeat(0.0));
+        for (op, seconds) in program.ops.iter().zip(times) {
+            pose = pose_after(pose, &op.action);
+            if let Some((at, _)) = pose {
+                tip = [at.x, at.y, at.z].map(micrometres);
+            }
+            timeline.kinds.push(kind(&op.action));
+            timeline.site(op.site);
+            timeline.tips.extend(tip);
+            timeline
+                .held
+                .push(pose.map_or(0, |(_, held)| held.0.saturating_add(1)));
+            timeline.seconds.push(seconds);
+        }
+        timeline
+    }
+
+    fn site(&mut self, site: Site) {
+        let operation = site.operation().map_or(0, |id| id.0.saturating_add(1));
+        let (layer, cut) = match site {
+            Site::Program | Site::Operation(_) => (0, 0),
+            Site::Layer { layer, .. } => (layer.get(), 0),
+            Site::Cut { layer, cut, .. } => (layer.get(), cut.get()),
+        };
+        self.operations.push(operation);
+        self.layers.push(layer);
+        self.cuts.push(cut);
+    }
+
+    /// How many ops there are.
+    #[must_use]
+    pub fn ops(&self) -> usize {
+        self.kinds.len()
+    }
+}
+
+/// The place of an op among others, which never exceeds what an [`OpId`] counts.
+pub(super) const fn place(op: OpId) -> usize {
+    op.0 as usize
+}
+
+/// The nearest whole number of micrometres, held within what 32 bits count: two kilometres.
+fn micrometres(mm: f64) -> i32 {
+    // The bounds make the conversion exact.
+    (mm * 1000.0)
+        .round()
+        .clamp(f64::from(i32::MIN), f64::from(i32::MAX)) as i32
+}
+
+const fn kind(action: &Action) -> u8 {
+    match action {
+        Action::Home => 0,
+        Action::Travel { .. } => 1,
+        Action::AxisTravel { .. } => 2,
+        Action::Approach { .. } => 3,
+        Action::Retract { .. } => 4,
+        Action::Cut {
+            flank: Flank::Left, ..
+        } => 5,
+        Action::Cut {
+            flank: Flank::Right, ..
+        } => 6,
+        Action::Turn { .. } => 7,
+        Action::Ultrasonic { .. } => 8,
+        Action::AwaitReady => 9,
+        Action::Dwell { .. } => 10,
+        Action::ToolChange { .. } => 11,
+    }
+}

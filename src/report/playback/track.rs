@@ -1,0 +1,209 @@
+//! Where the axes are all along a program, thinned out.
+//!
+//! The axes at the end of every op are kept, and between them the fewest places (knots) from which the way of the axes can
+//! be told again. Between knots axes follow the cubic through the four nearest ones of the same op, its start among them; a
+//! motion of all axes needs no knots of its own, a straight cut one or two. Every sample of [`trajectory_by`] at
+//! [`SPACING`] is told again to within [`TURN_ERROR`] and [`WAY_ERROR`]; knots are added until it is.
+//!
+//! Values are kept in 16 bits over the range that the axis uses, which the errors take into account.
+
+use super::timeline::place;
+use crate::kinematics::Joints;
+use crate::reach::rig::Rig;
+use crate::reach::trajectory::{Sample, Spacing, trajectory_by};
+use core::convert::Infallible;
+use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
+use vcutc_backend_api::motion::ReachableProgram;
+
+/// Largest error of a rotary axis, in rad: 0.05 deg.
+pub const TURN_ERROR: f64 = core::f64::consts::PI / 3600.0;
+/// Largest error of a linear axis, in mm.
+pub const WAY_ERROR: f64 = 0.2;
+/// How close the samples are that are told again: 20 mm of the tip's way, 5 deg of turning.
+pub const SPACING: Spacing = Spacing {
+    way: 20.0,
+    turn: core::f64::consts::PI / 36.0,
+};
+/// Share of the errors that thinning may use up. 16 bits over four whole turns are half of a hundredth of a degree, over
+/// 10 m less than 0.08 mm.
+const FOR_THINNING: f64 = 0.5;
+/// Steps of 16 bits.
+const STEPS: f64 = 65_535.0;
+
+/// The axes all along a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// The axes before the first op.
+    pub start: Joints,
+    /// How many knots each op has, its end included; none where it moves nothing.
+    pub counts: Vec<u32>,
+    /// How much of its op's motion is done at each knot, in 65535ths.
+    pub done: Vec<u16>,
+    /// Each axis at each knot, in steps above its lowest value.
+    pub values: Vec<u16>,
+    /// The lowest value of each axis, in rad or mm.
+    pub low: Vec<f64>,
+    /// The step of each axis, in rad or mm.
+    pub step: Vec<f64>,
+}
+
+/// The axes at a place of an op's way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knot {
+    /// How much of the way is done, from 0 to 1.
+    pub done: f64,
+    /// The axes.
+    pub joints: Joints,
+}
+
+impl Track {
+    /// Of a program and the machine that carries it out.
+    #[must_use]
+    pub fn of(reached: &ReachableProgram, rig: &Rig<'_>) -> Self {
+        let mut thinned = Thinned::new(reached, rig.axes);
+        let taken: Result<(), Infallible> = trajectory_by(reached, rig, &SPACING, |sample| {
+            thinned.take(sample);
+            Ok(())
+        });
+        match taken {
+            Ok(()) => thinned.packed(rig.axes),
+            Err(never) => match never {},
+        }
+    }
+}
+
+/// The axes at a place of the way through these knots, the first at its start. Fewer than four give what they can: two a
+/// straight way.
+#[must_use]
+pub fn between(knots: &[Knot], done: f64) -> Joints {
+    let after = knots.partition_point(|knot| knot.done < done);
+    let first = after.saturating_sub(2).min(knots.len().saturating_sub(4));
+    let near = knots.get(first..knots.len().min(first + 4)).unwrap_or_default();
+    let mut joints = Joints::default();
+    for (i, knot) in near.iter().enumerate() {
+        let others = near.iter().enumerate().filter(|&(j, _)| j != i);
+        let weight: f64 = others
+            .map(|(_, other)| (done - other.done) / (knot.done - other.done))
+            .product();
+        for (joint, value) in joints.iter_mut().zip(knot.joints) {
+            *joint += weight * value;
+        }
+    }
+    joints
+}
+
+/// Knots as they are found, op by op.
+struct Thinned<'a> {
+    axes: &'a [Axis],
+    start: Option<Joints>,
+    /// Where the axes were when the op at hand began.
+    at: Option<Joints>,
+    /// Samples of the op at hand.
+    samples: Vec<Knot>,
+    counts: Vec<u32>,
+    knots: Vec<Knot>,
+}
+
+impl<'a> Thinned<'a> {
+    fn new(reached: &ReachableProgram, axes: &'a [Axis]) -> Self {
+        let program = reached.program();
+        let home = program.cell.as_ref().and_then(|cell| cell.home);
+        let start = home.map(|home| home.0);
+        Self {
+            axes,
+            start,
+            at: start,
+            samples: Vec::new(),
+            counts: vec![0; program.ops.len()],
+            knots: Vec::new(),
+        }
+    }
+
+    fn take(&mut self, sample: Sample) {
+        let Sample { op, done, joints } = sample;
+        self.samples.push(Knot {
+            done: in_steps(done),
+            joints,
+        });
+        if done < 1.0 {
+            return;
+        }
+        // Without a home nobody knows where the axes begin: they are where the first motion brings them.
+        let from = self.at.unwrap_or(joints);
+        self.start.get_or_insert(from);
+        self.at = Some(joints);
+        let kept = fewest(self.axes, from, &self.samples);
+        if let Some(count) = self.counts.get_mut(place(op)) {
+            *count = u32::try_from(kept.len()).unwrap_or(u32::MAX);
+        }
+        self.knots.extend(kept);
+        self.samples.clear();
+    }
+
+    fn packed(self, axes: &[Axis]) -> Track {
+        let start = self.start.unwrap_or_default();
+        let span = |axis: usize| {
+            let values = self.knots.iter().map(|knot| knot.joints[axis]);
+            values.fold([start[axis]; 2], |[low, high], value| {
+                [low.min(value), high.max(value)]
+            })
+        };
+        let spans: Vec<[f64; 2]> = (0..axes.len().min(MOST_AXES)).map(span).collect();
+        let steps = |[low, high]: [f64; 2]| (high - low).max(f64::MIN_POSITIVE) / STEPS;
+        let values = self.knots.iter().flat_map(|knot| {
+            let axes = spans.iter().zip(knot.joints);
+            axes.map(move |(&span, value)| whole((value - span[0]) / steps(span)))
+        });
+        Track {
+            start,
+            done: self.knots.iter().map(|knot| whole(knot.done * STEPS)).collect(),
+            values: values.collect(),
+            low: spans.iter().map(|span| span[0]).collect(),
+            step: spans.iter().map(|&span| steps(span)).collect(),
+            counts: self.counts,
+        }
+    }
+}
+
+/// A share that 16 bits say exactly.
+fn in_steps(done: f64) -> f64 {
+    (done * STEPS).round() / STEPS
+}
+
+/// The nearest whole number that 16 bits hold.
+fn whole(value: f64) -> u16 {
+    // The bounds make the conversion exact.
+    value.round().clamp(0.0, STEPS) as u16
+}
+
+/// The fewest of an op's samples, of those spread evenly over its way, from which the others can be told.
+fn fewest(axes: &[Axis], from: Joints, samples: &[Knot]) -> Vec<Knot> {
+    let start = Knot {
+        done: 0.0,
+        joints: from,
+    };
+    let all = samples.len();
+    let mut pieces = 1;
+    while pieces < all {
+        let spread = (1..=pieces).filter_map(|piece| samples.get((piece * all).div_ceil(pieces) - 1));
+        let knots: Vec<Knot> = core::iter::once(&start).chain(spread).copied().collect();
+        if samples.iter().all(|sample| is_told(axes, &knots, sample)) {
+            return knots.into_iter().skip(1).collect();
+        }
+        pieces += (pieces / 3).max(1);
+    }
+    samples.to_vec()
+}
+
+fn is_told(axes: &[Axis], knots: &[Knot], sample: &Knot) -> bool {
+    let told = between(knots, sample.done);
+    axes.iter()
+        .zip(told.iter().zip(sample.joints))
+        .all(|(axis, (told, joint))| {
+            let most = match axis.kind {
+                AxisKind::Rotary => TURN_ERROR,
+                AxisKind::Linear => WAY_ERROR,
+            };
+            (told - joint).abs() <= most * FOR_THINNING
+        })
+}
