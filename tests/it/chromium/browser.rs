@@ -255,7 +255,9 @@ impl Tab<'_> {
             .filter(|event| event["sessionId"] == self.session.as_str());
         let mut is_first = true;
         mine.filter(|event| match event["method"].as_str().unwrap_or_default() {
-            "Runtime.exceptionThrown" | "Runtime.consoleAPICalled" | "Log.entryAdded" => true,
+            "Runtime.exceptionThrown" | "Runtime.consoleAPICalled" => true,
+            // Graphics without a graphics card are slow, and its driver says so.
+            "Log.entryAdded" => event["params"]["entry"]["source"] != "rendering",
             "Network.requestWillBeSent" => !std::mem::take(&mut is_first),
             _ => false,
         })

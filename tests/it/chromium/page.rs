@@ -3,10 +3,12 @@
 use super::browser::{Browser, Tab};
 use crate::cli::report::hostile_rib;
 use crate::cli::vcutc;
+use crate::pipeline::{Files, compile_on};
 use crate::repository::root;
 use serde_json::json;
 use std::path::PathBuf;
 use tempfile::TempDir;
+use vcutc::verdict;
 
 /// The report of an example, in a folder of its own.
 fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {
@@ -49,7 +51,11 @@ fn a_page_loads_by_itself_and_shows_what_it_should() {
             ".verdict",
             ".key dd",
             "#cross-section svg",
+            "#deviation svg",
+            "#playback canvas",
+            "#machine svg",
             "#machine table",
+            "#time svg",
             "#time table",
             "#parameters td a",
             "#job li",
@@ -168,4 +174,71 @@ fn nothing_that_a_job_is_called_runs() {
     );
     assert!(tab.holds("top.hacked === undefined"));
     assert_eq!(tab.complaints().len(), 1, "the browser tells of it");
+}
+
+/// A polyline as the page has it.
+fn polyline(tab: &Tab<'_>, expression: &str) -> Vec<[f64; 2]> {
+    let value = tab.value(expression);
+    let points = value.as_array().unwrap().iter();
+    points
+        .map(|point| [0, 1].map(|at| point[at].as_f64().unwrap()))
+        .collect()
+}
+
+/// The height of a polyline over x.
+fn height(line: &[[f64; 2]], x: f64) -> f64 {
+    let piece = line.windows(2).find(|pair| x <= pair[1][0]).unwrap();
+    let ([x0, z0], [x1, z1]) = (piece[0], piece[1]);
+    if x1 > x0 {
+        z0 + (z1 - z0) * (x - x0) / (x1 - x0)
+    } else {
+        z1
+    }
+}
+
+#[test]
+fn cuts_are_played_back_up_to_the_machined_contour() {
+    let Some(browser) = Browser::start() else { return };
+    for (example, machine) in [("block_cui", None), ("spoiler_clarky", Some("gantry"))] {
+        let more: Vec<&str> = machine.iter().flat_map(|name| ["--machine", *name]).collect();
+        let (_folder, file) = report(example, &more);
+        let tab = browser.open(&file, 1280, 900);
+
+        tab.value("vcutPlayback.setSpeed(16), vcutPlayback.seek(10)");
+        let before = tab.value("vcutPlayback.tip()");
+        tab.value("vcutPlayback.play()");
+        tab.wait_until(&format!(
+            "vcutPlayback.time() > 10 && JSON.stringify(vcutPlayback.tip()) !== '{before}'"
+        ));
+        tab.value("vcutPlayback.pause()");
+        let paused = tab.number("vcutPlayback.time()");
+        tab.value("new Promise((done) => setTimeout(done, 100))");
+        assert_eq!(tab.number("vcutPlayback.time()"), paused);
+
+        let path = format!("examples/{example}.vcut");
+        let outcome = compile_on(machine, &path, &Files::of(root()));
+        let (plan, compiled) = (outcome.plan.unwrap(), outcome.compiled.unwrap());
+        let surface = verdict::replay(&plan, compiled.program.verified()).surface;
+        let proven: Vec<[f64; 2]> = surface.corners().map(|corner| [corner.x, corner.z]).collect();
+        // To the end by the slider, back to the beginning and to the end again: what is shown does not depend on the way.
+        for _ in 0..2 {
+            tab.value(
+                "(() => { const time = document.getElementById('vcut-playback-time'); time.value = time.max; \
+                 time.dispatchEvent(new Event('input')); })()",
+            );
+            let shown = polyline(&tab, "vcutPlayback.section()");
+            for [x, _] in proven.iter().chain(&shown) {
+                let (shown, proven) = (height(&shown, *x), height(&proven, *x));
+                assert!(
+                    (shown - proven).abs() < 1e-3,
+                    "{example}, x {x}: {shown}, not {proven}"
+                );
+            }
+            tab.value("vcutPlayback.seek(0)");
+            let start = polyline(&tab, "vcutPlayback.section()");
+            let top = plan.stock.height.to_mm();
+            assert!(start.iter().all(|[_, z]| (z - top).abs() < 1e-9), "{start:?}");
+        }
+        assert_is_calm(&tab);
+    }
 }
