@@ -14,6 +14,7 @@ Examples:
                                           Fail with a diff unless out holds the job's program
   vcutc build                             Write all programs that vcut.toml lists
   vcutc check *.vcut                      Look for errors, write nothing
+  vcutc report rib.vcut -o rib.html       See the cuts, what they leave, and what the machine does
   vcutc explain VC0203                    Read what an error means and how to mend it
   vcutc machines                          See the machines of the catalogue
   vcutc machines kuka/kr210_r3100_ultra   Read all numbers of one, and where they come from
@@ -184,6 +185,11 @@ pub(super) enum Command {
         /// A target; without it, the list
         target: Option<String>,
     },
+    /// Write a page that shows all there is to see of a job
+    ///
+    /// One HTML file that needs nothing else: cross-section, deviations, axes, times, parameters with where each came from, and
+    /// the cuts played back. A job with errors writes nothing.
+    Report(ReportArgs),
     /// Hold a program against the job that it was made from
     ///
     /// Compiles the job, reads the program as its controller would, and tells every operation that is not the job's: at its
@@ -346,6 +352,19 @@ pub(super) struct PlaceArgs {
     /// Draw a map of the margin over x and y into this file
     #[arg(short, long, value_name = "FILE.svg")]
     pub(super) output: Option<String>,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ReportArgs {
+    /// The job file (.vcut), or - to read it from standard input
+    pub(super) job: String,
+
+    /// The file to write, or - for standard output
+    #[arg(short, long, value_name = "FILE.html|-")]
+    pub(super) output: String,
 
     #[command(flatten)]
     pub(super) overrides: Overrides,

@@ -7,6 +7,7 @@
 //! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
 //! | the picture of `plot` | standard output, or the file of `-o` |
+//! | the page of `report` | the file of `-o`, or standard output with `-o -` |
 //! | pages of `explain`, `machines`, answers of `fk` and `ik`, list of `targets`, help | standard output |
 //! | diagnostics, summary, timings, progress, what `verify` finds | standard error |
 //!
@@ -48,6 +49,7 @@ mod output;
 mod place;
 mod plot;
 mod progress;
+mod report;
 mod snapshot;
 mod targets;
 mod verify;
@@ -106,6 +108,7 @@ pub fn run(linked: &Targets) -> ExitCode {
         }) => kinematics::inverse(cell, pose, quaternion.as_deref(), &console),
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
         Some(Command::Plot(plot)) => plot::plot(plot, targets, &console),
+        Some(Command::Report(report)) => report::report(report, targets, &console),
         Some(Command::Targets { target: None }) => targets::list(linked, &outside, &console),
         Some(Command::Targets { target: Some(target) }) => targets::describe(targets, target, &console),
         Some(Command::Verify(verify)) => verify::verify(verify, linked, targets, &console),

@@ -20,6 +20,8 @@ pub mod thin;
 pub mod times;
 mod trace;
 
+pub(crate) use svg::escaped;
+
 /// What the ids within a picture begin with. Pictures that stand in one page need different ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Prefix(&'static str);

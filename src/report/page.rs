@@ -1,1 +1,117 @@
-//! The page of a report.
+//! The page of a report: one HTML text that holds all there is to see of a job and asks for nothing from outside.
+//!
+//! Its parts are functions from what came of the job to a piece of HTML, put in their order here. Style and script stand
+//! in `src/report/assets` and are copied into the page. Its policy ([`policy`]) names every script by its hash and forbids
+//! all requests, so that a name in a job that got past the escaping would still be no more than text. There is no date and no path
+//! but the job's own in it: the same job gives the same bytes.
+
+mod cross_section;
+mod deviation;
+mod figure;
+mod html;
+mod machine;
+mod parameters;
+mod policy;
+mod source;
+mod times;
+mod top;
+
+use super::{Material, playback};
+use crate::diag::Diagnostic;
+use crate::driver::Outcome;
+use crate::source::SourceMap;
+use html::escaped;
+
+/// What a page is made from.
+#[derive(Clone, Copy)]
+struct Subject<'a> {
+    /// Job, plan and program.
+    material: Material<'a>,
+    /// All texts that the job was made from.
+    sources: &'a SourceMap,
+    /// What there was to warn of.
+    warnings: &'a [Diagnostic],
+}
+
+/// A section of the page.
+struct Section {
+    /// Its place within the page, for links.
+    id: &'static str,
+    /// Its heading.
+    title: &'static str,
+    /// What it holds, as HTML.
+    body: String,
+}
+
+const STYLE: &str = include_str!("assets/page.css");
+const SCRIPT: &str = include_str!("assets/page.js");
+
+/// The page of an outcome; none while its job has errors.
+#[must_use]
+pub fn page(outcome: &Outcome) -> Option<String> {
+    let subject = Subject {
+        material: Material::of(outcome)?,
+        sources: &outcome.sources,
+        warnings: &outcome.diagnostics,
+    };
+    let listing = source::Listing::of(subject);
+    let sections = [
+        Some(cross_section::section(subject)),
+        Some(deviation::section(subject)),
+        Some(played(subject)),
+        machine::section(subject),
+        Some(times::section(subject)),
+        Some(parameters::section(subject, &listing)),
+        Some(listing.section()),
+    ];
+    let sections: Vec<Section> = sections.into_iter().flatten().collect();
+    Some(document(subject, &sections))
+}
+
+/// The cuts played back in space.
+fn played(subject: Subject<'_>) -> Section {
+    let Material { plan, compiled, .. } = subject.material;
+    Section {
+        id: "playback",
+        title: "Playback",
+        body: playback::section(plan, compiled),
+    }
+}
+
+/// The document around the sections.
+fn document(subject: Subject<'_>, sections: &[Section]) -> String {
+    let name = escaped(&subject.material.job.name);
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
+         <title>{name} - vcutc report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
+         <a class=\"skip\" href=\"#content\">Skip to the content</a>\n",
+        policy::policy(&[SCRIPT, playback::SCRIPT]),
+    );
+    page += &top::header(subject);
+    page += &contents(sections);
+    page += "<main id=\"content\">\n";
+    page += &top::key_numbers(subject);
+    for Section { id, title, body } in sections {
+        page += &format!(
+            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{title}</h2>\n{body}</section>\n"
+        );
+    }
+    page += "</main>\n<footer>Made by vcutc ";
+    page += env!("CARGO_PKG_VERSION");
+    page += ". The file is complete in itself: it loads nothing.</footer>\n<script>";
+    page += SCRIPT;
+    page += "</script>\n</body>\n</html>\n";
+    page
+}
+
+/// The table of contents.
+fn contents(sections: &[Section]) -> String {
+    let links: String = sections
+        .iter()
+        .map(|Section { id, title, .. }| format!("<li><a href=\"#{id}\">{title}</a></li>\n"))
+        .collect();
+    format!("<nav aria-label=\"Contents\">\n<ul>\n{links}</ul>\n</nav>\n")
+}

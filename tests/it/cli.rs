@@ -16,6 +16,7 @@ mod place;
 mod plot;
 mod profiles;
 mod refusals;
+pub(crate) mod report;
 mod snapshot;
 mod verify;
 

@@ -21,7 +21,7 @@ use std::process::{Command, Stdio};
     clippy::explicit_write,
     reason = "the test harness keeps what `eprintln!` prints, as long as the test passes"
 )]
-fn is_there(what: &str, command: &mut Command, package: &str) -> bool {
+pub(crate) fn is_there(what: &str, command: &mut Command, package: &str) -> bool {
     let started = command.stdin(Stdio::null()).output();
     if started.is_ok_and(|output| output.status.success()) {
         return true;

@@ -37,22 +37,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("summary", &["pace", "plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
-    ("report", &["driver", "geom", "kinematics", "plan", "reach"]),
-    (
-        "report",
-        &[
-            "driver",
-            "geom",
-            "job",
-            "kinematics",
-            "picture",
-            "plan",
-            "reach",
-            "sim",
-            "summary",
-            "verdict",
-        ],
-    ),
     (
         "remedy",
         &[
@@ -88,6 +72,24 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "optimisation",
         &["diag", "driver", "job", "picture", "plan", "source"],
+    ),
+    (
+        "report",
+        &[
+            "diag",
+            "driver",
+            "geom",
+            "job",
+            "kinematics",
+            "picture",
+            "plan",
+            "reach",
+            "reach_summary",
+            "sim",
+            "source",
+            "summary",
+            "verdict",
+        ],
     ),
     (
         "verdict",
@@ -149,6 +151,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
     ("rayon::", &["src/pace/", "src/reach/"]),
+    ("hmac_sha256::", &["src/report/page/policy.rs"]),
     ("strsim::", &["src/diag/suggest.rs"]),
     (
         "glam::",

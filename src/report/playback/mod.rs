@@ -135,15 +135,16 @@ pub fn section(plan: &PlannedJob, compiled: &Compiled) -> String {
         include_str!("../assets/player/player.html"),
         "<script type=\"application/json\" id=\"vcut-playback-data\">",
         &document::text(&Playback::of(plan, compiled)),
-        "</script>\n<script>\n(() => {\n\"use strict\";\n",
+        "</script>\n<script>",
         SCRIPT,
-        "})();\n</script>\n",
+        "</script>\n",
     ]
     .concat()
 }
 
-/// The viewer, file by file, as one script.
-const SCRIPT: &str = concat!(
+/// The viewer, file by file, as one script: what stands between its tags, to the byte.
+pub const SCRIPT: &str = concat!(
+    "\n(() => {\n\"use strict\";\n",
     include_str!("../assets/player/surface.js"),
     include_str!("../assets/player/matrix.js"),
     include_str!("../assets/player/data.js"),
@@ -156,4 +157,5 @@ const SCRIPT: &str = concat!(
     include_str!("../assets/player/scene.js"),
     include_str!("../assets/player/controls.js"),
     include_str!("../assets/player/start.js"),
+    "})();\n",
 );

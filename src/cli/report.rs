@@ -1,0 +1,81 @@
+//! `vcutc report JOB -o FILE.html`: all there is to see of a job as one page.
+
+use super::args::ReportArgs;
+use super::compile::unreadable;
+use super::console::{Console, Failure, Summary};
+use super::files::Disk;
+use super::output::{Placed, one_file};
+use super::progress::Progress;
+use super::{Exit, Targets};
+use crate::diag::has_errors;
+use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
+use crate::report::page::page;
+use std::path::Path;
+
+/// Reports one job.
+pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {
+    if args.output != "-" && !args.output.to_ascii_lowercase().ends_with(".html") {
+        return console.failure(&Failure::new(format!(
+            "the report is a page in HTML: give `-o` the name of a file that ends in .html, not {}",
+            args.output
+        )));
+    }
+    let disk = Disk::around(&args.job);
+    let mut progress = Progress::start(console.shows_progress());
+    let request = Request {
+        path: disk.job(),
+        loader: &disk,
+        overrides: &args.overrides.set,
+        machine: args.overrides.machine.as_deref(),
+        options: Typed::default(),
+        targets,
+    };
+    let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
+        Ok(outcome) => outcome,
+        Err(RequestError::Unreadable(reason)) => {
+            drop(progress);
+            return console.failure(&unreadable(&args.job, &reason));
+        }
+    };
+    progress.enter(Stage::Emitting);
+    let page = page(&outcome);
+    let timings = progress.finish();
+    let placed = match page.as_deref().map(|page| write(page, &args.output, console)) {
+        Some(Err(exit)) => return exit,
+        Some(Ok(placed)) => placed,
+        None => Vec::new(),
+    };
+    console.diagnostics(&outcome.diagnostics, &outcome.sources);
+    let compiled = outcome.compiled.as_ref();
+    console.summary(&Summary {
+        job: disk.job(),
+        diagnostics: &outcome.diagnostics,
+        lines: compiled.map_or(&[], |compiled| &compiled.summary),
+        numbers: compiled.map(|compiled| &compiled.numbers),
+        times: compiled.map(|compiled| &compiled.times),
+        reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
+        placed: &placed,
+        remark: has_errors(&outcome.diagnostics).then_some("nothing was written"),
+        timings: &timings,
+    });
+    exit(&outcome)
+}
+
+fn exit(outcome: &Outcome) -> Exit {
+    if has_errors(&outcome.diagnostics) {
+        Exit::JobHasErrors
+    } else {
+        Exit::Success
+    }
+}
+
+/// Writes the page, or tells why not.
+fn write(page: &str, to: &str, console: &Console) -> Result<Vec<Placed>, Exit> {
+    if to == "-" {
+        return match console.document(page) {
+            Exit::Success => Ok(Vec::new()),
+            exit @ (Exit::JobHasErrors | Exit::CannotRun) => Err(exit),
+        };
+    }
+    one_file(Path::new(to), page.as_bytes()).map_err(|reason| console.failure(&Failure::new(reason)))
+}

@@ -1,0 +1,61 @@
+//! How far what the cuts leave is from the part.
+
+use super::figure::{Zoom, figure};
+use super::html::{Column, table};
+use super::{Section, Subject};
+use crate::picture::Prefix;
+use crate::report::pictures;
+
+/// The section.
+pub(super) fn section(subject: Subject<'_>) -> Section {
+    let material = &subject.material;
+    let deviation = figure(
+        &pictures::deviation(material, Prefix::new("deviation-")),
+        Zoom::Free,
+        "How far the machined contour stands off the part, all along it.",
+    );
+    let correlation = figure(
+        &pictures::correlation(material, Prefix::new("correlation-")),
+        Zoom::Free,
+        "How machined and theoretical contour correlate, shifted against each other.",
+    );
+    Section {
+        id: "deviation",
+        title: "Deviation",
+        body: figures(subject) + &format!("<div class=\"pair\">\n{deviation}{correlation}</div>\n"),
+    }
+}
+
+/// The figures by which [Cui IV.B] judges a contour, and how they are meant.
+fn figures(subject: Subject<'_>) -> String {
+    let report = &subject.material.compiled.report;
+    let columns = [
+        Column::Words("Figure"),
+        Column::Numbers("value"),
+        Column::Words("what it is"),
+    ];
+    let rows = [
+        (
+            "cross-correlation",
+            format!("{:.2} %", report.correlation * 100.0),
+            "the largest normalised one over all shifts, of both contours at 1000 points [Cui 15]",
+        ),
+        (
+            "largest deviation",
+            format!("{:.3} mm", report.largest_deviation().to_mm()),
+            "from any point of one contour to the other one",
+        ),
+        (
+            "highest scallop",
+            format!("{:.3} mm", report.scallop.height.to_mm()),
+            "material on the part, along its normal",
+        ),
+        (
+            "mean scallop",
+            format!("{:.3} mm", report.mean_scallop.to_mm()),
+            "area that stays on the part, over the profile's length",
+        ),
+    ];
+    let rows = rows.map(|(name, value, meaning)| vec![name.to_owned(), value, meaning.to_owned()]);
+    table("Machined and theoretical contour", &columns, rows)
+}

@@ -1,0 +1,73 @@
+//! The little of HTML that the page needs: texts that cannot break out, and tables.
+
+pub(super) use crate::picture::escaped;
+
+/// A column of a table.
+#[derive(Clone, Copy)]
+pub(super) enum Column {
+    /// Of words.
+    Words(&'static str),
+    /// Of numbers, which stand to the right.
+    Numbers(&'static str),
+}
+
+/// A table. Cells are HTML; who puts text into them escapes it. On a narrow screen the table scrolls by itself, which is why
+/// its frame can be reached by the keyboard.
+pub(super) fn table(
+    caption: &str,
+    columns: &[Column],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> String {
+    let mut table = format!(
+        "<div class=\"wide\" role=\"region\" aria-label=\"{caption}\" tabindex=\"0\">\n<table>\n\
+         <caption>{caption}</caption>\n<thead><tr>"
+    );
+    for column in columns {
+        table += &match column {
+            Column::Words(name) => format!("<th scope=\"col\">{name}</th>"),
+            Column::Numbers(name) => format!("<th scope=\"col\" class=\"n\">{name}</th>"),
+        };
+    }
+    table += "</tr></thead>\n<tbody>\n";
+    for row in rows {
+        table += "<tr>";
+        for (place, (cell, column)) in row.iter().zip(columns).enumerate() {
+            let class = match column {
+                Column::Words(_) => "",
+                Column::Numbers(_) => " class=\"n\"",
+            };
+            table += &match place {
+                0 => format!("<th scope=\"row\"{class}>{cell}</th>"),
+                _ => format!("<td{class}>{cell}</td>"),
+            };
+        }
+        table += "</tr>\n";
+    }
+    table + "</tbody>\n</table>\n</div>\n"
+}
+
+/// A paragraph of text.
+pub(super) fn paragraph(text: &str) -> String {
+    format!("<p>{}</p>\n", escaped(text))
+}
+
+/// A share of one as a percentage, `12.3 %`.
+pub(super) fn percent(share: f64) -> String {
+    format!("{:.1} %", share * 100.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_have_heads_for_columns_and_rows() {
+        let columns = [Column::Words("axis"), Column::Numbers("deg")];
+        let text = table("Axes", &columns, [vec!["A1".to_owned(), "3".to_owned()]]);
+        assert!(text.contains("<th scope=\"col\" class=\"n\">deg</th>"), "{text}");
+        assert!(
+            text.contains("<th scope=\"row\">A1</th><td class=\"n\">3</td>"),
+            "{text}"
+        );
+    }
+}

@@ -1,0 +1,102 @@
+//! What the job asks of its machine: angles, rates and margins.
+
+use super::figure::{Zoom, figure};
+use super::html::{Column, escaped, paragraph, percent, table};
+use super::{Section, Subject};
+use crate::picture::Prefix;
+use crate::plan::parameters::show;
+use crate::reach_summary::{self, AxisFigure, ReachFigures, SingularFigure};
+use crate::report::pictures;
+
+/// The section; none for a job without a machine.
+pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
+    let figures = subject.material.compiled.figures.as_ref()?;
+    let mut body = String::new();
+    for (_, line) in reach_summary::lines(figures) {
+        body += &paragraph(&capitalised(&line));
+    }
+    if let Some(joints) = pictures::joints(&subject.material, Prefix::new("joints-")) {
+        let caption = "Angles, rates and margins of the axes over time.";
+        body += &figure(&joints, Zoom::Free, caption);
+    }
+    body += &axes(figures);
+    if !figures.singular.is_empty() {
+        body += &singular(figures);
+    }
+    Some(Section {
+        id: "machine",
+        title: "Machine",
+        body,
+    })
+}
+
+fn axes(figures: &ReachFigures) -> String {
+    let columns = [
+        Column::Words("Axis"),
+        Column::Numbers("from"),
+        Column::Numbers("to"),
+        Column::Numbers("limits"),
+        Column::Numbers("margin"),
+        Column::Words("nearest to a limit at"),
+        Column::Numbers("fastest"),
+        Column::Numbers("of its rate"),
+        Column::Words("fastest at"),
+    ];
+    table(
+        "What is asked of the axes",
+        &columns,
+        figures.axes.iter().map(axis),
+    )
+}
+
+fn axis(axis: &AxisFigure) -> Vec<String> {
+    let unit = axis.unit;
+    let share = match axis.rate_limit {
+        Some(limit) if limit > 0.0 => percent(axis.rate / limit),
+        Some(_) | None => "unknown".to_owned(),
+    };
+    vec![
+        escaped(&axis.name),
+        format!("{:.2} {unit}", axis.low),
+        format!("{:.2} {unit}", axis.high),
+        format!("{} to {} {unit}", show(axis.min), show(axis.max)),
+        percent(axis.margin),
+        escaped(&axis.margin_at.words),
+        format!("{:.1} {unit}/s", axis.rate),
+        share,
+        escaped(&axis.rate_at.words),
+    ]
+}
+
+fn singular(figures: &ReachFigures) -> String {
+    let columns = [
+        Column::Words("Singular pose"),
+        Column::Numbers("distance"),
+        Column::Numbers("share of all there could be"),
+        Column::Words("nearest at"),
+    ];
+    let rows = figures.singular.iter().map(
+        |SingularFigure {
+             kind,
+             unit,
+             distance,
+             share,
+             at,
+         }| {
+            vec![
+                (*kind).to_owned(),
+                format!("{distance:.1} {unit}"),
+                percent(*share),
+                escaped(&at.words),
+            ]
+        },
+    );
+    table("How near singular poses are", &columns, rows)
+}
+
+/// A sentence that begins with a capital and ends with a full stop.
+fn capitalised(line: &str) -> String {
+    let mut letters = line.chars();
+    let first = letters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(letters).chain(['.']).collect()
+}

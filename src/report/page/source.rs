@@ -1,0 +1,147 @@
+//! The texts that the job was made from, line by line, so that parameters can point into them.
+
+use super::html::escaped;
+use super::{Section, Subject};
+use crate::diag::position::position;
+use crate::job::Operation;
+use crate::source::{FileId, SourceMap, Span};
+
+/// Most lines of a text that are shown.
+const MOST_LINES: usize = 5000;
+
+/// Most characters of a line that are shown.
+const LONGEST_LINE: usize = 400;
+
+/// The texts that are shown: the job's own first, then those that its machine and operations were read from.
+pub(super) struct Listing<'a> {
+    sources: &'a SourceMap,
+    shown: Vec<FileId>,
+}
+
+/// A place in a text as people and links see it.
+pub(super) struct Place {
+    /// The link.
+    pub(super) link: Option<String>,
+    /// `rib.vcut:14:15`.
+    pub(super) words: String,
+    /// The line, without the space around it.
+    pub(super) line: String,
+}
+
+impl<'a> Listing<'a> {
+    /// The texts of a job.
+    pub(super) fn of(subject: Subject<'a>) -> Self {
+        let job = subject.material.job;
+        let operations = job.operations.iter().flat_map(|Operation::RoughVcut(vcut)| {
+            let fields = [vcut.cut_feed.span, vcut.travel_feed.span, vcut.reorient_rate.span];
+            [Some(vcut.head_span), Some(vcut.blade.span)]
+                .into_iter()
+                .chain(fields)
+                .flatten()
+        });
+        let machine = job.machine.as_ref().map(|machine| machine.head_span);
+        let mut shown = Vec::new();
+        for span in [job.name_span, job.stock_span, job.profile_span]
+            .into_iter()
+            .chain(operations)
+            .chain(machine)
+        {
+            if !shown.contains(&span.file) {
+                shown.push(span.file);
+            }
+        }
+        Self {
+            sources: subject.sources,
+            shown,
+        }
+    }
+
+    /// Where a span begins.
+    pub(super) fn place(&self, span: Span) -> Place {
+        let text = self.sources.get(span.file).map_or("", |file| file.text.as_str());
+        let place = position(text, span.start);
+        let is_shown = place.line <= MOST_LINES;
+        let number = self.shown.iter().position(|&file| file == span.file);
+        let name = self.sources.name(span.file);
+        let base = name.rsplit('/').next().unwrap_or(name);
+        Place {
+            link: number
+                .filter(|_| is_shown)
+                .map(|number| anchor(number, place.line)),
+            words: format!("{base}:{}:{}", place.line, place.column),
+            line: short(text.lines().nth(place.line - 1).unwrap_or_default().trim()),
+        }
+    }
+
+    /// The section.
+    pub(super) fn section(&self) -> Section {
+        let files = self.shown.iter().enumerate();
+        Section {
+            id: "job",
+            title: "Job",
+            body: files
+                .filter_map(|(number, &file)| {
+                    let file = self.sources.get(file)?;
+                    Some(text(number, &file.name, &file.text))
+                })
+                .collect(),
+        }
+    }
+}
+
+/// The name of a line within the page.
+fn anchor(file: usize, line: usize) -> String {
+    format!("text-{file}-{line}")
+}
+
+/// A text with a number at each line; the job's own is open.
+fn text(number: usize, name: &str, text: &str) -> String {
+    let open = if number == 0 { " open" } else { "" };
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut html = format!(
+        "<details{open}>\n<summary>{}</summary>\n<ol class=\"text\">\n",
+        escaped(name)
+    );
+    for (index, line) in text.lines().take(MOST_LINES).enumerate() {
+        html += &format!(
+            "<li id=\"{}\"><code>{}</code></li>\n",
+            anchor(number, index + 1),
+            escaped(&short(line))
+        );
+    }
+    html += "</ol>\n";
+    if text.lines().count() > MOST_LINES {
+        html += &format!("<p>The first {MOST_LINES} lines are shown.</p>\n");
+    }
+    html + "</details>\n"
+}
+
+/// A line, cut off where nobody reads on.
+fn short(line: &str) -> String {
+    match line.char_indices().nth(LONGEST_LINE) {
+        Some((end, _)) => format!("{} ...", line.get(..end).unwrap_or_default()),
+        None => line.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_numbered_as_places_count_them() {
+        let shown = text(0, "a<b>.vcut", "\u{feff}one\ntwo & <three>\n");
+        assert!(
+            shown.contains("<li id=\"text-0-2\"><code>two &amp; &lt;three&gt;</code></li>"),
+            "{shown}"
+        );
+        assert!(shown.contains("a&lt;b&gt;.vcut"), "{shown}");
+    }
+
+    #[test]
+    fn long_lines_are_cut_between_characters() {
+        let line = "é".repeat(LONGEST_LINE + 1);
+        assert_eq!(short(&line), format!("{} ...", "é".repeat(LONGEST_LINE)));
+        assert_eq!(short("é"), "é");
+    }
+}

@@ -1,0 +1,136 @@
+//! The top of the page: what was made, what is proven of it, and its key numbers.
+
+use super::Subject;
+use super::html::{escaped, percent};
+use crate::diag::render::{ColorChoice, render};
+use crate::plan::PlannedOperation;
+use crate::plan::parameters::show;
+use crate::summary::time;
+use vcutc_backend_api::units::Length;
+
+/// The header: job, machine, verdict, warnings.
+pub(super) fn header(subject: Subject<'_>) -> String {
+    let job = subject.material.job;
+    let file = subject.sources.name(job.name_span.file);
+    let machine = job.machine.as_ref().map_or_else(
+        || "no machine".to_owned(),
+        |machine| format!("{} ({})", machine.name, machine.model.name),
+    );
+    let mut header = format!(
+        "<header>\n<h1>{}</h1>\n<p class=\"about\">{} on {}</p>\n<p class=\"verdict\">{}</p>\n",
+        escaped(&job.name),
+        escaped(file),
+        escaped(&machine),
+        escaped(&verdict(subject))
+    );
+    if !subject.warnings.is_empty() {
+        let told = render(subject.warnings, subject.sources, ColorChoice::Plain);
+        let lines: Vec<String> = told.lines().map(escaped).collect();
+        header += &format!(
+            "<details open class=\"warnings\"><summary>{}</summary>\n<pre tabindex=\"0\">{}</pre></details>\n",
+            counted(subject.warnings.len(), "warning"),
+            lines.join("\n")
+        );
+    }
+    header + "</header>\n"
+}
+
+/// What is proven.
+fn verdict(subject: Subject<'_>) -> String {
+    let cuts = "Proven: every chip comes free and no cut enters the part or its allowance";
+    match &subject.material.compiled.figures {
+        Some(_) => format!(
+            "{cuts}; the machine carries out every motion within the limits and rates of its axes and clear of singular poses."
+        ),
+        None => format!("{cuts}. The job has no machine, so nothing is said of reach."),
+    }
+}
+
+/// The key numbers as a list of terms and values.
+pub(super) fn key_numbers(subject: Subject<'_>) -> String {
+    let mut numbers = String::from("<dl class=\"key\">\n");
+    for (name, value, remark) in rows(subject) {
+        numbers += &format!(
+            "<div><dt>{name}</dt><dd>{}<small>{}</small></dd></div>\n",
+            escaped(&value),
+            escaped(&remark)
+        );
+    }
+    numbers + "</dl>\n"
+}
+
+/// Name, value and remark of each key number.
+fn rows(subject: Subject<'_>) -> Vec<(&'static str, String, String)> {
+    let material = subject.material;
+    let (compiled, report) = (material.compiled, &material.compiled.report);
+    let mut rows = vec![
+        (
+            "Time",
+            time(report.timing.total()),
+            format!("cutting {}", time(report.timing.cutting)),
+        ),
+        (
+            "Cuts",
+            report.cuts().to_string(),
+            format!("in {}", counted(report.layers.len(), "layer")),
+        ),
+        (
+            "Largest scallop",
+            format!("{:.2} mm", report.scallop.height.to_mm()),
+            scallop_limit(subject),
+        ),
+        (
+            "Edge in use",
+            format!("{} mm", show(report.longest_edge.to_mm())),
+            format!("of {} mm", show(longest_blade(subject).to_mm())),
+        ),
+        (
+            "Removed",
+            format!("{:.0} mm²", report.removed.to_mm2()),
+            format!("{:.1} mm² stay on the part", report.residual.to_mm2()),
+        ),
+        (
+            "Contours correlate",
+            format!("{:.2} %", report.correlation * 100.0),
+            "machined and theoretical".to_owned(),
+        ),
+    ];
+    if let Some(figures) = &compiled.figures {
+        rows.push((
+            "Least margin",
+            percent(figures.margin),
+            format!("{} at {}", figures.least.of, figures.least.at.words),
+        ));
+    }
+    rows
+}
+
+/// The tightest limit that an operation sets.
+fn scallop_limit(subject: Subject<'_>) -> String {
+    let limits = subject
+        .material
+        .plan
+        .operations
+        .iter()
+        .filter_map(|PlannedOperation::RoughVcut(vcut)| vcut.asked.limits.scallop);
+    let least = limits.map(|limit| limit.value).reduce(Length::min);
+    least.map_or_else(
+        || "no limit".to_owned(),
+        |limit| format!("limit {} mm", show(limit.to_mm())),
+    )
+}
+
+fn longest_blade(subject: Subject<'_>) -> Length {
+    let operations = subject.material.plan.operations.iter();
+    operations
+        .map(|PlannedOperation::RoughVcut(vcut)| vcut.asked.blade.cutting_length.value)
+        .fold(Length::ZERO, Length::max)
+}
+
+/// `1 layer`, `2 layers`.
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    }
+}

@@ -1,0 +1,244 @@
+//! The page of `vcutc report` as people meet it.
+
+use super::browser::{Browser, Tab};
+use crate::cli::report::hostile_rib;
+use crate::cli::vcutc;
+use crate::pipeline::{Files, compile_on};
+use crate::repository::root;
+use serde_json::json;
+use std::path::PathBuf;
+use tempfile::TempDir;
+use vcutc::verdict;
+
+/// The report of an example, in a folder of its own.
+fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("report.html");
+    let job = format!("examples/{example}.vcut");
+    let arguments = [&["report", "-q", &job, "-o", file.to_str().unwrap()], more].concat();
+    let run = vcutc(root(), &arguments);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    (folder, file)
+}
+
+fn assert_is_calm(tab: &Tab<'_>) {
+    let complaints = tab.complaints();
+    assert!(complaints.is_empty(), "{complaints:#?}");
+}
+
+fn view_box(tab: &Tab<'_>) -> Vec<f64> {
+    let text = tab.value("document.querySelector('[data-zoom] svg').getAttribute('viewBox')");
+    let numbers = text.as_str().unwrap().split(' ');
+    numbers.map(|number| number.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_page_loads_by_itself_and_shows_what_it_should() {
+    let Some(browser) = Browser::start() else { return };
+    for (example, more) in [
+        ("spoiler_clarky", &[][..]),
+        ("spoiler_clarky", &["--machine", "gantry"]),
+        ("block_cui", &[]),
+    ] {
+        let (_folder, file) = report(example, more);
+        let tab = browser.open(&file, 1280, 900);
+        assert_eq!(
+            tab.value("document.title"),
+            json!(format!("{example} - vcutc report"))
+        );
+        for selector in [
+            "header h1",
+            ".verdict",
+            ".key dd",
+            "#cross-section svg",
+            "#deviation svg",
+            "#playback canvas",
+            "#machine svg",
+            "#machine table",
+            "#time svg",
+            "#time table",
+            "#parameters td a",
+            "#job li",
+        ] {
+            assert!(
+                tab.holds(&format!("document.querySelector('{selector}') !== null")),
+                "{example}: {selector}"
+            );
+        }
+        // Every link leads to a place, no two places have one name.
+        assert!(tab.holds(
+            "[...document.querySelectorAll('a[href^=\"#\"]')].every((link) => document.getElementById(link.hash.slice(1)))"
+        ));
+        assert!(tab.holds(
+            "(() => { const ids = [...document.querySelectorAll('[id]')].map((one) => one.id); \
+             return new Set(ids).size === ids.length; })()"
+        ));
+        let colours = tab.colours(&tab.picture());
+        assert!(colours > 20.0, "{colours} colours");
+        assert_is_calm(&tab);
+    }
+}
+
+#[test]
+fn pictures_are_enlarged_by_keys_buttons_and_the_wheel() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("block_cui", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    let whole = view_box(&tab);
+
+    let middle = tab.middle("[data-zoom] .view");
+    tab.mouse("mouseWheel", middle, &json!({ "deltaX": 0, "deltaY": -120 }));
+    assert_eq!(
+        view_box(&tab),
+        whole,
+        "the wheel scrolls the page until the picture was clicked"
+    );
+    let middle = tab.middle("[data-zoom] .view");
+    tab.click(middle);
+    tab.mouse("mouseWheel", middle, &json!({ "deltaX": 0, "deltaY": -120 }));
+    tab.wait_until("document.querySelector('[data-zoom]').classList.contains('enlarged')");
+    let enlarged = view_box(&tab);
+    assert!(enlarged[2] < whole[2] && enlarged[3] < whole[3], "{enlarged:?}");
+
+    for (kind, x) in [
+        ("mousePressed", 0.0),
+        ("mouseMoved", 40.0),
+        ("mouseReleased", 40.0),
+    ] {
+        let at = [middle[0] + x, middle[1]];
+        tab.mouse(
+            kind,
+            at,
+            &json!({ "button": "left", "buttons": 1, "clickCount": 1 }),
+        );
+    }
+    let moved = view_box(&tab);
+    assert!(moved[0] < enlarged[0], "what is seen follows the hand: {moved:?}");
+    tab.key("ArrowRight");
+    assert!(view_box(&tab)[0] > moved[0]);
+    tab.key("0");
+    assert_eq!(view_box(&tab), whole);
+    tab.key("+");
+    assert!(view_box(&tab)[2] < whole[2]);
+
+    tab.click(tab.middle("[data-do=all]"));
+    assert_eq!(view_box(&tab), whole);
+    tab.click(tab.middle("[data-do=in]"));
+    assert!(view_box(&tab)[2] < whole[2]);
+    tab.click(tab.middle("[data-do=out]"));
+    assert_eq!(view_box(&tab)[2], whole[2]);
+    assert_is_calm(&tab);
+}
+
+#[test]
+fn a_telephone_does_not_scroll_sideways() {
+    let Some(browser) = Browser::start() else { return };
+    for example in ["spoiler_clarky", "block_cui", "wavy_panel"] {
+        let (_folder, file) = report(example, &[]);
+        let tab = browser.open(&file, 360, 740);
+        let (width, screen) = (
+            tab.number("document.documentElement.scrollWidth"),
+            tab.number("innerWidth"),
+        );
+        assert!(width <= screen, "{example}: {width} of {screen}");
+        assert_is_calm(&tab);
+    }
+}
+
+#[test]
+fn a_link_to_a_line_unfolds_its_text() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("spoiler_clarky", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    assert!(tab.holds("!document.querySelector('#text-1-1').closest('details').open"));
+    tab.value("location.hash = 'text-1-1'");
+    tab.wait_until("document.querySelector('#text-1-1').closest('details').open");
+    assert_is_calm(&tab);
+}
+
+#[test]
+fn nothing_that_a_job_is_called_runs() {
+    let Some(browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("rib.vcut"), hostile_rib()).unwrap();
+    let run = vcutc(folder.path(), &["report", "-q", "rib.vcut", "-o", "rib.html"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let tab = browser.open(&folder.path().join("rib.html"), 1280, 900);
+    assert!(tab.holds("top.hacked === undefined && document.querySelector('img') === null"));
+    assert!(tab.holds("document.querySelector('h1').textContent.includes('<script>top.hacked=1</script>')"));
+    assert_is_calm(&tab);
+    // The policy holds even for what would get past the escaping.
+    tab.value(
+        "(() => { const script = document.createElement('script'); script.textContent = 'top.hacked = 1'; \
+         document.body.append(script); })()",
+    );
+    assert!(tab.holds("top.hacked === undefined"));
+    assert_eq!(tab.complaints().len(), 1, "the browser tells of it");
+}
+
+/// A polyline as the page has it.
+fn polyline(tab: &Tab<'_>, expression: &str) -> Vec<[f64; 2]> {
+    let value = tab.value(expression);
+    let points = value.as_array().unwrap().iter();
+    points
+        .map(|point| [0, 1].map(|at| point[at].as_f64().unwrap()))
+        .collect()
+}
+
+/// The height of a polyline over x.
+fn height(line: &[[f64; 2]], x: f64) -> f64 {
+    let piece = line.windows(2).find(|pair| x <= pair[1][0]).unwrap();
+    let ([x0, z0], [x1, z1]) = (piece[0], piece[1]);
+    if x1 > x0 {
+        z0 + (z1 - z0) * (x - x0) / (x1 - x0)
+    } else {
+        z1
+    }
+}
+
+#[test]
+fn cuts_are_played_back_up_to_the_machined_contour() {
+    let Some(browser) = Browser::start() else { return };
+    for (example, machine) in [("block_cui", None), ("spoiler_clarky", Some("gantry"))] {
+        let more: Vec<&str> = machine.iter().flat_map(|name| ["--machine", *name]).collect();
+        let (_folder, file) = report(example, &more);
+        let tab = browser.open(&file, 1280, 900);
+
+        tab.value("vcutPlayback.setSpeed(16), vcutPlayback.seek(10)");
+        let before = tab.value("vcutPlayback.tip()");
+        tab.value("vcutPlayback.play()");
+        tab.wait_until(&format!(
+            "vcutPlayback.time() > 10 && JSON.stringify(vcutPlayback.tip()) !== '{before}'"
+        ));
+        tab.value("vcutPlayback.pause()");
+        let paused = tab.number("vcutPlayback.time()");
+        tab.value("new Promise((done) => setTimeout(done, 100))");
+        assert_eq!(tab.number("vcutPlayback.time()"), paused);
+
+        let path = format!("examples/{example}.vcut");
+        let outcome = compile_on(machine, &path, &Files::of(root()));
+        let (plan, compiled) = (outcome.plan.unwrap(), outcome.compiled.unwrap());
+        let surface = verdict::replay(&plan, compiled.program.verified()).surface;
+        let proven: Vec<[f64; 2]> = surface.corners().map(|corner| [corner.x, corner.z]).collect();
+        // To the end by the slider, back to the beginning and to the end again: what is shown does not depend on the way.
+        for _ in 0..2 {
+            tab.value(
+                "(() => { const time = document.getElementById('vcut-playback-time'); time.value = time.max; \
+                 time.dispatchEvent(new Event('input')); })()",
+            );
+            let shown = polyline(&tab, "vcutPlayback.section()");
+            for [x, _] in proven.iter().chain(&shown) {
+                let (shown, proven) = (height(&shown, *x), height(&proven, *x));
+                assert!(
+                    (shown - proven).abs() < 1e-3,
+                    "{example}, x {x}: {shown}, not {proven}"
+                );
+            }
+            tab.value("vcutPlayback.seek(0)");
+            let start = polyline(&tab, "vcutPlayback.section()");
+            let top = plan.stock.height.to_mm();
+            assert!(start.iter().all(|[_, z]| (z - top).abs() < 1e-9), "{start:?}");
+        }
+        assert_is_calm(&tab);
+    }
+}

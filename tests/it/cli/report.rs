@@ -1,0 +1,192 @@
+//! `vcutc report`: what is written, what is in it, and what cannot get into it.
+
+use super::jobs::RIB;
+use super::{folder, json_lines, names, vcutc, vcutc_reading};
+use insta::assert_snapshot;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// What a hostile author would call things.
+pub(crate) const HOSTILE: &str =
+    r#"</code></script><script>top.hacked=1</script><img src=x onerror=top.hacked=1>'&amp;"#;
+
+/// A folder with the job `rib.vcut`.
+fn shop(job: &str) -> TempDir {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), job).unwrap();
+    folder
+}
+
+/// The rib with hostile names and comments.
+pub(crate) fn hostile_rib() -> String {
+    let named = RIB.replace("job \"rib\"", &format!("job \"{HOSTILE}\""));
+    format!("// {HOSTILE}\n{named}// -->{HOSTILE}]]>\n")
+}
+
+fn written(folder: &Path) -> String {
+    let run = vcutc(folder, &["report", "-q", "rib.vcut", "-o", "rib.html"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    fs::read_to_string(folder.join("rib.html")).unwrap()
+}
+
+/// A page without what stands between these marks, the marks aside.
+fn without(mut page: &str, start: &str, end: &str) -> String {
+    let mut rest = String::new();
+    while let Some(at) = page.find(start) {
+        rest += &format!("{}{start} ... {end}", &page[..at]);
+        let inside = &page[at + start.len()..];
+        page = &inside[inside.find(end).unwrap() + end.len()..];
+    }
+    rest + page
+}
+
+#[test]
+fn a_page_is_written_once_and_then_unchanged() {
+    let shop = shop(RIB);
+    let path = shop.path();
+    let run = vcutc(path, &["report", "rib.vcut", "-o", "out/rib.html"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
+    assert!(run.stderr.contains("wrote out"), "{}", run.stderr);
+    assert_eq!(names(&path.join("out")), ["rib.html"]);
+    let page = fs::read_to_string(path.join("out/rib.html")).unwrap();
+    let run = vcutc(path, &["report", "rib.vcut", "-o", "out/rib.html"]);
+    assert!(run.stderr.contains("unchanged: out"), "{}", run.stderr);
+
+    let run = vcutc(path, &["report", "-q", "rib.vcut", "-o", "-"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert_eq!(run.stdout, page, "the same page everywhere");
+    let run = vcutc(
+        path,
+        &[
+            "report",
+            "rib.vcut",
+            "-o",
+            "out/rib.html",
+            "--message-format",
+            "json",
+        ],
+    );
+    let [summary] = json_lines(&run.stderr).try_into().unwrap();
+    assert_eq!(summary["kind"], "summary");
+    assert_eq!(summary["errors"], 0);
+    assert!(summary["unchanged"][0].as_str().unwrap().ends_with("rib.html"));
+}
+
+#[test]
+fn a_job_with_errors_writes_nothing() {
+    let shop = shop(&RIB.replace("rake      = 60 deg", "rake      = 60 mm"));
+    let run = vcutc(shop.path(), &["report", "rib.vcut", "-o", "rib.html"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
+    assert!(run.stderr.contains("error[VC0203]"), "{}", run.stderr);
+    assert!(
+        run.stderr.ends_with("rib.vcut: 1 error; nothing was written\n"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(names(shop.path()), ["rib.vcut"]);
+}
+
+#[test]
+fn what_is_no_page_or_cannot_be_written_is_refused() {
+    let shop = shop(RIB);
+    let run = vcutc(shop.path(), &["report", "rib.vcut", "-o", "rib.pdf"]);
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr.contains("ends in .html, not rib.pdf"),
+        "{}",
+        run.stderr
+    );
+    let run = vcutc(shop.path(), &["report", "rob.vcut", "-o", "rib.html"]);
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr.contains("cannot read the job rob.vcut"),
+        "{}",
+        run.stderr
+    );
+    let run = vcutc(shop.path(), &["report", "rib.vcut", "-o", "rib.vcut/rib.html"]);
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr.contains("cannot write into rib.vcut"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(names(shop.path()), ["rib.vcut"]);
+}
+
+/// All of the page but pictures, playback, style, scripts and data, for reviewers.
+#[test]
+fn what_the_page_says() {
+    let page = written(shop(RIB).path());
+    let page = without(&page, "<section id=\"playback\"", "</section>");
+    let page = without(&page, "<svg", "</svg>");
+    let page = without(&page, "<style", "</style>");
+    let page = without(&page, "<script", "</script>");
+    let page = without(&page, "'sha256-", "'");
+    let page = page.replace(env!("CARGO_PKG_VERSION"), "VERSION");
+    assert_snapshot!(page);
+}
+
+#[test]
+fn the_page_asks_for_nothing() {
+    let page = written(shop(RIB).path());
+    assert!(page.contains("default-src 'none'"));
+    let page = without(&page, "<script", "</script>").replace("http://www.w3.org/2000/svg", "");
+    for ask in ["http:", "https:", " src=", "<link", "<iframe", "@import", "url("] {
+        assert!(!page.contains(ask), "{ask}");
+    }
+}
+
+/// Each place that a parameter is said to come from holds the line that is shown with it.
+#[test]
+fn parameters_come_from_the_lines_that_they_name() {
+    let page = written(shop(RIB).path());
+    let lines: Vec<&str> = RIB.lines().collect();
+    let mut count = 0;
+    for link in page.split("<a href=\"#text-0-").skip(1) {
+        let (number, rest) = link.split_once("\">").unwrap();
+        let (place, rest) = rest.split_once("</a> <code>").unwrap();
+        let shown = rest.split_once("</code>").unwrap().0.replace("&quot;", "\"");
+        let number: usize = number.parse().unwrap();
+        assert_eq!(shown, lines[number - 1].trim(), "{place}");
+        assert!(place.starts_with(&format!("rib.vcut:{number}:")), "{place}");
+        count += 1;
+    }
+    assert!(count > 15, "{count} places");
+    for row in [
+        "<th scope=\"row\">swing</th><td>35 deg</td>",
+        "<th scope=\"row\">run_out</th><td>2 mm</td><td>default</td>",
+        "<th scope=\"row\">extension</th><td>",
+        "<strong>auto</strong>: the blade's overhang and the run-out",
+    ] {
+        assert!(page.contains(row), "{row}");
+    }
+}
+
+#[test]
+fn a_value_of_the_command_line_is_said_to_come_from_there() {
+    let shop = shop(RIB);
+    let run = vcutc(
+        shop.path(),
+        &["report", "-q", "rib.vcut", "-o", "-", "--set", "width=36mm"],
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stdout.contains("36 x 30 x 30 mm"));
+}
+
+#[test]
+fn names_cannot_break_out_of_the_page() {
+    let page = written(shop(&hostile_rib()).path());
+    assert!(page.contains("&lt;script&gt;top.hacked=1&lt;/script&gt;"));
+    assert!(!page.contains("<script>top"));
+    assert!(!page.contains("<img"));
+}
+
+#[test]
+fn a_job_without_a_machine_and_one_from_standard_input_are_reported() {
+    let (job, _) = RIB.split_once("machine cell").unwrap();
+    let run = vcutc_reading(folder().path(), &["report", "-q", "-", "-o", "-"], job);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert!(run.stdout.contains("The job has no machine"));
+    assert!(!run.stdout.contains("id=\"machine\""));
+}
