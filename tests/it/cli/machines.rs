@@ -72,7 +72,7 @@ fn a_file_of_ones_own_is_shown_or_refused_with_its_places() {
 
       axis  from      to       rate  acceleration  jerk
       J1    -180 deg  180 deg  -     -             -
-      J2    -60 deg   80 deg   -     -
+      J2    -60 deg   80 deg   -     -             -
       J3    -70 deg   160 deg  -     -             -
       J4    -300 deg  300 deg  -     -             -
       J5    -120 deg  120 deg  -     -             -
