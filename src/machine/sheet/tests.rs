@@ -307,3 +307,22 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn jerks_and_numbers_of_the_path_are_optional() {
+    let sheet = parse(SMALL).unwrap();
+    assert_eq!(sheet.path, PathLimits::UNKNOWN);
+    let text = SMALL.to_owned()
+        + "jerks_deg_s3 = [900, 900, 900, 900, 900, 1800]\n[path]\nacceleration_mm_s2 = 2000\nturning_jerk_deg_s3 = 180\n";
+    let sheet = parse(&text).unwrap();
+    assert_eq!(sheet.axes[5].jerk, Some(1800_f64.to_radians()));
+    let path = sheet.machine("arm.toml").path;
+    assert_eq!(path.acceleration, Some(2000.0));
+    assert_eq!((path.jerk, path.turning_acceleration), (None, None));
+    assert_eq!(path.turning_jerk, Some(180_f64.to_radians()));
+    let flaws = parse(&text.replace("= 2000", "= 0")).unwrap_err();
+    assert_eq!(
+        &text[..flaws[0].span.start].lines().last(),
+        &Some("acceleration_mm_s2 = ")
+    );
+}

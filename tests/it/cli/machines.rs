@@ -70,13 +70,13 @@ fn a_file_of_ones_own_is_shown_or_refused_with_its_places() {
     arm.toml  Shop arm
       robot, controller: other
 
-      axis  from      to       rate  acceleration
-      J1    -180 deg  180 deg  -     -
-      J2    -60 deg   80 deg   -     -
-      J3    -70 deg   160 deg  -     -
-      J4    -300 deg  300 deg  -     -
-      J5    -120 deg  120 deg  -     -
-      J6    -360 deg  360 deg  -     -
+      axis  from      to       rate  acceleration  jerk
+      J1    -180 deg  180 deg  -     -             -
+      J2    -60 deg   80 deg   -     -             -
+      J3    -70 deg   160 deg  -     -             -
+      J4    -300 deg  300 deg  -     -             -
+      J5    -120 deg  120 deg  -     -             -
+      J6    -360 deg  360 deg  -     -             -
 
       ortho-parallel arm with spherical wrist (Brandstötter, Angerer, Hofbaur 2014)
         lengths in mm   a1 300  a2 -100  b 0  c1 700  c2 900  c3 1000  c4 150
