@@ -49,8 +49,14 @@ impl Progress {
     }
 
     fn leave(&mut self) {
-        if let Some((stage, since)) = self.running.take() {
-            self.timings.push((name(stage), since.elapsed()));
+        let Some((stage, since)) = self.running.take() else {
+            return;
+        };
+        // A plan that the machine does not follow sends the run back to an earlier stage.
+        let stage = name(stage);
+        match self.timings.iter_mut().find(|(earlier, _)| *earlier == stage) {
+            Some((_, time)) => *time += since.elapsed(),
+            None => self.timings.push((stage, since.elapsed())),
         }
     }
 }

@@ -30,6 +30,10 @@ rough vcut {
   rake = 60 deg
   lattice = orthogonal
   swing = 35 deg
+  overlap = 0 %
+  residual = mixed
+  order = point
+  sequence = rows
   direction = DIRECTION
   feed { cut = 100 mm/s, travel = 100 mm/s, reorient = 20 deg/s }
   clearance = 10 mm

@@ -35,7 +35,15 @@ impl Cell {
         let block = format!("  {target} {{");
         assert!(cells.contains(&block), "{cells}");
         let cells = cells.replace(&block, &format!("{block}\n{option}"));
-        let outcome = compile_on(Some(machine), JOB, &Files::of(folder).with(CELLS, cells));
+        // The cuts that the edits are made to, whatever `auto` would make of them.
+        let job = fs::read_to_string(folder.join(JOB)).unwrap();
+        let fixed = "rough vcut {\n  overlap = 0 %\n  order = point\n  sequence = rows";
+        let job = job.replace("rough vcut {", fixed);
+        let outcome = compile_on(
+            Some(machine),
+            JOB,
+            &Files::of(folder).with(CELLS, cells).with(JOB, job),
+        );
         let written = driver::write(&outcome, registry::backend(target).unwrap())
             .unwrap()
             .unwrap();
