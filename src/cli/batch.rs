@@ -15,6 +15,7 @@ use crate::driver::{self, Request, RequestError, Typed};
 use crate::numbers::Numbers;
 use crate::numbers::baseline::{Name, Record};
 use crate::source::{SourceMap, Span};
+use crate::summary::times::TimeFigures;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -71,11 +72,17 @@ impl From<Exit> for Ran {
     }
 }
 
+/// The figures of a program.
+struct Figures {
+    numbers: Numbers,
+    times: TimeFigures,
+}
+
 /// A program that was made, or why not.
 struct Done {
     sources: SourceMap,
     diagnostics: Vec<Diagnostic>,
-    numbers: Option<Numbers>,
+    figures: Option<Figures>,
     made: Result<Option<(Ready, Vec<String>)>, Failure>,
 }
 
@@ -118,7 +125,8 @@ pub(super) fn run(
         ..Total::default()
     };
     for (unit, done) in units.iter().zip(done) {
-        let record = unit.recorded_as.clone().zip(done.numbers.clone());
+        let numbers = done.figures.as_ref().map(|figures| figures.numbers.clone());
+        let record = unit.recorded_as.clone().zip(numbers);
         let (end, ended) = settle(unit, done, fate, list, console);
         match end {
             End::Written => total.written += 1,
@@ -182,7 +190,7 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
             return Done {
                 sources: SourceMap::default(),
                 diagnostics: Vec::new(),
-                numbers: None,
+                figures: None,
                 made: Err(compile::unreadable(&unit.job, &reason)),
             };
         }
@@ -199,7 +207,10 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
     Done {
         sources: outcome.sources,
         diagnostics: outcome.diagnostics,
-        numbers: outcome.compiled.map(|compiled| compiled.numbers),
+        figures: outcome.compiled.map(|compiled| Figures {
+            numbers: compiled.numbers,
+            times: compiled.times,
+        }),
         made,
     }
 }
@@ -246,10 +257,10 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
     let Done {
         sources,
         mut diagnostics,
-        numbers,
+        figures,
         made,
     } = done;
-    let made = match against_baseline(unit, numbers.as_ref(), list) {
+    let made = match against_baseline(unit, figures.as_ref(), list) {
         complaints if complaints.is_empty() || has_errors(&diagnostics) => made,
         complaints => {
             console.diagnostics(&diagnostics, &sources);
@@ -260,7 +271,7 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
                 unit,
                 &complaints,
                 &Made::default(),
-                (fate, numbers.as_ref()),
+                (fate, figures.as_ref()),
                 console,
             );
             return (End::Failed, Exit::JobHasErrors);
@@ -284,7 +295,7 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
         console.differences(&unit.job, found);
     }
     let end = end(&diagnostics, &made);
-    tell(unit, &diagnostics, &made, (fate, numbers.as_ref()), console);
+    tell(unit, &diagnostics, &made, (fate, figures.as_ref()), console);
     let exit = match end {
         End::Written | End::Unchanged => Exit::Success,
         End::Different | End::Failed => Exit::JobHasErrors,
@@ -293,9 +304,9 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
 }
 
 /// What has become worse than the list allows.
-fn against_baseline(unit: &Unit, numbers: Option<&Numbers>, list: Option<&Asking<'_>>) -> Vec<Diagnostic> {
-    match (list.and_then(|list| list.keeper), &unit.recorded_as, numbers) {
-        (Some(keeper), Some(name), Some(numbers)) => keeper.judge(name, numbers, unit.asked_at),
+fn against_baseline(unit: &Unit, figures: Option<&Figures>, list: Option<&Asking<'_>>) -> Vec<Diagnostic> {
+    match (list.and_then(|list| list.keeper), &unit.recorded_as, figures) {
+        (Some(keeper), Some(name), Some(figures)) => keeper.judge(name, &figures.numbers, unit.asked_at),
         _ => Vec::new(),
     }
 }
@@ -304,15 +315,15 @@ fn tell(
     unit: &Unit,
     diagnostics: &[Diagnostic],
     made: &Made,
-    (fate, numbers): (Fate, Option<&Numbers>),
+    (fate, figures): (Fate, Option<&Figures>),
     console: &Console,
 ) {
     console.summary(&Summary {
         job: &unit.job,
         diagnostics,
         lines: &[],
-        numbers,
-        times: None,
+        numbers: figures.map(|figures| &figures.numbers),
+        times: figures.map(|figures| &figures.times),
         reach: None,
         placed: &made.placed,
         remark: Some(&remark(unit, diagnostics, made, fate)),
