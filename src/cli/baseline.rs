@@ -119,15 +119,15 @@ impl Keeper {
         diagnostic.help("add them with `vcutc build --accept`")
     }
 
-    /// Writes the figures of programs that were made; those of others that are still listed stay.
+    /// Writes the figures of programs that were made; those of others that are still listed stay. A file that holds anything
+    /// else is left as it is: it may be a job, or the list itself.
     pub(super) fn accept(&self, fresh: Vec<Record>, listed: &[Name], console: &Console) -> Exit {
-        let earlier = match load_file(Path::new(&self.path)) {
-            // What cannot be read is replaced as a whole.
-            Ok(bytes) => text_from_bytes(bytes)
-                .ok()
-                .and_then(|text| baseline::read(&text).ok())
-                .unwrap_or_default(),
-            Err(_) => Vec::new(),
+        let earlier = match self.earlier() {
+            Ok(earlier) => earlier,
+            Err(reason) => {
+                let help = "name another file in `[baseline]`, or remove this one if it is of no use";
+                return console.failure(&Failure::new(reason).help(help));
+            }
         };
         let is_fresh = |name: &Name| fresh.iter().any(|record| record.name == *name);
         let kept = earlier
@@ -137,6 +137,23 @@ impl Keeper {
         match one_file(Path::new(&self.path), baseline::write(records).as_bytes()) {
             Ok(_) => Exit::Success,
             Err(reason) => console.failure(&Failure::new(reason)),
+        }
+    }
+
+    /// What the file has so far; nothing when it is not there.
+    fn earlier(&self) -> Result<Vec<Record>, String> {
+        let bytes = match load_file(Path::new(&self.path)) {
+            Ok(bytes) => bytes,
+            Err(LoadError::NotFound) => return Ok(Vec::new()),
+            Err(reason) => return Err(format!("cannot read {}: {reason}", self.path)),
+        };
+        let read = text_from_bytes(bytes).ok().map(|text| baseline::read(&text));
+        match read {
+            Some(Ok(records)) => Ok(records),
+            Some(Err(_)) | None => Err(format!(
+                "{} holds no figures of programs, so it is not overwritten",
+                self.path
+            )),
         }
     }
 }

@@ -4,6 +4,7 @@
 use super::{Figure, Numbers};
 use crate::document::flaw::Flaw;
 use serde::{Deserialize, Serialize};
+use serde_json::error::Category;
 
 /// Largest file that is read, in bytes: the most programs of one run, at some hundred bytes each, fit in.
 pub const LARGEST: usize = 1 << 23;
@@ -39,19 +40,22 @@ pub fn read(text: &str) -> Result<Vec<Record>, Flaw> {
         let message = format!("the file has {size} kB, at most {most} kB are read");
         return Err(Flaw::new(0..0, message, "too large"));
     }
-    let records: Vec<Record> = serde_json::from_str(text).map_err(|error| {
-        let place = place(text, error.line(), error.column());
-        // serde_json ends its messages with the place, which the picture shows.
-        let said = error.to_string();
-        let reason = said.split(" at line ").next().unwrap_or_default();
+    // Some editors on Windows begin files with a mark of their byte order.
+    let json = text.strip_prefix('\u{feff}').unwrap_or(text);
+    serde_json::from_str(json).map_err(|error| {
+        let place = text.len() - json.len() + place(json, error.line(), error.column());
+        let reason = match error.classify() {
+            Category::Data => "a figure or a name is missing, or of another kind",
+            Category::Eof => "the text ends too early",
+            Category::Syntax | Category::Io => "the text is not JSON",
+        };
         Flaw::new(
             place..place,
             format!("these are not the figures of programs: {reason}"),
-            "cannot be read here",
+            "cannot be read on from here",
         )
-        .help("let `vcutc build --accept` write the file")
-    })?;
-    Ok(records)
+        .help("take the file as it was committed, or remove it and let `vcutc build --accept` write it anew")
+    })
 }
 
 /// The byte of a line and a column, both from 1.
@@ -154,10 +158,21 @@ mod tests {
             let broken = text.replacen(old, new, 1);
             let flaw = read(&broken).unwrap_err();
             assert!(broken.is_char_boundary(flaw.span.start), "{flaw:?}");
-            assert!(!flaw.message.contains(" at line "), "{flaw:?}");
+            assert!(
+                flaw.message
+                    .starts_with("these are not the figures of programs: "),
+                "{flaw:?}"
+            );
         }
         assert_eq!(place("ab\nc\u{e9}d", 2, 3), 4);
         assert_eq!(place("", 9, 9), 0);
+    }
+
+    #[test]
+    fn a_mark_of_the_byte_order_is_passed_over() {
+        let text = write(vec![record("a.vcut")]);
+        assert_eq!(read(&format!("\u{feff}{text}")).unwrap(), [record("a.vcut")]);
+        assert_eq!(read("\u{feff}x").unwrap_err().span.start, 3);
     }
 
     #[test]

@@ -174,3 +174,24 @@ fn a_baseline_that_cannot_be_used_is_told_at_its_place() {
     assert!(text.contains("error[VC0807]: the list names no file"), "{text}");
     told(path, &["build"], 0);
 }
+
+#[test]
+fn a_file_that_is_no_baseline_is_not_overwritten() {
+    let repository = repository();
+    let path = repository.path();
+    for name in ["vcut.toml", "jobs/rib.vcut", "programs/rib.src"] {
+        let list = LIST.replace("numbers.json", name);
+        fs::write(path.join("vcut.toml"), &list).unwrap();
+        let text = told(path, &["build", "--accept"], 2);
+        assert!(text.contains("holds no figures of programs"), "{text}");
+        assert_eq!(fs::read_to_string(path.join("vcut.toml")).unwrap(), list);
+    }
+    assert_eq!(fs::read_to_string(path.join("jobs/rib.vcut")).unwrap(), RIB);
+    // Nor is one that was spoiled, by a merge for one.
+    let repository = accepted();
+    let path = repository.path();
+    let spoiled = format!("<<<<<<< ours\n{}", numbers(path));
+    fs::write(path.join("numbers.json"), &spoiled).unwrap();
+    told(path, &["build", "--accept"], 2);
+    assert_eq!(numbers(path), spoiled);
+}
