@@ -413,10 +413,10 @@ pub(super) struct OptimizeArgs {
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(2..=100))]
     pub(super) points: u32,
 
-    /// Draw time against scallop into this file, or into a file of this folder
+    /// Draw time against scallop into this file
     ///
     /// Jobs of several operations get a picture for each, with its number behind the name.
-    #[arg(short, long, value_name = "FILE.svg|DIR")]
+    #[arg(short, long, value_name = "FILE.svg")]
     pub(super) output: Option<String>,
 
     #[command(flatten)]

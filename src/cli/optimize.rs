@@ -13,6 +13,10 @@ use vcutc_backend_api::bundle::Sink;
 
 /// Optimises one job.
 pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console) -> Exit {
+    let picture = match args.output.as_deref().map(Picture::named).transpose() {
+        Ok(picture) => picture,
+        Err(failure) => return console.failure(&failure),
+    };
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
     let request = Request {
@@ -26,7 +30,7 @@ pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console
     let optimised = optimisation::optimise(request, args.points, &mut |stage| progress.enter(stage));
     progress.finish();
     match optimised {
-        Ok(optimisation) => tell(&optimisation, args.output.as_deref(), console),
+        Ok(optimisation) => tell(&optimisation, picture.as_ref(), console),
         Err(Refusal::Unreadable(reason)) => console.failure(&Failure::new(format!(
             "cannot read the job {}: {reason}",
             args.job
@@ -38,56 +42,68 @@ pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console
     }
 }
 
-fn tell(optimisation: &Optimisation, output: Option<&str>, console: &Console) -> Exit {
+fn tell(optimisation: &Optimisation, picture: Option<&Picture>, console: &Console) -> Exit {
     console.diagnostics(&optimisation.warnings, &optimisation.sources);
-    let written = match output
-        .map(|path| write_pictures(optimisation, Path::new(path)))
-        .transpose()
-    {
+    let written = match picture.map(|picture| picture.write(optimisation)).transpose() {
         Ok(files) => files.unwrap_or_default(),
         Err(reason) => return console.failure(&Failure::new(reason)),
     };
     let mut text = report::text(optimisation);
+    if !written.is_empty() {
+        text.push('\n');
+    }
     for file in &written {
-        text += &format!("\nwrote {}\n", file.path());
+        text += &format!("wrote {}\n", file.path());
     }
     console.answer("optimisation", &text, report::body(optimisation))
 }
 
-/// Writes the Pareto picture of each operation, all or none: into the file that is named, or files of a folder.
-fn write_pictures(optimisation: &Optimisation, path: &Path) -> Result<Vec<Placed>, String> {
-    let (folder, stem) = folder_and_stem(path, &optimisation.job)?;
-    let mut output = Output::to(&Destination::Folder(folder));
-    let alone = optimisation.operations.len() == 1;
-    for operation in &optimisation.operations {
-        let name = if alone {
-            format!("{stem}.svg")
-        } else {
-            format!("{stem}_{}.svg", operation.number)
-        };
-        output.file(&name).map_err(|error| error.to_string())?;
-        output
-            .write(optimisation.svg(operation).as_bytes())
-            .map_err(|error| error.to_string())?;
-    }
-    output.publish()
+/// Where Pareto pictures go.
+struct Picture {
+    folder: PathBuf,
+    /// The file's name without its ending.
+    stem: String,
 }
 
-/// `out/rib.svg` is the folder `out` and the stem `rib`; anything else is a folder, and the stem says what is in it.
-fn folder_and_stem(path: &Path, job: &str) -> Result<(PathBuf, String), String> {
-    let is_picture = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
-    if !is_picture {
-        return Ok((path.to_owned(), format!("{job}_pareto")));
+impl Picture {
+    /// By the path that `-o` gives.
+    fn named(path: &str) -> Result<Self, Failure> {
+        let file = Path::new(path);
+        let is_picture = file
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+        let stem = file.file_stem().and_then(|stem| stem.to_str());
+        let (true, Some(stem)) = (is_picture, stem) else {
+            return Err(Failure::new(format!(
+                "the trade-off is drawn in SVG: give `-o` the name of a file that ends in .svg, not {path}"
+            )));
+        };
+        let folder = match file.parent() {
+            Some(parent) if parent != Path::new("") => parent.to_owned(),
+            Some(_) | None => PathBuf::from("."),
+        };
+        Ok(Self {
+            folder,
+            stem: stem.to_owned(),
+        })
     }
-    let stem = path
-        .file_stem()
-        .and_then(|stem| stem.to_str())
-        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent.to_owned(),
-        Some(_) | None => PathBuf::from("."),
-    };
-    Ok((folder, stem.to_owned()))
+
+    /// Writes the picture of each operation, all or none; those of several have their numbers behind the name.
+    fn write(&self, optimisation: &Optimisation) -> Result<Vec<Placed>, String> {
+        let mut output = Output::to(&Destination::Folder(self.folder.clone()));
+        let alone = optimisation.operations.len() == 1;
+        for operation in &optimisation.operations {
+            let stem = &self.stem;
+            let name = if alone {
+                format!("{stem}.svg")
+            } else {
+                format!("{stem}_{}.svg", operation.number)
+            };
+            output.file(&name).map_err(|error| error.to_string())?;
+            output
+                .write(optimisation.svg(operation).as_bytes())
+                .map_err(|error| error.to_string())?;
+        }
+        output.publish()
+    }
 }
