@@ -1,6 +1,7 @@
 //! What is said when no parameters keep all that a job asks for: which bounds conflict, where they stand, and the nearest
 //! value that works. The value has been tried before it is offered.
 
+use super::complaints::check_given;
 use super::search;
 use super::{Resolution, show};
 use crate::diag::{Code, Diagnostic};
@@ -51,11 +52,14 @@ pub(super) fn conflict(
 ) -> Diagnostic {
     let mut parties: Vec<(Party, Bound)> = bounds.iter().map(|&bound| (party(asked, bound), bound)).collect();
     parties.sort_by_key(|(party, _)| party.said);
+    // A given value can bind from below and from above.
+    parties.dedup_by(|(later, _), (earlier, _)| later.words == earlier.words);
     let words: Vec<&str> = parties.iter().map(|(party, _)| party.words.as_str()).collect();
     let message = match words.as_slice() {
         [] => "no parameters keep all limits".to_owned(),
         [one] => format!("no parameters keep {one}"),
-        [first @ .., last] => format!("no parameters keep both {} and {last}", first.join(", ")),
+        [one, other] => format!("no parameters keep both {one} and {other}"),
+        [first @ .., last] => format!("no parameters keep all of {} and {last}", first.join(", ")),
     };
     let mut places = parties
         .iter()
@@ -75,7 +79,7 @@ pub(super) fn conflict(
         }
     }
     if diagnostic.fixes.is_empty() {
-        diagnostic = diagnostic.help("widen one of the two, or leave more of the parameters `auto`");
+        diagnostic = diagnostic.help("widen one of these, or leave more of the parameters `auto`");
     }
     diagnostic
 }
@@ -104,6 +108,12 @@ fn offer(
         let number = in_units(bound, nearest * (1.0 + direction * margin), direction);
         let mut changed = asked.clone();
         let span = set(&mut changed, bound, number)?;
+        // A given value also has to stay within the limit on it.
+        let mut complaints = Vec::new();
+        check_given(&changed, &mut complaints);
+        if !complaints.is_empty() {
+            return None;
+        }
         let lattices: Vec<Lattice> = search::lattices(&changed)
             .into_iter()
             .filter(|lattice| resolution.lattices.contains(lattice))
@@ -266,7 +276,10 @@ fn party(asked: &RoughVcut, bound: Bound) -> Party {
             .map(|limit| format!("a time of at most {} s", show(limit.value.to_s()))),
         Bound::Cuts => limits
             .cuts
-            .map(|limit| format!("at most {} cuts", show(limit.value))),
+            .map(|limit| match limit.value {
+                most if most < 2.0 => "one cut at most".to_owned(),
+                most => format!("at most {} cuts", show(most.floor())),
+            }),
     };
     Party {
         said,
