@@ -8,8 +8,10 @@
 //! distance from the kink is, within a box, at least in proportion to its square.
 
 use super::descent::{Meets, Rest};
-use super::number::{Interval, Jet, Number, Slopes};
-use super::search::{Ground, Term, swing};
+use super::ground::{Ground, Term};
+use super::jet::Jet;
+use super::number::{Interval, Number, Slopes};
+use super::search::swing;
 
 /// How far the first box that is tried reaches, as a share of the place; each further one reaches half as far.
 const WIDEST: f64 = 0.3;
@@ -27,8 +29,7 @@ pub(super) struct Blend {
 impl Blend {
     pub(super) fn at(rest: Rest) -> Self {
         let mut parts = [(rest.top, 1.0), (rest.top, 0.0), (rest.top, 0.0)];
-        let mut number = 1;
-        for (meets, multiplier) in rest.meets.into_iter().flatten() {
+        for (number, (meets, multiplier)) in (1..).zip(rest.meets.into_iter().flatten()) {
             match meets {
                 Meets::Term(term) => {
                     parts[number] = (term, multiplier);
@@ -37,7 +38,6 @@ impl Blend {
                 Meets::Bound(term) => parts[number] = (term, multiplier),
                 Meets::Low(_) | Meets::High(_) => {}
             }
-            number += 1;
         }
         Self { parts, rest }
     }

@@ -4,8 +4,8 @@
 //! filter: Chinneck, Feasibility and Infeasibility in Optimization, 2008). What remains conflicts, and without any one of it
 //! nothing does.
 
+use super::ground::Measure;
 use super::problem::{Bound, Infeasible, Problem};
-use super::search::Measure;
 use super::{any, least, try_any};
 
 /// The order in which bounds are dropped: first those that people rarely set, so that what remains is what they know.

@@ -6,8 +6,8 @@
 //! turns negative (Nocedal and Wright: Numerical Optimization, 2006, chapter 16). With two coordinates at most two meet with the
 //! first. Nothing here needs to be certain: what is found is tried as any other shape, and proven or not in `certain`.
 
-use super::number::Jet;
-use super::search::{Ground, KEPT, Term};
+use super::ground::{Ground, KEPT, Term};
+use super::jet::Jet;
 
 /// Most steps.
 const MOST_STEPS: u32 = 40;
@@ -107,11 +107,8 @@ pub(super) fn descend(ground: &Ground<'_>, start: [f64; 2]) -> Option<Rest> {
         }
         let ran_into = rest.go(ground, step.by, (LONG / longest).min(1.0));
         match ran_into {
-            Some(meets) => {
-                if !rest.take_up(ground, meets) {
-                    return None;
-                }
-            }
+            Some(meets) if !rest.take_up(ground, meets) => return None,
+            Some(_) => {}
             None if longest < SHORT => return Some(rest),
             None => {}
         }
@@ -124,26 +121,30 @@ impl Rest {
         self.meets.iter().flatten().any(|(held, _)| *held == meets)
     }
 
-    /// Holds one more condition; where there is no room, instead of the one that matters least.
+    /// Holds one more condition; where there is no room, instead of the one without which the multipliers come out best.
     fn take_up(&mut self, ground: &Ground<'_>, meets: Meets) -> bool {
-        let matters = |held: &Option<(Meets, f64)>| match held {
-            None => -1.0,
-            Some((Meets::Low(i) | Meets::High(i), _)) if ground.chart.sides[*i].width() <= 0.0 => {
-                f64::INFINITY
-            }
-            Some((_, multiplier)) => *multiplier,
-        };
-        let least = self
-            .meets
-            .iter_mut()
-            .min_by(|one, two| matters(one).total_cmp(&matters(two)));
-        match least {
-            Some(held) if matters(held) < f64::INFINITY => {
-                *held = Some((meets, 0.0));
-                true
-            }
-            Some(_) | None => false,
+        if let Some(free) = self.meets.iter_mut().find(|held| held.is_none()) {
+            *free = Some((meets, 0.0));
+            return true;
         }
+        let exchanged = |number: usize| {
+            let fixed = match self.meets[number] {
+                Some((Meets::Low(i) | Meets::High(i), _)) => ground.chart.sides[i].width() <= 0.0,
+                Some((Meets::Term(_) | Meets::Bound(_), _)) | None => false,
+            };
+            let mut other = *self;
+            other.meets[number] = Some((meets, 0.0));
+            let step = (!fixed).then(|| other.step(ground)).flatten()?;
+            Some((other, step.multipliers[0].min(step.multipliers[1])))
+        };
+        let best = match (exchanged(0), exchanged(1)) {
+            (Some(one), Some(two)) => Some(if two.1 > one.1 { two } else { one }),
+            (one, two) => one.or(two),
+        };
+        if let Some((other, _)) = best {
+            *self = other;
+        }
+        best.is_some()
     }
 
     fn condition(&self, ground: &Ground<'_>, top: &Condition, meets: Meets) -> Condition {

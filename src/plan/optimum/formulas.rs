@@ -4,9 +4,9 @@
 //! lengths grow with the layer `h`: the reach it needs is `kappa h`, the scallop it leaves `sigma h`. Every bound is then a
 //! bound on `h`, and the time falls with `h` (`docs/process.md`, "The optimum"), so the thickest layer is the best.
 
+use super::ground::Asked;
 use super::number::Number;
 use super::problem::{Extension, Problem, Range};
-use super::search::Asked;
 use crate::job::{Formulas, Lattice};
 use vcutc_backend_api::units::Length;
 

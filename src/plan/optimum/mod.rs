@@ -4,7 +4,10 @@
 //! * [`problem`](self) says what is asked and answered, [`Bound`] names what is bounded.
 //! * `formulas` turns a swing and an overlap into the thickest layer that the bounds allow and what that costs, for
 //!   numbers and for boxes of numbers (`number`). `docs/process.md`, "The optimum", proves that no other layer is better.
-//! * `search` finds the best swing and overlap by branch and bound, in the coordinates of `chart`; `polish` adds the last digits.
+//! * `ground` says what a shape comes to by which functions.
+//! * `descent` goes down to where it is best around a shape, by the slopes and curvatures of `jet`, `certain` proves that, and
+//!   `search` that there is nothing better elsewhere, by branch and bound in the coordinates of `chart`. `polish` helps out
+//!   where a descent comes to no rest.
 //! * `conflict` says why nothing keeps all bounds, `trade` what a bound costs.
 //!
 //! Between equals the lattice that is named first is taken, and of one lattice what the search meets first, which does
@@ -16,6 +19,8 @@ mod chart;
 mod conflict;
 mod descent;
 mod formulas;
+mod ground;
+mod jet;
 mod number;
 mod polish;
 mod problem;
@@ -28,7 +33,8 @@ pub use trade::{sensitivities, trade_off};
 use super::grid;
 use crate::job::{Lattice, Objective};
 use formulas::Model;
-use search::{Found, Goal, Measure};
+use ground::{Found, Measure};
+use search::Goal;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// The least scallop or edge is found to this share of it.

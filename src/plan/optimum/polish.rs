@@ -1,8 +1,8 @@
 //! The last digits of the best shape where no descent comes to rest: a search by golden sections (Kiefer 1953), for each place
 //! along the first coordinate the best along the second. What is found is never worse.
 
+use super::ground::{Found, Ground, Merit};
 use super::number::Interval;
-use super::search::{Found, Ground, Merit};
 
 /// The golden ratio's smaller part.
 const PART: f64 = 0.381_966_011_250_105_2;
