@@ -5,6 +5,7 @@
 //! * [`emission`] writes the same program text in other ways: with the standard library's formatting, and as bytes
 //!   that are already there.
 //! * [`contour`] finds the same machined contour by polygon clipping.
+//! * [`optimum`] asks for the parameters of least time, of us and of others.
 //! * [`kinematics`] solves the inverse kinematics of the same poses, by us and by others.
 //!
 //! The criterion benchmarks under `benches/` and the program `measure` use the same functions, and each comparison
@@ -14,6 +15,7 @@ pub mod contour;
 pub mod emission;
 pub mod jobs;
 pub mod kinematics;
+pub mod optimum;
 #[path = "../../tests/it/opw_peer.rs"]
 pub mod opw_peer;
 pub mod stages;

@@ -117,15 +117,16 @@ pub fn largest_layer_at_step(lattice: Lattice, step: Length, slope: f64, reach: 
     (best > 0.0).then(|| Length::mm(best.min(reach)))
 }
 
-/// The scallop that a lattice leaves at most on a part: [Cui 12] for orthogonal and free lattices, `(2 - eps) h` for
-/// interlaced ones.
+/// The scallop that a lattice leaves at most on a part, away from the stock's sides: [Cui 12] for orthogonal and free
+/// lattices; for interlaced ones `(2 - eps) h` down to the next tip or `s / 2` sideways and `h` down to one of the column
+/// beside, whichever is farther.
 #[must_use]
 pub fn scallop_bound(lattice: Lattice, layer: Length, step: Length, slope: f64) -> Length {
     // (2 - eps) h with eps from the step: 1 - eps = c s / (2 h).
     let drop = layer.to_mm() + slope * step.to_mm() / 2.0;
     match lattice {
         Lattice::Orthogonal | Lattice::Free => Length::mm(libm::hypot(step.to_mm() / 2.0, drop)),
-        Lattice::Interlaced => Length::mm(drop),
+        Lattice::Interlaced => Length::mm(drop.max(libm::hypot(step.to_mm() / 2.0, layer.to_mm()))),
     }
 }
 
@@ -145,11 +146,11 @@ pub fn largest_layer_for_scallop_at_step(
     limit: Length,
 ) -> Option<Length> {
     let (s, limit) = (step.to_mm(), limit.to_mm());
-    let drop = match lattice {
-        Lattice::Orthogonal | Lattice::Free => (limit * limit - s * s / 4.0).max(0.0).sqrt(),
-        Lattice::Interlaced => limit,
+    let down = (limit * limit - s * s / 4.0).max(0.0).sqrt();
+    let layer = match lattice {
+        Lattice::Orthogonal | Lattice::Free => down - slope * s / 2.0,
+        Lattice::Interlaced => down.min(limit - slope * s / 2.0),
     };
-    let layer = drop - slope * s / 2.0;
     (layer > 0.0).then(|| Length::mm(layer))
 }
 

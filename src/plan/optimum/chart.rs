@@ -75,6 +75,15 @@ impl Chart {
         }
     }
 
+    /// The coordinates of a shape.
+    pub(super) const fn place(&self, shape: Shape<f64>) -> [f64; 2] {
+        match self.plane {
+            Plane::TangentShare => [shape.tangent, shape.share],
+            Plane::TangentAspect => [shape.tangent, shape.aspect],
+            Plane::ShareAspect => [shape.share, shape.aspect],
+        }
+    }
+
     /// By how much the third keeps its range, as shares of its ends.
     pub(super) fn slack<N: Number>(&self, shape: Shape<N>) -> [N; 2] {
         let third = match self.plane {

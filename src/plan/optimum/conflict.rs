@@ -4,9 +4,9 @@
 //! filter: Chinneck, Feasibility and Infeasibility in Optimization, 2008). What remains conflicts, and without any one of it
 //! nothing does.
 
+use super::ground::Measure;
 use super::problem::{Bound, Infeasible, Problem};
-use super::search::Measure;
-use super::{any, least};
+use super::{any, least, try_any};
 
 /// The order in which bounds are dropped: first those that people rarely set, so that what remains is what they know.
 const ORDER: [Bound; 12] = [
@@ -26,6 +26,9 @@ const ORDER: [Bound; 12] = [
 
 /// The nearest value is found to this share of it.
 const FINE: f64 = 1e-7;
+
+/// Most halvings on the way to it.
+const MOST_HALVINGS: u32 = 120;
 
 /// Why a problem without parameters has none.
 pub(super) fn explain(problem: &Problem) -> Infeasible {
@@ -50,25 +53,39 @@ pub(super) fn explain(problem: &Problem) -> Infeasible {
 /// The nearest value of a bound that all others allow.
 fn nearest(problem: &Problem, bound: Bound) -> Option<f64> {
     let asked = bound.value(problem)?;
-    let allows = |problem: &Problem| any(problem).map(|optimum| bound.attained(&optimum));
-    let mut works = allows(&bound.dropped(problem))?;
+    let mut works = bound.attained(&any(&bound.dropped(problem))?);
     let mut fails = asked;
-    while (works - fails).abs() > FINE * works.abs().max(fails.abs()) {
-        // Evenly in shares while they are far apart.
-        let middle = if fails > 0.0 && works / fails > 4.0 {
-            (works * fails).sqrt()
-        } else {
-            0.5 * (works + fails)
-        };
-        if middle == works || middle == fails {
+    // Descents say quickly where it is, a search then whether it is nearer still.
+    for find in [try_any, any] {
+        for _ in 0..MOST_HALVINGS {
+            if (works - fails).abs() <= FINE * works.abs().max(fails.abs()) {
+                break;
+            }
+            // Evenly in shares while they are far apart.
+            let middle = if fails > 0.0 && works / fails > 4.0 {
+                (works * fails).sqrt()
+            } else {
+                0.5 * (works + fails)
+            };
+            if middle == works || middle == fails {
+                break;
+            }
+            match find(&bound.replaced(problem, middle)).map(|optimum| bound.attained(&optimum)) {
+                // What it comes to may be nearer still.
+                Some(attained) if (attained - asked).abs() < (middle - asked).abs() => works = attained,
+                Some(_) => works = middle,
+                None => fails = middle,
+            }
+            // Descents may have missed some.
+            if (works - asked).abs() < (fails - asked).abs() {
+                fails = asked;
+            }
+        }
+        let nearer = works - 2.0 * FINE * works.abs().max(fails.abs()).copysign(works - asked);
+        if any(&bound.replaced(problem, nearer)).is_none() {
             break;
         }
-        match allows(&bound.replaced(problem, middle)) {
-            // What it comes to may be nearer still.
-            Some(attained) if (attained - asked).abs() < (middle - asked).abs() => works = attained,
-            Some(_) => works = middle,
-            None => fails = middle,
-        }
+        fails = asked;
     }
     eased(problem, bound, works, works - asked)
 }

@@ -4,6 +4,7 @@
 //! lengths grow with the layer `h`: the reach it needs is `kappa h`, the scallop it leaves `sigma h`. Every bound is then a
 //! bound on `h`, and the time falls with `h` (`docs/process.md`, "The optimum"), so the thickest layer is the best.
 
+use super::ground::Asked;
 use super::number::Number;
 use super::problem::{Extension, Problem, Range};
 use crate::job::{Formulas, Lattice};
@@ -50,6 +51,26 @@ pub(super) enum Keeping {
     Neither,
 }
 
+/// What the layer of a shape is bounded by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds<N> {
+    secant: N,
+    factor: N,
+    pub(super) by_reach: N,
+    pub(super) by_scallop: Option<N>,
+    /// The least layer that is asked for, and the largest.
+    pub(super) least: N,
+    most: N,
+}
+
+/// What a shape costs with some layer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cost<N> {
+    layer: N,
+    pub(super) time: N,
+    pub(super) cuts: N,
+}
+
 /// What the layer is bounded by, and what it costs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outcome<N> {
@@ -90,9 +111,12 @@ pub(super) struct Model {
     extension: Extension,
     standoff: f64,
     allowance: f64,
-    scallop: Option<f64>,
-    time: Option<f64>,
-    cuts: Option<f64>,
+    pub(super) scallop: Option<f64>,
+    pub(super) time: Option<f64>,
+    pub(super) cuts: Option<f64>,
+    /// Whether less time for thicker layers is certain as far as reach or scallop alone allow them, so that the largest layer
+    /// and step need no look.
+    tame: bool,
     /// Layers thicker than this are only considered where the bounds ask for them.
     pub(super) thickest: f64,
     pub(super) layer: [f64; 2],
@@ -139,6 +163,7 @@ impl Model {
             scallop: problem.scallop.map(Length::to_mm),
             time: problem.time.map(vcutc_backend_api::units::Duration::to_s),
             cuts: problem.cuts,
+            tame: false,
             thickest: f64::INFINITY,
             layer,
             step,
@@ -176,24 +201,24 @@ impl Model {
         if self.width * along < widest * grows {
             self.thickest = self.depth / 1.5;
         }
+        let by_reach = 2.0 * self.ranges.share[1] * steepest * self.upright_reach;
+        let alone = by_reach.max(self.scallop.map_or(0.0, |scallop| 2.0 * scallop));
+        self.tame = self.width * along >= alone.max(widest) * grows && alone <= WIDEST * self.width;
         self
     }
 
-    /// The steps of the saw-tooth within the range of shares.
-    pub(super) fn teeth(&self) -> Vec<Tooth> {
-        match (self.formulas, self.lattice) {
+    /// The first step of the saw-tooth within the range of shares, and the rest.
+    pub(super) fn teeth(&self) -> impl Iterator<Item = Tooth> + use<> {
+        let teeth = match (self.formulas, self.lattice) {
             (Formulas::Paper, Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free)
-            | (Formulas::Exact, Lattice::Free) => vec![Tooth::Any],
+            | (Formulas::Exact, Lattice::Free) => [Some(Tooth::Any), None],
             (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced) => {
                 let first = self.behind(self.ranges.share[1]);
-                let last = self.behind(self.ranges.share[0]);
-                if first == last {
-                    vec![Tooth::Behind(first)]
-                } else {
-                    vec![Tooth::Behind(first), Tooth::Later(first + 1)]
-                }
+                let later = (self.behind(self.ranges.share[0]) > first).then(|| Tooth::Later(first + 1));
+                [Some(Tooth::Behind(first)), later]
             }
-        }
+        };
+        teeth.into_iter().flatten()
     }
 
     /// The number of the tip behind which a flank comes out.
@@ -282,12 +307,15 @@ impl Model {
         }
     }
 
-    /// Scallop for each millimetre of layer [Cui 12].
+    /// Scallop for each millimetre of layer: [Cui 12], or what is derived in `docs/process.md`, "Scallop".
     pub(super) fn scallop_factor<N: Number>(&self, shape: Shape<N>) -> N {
         let drop = N::constant(1.0) + shape.share;
         match self.lattice {
             Lattice::Orthogonal | Lattice::Free => (shape.aspect * shape.aspect + drop * drop).root(),
-            Lattice::Interlaced => drop,
+            Lattice::Interlaced => match self.formulas {
+                Formulas::Paper => drop,
+                Formulas::Exact => drop.greater((shape.aspect * shape.aspect + N::constant(1.0)).root()),
+            },
         }
     }
 
@@ -305,49 +333,95 @@ impl Model {
         self.reach_factor(shape.share) * layer * (1.0 + shape.tangent * shape.tangent).sqrt() / self.sin_lead
     }
 
-    /// What comes of a shape.
-    pub(super) fn outcome<N: Number>(&self, shape: Shape<N>, tooth: Tooth, keeping: Keeping) -> Outcome<N> {
-        let (one, tangent) = (N::constant(1.0), shape.tangent);
-        let secant = (one + tangent * tangent).root();
+    /// What bounds the layer of a shape.
+    pub(super) fn bounds<N: Number>(&self, shape: Shape<N>, tooth: Tooth) -> Bounds<N> {
+        let one = N::constant(1.0);
+        let secant = (one + shape.tangent * shape.tangent).root();
         let factor = self.factor(shape.share, tooth);
         let by_reach = N::constant(self.upright_reach) / (secant * factor);
         let room = self.scallop.map(|scallop| {
-            N::constant(scallop - self.allowance) - N::constant(self.standoff) * secant / tangent
+            let room = N::constant(scallop - self.allowance);
+            if self.standoff > 0.0 {
+                room - N::constant(self.standoff) * secant / shape.tangent
+            } else {
+                room
+            }
         });
         let by_scallop = room.map(|room| room / self.scallop_factor(shape));
         let two = shape.aspect + shape.aspect;
         let least = N::constant(self.layer[0]).greater(N::constant(self.step[0]) / two);
         let most = N::constant(self.layer[1]).lesser(N::constant(self.step[1]) / two);
-        let most = most.lesser(N::constant(self.thickest));
-        let layer = match (keeping, by_scallop) {
-            (Keeping::Both, Some(by_scallop)) => by_reach.lesser(by_scallop).lesser(most),
-            (Keeping::Both | Keeping::Reach, _) => by_reach.lesser(most),
-            (Keeping::Scallop, Some(by_scallop)) => by_scallop.lesser(most),
-            (Keeping::Scallop | Keeping::Neither, _) => most,
+        Bounds {
+            secant,
+            factor,
+            by_reach,
+            by_scallop,
+            least,
+            most: most.lesser(N::constant(self.thickest)),
+        }
+    }
+
+    /// The layer that is asked for at least.
+    pub(super) fn asked<N: Number>(&self, shape: Shape<N>, asked: Asked) -> N {
+        match asked {
+            Asked::Layer => N::constant(self.layer[0]),
+            Asked::Step => N::constant(self.step[0]) / (shape.aspect + shape.aspect),
+        }
+    }
+
+    /// The layer that some of the bounds allow.
+    fn layer<N: Number>(&self, bounds: &Bounds<N>, keeping: Keeping) -> N {
+        if self.given() {
+            return bounds.least;
+        }
+        let most = bounds.most;
+        let capped = |layer: N| if self.tame { layer } else { layer.lesser(most) };
+        let layer = match (keeping, bounds.by_scallop) {
+            (Keeping::Both, Some(by_scallop)) => bounds.by_reach.lesser(by_scallop).lesser(most),
+            (Keeping::Both, None) => bounds.by_reach.lesser(most),
+            (Keeping::Reach, _) => capped(bounds.by_reach),
+            (Keeping::Scallop, Some(by_scallop)) => capped(by_scallop),
+            (Keeping::Scallop, None) | (Keeping::Neither, _) => most,
         };
-        let layer = if self.given() { least } else { layer.greater(least) };
+        layer.greater(bounds.least)
+    }
+
+    /// What a shape costs with the layer that some of the bounds allow.
+    pub(super) fn cost<N: Number>(&self, shape: Shape<N>, bounds: &Bounds<N>, keeping: Keeping) -> Cost<N> {
+        let layer = self.layer(bounds, keeping);
+        let two = shape.aspect + shape.aspect;
         let points = N::constant(self.width) / (two * layer) + N::constant(0.5);
-        let layers = (N::constant(self.depth) / layer - N::constant(0.5)).greater(one);
+        let layers = (N::constant(self.depth) / layer - N::constant(0.5)).greater(N::constant(1.0));
         let cuts = points * layers;
-        let time = cuts * self.each_cut(shape, secant, factor, layer)
-            + layers * (N::constant(self.change) - layer - shape.aspect * layer)
-                / N::constant(self.travel_feed);
+        let change = N::constant(self.change) - layer - shape.aspect * layer;
+        let time = cuts * self.each_cut(shape, bounds.secant, bounds.factor, layer)
+            + layers * change * N::constant(1.0 / self.travel_feed);
+        Cost { layer, time, cuts }
+    }
+
+    /// What comes of a shape.
+    pub(super) fn outcome<N: Number>(&self, shape: Shape<N>, tooth: Tooth, keeping: Keeping) -> Outcome<N> {
+        let bounds = self.bounds(shape, tooth);
+        let cost = self.cost(shape, &bounds, keeping);
+        let one = N::constant(1.0);
         let kept = |limit: Option<f64>, value: N| limit.map_or(one, |limit| N::constant(limit) / value - one);
         Outcome {
-            layer,
+            layer: cost.layer,
             slack: [
-                by_reach / least - one,
-                by_scallop.map_or(one, |by_scallop| by_scallop / least - one),
-                kept(self.time, time),
-                kept(self.cuts, cuts),
+                bounds.by_reach / bounds.least - one,
+                bounds
+                    .by_scallop
+                    .map_or(one, |by_scallop| by_scallop / bounds.least - one),
+                kept(self.time, cost.time),
+                kept(self.cuts, cost.cuts),
             ],
-            time,
-            cuts,
+            time: cost.time,
+            cuts: cost.cuts,
         }
     }
 
     /// Whether layer or step is one value: the shape then decides both.
-    fn given(&self) -> bool {
+    pub(super) fn given(&self) -> bool {
         self.layer[0] >= self.layer[1] || self.step[0] >= self.step[1]
     }
 
@@ -356,8 +430,8 @@ impl Model {
     fn each_cut<N: Number>(&self, shape: Shape<N>, secant: N, factor: N, layer: N) -> N {
         let sine = (shape.tangent * shape.tangent + N::constant(self.cos_rake * self.cos_rake)).root();
         // phi = 2 acos(cos(alpha) sin(theta)), of which this is half the tangent.
-        let half = (sine / N::constant(self.sin_rake)).arc_tangent();
-        let turn = (half + half) / N::constant(self.rate);
+        let half = (sine * N::constant(1.0 / self.sin_rake)).arc_tangent();
+        let turn = (half + half) * N::constant(1.0 / self.rate);
         let extension = match self.extension {
             Extension::Fixed(length) => N::constant(length.to_mm()),
             Extension::EdgeInUse => factor * layer * secant * N::constant(self.along),
@@ -368,11 +442,8 @@ impl Model {
                     + N::constant(run_out.to_mm())
             }
         };
-        let sideways = (shape.aspect + shape.aspect) * layer / N::constant(self.travel_feed);
-        N::constant(self.pass)
-            + N::constant(4.0) * extension / N::constant(self.cut_feed)
-            + turn
-            + turn.greater(sideways)
+        let sideways = (shape.aspect + shape.aspect) * layer * N::constant(1.0 / self.travel_feed);
+        N::constant(self.pass) + extension * N::constant(4.0 / self.cut_feed) + turn + turn.greater(sideways)
     }
 }
 

@@ -4,17 +4,23 @@
 //! * [`problem`](self) says what is asked and answered, [`Bound`] names what is bounded.
 //! * `formulas` turns a swing and an overlap into the thickest layer that the bounds allow and what that costs, for
 //!   numbers and for boxes of numbers (`number`). `docs/process.md`, "The optimum", proves that no other layer is better.
-//! * `search` finds the best swing and overlap by branch and bound, in the coordinates of `chart`; `polish` adds the last digits.
+//! * `ground` says what a shape comes to by which functions.
+//! * `descent` goes down to where it is best around a shape, by the slopes and curvatures of `jet`, `certain` proves that, and
+//!   `search` that there is nothing better elsewhere, by branch and bound in the coordinates of `chart`. `polish` helps out
+//!   where a descent comes to no rest.
 //! * `conflict` says why nothing keeps all bounds, `trade` what a bound costs.
 //!
 //! Between equals the lattice that is named first is taken, and of one lattice what the search meets first, which does
 //! not depend on the platform.
 
-mod blend;
 mod bounds;
+mod certain;
 mod chart;
 mod conflict;
+mod descent;
 mod formulas;
+mod ground;
+mod jet;
 mod number;
 mod polish;
 mod problem;
@@ -27,11 +33,15 @@ pub use trade::{sensitivities, trade_off};
 use super::grid;
 use crate::job::{Lattice, Objective};
 use formulas::Model;
-use search::{Found, Goal, Measure};
+use ground::{Found, Measure};
+use search::Goal;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// The least scallop or edge is found to this share of it.
 const FINE: f64 = 1e-10;
+
+/// That nothing keeps a limit tighter by this share is proven.
+const PROVEN: f64 = 1e-7;
 
 /// The best parameters there are.
 ///
@@ -67,7 +77,7 @@ fn unbounded(problem: &Problem) -> bool {
 /// The parameters of least time or fewest cuts, over all lattices.
 fn least(problem: &Problem, measure: Measure) -> Option<Optimum> {
     let value = |optimum: &Optimum| match measure {
-        Measure::Time => optimum.time.to_s(),
+        Measure::Time | Measure::Breach => optimum.time.to_s(),
         Measure::Cuts => optimum.cuts,
     };
     let mut best: Option<Optimum> = None;
@@ -79,33 +89,58 @@ fn least(problem: &Problem, measure: Measure) -> Option<Optimum> {
             (None, found) => found,
         };
     }
-    // Where the shapes that keep the bounds lie within rounding of one another, a search may miss what one in another
-    // order meets; then nothing is proven of it.
-    best.or_else(|| any(problem).map(|optimum| Optimum { gap: 1.0, ..optimum }))
+    best
 }
 
-/// Any parameters that keep the bounds. Of a problem with one lattice, swing, layer and step these, if they do.
+/// Any parameters that keep the bounds; none is proven. Of a problem with one lattice, swing, layer and step these, if
+/// they do.
 pub(in crate::plan) fn any(problem: &Problem) -> Option<Optimum> {
-    problem
-        .lattices
-        .iter()
-        .find_map(|&lattice| on_lattice(problem, lattice, Measure::Time, Goal::Any))
+    try_any(problem).or_else(|| by_goal(problem, Goal::Any))
+}
+
+/// Any parameters that keep the bounds, if a few tries meet some.
+fn try_any(problem: &Problem) -> Option<Optimum> {
+    by_goal(problem, Goal::Quick)
+}
+
+fn by_goal(problem: &Problem, goal: Goal) -> Option<Optimum> {
+    let mut lattices = problem.lattices.iter();
+    lattices.find_map(|&lattice| on_lattice(problem, lattice, Measure::Breach, goal))
 }
 
 /// The parameters that keep the tightest limit on a scallop or an edge that any keep: what can be kept under one limit can be
-/// under every slacker one, so the limit is found by halving.
+/// under every slacker one, so the limit is found by halving. Descents say quickly where it is; that nothing tighter can be
+/// kept is then proven once.
 fn tightest(problem: &Problem, bound: Bound) -> Option<Optimum> {
     let mut best = any(problem)?;
+    for find in [try_any, any] {
+        best = halved(problem, bound, best, find);
+        let tighter = bound.attained(&best) * (1.0 - PROVEN);
+        match any(&bound.replaced(problem, tighter)) {
+            Some(better) => best = better,
+            None => break,
+        }
+    }
+    best.gap = PROVEN;
+    best.binding = touched(problem, &best);
+    Some(best)
+}
+
+/// Parameters that keep a limit as tight as any are found for, beginning with some.
+fn halved(
+    problem: &Problem,
+    bound: Bound,
+    mut best: Optimum,
+    find: impl Fn(&Problem) -> Option<Optimum>,
+) -> Optimum {
     let mut fails = 0.0;
     loop {
         let works = bound.attained(&best);
         if works - fails <= FINE * works {
-            best.gap = FINE;
-            best.binding = touched(problem, &best);
-            return Some(best);
+            return best;
         }
         let middle = 0.5 * (works + fails);
-        match any(&bound.replaced(problem, middle)) {
+        match find(&bound.replaced(problem, middle)) {
             Some(better) => best = better,
             None => fails = middle,
         }

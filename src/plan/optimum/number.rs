@@ -3,7 +3,7 @@
 //! A [`Slopes`] encloses a function over a box: all its values, and all its generalised partial derivatives (Clarke:
 //! Optimization and Nonsmooth Analysis, 1983), which at a kink of `min` or `max` are the hull of those on both sides. Every
 //! bound is rounded outward (Moore: Interval Analysis, 1966), so what follows from it is proven.
-
+use super::jet::Scalar;
 use core::ops::{Add, Div, Mul, Sub};
 
 /// What the formulas need of a number.
@@ -87,8 +87,24 @@ impl Interval {
         }
     }
 
+    /// The middle of one of so many equal parts of it.
+    pub(super) fn part(self, number: u32, of: u32) -> f64 {
+        self.low + self.width() * (f64::from(number) + 0.5) / f64::from(of)
+    }
+
     pub(super) fn width(self) -> f64 {
         self.high - self.low
+    }
+
+    /// Its square, which is never negative.
+    pub(super) fn square(self) -> Self {
+        let (one, two) = (self.low * self.low, self.high * self.high);
+        let low = if self.low <= 0.0 && self.high >= 0.0 {
+            0.0
+        } else {
+            one.lesser(two)
+        };
+        outward(low, one.greater(two))
     }
 
     pub(super) fn magnitude(self) -> f64 {
@@ -96,16 +112,18 @@ impl Interval {
     }
 
     /// One part in something positive.
-    fn inverse(self) -> Self {
+    pub(super) fn inverse(self) -> Self {
         outward(1.0 / self.high, 1.0 / self.low)
     }
 }
 
-/// Bounds moved outward by a unit in the last place: more than the rounding of an operation.
-fn outward(low: f64, high: f64) -> Interval {
+/// Bounds moved outward by a unit in the last place or more, which is more than the rounding of an operation; what is nothing
+/// stays so. Values are far from the smallest that there are.
+#[inline]
+pub(super) fn outward(low: f64, high: f64) -> Interval {
     Interval {
-        low: low.next_down(),
-        high: high.next_up(),
+        low: low - low.abs() * f64::EPSILON,
+        high: high + high.abs() * f64::EPSILON,
     }
 }
 
@@ -269,14 +287,12 @@ impl Number for Slopes {
     }
 
     fn root(self) -> Self {
-        let value = outward(self.value.low.sqrt(), self.value.high.sqrt());
+        let value = self.value.root();
         self.of(value, Interval::exactly(0.5) * value.inverse())
     }
 
     fn arc_tangent(self) -> Self {
-        // Within one unit in the last place (musl), so two are enough.
-        let value = outward(libm::atan(self.value.low), libm::atan(self.value.high));
-        let value = outward(value.low, value.high);
+        let value = self.value.arc_tangent();
         let derivative = (Interval::exactly(1.0) + self.value * self.value).inverse();
         self.of(value, derivative)
     }
