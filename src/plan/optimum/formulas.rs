@@ -404,7 +404,9 @@ impl Model {
         let bounds = self.bounds(shape, tooth);
         let cost = self.cost(shape, &bounds, keeping);
         let one = N::constant(1.0);
-        let kept = |limit: Option<f64>, value: N| limit.map_or(one, |limit| N::constant(limit) / value - one);
+        // Not `limit / value - 1`: over a wide box the enclosure of the time reaches below nothing.
+        let kept =
+            |limit: Option<f64>, value: N| limit.map_or(one, |limit| one - value * N::constant(1.0 / limit));
         Outcome {
             layer: cost.layer,
             slack: [

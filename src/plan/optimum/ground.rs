@@ -171,7 +171,7 @@ impl Ground<'_> {
         let cost = |keeping: Keeping| self.model.cost(shape, &bounds(), keeping);
         let one = N::constant(1.0);
         let beyond = |limit: Option<f64>, value: N| {
-            limit.map_or(N::constant(-1.0), |limit| one - N::constant(limit) / value)
+            limit.map_or(N::constant(-1.0), |limit| value * N::constant(1.0 / limit) - one)
         };
         match term {
             Term::Time(keeping) => cost(keeping).time,

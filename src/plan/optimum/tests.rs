@@ -665,3 +665,27 @@ fn another_optimiser_finds_nothing_better() {
         }
     }
 }
+
+/// A limit that is slack at the optimum changes nothing, over the widest range of swings too.
+#[test]
+fn a_slack_limit_on_time_changes_nothing() {
+    let mut problem = table_1(Formulas::Exact, Lattice::Orthogonal);
+    problem.lattices = vec![Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free];
+    problem.swing = Range {
+        least: Angle::deg(1.0),
+        most: Angle::deg(89.0),
+    };
+    for scallop in [None, Some(Length::mm(10.0)), Some(Length::mm(4.0))] {
+        problem.scallop = scallop;
+        problem.time = None;
+        let free = solve(&problem).unwrap();
+        for share in [1.001, 1.3, 2.0, 10.0, 1000.0] {
+            problem.time = Some(free.time * share);
+            let limited = solve(&problem).unwrap();
+            assert!(
+                (limited.time / free.time - 1.0).abs() < 1e-6,
+                "{scallop:?} {share}: {limited:?}"
+            );
+        }
+    }
+}

@@ -274,12 +274,10 @@ fn party(asked: &RoughVcut, bound: Bound) -> Party {
         Bound::Time => limits
             .time
             .map(|limit| format!("a time of at most {} s", show(limit.value.to_s()))),
-        Bound::Cuts => limits
-            .cuts
-            .map(|limit| match limit.value {
-                most if most < 2.0 => "one cut at most".to_owned(),
-                most => format!("at most {} cuts", show(most.floor())),
-            }),
+        Bound::Cuts => limits.cuts.map(|limit| match limit.value {
+            most if most < 2.0 => "one cut at most".to_owned(),
+            most => format!("at most {} cuts", show(most.floor())),
+        }),
     };
     Party {
         said,
