@@ -127,7 +127,7 @@ impl VcutParameters {
             .iter()
             .map(|bound| match (bound, self.scallop_by) {
                 (Bound::Scallop, ScallopBy::Simulation) => "the limit on scallop as simulated",
-                (bound, _) => bound_in_words(asked, *bound),
+                (bound, ScallopBy::Bound | ScallopBy::Simulation) => bound_in_words(asked, *bound),
             })
             .collect();
         words.dedup();
