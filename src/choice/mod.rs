@@ -14,11 +14,13 @@ mod bench;
 mod route;
 #[cfg(test)]
 mod tests;
+mod trial;
 
 use crate::diag::Diagnostic;
-use crate::job::{Auto, CheckedJob, Objective, Operation, Residual, RoughVcut};
+use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut, Sourced};
 use crate::plan::decision::{Candidate, Decision, Standing};
-use crate::plan::parameters::VcutParameters;
+use crate::plan::optimum::Bound;
+use crate::plan::parameters::{VcutParameters, show};
 use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, PlannedVcut, blade_reach, lay_out, parameters,
@@ -26,7 +28,7 @@ use crate::plan::{
 };
 use bench::Bench;
 use core::cmp::Ordering;
-use vcutc_backend_api::units::{Area, Duration, Length};
+use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
 /// are chosen by.
@@ -109,6 +111,50 @@ pub fn choose_within(job: &CheckedJob, latitude: Latitude) -> (Option<PlannedJob
         operations,
     });
     (planned, diagnostics)
+}
+
+/// The job with every open swing below a share of what it was planned with; none where no swing is open, or where that leaves
+/// nothing of its limits.
+#[must_use]
+pub fn with_swings_below(job: &CheckedJob, plan: &PlannedJob, share: f64) -> Option<CheckedJob> {
+    let mut narrower = job.clone();
+    let mut is_open = false;
+    for (operation, planned) in narrower.operations.iter_mut().zip(&plan.operations) {
+        let (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut)) = (operation, planned);
+        if asked.swing.value == Auto::Auto {
+            let value = Angle::deg((vcut.parameters.swing.to_deg() * share * 100.0).round() / 100.0);
+            if asked.limits.swing.least.is_some_and(|least| value < least.value) {
+                return None;
+            }
+            asked.limits.swing.most = Some(Sourced { value, span: None });
+            is_open = true;
+        }
+    }
+    is_open.then_some(narrower)
+}
+
+/// Says of every open swing that the machine does not follow that of the first plan.
+#[must_use]
+pub fn telling_narrowed_swings(mut plan: PlannedJob, first: &PlannedJob) -> PlannedJob {
+    for (operation, first) in plan.operations.iter_mut().zip(&first.operations) {
+        let (PlannedOperation::RoughVcut(vcut), PlannedOperation::RoughVcut(first)) = (operation, first);
+        if vcut.asked.swing.value == Auto::Auto {
+            let [now, before] = [&vcut.parameters, &first.parameters].map(|p| show(p.swing.to_deg()));
+            vcut.parameters.binding.retain(|&bound| bound != Bound::SwingMost);
+            vcut.decisions.insert(
+                0,
+                Decision {
+                    field: "swing",
+                    taken: Candidate {
+                        what: format!("narrowed from {before} deg to {now} deg"),
+                        standing: Standing::Last,
+                    },
+                    others: Vec::new(),
+                },
+            );
+        }
+    }
+    plan
 }
 
 /// A way to cut an operation, and what came of it.
@@ -219,17 +265,28 @@ const OTHERS: [(&str, Residual); 3] = [
 
 /// The operation on the best lattice, or on the one that it asks for.
 fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
-    let mut told = Vec::new();
-    let Some(resolved) = parameters::resolve(bench.job, asked, &mut told) else {
-        return Err(told);
-    };
     match (asked.lattice.value, asked.objective.value) {
         (Auto::Auto, Objective::Time) => compare_lattices(bench, asked, cuts_left),
-        // Other objectives are none of the plan's: what the formulas say stands.
+        // Other objectives are none of the route's: the lattice is the formulas' choice.
         (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {
-            best_residual(bench, asked, &resolved, cuts_left)
+            best_on(bench, asked, &parameters::open_lattices(asked), cuts_left)
         }
     }
+}
+
+/// The operation with the best parameters on one of these lattices.
+fn best_on(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    lattices: &[Lattice],
+    cuts_left: usize,
+) -> Result<LaidOut, Vec<Diagnostic>> {
+    let found = trial::parameters(bench, asked, lattices, cuts_left)?;
+    let mut laid = best_residual(bench, asked, &found.parameters, cuts_left)?;
+    if let Some(decision) = found.decision {
+        laid.vcut.decisions.insert(0, decision);
+    }
+    Ok(laid)
 }
 
 fn compare_lattices(
@@ -237,28 +294,30 @@ fn compare_lattices(
     asked: &RoughVcut,
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
-    let mut refused = None;
-    let mut by_model: Vec<(Duration, VcutParameters)> = Vec::new();
+    let mut told = Vec::new();
+    // All lattices together: what is told of one alone would not be the job's.
+    let together = parameters::resolve(bench.job, asked, &mut told);
+    let mut refused = together.is_none().then_some(told);
+    let mut by_model: Vec<(Duration, Lattice)> = Vec::new();
     for lattice in parameters::open_lattices(asked) {
-        let mut told = Vec::new();
         // A lattice on which the operation cannot be had is no fault of the job while there is another.
-        if let Some(found) = parameters::resolve_on(bench.job, asked, vec![lattice], &mut told) {
+        if let Some(found) = trial::freest(bench, asked, lattice) {
             let model = found.time_model(bench.job, asked);
-            by_model.push((model.estimate(found.swing, found.layer, found.step), found));
+            by_model.push((model.estimate(found.swing, found.layer, found.step), lattice));
         }
     }
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
-    for (time, found) in &by_model {
-        let what = parameters::lattice_word(found.lattice);
+    for &(time, lattice) in &by_model {
+        let what = parameters::lattice_word(lattice);
         let best = contest.best.as_ref().map(|(_, best)| best);
         if best
-            .is_some_and(|best| matches!(best.standing, Standing::Takes(_)) && *time > best.time * FAR_BEHIND)
+            .is_some_and(|best| matches!(best.standing, Standing::Takes(_)) && time > best.time * FAR_BEHIND)
         {
-            contest.rule_out(what, Standing::ByModel(*time));
+            contest.rule_out(what, Standing::ByModel(time));
             continue;
         }
-        match best_residual(bench, asked, found, cuts_left) {
+        match best_on(bench, asked, &[lattice], cuts_left) {
             Ok(laid) if laid.vcut.cuts.len() > MOST_CUTS_COMPARED => {
                 let mut laid = laid;
                 laid.vcut

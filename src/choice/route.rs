@@ -29,13 +29,7 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
         .into_iter()
         .filter(|&route| allows(bench.latitude, &vcut.asked, route))
         .collect();
-    let usual = (
-        vcut.asked.sequence.value.or(match bench.latitude {
-            Latitude::Full | Latitude::ByPoint => Sequence::Boustrophedon,
-            Latitude::RowsByPoint => Sequence::Rows,
-        }),
-        vcut.asked.order.value.or(Order::Point),
-    );
+    let usual = usual_route(bench.latitude, &vcut.asked);
     let vcut = match (open, &routes[..]) {
         (Open::Nothing, _) => along(vcut, usual),
         (Open::Something(field), [only]) => match bench.latitude {
@@ -53,6 +47,24 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
         after,
         strategies,
     }
+}
+
+/// The operation along the route that is taken where nothing is compared.
+pub(super) fn usual(bench: &Bench<'_>, mut laid: LaidOut) -> LaidOut {
+    let (sequence, order) = usual_route(bench.latitude, &laid.vcut.asked);
+    laid.vcut = laid.vcut.along(order, sequence, &bench.before, bench.job.stock);
+    laid
+}
+
+fn usual_route(latitude: Latitude, asked: &RoughVcut) -> Route {
+    let sequence = match latitude {
+        Latitude::Full | Latitude::ByPoint => Sequence::Boustrophedon,
+        Latitude::RowsByPoint => Sequence::Rows,
+    };
+    (
+        asked.sequence.value.or(sequence),
+        asked.order.value.or(Order::Point),
+    )
 }
 
 /// Whether a route is one of those that are considered.

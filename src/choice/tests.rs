@@ -2,7 +2,7 @@
 
 use super::choose;
 use crate::geom::curve::Point2;
-use crate::job::{Auto, CheckedJob, Order, Residual, Sequence};
+use crate::job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 use crate::plan::decision::Standing;
 use crate::plan::route::{Heading, layers};
 use crate::plan::tests::{a_job, operation, paper_job};
@@ -245,4 +245,103 @@ fn large_operations_are_not_compared() {
         .map(|decision| decision.taken.standing)
         .collect();
     assert_eq!(standings, [Standing::NotCompared]);
+}
+
+/// The paper's block with a part like a hill, to be cut with everything left open within limits.
+fn open_job(swing: f64, scallop: f64) -> CheckedJob {
+    let corners = [(0.0, 10.0), (30.0, 22.0), (55.0, 22.0), (85.0, 10.0)];
+    let mut job = paper_job(corners.map(|(x, z)| Point2 { x, z }).to_vec());
+    leave_open(&mut job, swing, scallop);
+    job
+}
+
+fn leave_open(job: &mut CheckedJob, swing: f64, scallop: f64) {
+    let asked = operation(job);
+    asked.swing.value = Auto::Auto;
+    asked.layer.value = Auto::Auto;
+    asked.step.value = Auto::Auto;
+    asked.limits.swing.most = Some(Sourced {
+        value: Angle::deg(swing),
+        span: None,
+    });
+    asked.limits.scallop = Some(Sourced {
+        value: Length::mm(scallop),
+        span: None,
+    });
+}
+
+fn time_if_sound(job: &CheckedJob) -> Option<f64> {
+    let (plan, proven) = planned_and_proven(job)?;
+    (proven.findings.iter().count() == 0 && verdict::scallop_excess(&plan, &proven.report).is_none())
+        .then(|| proven.report.timing.total().to_s())
+}
+
+/// The least time of a grid of swings and layers, each planned and proven.
+fn least_by_hand(job: &CheckedJob, swing: f64) -> Option<f64> {
+    let mut least: Option<f64> = None;
+    for share in [1.0, 0.85, 0.7, 0.55] {
+        for layer in [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0] {
+            let mut job = job.clone();
+            let asked = operation(&mut job);
+            asked.swing.value = Auto::Given(Angle::deg(swing * share));
+            asked.layer.value = Auto::Given(Length::mm(layer));
+            asked.limits.scallop = asked.limits.scallop.map(|limit| Sourced { span: None, ..limit });
+            if let Some(time) = time_if_sound(&job) {
+                least = Some(least.map_or(time, |least| least.min(time)));
+            }
+        }
+    }
+    least
+}
+
+#[test]
+fn values_by_hand_do_not_beat_the_choice() {
+    for (swing, scallop) in [(35.0, 5.0), (40.0, 10.0), (40.0, 3.0)] {
+        for lattice in [Lattice::Orthogonal, Lattice::Interlaced] {
+            let mut job = open_job(swing, scallop);
+            operation(&mut job).lattice.value = Auto::Given(lattice);
+            let chosen = time_if_sound(&job).unwrap();
+            let by_hand = least_by_hand(&job, swing).unwrap();
+            assert!(
+                chosen <= by_hand * TOLERANCE,
+                "{lattice:?} {swing} {scallop}: {chosen} {by_hand}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_limit_that_only_the_bound_breaks_is_no_conflict() {
+    // No layer of at least 6 mm keeps 4 mm by the lattice's bound at 35 deg.
+    let mut job = open_job(35.0, 5.0);
+    operation(&mut job).limits.layer.least = Some(Sourced {
+        value: Length::mm(5.0),
+        span: None,
+    });
+    assert!(time_if_sound(&job).is_some());
+}
+
+#[test]
+fn the_same_choice_comes_twice() {
+    let job = open_job(40.0, 6.0);
+    assert_eq!(choose(&job).0, choose(&job).0);
+}
+
+/// How much longer the choice may take than the best of a coarse grid: it is a search.
+const TOLERANCE: f64 = 1.1;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn no_grid_beats_the_choice_by_much(
+        mut job in a_job(),
+        swing in 20.0..45.0_f64,
+        scallop in 4.0..15.0_f64,
+    ) {
+        leave_open(&mut job, swing, scallop);
+        let Some(by_hand) = least_by_hand(&job, swing) else { return Ok(()) };
+        let chosen = time_if_sound(&job);
+        prop_assert!(chosen.is_some_and(|chosen| chosen <= by_hand * TOLERANCE), "{:?} {}", chosen, by_hand);
+    }
 }

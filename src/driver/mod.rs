@@ -176,40 +176,99 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
     Ok(outcome)
 }
 
+/// Shares of the first swing that are tried where the machine does not follow it.
+const NARROWER_SWINGS: [f64; 4] = [0.85, 0.7, 0.55, 0.4];
+
+/// How far a job came.
+enum Ended {
+    /// It cannot be planned, or is not sound.
+    Refused(Option<PlannedJob>, Vec<Diagnostic>),
+    /// Its machine does not carry it out, along whatever route.
+    Unreached(PlannedJob, Vec<Diagnostic>, Unreached),
+    /// It is compiled.
+    Compiled(PlannedJob, Vec<Diagnostic>, Box<Compiled>),
+}
+
 fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
+    let mut ended = along_its_routes(job, &|plan| plan, &outcome.sources, progress);
+    if let Ended::Unreached(plan, _, unreached) = &ended
+        && let Some(narrower) = with_narrower_swings(job, plan, unreached, &outcome.sources, progress)
+    {
+        ended = narrower;
+    }
+    let (plan, told, compiled) = match ended {
+        Ended::Refused(plan, told) => (plan, told, None),
+        Ended::Unreached(plan, mut told, unreached) => {
+            told.extend(unreached_in_words(job, &plan, &unreached));
+            (Some(plan), told, None)
+        }
+        Ended::Compiled(plan, told, compiled) => (Some(plan), told, Some(*compiled)),
+    };
+    outcome.diagnostics.extend(told);
+    (outcome.plan, outcome.compiled) = (plan, compiled);
+}
+
+/// Along fewer and fewer routes where the machine does not follow: the fastest ones ask the most of it.
+fn along_its_routes(
+    job: &CheckedJob,
+    tells: &dyn Fn(PlannedJob) -> PlannedJob,
+    sources: &SourceMap,
+    progress: &mut dyn FnMut(Stage),
+) -> Ended {
     let mut latitude = Latitude::Full;
     loop {
         progress(Stage::Planning);
         let (plan, mut told) = choice::choose_within(job, latitude);
-        let Some(plan) = plan else {
-            outcome.diagnostics.extend(told);
-            return;
+        let Some(plan) = plan.map(tells) else {
+            return Ended::Refused(None, told);
         };
         progress(Stage::Proving);
-        match verdict::prove(&plan, &outcome.sources) {
-            Ok(proven) => {
-                told.extend(verdict::diagnose(job, &plan, &proven));
-                if !has_errors(&told) {
-                    match reach(job, proven.program, progress) {
-                        Ok(program) => outcome.compiled = Some(compiled(job, program, &plan, proven.report)),
-                        Err(unreached) => {
-                            // The fastest routes ask the most of a machine.
-                            if let Some(narrower) = latitude.narrower_than(&plan) {
-                                latitude = narrower;
-                                continue;
-                            }
-                            told.extend(unreached_in_words(job, &plan, &unreached));
-                        }
-                    }
-                }
+        let proven = match verdict::prove(&plan, sources) {
+            Ok(proven) => proven,
+            Err(faults) => {
+                told.push(internal(job, &rules_broken(&faults)));
+                return Ended::Refused(Some(plan), told);
             }
-            Err(faults) => told.push(internal(job, &rules_broken(&faults))),
+        };
+        told.extend(verdict::diagnose(job, &plan, &proven));
+        if has_errors(&told) {
+            return Ended::Refused(Some(plan), told);
         }
-        outcome.diagnostics.extend(told);
-        outcome.plan = Some(plan);
-        return;
+        match reach(job, proven.program, progress) {
+            Ok(program) => {
+                let compiled = compiled(job, program, &plan, proven.report);
+                return Ended::Compiled(plan, told, Box::new(compiled));
+            }
+            Err(unreached) => match latitude.narrower_than(&plan) {
+                Some(narrower) => latitude = narrower,
+                None => return Ended::Unreached(plan, told, unreached),
+            },
+        }
     }
+}
+
+/// With narrower swings where these are open: a blade that turns less asks less of the machine. None where that does not
+/// help either.
+fn with_narrower_swings(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    unreached: &Unreached,
+    sources: &SourceMap,
+    progress: &mut dyn FnMut(Stage),
+) -> Option<Ended> {
+    match unreached {
+        Unreached::Unreachable(unreachable) if unreachable.trouble.is_of_posture() => {}
+        Unreached::Unreachable(_) | Unreached::Rules(_) | Unreached::Motion(_) => return None,
+    }
+    let tells = |narrower| choice::telling_narrowed_swings(narrower, plan);
+    NARROWER_SWINGS.into_iter().find_map(|share| {
+        let narrower = choice::with_swings_below(job, plan, share)?;
+        match along_its_routes(&narrower, &tells, sources, progress) {
+            Ended::Compiled(plan, told, compiled) => Some(Ended::Compiled(plan, told, compiled)),
+            Ended::Refused(..) | Ended::Unreached(..) => None,
+        }
+    })
 }
 
 fn compiled(job: &CheckedJob, program: Finished, plan: &PlannedJob, mut report: Report) -> Compiled {

@@ -47,6 +47,17 @@ pub struct VcutParameters {
     pub clear_height: Length,
     /// Bounds that the choice of open parameters came up against.
     pub binding: Vec<Bound>,
+    /// How the limit on scallop was held against them.
+    pub scallop_by: ScallopBy,
+}
+
+/// What is held against a limit on scallop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScallopBy {
+    /// The lattice's bound [Cui 12].
+    Bound,
+    /// What the simulated program leaves.
+    Simulation,
 }
 
 /// A parameter that was left to the compiler, and what it came out as.
@@ -114,7 +125,10 @@ impl VcutParameters {
         let mut words: Vec<&'static str> = self
             .binding
             .iter()
-            .map(|bound| bound_in_words(asked, *bound))
+            .map(|bound| match (bound, self.scallop_by) {
+                (Bound::Scallop, ScallopBy::Simulation) => "the limit on scallop as simulated",
+                (bound, ScallopBy::Bound | ScallopBy::Simulation) => bound_in_words(asked, *bound),
+            })
             .collect();
         words.dedup();
         words
@@ -365,6 +379,7 @@ fn complete(
         flanks,
         clear_height,
         binding,
+        scallop_by: ScallopBy::Bound,
     })
 }
 
