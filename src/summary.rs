@@ -92,7 +92,8 @@ pub fn summary(
 }
 
 /// `mixed: 1 min 52.0 s; lift 1 min 58.3 s; discard leaves 11.2 mm (limit 10 mm)`.
-fn compared(decision: &Decision) -> String {
+#[must_use]
+pub fn compared(decision: &Decision) -> String {
     let others = decision
         .others
         .iter()

@@ -1,7 +1,7 @@
 //! What the job asks of its machine: angles, rates and margins.
 
 use super::figure::{Zoom, figure};
-use super::html::{Column, escaped, paragraph, percent, table};
+use super::html::{Column, escaped, percent, table, terms};
 use super::{Section, Subject};
 use crate::picture::Prefix;
 use crate::plan::parameters::show;
@@ -12,9 +12,8 @@ use crate::report::pictures;
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let figures = subject.material.compiled.figures.as_ref()?;
     let mut body = String::new();
-    for (_, line) in reach_summary::lines(figures) {
-        body += &paragraph(&capitalised(&line));
-    }
+    let lines = reach_summary::lines(figures);
+    body += &terms(lines.iter().map(|(name, line)| (*name, line.as_str())));
     if let Some(joints) = pictures::joints(&subject.material, Prefix::new("joints-")) {
         let caption = "Angles, rates and margins of the axes over time.";
         body += &figure(&joints, Zoom::Free, caption);
@@ -92,11 +91,4 @@ fn singular(figures: &ReachFigures) -> String {
         },
     );
     table("How near singular poses are", &columns, rows)
-}
-
-/// A sentence that begins with a capital and ends with a full stop.
-fn capitalised(line: &str) -> String {
-    let mut letters = line.chars();
-    let first = letters.next().map(|first| first.to_ascii_uppercase());
-    first.into_iter().chain(letters).chain(['.']).collect()
 }
