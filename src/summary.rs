@@ -121,10 +121,9 @@ fn standing(standing: Standing) -> String {
 
 /// What there is to say where the part is farther from the machined contour than that is from the part.
 fn hollow(report: &Report) -> String {
-    let deepest = report.deepest;
-    if deepest.height.to_mm() < report.scallop.height.to_mm() + 0.005 {
+    let Some(deepest) = report.hollow() else {
         return String::new();
-    }
+    };
     format!(
         "; the part lies up to {:.2} mm from the machined contour at x {:.1} mm",
         deepest.height.to_mm(),
