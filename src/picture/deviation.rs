@@ -103,7 +103,7 @@ fn legend(deviation: &Deviation<'_>) -> Vec<Entry> {
                 "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z".to_owned(),
                 format!("fill=\"#ffffff\" stroke=\"{VERMILION}\" stroke-width=\"2\""),
             ),
-            words: "part from contour, in a hollow".to_owned(),
+            words: "part from contour".to_owned(),
         });
     }
     if let Some(value) = deviation.limit {

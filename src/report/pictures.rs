@@ -80,7 +80,7 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
     points.extend(sampled(&points));
     points.sort_by(|a, b| a.x.total_cmp(&b.x));
     let subtitle = format!(
-        "largest deviation {:.2} mm, {}; the contours correlate to {:.2} %",
+        "largest deviation {:.2} mm, {}; correlation {:.2} %",
         report.largest_deviation().to_mm(),
         if report.hollow().is_some() {
             "part from contour"

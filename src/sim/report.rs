@@ -48,8 +48,7 @@ impl Report {
         self.scallop.height.max(self.deepest.height)
     }
 
-    /// Where the part is farther from the machined contour than that is anywhere from the part: in a narrow hollow that no cut
-    /// reaches.
+    /// Where the part is farther from the machined contour than that is anywhere from the part: where no cut reaches it.
     #[must_use]
     pub fn hollow(&self) -> Option<Scallop> {
         // Less than what a hundredth of a millimetre shows is none.

@@ -69,7 +69,7 @@ fn largest(report: &Report) -> String {
     let both = "the largest distance from a point of one contour to the other";
     match report.hollow() {
         Some(hollow) => format!(
-            "{both}: of the part from the machined contour, at x {:.1} mm, in a hollow that no cut reaches",
+            "{both}: of the part from the machined contour, at x {:.1} mm, where no cut reaches the part",
             hollow.peak.x
         ),
         None => format!(

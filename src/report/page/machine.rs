@@ -15,7 +15,8 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let lines = reach_summary::lines(figures);
     body += &terms(lines.iter().map(|(name, line)| (*name, line.as_str())));
     if let Some(joints) = pictures::joints(&subject.material, Prefix::new("joints-")) {
-        let caption = "Angles, rates and margins of the axes over time.";
+        let caption = "Angles, rates and margins of the axes over time, with the moves of all axes from and to home; the table \
+                       below leaves these out. Rates are those at the programmed speeds.";
         body += &figure(&joints, Zoom::Free, caption);
     }
     body += &axes(figures);
@@ -51,7 +52,7 @@ fn axes(figures: &ReachFigures) -> String {
 fn axis(axis: &AxisFigure) -> Vec<String> {
     let unit = axis.unit;
     let share = match axis.rate_limit {
-        Some(limit) if limit > 0.0 => percent(axis.rate / limit),
+        Some(limit) if limit > 0.0 => format!("{:.0} %", axis.rate / limit * 100.0),
         Some(_) | None => "unknown".to_owned(),
     };
     vec![
