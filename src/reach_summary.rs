@@ -220,7 +220,8 @@ fn place(program: &Program, extreme: Extreme) -> PlaceFigure {
 
 impl AxisFigure {
     /// The share of its rate that is used, when its rate is known.
-    fn rate_share(&self) -> Option<f64> {
+    #[must_use]
+    pub fn rate_share(&self) -> Option<f64> {
         self.rate_limit.map(|limit| self.rate / limit)
     }
 }

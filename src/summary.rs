@@ -92,7 +92,8 @@ pub fn summary(
 }
 
 /// `mixed: 1 min 52.0 s; lift 1 min 58.3 s; discard leaves 11.2 mm (limit 10 mm)`.
-fn compared(decision: &Decision) -> String {
+#[must_use]
+pub fn compared(decision: &Decision) -> String {
     let others = decision
         .others
         .iter()
@@ -120,10 +121,9 @@ fn standing(standing: Standing) -> String {
 
 /// What there is to say where the part is farther from the machined contour than that is from the part.
 fn hollow(report: &Report) -> String {
-    let deepest = report.deepest;
-    if deepest.height.to_mm() < report.scallop.height.to_mm() + 0.005 {
+    let Some(deepest) = report.hollow() else {
         return String::new();
-    }
+    };
     format!(
         "; the part lies up to {:.2} mm from the machined contour at x {:.1} mm",
         deepest.height.to_mm(),

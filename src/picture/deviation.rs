@@ -1,7 +1,7 @@
 //! How far the machined contour stands off the part, along the whole profile.
 
 use super::plot::{BELOW, Plot};
-use super::sheet::{self, BLUE, Entry, GREEN, TOP, VERMILION};
+use super::sheet::{self, BLUE, Entry, GREEN, Swatch, TOP, VERMILION};
 use super::svg::{Anchor, Svg, number};
 use super::thin::Thinned;
 
@@ -16,6 +16,8 @@ pub struct Deviation<'a> {
     pub curve: &'a [[f64; 2]],
     /// The largest one, which may lie between the points of the curve.
     pub largest: [f64; 2],
+    /// Where the part is farther from the contour than the contour is anywhere from the part, and how far.
+    pub hollow: Option<[f64; 2]>,
     /// The mean.
     pub mean: f64,
     /// The limit, when the job has one.
@@ -34,6 +36,7 @@ pub fn draw(deviation: &Deviation<'_>) -> String {
         [deviation.curve.first(), deviation.curve.last()].map(|end| end.map_or(0.0, |end| end[0]));
     let highest = deviation.largest[1]
         .max(deviation.limit.unwrap_or_default())
+        .max(deviation.hollow.map_or(0.0, |[_, height]| height))
         .max(1e-3);
     let bottom = TOP + HEIGHT;
     let plot = Plot::new([from, to], [0.0, highest * 1.12], [TOP, bottom]);
@@ -54,7 +57,11 @@ pub fn draw(deviation: &Deviation<'_>) -> String {
     if let Some(limit) = deviation.limit {
         svg.path(&plot.level(limit), &self::limit());
     }
-    largest(&mut svg, deviation, &plot);
+    let circle = format!("r=\"5\" fill=\"{BLUE}\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
+    mark(&mut svg, deviation.largest, &plot, &circle);
+    if let Some(hollow) = deviation.hollow {
+        mark(&mut svg, hollow, &plot, &ring());
+    }
     plot.frame(&mut svg, "x, mm", "distance from the part, mm");
     svg.finish()
 }
@@ -72,9 +79,15 @@ fn description(deviation: &Deviation<'_>) -> String {
         Some(limit) => format!("; the limit is {limit:.2} mm"),
         None => String::new(),
     };
+    let hollow = match deviation.hollow {
+        Some([x, height]) => {
+            format!(" The part lies up to {height:.2} mm from the machined contour, at x {x:.1} mm.")
+        }
+        None => String::new(),
+    };
     format!(
         "{}. Distance of the machined contour from the part over x: at most {:.2} mm, at x {:.1} mm, and {:.2} mm on \
-         average{limit}.",
+         average{limit}.{hollow}",
         deviation.heading.subtitle, deviation.largest[1], deviation.largest[0], deviation.mean
     )
 }
@@ -84,16 +97,30 @@ fn legend(deviation: &Deviation<'_>) -> Vec<Entry> {
         Entry::line(CURVE, "distance"),
         Entry::line(mean(), format!("mean, {:.2} mm", deviation.mean)),
     ];
+    if deviation.hollow.is_some() {
+        legend.push(Entry {
+            swatch: Swatch::Mark(
+                "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z".to_owned(),
+                format!("fill=\"#ffffff\" stroke=\"{VERMILION}\" stroke-width=\"2\""),
+            ),
+            words: "part from contour".to_owned(),
+        });
+    }
     if let Some(value) = deviation.limit {
         legend.push(Entry::line(limit(), format!("limit, {value:.2} mm")));
     }
     legend
 }
 
-fn largest(svg: &mut Svg, deviation: &Deviation<'_>, plot: &Plot) {
-    let [x, y] = plot.at(deviation.largest);
+fn ring() -> String {
+    format!("r=\"5\" fill=\"#ffffff\" stroke=\"{VERMILION}\" stroke-width=\"2\"")
+}
+
+/// A circle at a place, with its distance and x.
+fn mark(svg: &mut Svg, place: [f64; 2], plot: &Plot, circle: &str) {
+    let [x, y] = plot.at(place);
     svg.line(&format!(
-        "  <circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{BLUE}\" stroke=\"#ffffff\" stroke-width=\"1.5\"/>",
+        "  <circle cx=\"{}\" cy=\"{}\" {circle}/>",
         number(x),
         number(y)
     ));
@@ -111,6 +138,6 @@ fn largest(svg: &mut Svg, deviation: &Deviation<'_>, plot: &Plot) {
         (x + side, y - 4.0),
         anchor,
         &format!("font-weight=\"bold\" {}", sheet::HALO),
-        &format!("{:.2} mm", deviation.largest[1]),
+        &format!("{:.2} mm at x {:.1}", place[1], place[0]),
     );
 }

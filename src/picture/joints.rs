@@ -46,6 +46,8 @@ pub struct Axis {
     pub values: Vec<[f64; 2]>,
     /// Its rate over time as a share of the highest; nothing where that is not known.
     pub rates: Option<Vec<[f64; 2]>>,
+    /// Its highest rate as a share of what it can do, as proven: the curve's samples may miss it by a little.
+    pub highest_rate: Option<f64>,
 }
 
 /// A stretch of time in which motions of one kind are done.
@@ -103,8 +105,8 @@ fn description(joints: &Joints<'_>) -> String {
 fn words(axis: &Axis) -> String {
     let [low, high] = extremes(&axis.values);
     let [min, max] = axis.limits;
-    let rate = match axis.rates.as_deref().map(extremes) {
-        Some([_, rate]) => format!(", rate up to {:.0} %", rate * 100.0),
+    let rate = match axis.highest_rate {
+        Some(rate) => format!(", rate up to {:.0} %", rate * 100.0),
         None => String::new(),
     };
     format!(

@@ -80,8 +80,13 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
     points.extend(sampled(&points));
     points.sort_by(|a, b| a.x.total_cmp(&b.x));
     let subtitle = format!(
-        "largest deviation of the contours {:.2} mm; they correlate to {:.2} %",
+        "largest deviation {:.2} mm, {}; correlation {:.2} %",
         report.largest_deviation().to_mm(),
+        if report.hollow().is_some() {
+            "part from contour"
+        } else {
+            "contour from part"
+        },
         report.correlation * 100.0
     );
     deviation::draw(&deviation::Deviation {
@@ -92,6 +97,9 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
         },
         curve: &distances(&points, material),
         largest: [report.scallop.peak.x, report.scallop.height.to_mm()],
+        hollow: report
+            .hollow()
+            .map(|hollow| [hollow.peak.x, hollow.height.to_mm()]),
         mean: report.mean_scallop.to_mm(),
         limit: limit(material),
     })

@@ -47,6 +47,13 @@ impl Report {
     pub fn largest_deviation(&self) -> Length {
         self.scallop.height.max(self.deepest.height)
     }
+
+    /// Where the part is farther from the machined contour than that is anywhere from the part: where no cut reaches it.
+    #[must_use]
+    pub fn hollow(&self) -> Option<Scallop> {
+        // Less than what a hundredth of a millimetre shows is none.
+        (self.deepest.height.to_mm() >= self.scallop.height.to_mm() + 0.005).then_some(self.deepest)
+    }
 }
 
 /// Gathers the figures of a replay.

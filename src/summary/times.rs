@@ -11,6 +11,9 @@ use serde::Serialize;
 pub struct TimeFigures {
     /// `speeds`, `accelerations` or `jerks`: what of the machine the times keep.
     pub basis: &'static str,
+    /// The same in words, with the moves that have no time.
+    #[serde(skip)]
+    pub basis_words: String,
     /// How many moves of all axes have no time, because it is not known.
     pub untimed: usize,
     /// Of the whole program.
@@ -63,6 +66,7 @@ pub fn figures(report: &Report, basis: Basis) -> TimeFigures {
             Kept::Accelerations => "accelerations",
             Kept::Jerks => "jerks",
         },
+        basis_words: self::basis(basis),
         untimed: basis.untimed,
         all: kinds(&report.timing),
         layers: report.layer_times.iter().map(layer).collect(),

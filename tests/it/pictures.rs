@@ -324,6 +324,7 @@ fn axes_of_large_jobs_stay_small_and_keep_their_extremes() {
                     .map(|[time, value]| [time, value / 120.0])
                     .collect(),
             ),
+            highest_rate: Some(0.9),
         })
         .collect();
     let span = |number: u32| joints::Span {

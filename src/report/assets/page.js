@@ -107,6 +107,16 @@
 
   for (const figure of document.querySelectorAll("figure[data-zoom]")) zoomable(figure);
 
+  /** Marks what goes on to the right of what is seen of it. */
+  function hint(box) {
+    box.classList.toggle("more", box.scrollLeft + box.clientWidth < box.scrollWidth - 1);
+  }
+  const sized = new ResizeObserver((changes) => changes.forEach(({ target }) => hint(target)));
+  for (const box of document.querySelectorAll(".wide, [data-zoom] .view")) {
+    box.addEventListener("scroll", () => hint(box), { passive: true });
+    sized.observe(box);
+  }
+
   // A link to a line of a text that is folded away unfolds it.
   function unfold() {
     const target = document.getElementById(location.hash.slice(1));

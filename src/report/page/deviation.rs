@@ -5,6 +5,7 @@ use super::html::{Column, table};
 use super::{Section, Subject};
 use crate::picture::Prefix;
 use crate::report::pictures;
+use crate::sim::report::Report;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {
@@ -38,24 +39,42 @@ fn figures(subject: Subject<'_>) -> String {
         (
             "cross-correlation",
             format!("{:.2} %", report.correlation * 100.0),
-            "the largest normalised one over all shifts, of both contours at 1000 points [Cui 15]",
+            "the largest normalised one over all shifts, of both contours at 1000 points [Cui 15]".to_owned(),
         ),
         (
             "largest deviation",
             format!("{:.3} mm", report.largest_deviation().to_mm()),
-            "from any point of one contour to the other one",
+            largest(report),
         ),
         (
             "highest scallop",
             format!("{:.3} mm", report.scallop.height.to_mm()),
-            "material on the part, along its normal",
+            format!(
+                "material on the part, along its normal, at x {:.1} mm",
+                report.scallop.peak.x
+            ),
         ),
         (
             "mean scallop",
             format!("{:.3} mm", report.mean_scallop.to_mm()),
-            "area that stays on the part, over the profile's length",
+            "area that stays on the part, over the profile's length".to_owned(),
         ),
     ];
-    let rows = rows.map(|(name, value, meaning)| vec![name.to_owned(), value, meaning.to_owned()]);
+    let rows = rows.map(|(name, value, meaning)| vec![name.to_owned(), value, meaning]);
     table("Machined and theoretical contour", &columns, rows)
+}
+
+/// Where the largest deviation is, and of which contour from which.
+fn largest(report: &Report) -> String {
+    let both = "the largest distance from a point of one contour to the other";
+    match report.hollow() {
+        Some(hollow) => format!(
+            "{both}: of the part from the machined contour, at x {:.1} mm, where no cut reaches the part",
+            hollow.peak.x
+        ),
+        None => format!(
+            "{both}: of the machined contour from the part, at x {:.1} mm",
+            report.scallop.peak.x
+        ),
+    }
 }

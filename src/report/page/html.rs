@@ -51,6 +51,21 @@ pub(super) fn paragraph(text: &str) -> String {
     format!("<p>{}</p>\n", escaped(text))
 }
 
+/// Names with what there is to say of each, as plain text: a list of terms.
+pub(super) fn terms<'a>(lines: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
+    let rows: String = lines
+        .into_iter()
+        .map(|(name, text)| {
+            format!(
+                "<div><dt>{}</dt><dd>{}</dd></div>\n",
+                escaped(name),
+                escaped(text)
+            )
+        })
+        .collect();
+    format!("<dl class=\"terms\">\n{rows}</dl>\n")
+}
+
 /// A share of one as a percentage, `12.3 %`.
 pub(super) fn percent(share: f64) -> String {
     format!("{:.1} %", share * 100.0)

@@ -1,7 +1,7 @@
 //! What the job asks of its machine: angles, rates and margins.
 
 use super::figure::{Zoom, figure};
-use super::html::{Column, escaped, paragraph, percent, table};
+use super::html::{Column, escaped, percent, table, terms};
 use super::{Section, Subject};
 use crate::picture::Prefix;
 use crate::plan::parameters::show;
@@ -12,11 +12,11 @@ use crate::report::pictures;
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let figures = subject.material.compiled.figures.as_ref()?;
     let mut body = String::new();
-    for (_, line) in reach_summary::lines(figures) {
-        body += &paragraph(&capitalised(&line));
-    }
+    let lines = reach_summary::lines(figures);
+    body += &terms(lines.iter().map(|(name, line)| (*name, line.as_str())));
     if let Some(joints) = pictures::joints(&subject.material, Prefix::new("joints-")) {
-        let caption = "Angles, rates and margins of the axes over time.";
+        let caption = "Angles, rates and margins of the axes over time, with the moves of all axes from and to home; the table \
+                       below leaves these out. Rates are those at the programmed speeds.";
         body += &figure(&joints, Zoom::Free, caption);
     }
     body += &axes(figures);
@@ -52,7 +52,7 @@ fn axes(figures: &ReachFigures) -> String {
 fn axis(axis: &AxisFigure) -> Vec<String> {
     let unit = axis.unit;
     let share = match axis.rate_limit {
-        Some(limit) if limit > 0.0 => percent(axis.rate / limit),
+        Some(limit) if limit > 0.0 => format!("{:.0} %", axis.rate / limit * 100.0),
         Some(_) | None => "unknown".to_owned(),
     };
     vec![
@@ -92,11 +92,4 @@ fn singular(figures: &ReachFigures) -> String {
         },
     );
     table("How near singular poses are", &columns, rows)
-}
-
-/// A sentence that begins with a capital and ends with a full stop.
-fn capitalised(line: &str) -> String {
-    let mut letters = line.chars();
-    let first = letters.next().map(|first| first.to_ascii_uppercase());
-    first.into_iter().chain(letters).chain(['.']).collect()
 }

@@ -11,6 +11,7 @@ use crate::job::{
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut};
 use crate::source::Span;
+use crate::summary;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Load, Ready, Registered};
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -163,7 +164,7 @@ fn blade(asked: &RoughVcut) -> Vec<Row> {
 }
 
 fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
-    let best = best(asked);
+    let best = best(asked, planned);
     let found = &planned.parameters;
     vec![
         Row::of("objective", asked.objective, |objective| {
@@ -176,7 +177,7 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
             "lattice",
             &asked.lattice,
             lattice_word(found.lattice).to_owned(),
-            best.clone(),
+            decided(planned, "lattice").unwrap_or_else(|| best.clone()),
         ),
         Row::of("rake", asked.rake, angle),
         Row::open("swing", &asked.swing, angle(found.swing), best.clone()),
@@ -188,7 +189,9 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
             "residual",
             &asked.residual,
             residual_word(planned.strategy).to_owned(),
-            "the strategy that leaves the part within its limits in the least time",
+            decided(planned, "residual").unwrap_or_else(|| {
+                "the strategy that leaves the part within its limits in the least time".to_owned()
+            }),
         ),
     ]
 }
@@ -200,19 +203,22 @@ fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
         Direction::Forward => "forward",
         Direction::Backward => "backward",
     };
-    let fastest = "the order of least time in which every chip comes free";
+    // Where both are open, the order is decided with the sequence.
+    let sequence = decided(planned, "sequence");
+    let order = decided(planned, "order").or_else(|| sequence.clone());
+    let fastest = || "the order of least time in which every chip comes free".to_owned();
     vec![
         Row::open(
             "order",
             &asked.order,
             order_word(planned.order).to_owned(),
-            fastest,
+            order.unwrap_or_else(fastest),
         ),
         Row::open(
             "sequence",
             &asked.sequence,
             sequence_word(planned.sequence).to_owned(),
-            fastest,
+            sequence.unwrap_or_else(fastest),
         ),
         Row::of("direction", asked.direction, |_| direction.to_owned()),
         Row::of("feed cut", asked.cut_feed, |speed| {
@@ -327,8 +333,17 @@ fn frame(frame: &Frame) -> String {
     )
 }
 
-/// Why a parameter of the lattice came out as it did.
-fn best(asked: &RoughVcut) -> String {
+/// What was compared for a field that the job leaves open, in the words of the summary.
+fn decided(planned: &PlannedVcut, field: &str) -> Option<String> {
+    let decision = planned
+        .decisions
+        .iter()
+        .find(|decision| decision.field == field)?;
+    Some(summary::compared(decision))
+}
+
+/// Why a parameter of the lattice came out as it did, and what keeps it from coming out better.
+fn best(asked: &RoughVcut, planned: &PlannedVcut) -> String {
     let least = match asked.objective.value {
         Objective::Time => "the least time",
         Objective::Scallop => "the lowest scallops",
@@ -339,7 +354,11 @@ fn best(asked: &RoughVcut) -> String {
         Formulas::Paper => "the paper's formulas",
         Formulas::Exact => "the exact formulas",
     };
-    format!("{least} within the limits, by {by}")
+    let bounds = planned.parameters.reasons(asked);
+    if bounds.is_empty() {
+        return format!("{least} within the limits, by {by}");
+    }
+    format!("{least}, by {by}; bound by {}", bounds.join(", "))
 }
 
 const fn objective_word(objective: Objective) -> &'static str {

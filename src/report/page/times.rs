@@ -48,6 +48,8 @@ type Place = Option<(OperationId, u32)>;
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let (whole, layers) = spent(subject);
     let mut body = paragraph(&agreement(subject, whole.total()));
+    let basis = &subject.material.compiled.times.basis_words;
+    body += &paragraph(&format!("Basis: {basis}."));
     body += &figure(
         &pictures::time(&subject.material, Prefix::new("time-")),
         Zoom::Fixed,

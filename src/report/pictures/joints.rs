@@ -11,6 +11,7 @@ use crate::picture::{Prefix, joints};
 use crate::reach::demand::axis_margin;
 use crate::reach::solve::rig;
 use crate::reach::trajectory::{Sample, trajectory};
+use crate::reach_summary::AxisFigure;
 use crate::report::Material;
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
@@ -35,8 +36,8 @@ pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
         Ok(()) => {}
         Err(never) => match never {},
     }
-    let (axes, margin) = curves.finish();
     let figures = material.compiled.figures.as_ref();
+    let (axes, margin) = curves.finish(figures.map_or(&[], |figures| &figures.axes));
     let least = figures.map_or(String::new(), |figures| {
         format!(
             "; least margin {:.1} % ({})",
@@ -199,7 +200,7 @@ impl<'a> Curves<'a> {
         self.before = Some((op, done, sample.joints));
     }
 
-    fn finish(self) -> (Vec<joints::Axis>, Vec<[f64; 2]>) {
+    fn finish(self, figures: &[AxisFigure]) -> (Vec<joints::Axis>, Vec<[f64; 2]>) {
         let curves = self.values.into_iter().zip(self.rates);
         let axes = self
             .axes
@@ -214,6 +215,11 @@ impl<'a> Curves<'a> {
                 limits: [shown(axis, axis.min), shown(axis, axis.max)],
                 values: values.finish(),
                 rates: axis.rate.map(|_| rates.finish()),
+                highest_rate: figures
+                    .iter()
+                    .find(|figure| figure.name == axis.name)
+                    .and_then(AxisFigure::rate_share)
+                    .filter(|share| share.is_finite()),
             });
         (axes.collect(), self.margin.finish())
     }

@@ -123,7 +123,8 @@ class Canvas {
   }
 
   /**
-   * Draws lines, two corners each, nearer by a hair: they lie on the faces that they belong to.
+   * Draws lines, two corners each. Those that lie on a face are seen because bodies are pushed back (`body`): a bias of the
+   * depth itself would be many millimetres from afar, and what is inside a body would shine through.
    * @param {Mesh} mesh
    * @param {Matrix} model
    * @param {number} [strength] opacity
@@ -139,9 +140,7 @@ class Canvas {
     gl.uniform1f(inks.places.strength, strength);
     gl.bindVertexArray(mesh.array);
     gl.enable(gl.BLEND);
-    gl.depthRange(0, 0.9999);
     gl.drawArrays(gl.LINES, first, count);
-    gl.depthRange(0, 1);
     gl.disable(gl.BLEND);
   }
 }

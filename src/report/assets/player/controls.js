@@ -14,6 +14,15 @@
  * @property {Moment} moment
  */
 
+/**
+ * With two decimals; nothing is less than nothing.
+ * @param {number} value
+ */
+function hundredths(value) {
+  const text = value.toFixed(2);
+  return text === "-0.00" ? "0.00" : text;
+}
+
 /** What kinds of op are called, by the names of the data. */
 const CALLED = {
   home: "all axes to home",
@@ -188,7 +197,7 @@ class Player {
     if (several && program.operations[op] > 0) parts.push(`operation ${program.operations[op]}`);
     if (program.layers[op] > 0) parts.push(`layer ${program.layers[op]}`);
     if (program.cuts[op] > 0) parts.push(`cut ${program.cuts[op]}`);
-    const [x, y, z] = now.tip.map((part) => part.toFixed(2));
+    const [x, y, z] = now.tip.map(hundredths);
     parts.push(`tip ${x}, ${y}, ${z} mm`);
     return parts.join(" · ");
   }
@@ -199,7 +208,7 @@ class Player {
     if (cell === null) return "";
     const shown = this.shownAxes();
     return cell.axes
-      .map(({ name, kind }, axis) => `${name} ${shown[axis].toFixed(2)} ${kind === "rotary" ? "deg" : "mm"}`)
+      .map(({ name, kind }, axis) => `${name} ${hundredths(shown[axis])} ${kind === "rotary" ? "deg" : "mm"}`)
       .join("   ");
   }
 }

@@ -27,7 +27,7 @@ function ballAround(player, whole) {
   const low = [0, 1, 2].map((i) => Math.min(...points.map((point) => point[i])));
   const high = [0, 1, 2].map((i) => Math.max(...points.map((point) => point[i])));
   const middle = /** @type {Vector} */ (low.map((part, i) => (part + high[i]) / 2));
-  return { target: middle, radius: Math.hypot(...minus(/** @type {Vector} */ (high), /** @type {Vector} */ (low))) / 2 };
+  return { target: middle, radius: Math.hypot(...minus(/** @type {Vector} */ (high), /** @type {Vector} */ (low))) * 0.55 };
 }
 
 /**
@@ -41,7 +41,7 @@ function lookFrom(player, camera, name) {
   const { target, radius } = name === "whole" ? whole : ballAround(player, false);
   const [yaw, pitch] = SIDES[name] || SIDES.iso;
   // A machine stands behind its work, not before it.
-  const behind = name === "iso" && whole.target[0] > target[0] ? -yaw : yaw;
+  const behind = (name === "iso" || name === "whole") && whole.target[0] > target[0] ? -yaw : yaw;
   camera.lookAt(behind, pitch, target, radius, clientWidth / Math.max(1, clientHeight));
   camera.farthest = 4 * whole.radius + Math.hypot(...minus(whole.target, target));
 }
@@ -197,7 +197,7 @@ function start() {
     scene = makeScene(player);
     changed();
   });
-  lookFrom(player, camera, "iso");
+  lookFrom(player, camera, "whole");
   new ResizeObserver(changed).observe(element("canvas"));
   publish(player, changed);
   show();
