@@ -17,10 +17,9 @@ mod tests;
 mod trial;
 
 use crate::diag::Diagnostic;
-use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut, Sourced};
+use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
 use crate::plan::decision::{Candidate, Decision, Standing};
-use crate::plan::optimum::Bound;
-use crate::plan::parameters::{VcutParameters, show};
+use crate::plan::parameters::VcutParameters;
 use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, PlannedVcut, blade_reach, lay_out, parameters,
@@ -28,7 +27,7 @@ use crate::plan::{
 };
 use bench::Bench;
 use core::cmp::Ordering;
-use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_backend_api::units::{Area, Duration, Length};
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
 /// are chosen by.
@@ -111,50 +110,6 @@ pub fn choose_within(job: &CheckedJob, latitude: Latitude) -> (Option<PlannedJob
         operations,
     });
     (planned, diagnostics)
-}
-
-/// The job with every open swing below a share of what it was planned with; none where no swing is open, or where that leaves
-/// nothing of its limits.
-#[must_use]
-pub fn with_swings_below(job: &CheckedJob, plan: &PlannedJob, share: f64) -> Option<CheckedJob> {
-    let mut narrower = job.clone();
-    let mut is_open = false;
-    for (operation, planned) in narrower.operations.iter_mut().zip(&plan.operations) {
-        let (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut)) = (operation, planned);
-        if asked.swing.value == Auto::Auto {
-            let value = Angle::deg((vcut.parameters.swing.to_deg() * share * 100.0).round() / 100.0);
-            if asked.limits.swing.least.is_some_and(|least| value < least.value) {
-                return None;
-            }
-            asked.limits.swing.most = Some(Sourced { value, span: None });
-            is_open = true;
-        }
-    }
-    is_open.then_some(narrower)
-}
-
-/// Says of every open swing that the machine does not follow that of the first plan.
-#[must_use]
-pub fn telling_narrowed_swings(mut plan: PlannedJob, first: &PlannedJob) -> PlannedJob {
-    for (operation, first) in plan.operations.iter_mut().zip(&first.operations) {
-        let (PlannedOperation::RoughVcut(vcut), PlannedOperation::RoughVcut(first)) = (operation, first);
-        if vcut.asked.swing.value == Auto::Auto {
-            let [now, before] = [&vcut.parameters, &first.parameters].map(|p| show(p.swing.to_deg()));
-            vcut.parameters.binding.retain(|&bound| bound != Bound::SwingMost);
-            vcut.decisions.insert(
-                0,
-                Decision {
-                    field: "swing",
-                    taken: Candidate {
-                        what: format!("narrowed from {before} deg to {now} deg"),
-                        standing: Standing::Last,
-                    },
-                    others: Vec::new(),
-                },
-            );
-        }
-    }
-    plan
 }
 
 /// A way to cut an operation, and what came of it.

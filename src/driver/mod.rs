@@ -176,9 +176,6 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
     Ok(outcome)
 }
 
-/// Shares of the first swing that are tried where the machine does not follow it.
-const NARROWER_SWINGS: [f64; 4] = [0.85, 0.7, 0.55, 0.4];
-
 /// How far a job came.
 enum Ended {
     /// It cannot be planned, or is not sound.
@@ -191,13 +188,7 @@ enum Ended {
 
 fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
-    let mut ended = along_its_routes(job, &|plan| plan, &outcome.sources, progress);
-    if let Ended::Unreached(plan, _, unreached) = &ended
-        && let Some(narrower) = with_narrower_swings(job, plan, unreached, &outcome.sources, progress)
-    {
-        ended = narrower;
-    }
-    let (plan, told, compiled) = match ended {
+    let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, progress) {
         Ended::Refused(plan, told) => (plan, told, None),
         Ended::Unreached(plan, mut told, unreached) => {
             told.extend(unreached_in_words(job, &plan, &unreached));
@@ -210,17 +201,12 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
 }
 
 /// Along fewer and fewer routes where the machine does not follow: the fastest ones ask the most of it.
-fn along_its_routes(
-    job: &CheckedJob,
-    tells: &dyn Fn(PlannedJob) -> PlannedJob,
-    sources: &SourceMap,
-    progress: &mut dyn FnMut(Stage),
-) -> Ended {
+fn along_its_routes(job: &CheckedJob, sources: &SourceMap, progress: &mut dyn FnMut(Stage)) -> Ended {
     let mut latitude = Latitude::Full;
     loop {
         progress(Stage::Planning);
         let (plan, mut told) = choice::choose_within(job, latitude);
-        let Some(plan) = plan.map(tells) else {
+        let Some(plan) = plan else {
             return Ended::Refused(None, told);
         };
         progress(Stage::Proving);
@@ -246,29 +232,6 @@ fn along_its_routes(
             },
         }
     }
-}
-
-/// With narrower swings where these are open: a blade that turns less asks less of the machine. None where that does not
-/// help either.
-fn with_narrower_swings(
-    job: &CheckedJob,
-    plan: &PlannedJob,
-    unreached: &Unreached,
-    sources: &SourceMap,
-    progress: &mut dyn FnMut(Stage),
-) -> Option<Ended> {
-    match unreached {
-        Unreached::Unreachable(unreachable) if unreachable.trouble.is_of_posture() => {}
-        Unreached::Unreachable(_) | Unreached::Rules(_) | Unreached::Motion(_) => return None,
-    }
-    let tells = |narrower| choice::telling_narrowed_swings(narrower, plan);
-    NARROWER_SWINGS.into_iter().find_map(|share| {
-        let narrower = choice::with_swings_below(job, plan, share)?;
-        match along_its_routes(&narrower, &tells, sources, progress) {
-            Ended::Compiled(plan, told, compiled) => Some(Ended::Compiled(plan, told, compiled)),
-            Ended::Refused(..) | Ended::Unreached(..) => None,
-        }
-    })
 }
 
 fn compiled(job: &CheckedJob, program: Finished, plan: &PlannedJob, mut report: Report) -> Compiled {

@@ -207,7 +207,7 @@ prop_compose! {
             scallop: scallop.map(|value| given(Length::mm(value))),
             edge: edge.map(|value| given(Length::mm(value))),
             time: None,
-            cuts: cuts.map(|value| given(value)),
+            cuts: cuts.map(given),
         };
         job
     }

@@ -47,16 +47,6 @@ pub enum Trouble {
 }
 
 impl Trouble {
-    /// Whether another posture of the blade may mend it: what lies beyond the machine's reach stays there.
-    #[must_use]
-    pub fn is_of_posture(&self) -> bool {
-        match self {
-            Self::Motion { failing, .. } => failing.breach.what != Violation::OutOfReach,
-            Self::NoCommonBranch { .. } | Self::Way { .. } => true,
-            Self::Nowhere => false,
-        }
-    }
-
     /// The op that is told of first; none of a machine that reaches nothing.
     #[must_use]
     pub const fn op(&self) -> Option<OpId> {

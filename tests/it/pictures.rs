@@ -110,7 +110,7 @@ fn what_is_marked_is_what_the_report_says() {
         let material = Material::of(&outcome).unwrap();
         let report = &material.compiled.report;
         let scallop = report.scallop.height.to_mm();
-        let marked = format!(">{scallop:.2} mm</text>");
+        let marked = format!("{scallop:.2} mm");
         for what in ["contour", "deviation"] {
             assert!(
                 picture(what, &outcome, Prefix::NONE).contains(&marked),
@@ -207,6 +207,17 @@ fn corners(path: &str) -> Vec<[f64; 2]> {
                     if index == 0 && command.eq_ignore_ascii_case(&'m') {
                         start = at;
                     }
+                    corners.push(at);
+                }
+            }
+            // The end of an arc: the last two of its seven numbers. Half circles stay within a diameter of it.
+            'A' => {
+                for arc in numbers.chunks(7) {
+                    at = if relative {
+                        [at[0] + arc[5], at[1] + arc[6]]
+                    } else {
+                        [arc[5], arc[6]]
+                    };
                     corners.push(at);
                 }
             }

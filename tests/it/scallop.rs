@@ -171,7 +171,7 @@ fn the_planners_bound_is_the_true_one_but_for_wide_interlaced_lattices_and_sides
             }
         }
     }
-    assert_eq!(of_interlaced, [false, false, false, true]);
+    assert_eq!(of_interlaced, [false; 4]);
 }
 
 /// Beside walls steeper than the flanks any height may stay: no V gets there, whatever the layer and the step.

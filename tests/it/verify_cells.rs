@@ -37,7 +37,7 @@ impl Cell {
         let cells = cells.replace(&block, &format!("{block}\n{option}"));
         // The cuts that the edits are made to, whatever `auto` would make of them.
         let job = fs::read_to_string(folder.join(JOB)).unwrap();
-        let fixed = "rough vcut {\n  overlap = 0 %\n  order = point\n  sequence = rows";
+        let fixed = "rough vcut {\n  layer = 3.488 mm\n  overlap = 0 %\n  order = point\n  sequence = rows";
         let job = job.replace("rough vcut {", fixed);
         let outcome = compile_on(
             Some(machine),
