@@ -213,9 +213,15 @@ prop_compose! {
     }
 }
 
-fn keeps<T: Copy + PartialOrd>(value: T, bounds: Bounds<T>) -> bool {
-    bounds.least.is_none_or(|least| value >= least.value)
-        && bounds.most.is_none_or(|most| value <= most.value)
+fn keeps<T: Copy>(value: T, bounds: Bounds<T>, base: impl Fn(T) -> f64) -> bool {
+    // To a billionth: degrees and radians are rounded apart.
+    let (value, share) = (base(value), 1e-9);
+    bounds
+        .least
+        .is_none_or(|least| value >= base(least.value) * (1.0 - share))
+        && bounds
+            .most
+            .is_none_or(|most| value <= base(most.value) * (1.0 + share))
 }
 
 proptest! {
@@ -227,9 +233,9 @@ proptest! {
         prop_assert_eq!(&proven.findings, &Findings::default());
         let super::PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
         let (limits, chosen) = (&vcut.asked.limits, &vcut.parameters);
-        prop_assert!(keeps(chosen.swing, limits.swing), "{chosen:?}");
-        prop_assert!(keeps(chosen.layer, limits.layer), "{chosen:?}");
-        prop_assert!(keeps(chosen.step, limits.step), "{chosen:?}");
+        prop_assert!(keeps(chosen.swing, limits.swing, Angle::to_rad), "{chosen:?}");
+        prop_assert!(keeps(chosen.layer, limits.layer, Length::to_mm), "{chosen:?}");
+        prop_assert!(keeps(chosen.step, limits.step, Length::to_mm), "{chosen:?}");
         // The lattice's own bound, without the optimiser.
         let bound = super::blade_reach::scallop_bound(chosen.lattice, chosen.layer, chosen.step, chosen.flanks.slope);
         let stays = bound + vcut.asked.allowance.value + chosen.drop;
