@@ -8,7 +8,7 @@ use crate::source::{Span, Spanned};
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
-use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
 
 /// A value and where it was written; `None` when it is a default.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +57,15 @@ pub struct CheckedJob {
     pub operations: Vec<Operation>,
     /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.
     pub machine: Option<Machine>,
+}
+
+impl CheckedJob {
+    /// Area of the cross-section above the part (A_C).
+    #[must_use]
+    pub fn area_to_remove(&self) -> Area {
+        let width = self.stock.width.to_mm();
+        Area::mm2(width * self.stock.height.to_mm()) - self.profile.area_below(0.0, width)
+    }
 }
 
 /// One operation.
@@ -160,6 +169,15 @@ pub struct Bounds<T> {
     pub least: Option<Sourced<T>>,
     /// The value is at most that.
     pub most: Option<Sourced<T>>,
+}
+
+impl<T: Copy + PartialOrd> Bounds<T> {
+    /// Whether a value keeps them.
+    #[must_use]
+    pub fn hold(self, value: T) -> bool {
+        self.least.is_none_or(|least| value >= least.value)
+            && self.most.is_none_or(|most| value <= most.value)
+    }
 }
 
 impl<T> Default for Bounds<T> {
@@ -315,4 +333,32 @@ pub enum GivenValue {
     Word(String),
     /// The word `default`: as if the option were not given.
     Default,
+}
+
+/// What the variants of a choice are called in the language, in one place for those who read it and those who speak of it.
+macro_rules! words {
+    ($($choice:ident { $($variant:ident = $word:literal),+ $(,)? })+) => {
+        $(impl $choice {
+            /// All of them, with what they are called in the language.
+            pub const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),+];
+
+            /// What it is called in the language.
+            #[must_use]
+            pub const fn word(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $word),+
+                }
+            }
+        })+
+    };
+}
+
+words! {
+    Lattice { Orthogonal = "orthogonal", Interlaced = "interlaced", Free = "free" }
+    Objective { Time = "time", Scallop = "scallop", Cuts = "cuts", BladeLoad = "blade_load" }
+    Formulas { Paper = "paper", Exact = "exact" }
+    Residual { Discard = "discard", Lift = "lift", Shift = "shift", Mixed = "mixed" }
+    Order { Point = "point", Layer = "layer" }
+    Sequence { Rows = "rows", Boustrophedon = "boustrophedon", Nearest = "nearest" }
+    Direction { Alternate = "alternate", Forward = "forward", Backward = "backward" }
 }

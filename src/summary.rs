@@ -48,7 +48,7 @@ pub fn summary(
             lines.push(row(decision.field, &compared(decision)));
         }
     }
-    lines.push(row("time", &times::in_all(&report.timing)));
+    lines.push(row("time", &times::in_all(&report.times.all)));
     lines.push(row("basis", &times::basis(basis)));
     let estimate = plan
         .operations
@@ -60,7 +60,7 @@ pub fn summary(
         &format!(
             "{} by the mean-value model, from the parameters alone{}",
             time(estimate),
-            against(estimate, report.timing.total())
+            against(estimate, report.times.all.total())
         ),
     ));
     lines.push(row(

@@ -422,12 +422,7 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
         });
     Some(match works {
         Some((residual, layer)) => {
-            let word = match residual {
-                Residual::Mixed => "mixed",
-                Residual::Lift => "lift",
-                Residual::Shift => "shift",
-                Residual::Discard => "discard",
-            };
+            let word = residual.word();
             diagnostic.help(format!(
                 "use `residual = {word}` with a `layer` of {} mm",
                 show(layer)

@@ -4,8 +4,9 @@
 //! constraints. They answer from where they start; whether that is the best there is they do not say.
 
 use vcutc::job::{Formulas, Lattice, Objective};
-use vcutc::plan::optimum::{Extension, Problem, Range, Work};
-use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
+use vcutc::plan::optimum::Problem;
+use vcutc::plan::optimum::published::table_1;
+use vcutc_backend_api::units::Duration;
 
 /// All lattices.
 pub const LATTICES: [Lattice; 3] = [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free];
@@ -25,56 +26,13 @@ const SIDES: [(f64, f64); 3] = [(0.1, 50.0), (0.1, 85.0), (0.02, 0.872_664_625_9
 /// The least time of the paper's problem, in s (`docs/process.md`, "The optimum").
 pub const LEAST: f64 = 307.599_215;
 
-/// Table 1 of the paper.
-#[must_use]
-pub fn table_1(formulas: Formulas, lattices: &[Lattice]) -> Problem {
-    let lengths = |most: f64| Range {
-        least: Length::mm(0.01),
-        most: Length::mm(most),
-    };
-    Problem {
-        objective: Objective::Time,
-        formulas,
-        lattices: lattices.to_vec(),
-        work: Work {
-            width: Length::mm(85.0),
-            depth: Length::mm(50.0),
-            area: Area::mm2(3137.0),
-            clearance: Length::mm(10.0),
-            cutting_length: Length::mm(10.0),
-            half_apex: Angle::deg(7.13),
-            rake: Angle::deg(60.0),
-            allowance: Length::ZERO,
-            standoff: Length::ZERO,
-            extension: Extension::EdgeInUse,
-            cut_feed: Speed::mm_per_s(200.0),
-            travel_feed: Speed::mm_per_s(200.0),
-            reorient_rate: AngularSpeed::deg_per_s(90.0),
-        },
-        swing: Range {
-            least: Angle::deg(1.0),
-            most: Angle::deg(50.0),
-        },
-        layer: lengths(50.0),
-        step: lengths(85.0),
-        overlap: Range {
-            least: 0.0,
-            most: 0.95,
-        },
-        scallop: Some(Length::mm(10.0)),
-        edge: None,
-        time: None,
-        cuts: None,
-    }
-}
-
 /// Table 1 with another objective, within 600 s.
 #[must_use]
 pub fn within_600_s(objective: Objective, formulas: Formulas, lattice: Lattice) -> Problem {
     Problem {
         objective,
         time: Some(Duration::s(600.0)),
-        ..table_1(formulas, &[lattice])
+        ..table_1(formulas, lattice)
     }
 }
 
@@ -83,7 +41,7 @@ pub fn within_600_s(objective: Objective, formulas: Formulas, lattice: Lattice) 
 pub fn conflict(formulas: Formulas) -> Problem {
     Problem {
         time: Some(Duration::s(200.0)),
-        ..table_1(formulas, &[Lattice::Orthogonal])
+        ..table_1(formulas, Lattice::Orthogonal)
     }
 }
 
@@ -132,15 +90,27 @@ pub fn is_least(x: &[f64]) -> bool {
 /// The cobyla package, at that accuracy of the time.
 #[must_use]
 pub fn cobyla(start: [f64; 3], accuracy: f64) -> Vec<f64> {
-    let constraints: [&dyn cobyla::Func<()>; 3] =
-        [&|x: &[f64], _: &mut ()| reach(x), &|x: &[f64], _: &mut ()| scallop(x), &|x: &[f64], _: &mut ()| no_gap(x)];
+    let constraints: [&dyn cobyla::Func<()>; 3] = [
+        &|x: &[f64], _: &mut ()| reach(x),
+        &|x: &[f64], _: &mut ()| scallop(x),
+        &|x: &[f64], _: &mut ()| no_gap(x),
+    ];
     let stop = cobyla::StopTols {
         ftol_rel: accuracy,
         ..cobyla::StopTols::default()
     };
     let objective = |x: &[f64], _: &mut ()| time(x);
     let begin = cobyla::RhoBeg::All(0.3);
-    match cobyla::minimize(objective, &start, &SIDES, &constraints, (), 5000, begin, Some(stop)) {
+    match cobyla::minimize(
+        objective,
+        &start,
+        &SIDES,
+        &constraints,
+        (),
+        5000,
+        begin,
+        Some(stop),
+    ) {
         Ok((_, x, _)) | Err((_, x, _)) => x,
     }
 }
@@ -176,7 +146,15 @@ pub fn slsqp(start: [f64; 3], accuracy: f64) -> Vec<f64> {
         ftol_rel: accuracy,
         ..slsqp::StopTols::default()
     };
-    match slsqp::minimize(sloped(time, 1.0), &start, &SIDES, &constraints, (), 500, Some(stop)) {
+    match slsqp::minimize(
+        sloped(time, 1.0),
+        &start,
+        &SIDES,
+        &constraints,
+        (),
+        500,
+        Some(stop),
+    ) {
         Ok((_, x, _)) | Err((_, x, _)) => x,
     }
 }

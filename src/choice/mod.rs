@@ -21,10 +21,7 @@ use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, Roug
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::parameters::VcutParameters;
 use crate::plan::residual::Strategies;
-use crate::plan::{
-    LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, PlannedVcut, blade_reach, lay_out, parameters,
-    refuse_operations,
-};
+use crate::plan::{LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations};
 use bench::Bench;
 use core::cmp::Ordering;
 use vcutc_backend_api::units::{Area, Duration, Length};
@@ -212,11 +209,7 @@ fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
 }
 
 /// The strategies beside `mixed`.
-const OTHERS: [(&str, Residual); 3] = [
-    ("discard", Residual::Discard),
-    ("lift", Residual::Lift),
-    ("shift", Residual::Shift),
-];
+const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shift];
 
 /// The operation on the best lattice, or on the one that it asks for.
 fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
@@ -264,7 +257,7 @@ fn compare_lattices(
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
     for &(time, lattice) in &by_model {
-        let what = parameters::lattice_word(lattice);
+        let what = lattice.word();
         let best = contest.best.as_ref().map(|(_, best)| best);
         if best
             .is_some_and(|best| matches!(best.standing, Standing::Takes(_)) && time > best.time * FAR_BEHIND)
@@ -321,19 +314,19 @@ fn best_residual(
     // Where the job sets no limit, none may leave more than `mixed` or the lattice itself does.
     let limit = match asked.limits.scallop {
         Some(limit) => limit.value,
-        None => mixed.height.max(inherent(&mixed.laid.vcut)),
+        None => mixed.height.max(mixed.laid.vcut.parameters.scallop_bound(asked)),
     };
     contest.enter("mixed", mixed.held_to(Some(limit)));
-    for (what, residual) in OTHERS {
+    for residual in OTHERS {
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
         match lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before) {
             Ok(mut laid) => {
                 laid.vcut.asked.residual.value = Auto::Auto;
                 let contender = bench.weigh(route::best(bench, laid));
-                contest.enter(what, contender.held_to(Some(limit)));
+                contest.enter(residual.word(), contender.held_to(Some(limit)));
             }
-            Err(_) => contest.rule_out(what, Standing::Impossible),
+            Err(_) => contest.rule_out(residual.word(), Standing::Impossible),
         }
     }
     contest
@@ -351,12 +344,4 @@ fn not_compared(field: &'static str, what: String) -> Decision {
         },
         others: Vec::new(),
     }
-}
-
-/// What the lattice leaves on the part anyway, with the allowance and the standoff.
-fn inherent(vcut: &PlannedVcut) -> Length {
-    let p = &vcut.parameters;
-    blade_reach::scallop_bound(p.lattice, p.layer, p.step, p.flanks.slope)
-        + vcut.asked.allowance.value
-        + p.drop
 }

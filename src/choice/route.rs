@@ -170,15 +170,7 @@ fn routes(vcut: &PlannedVcut) -> Vec<Route> {
 
 /// A route as far as it was open: `boustrophedon by point`.
 fn words(asked: &RoughVcut, (sequence, order): Route) -> String {
-    let sequence = match sequence {
-        Sequence::Rows => "rows",
-        Sequence::Boustrophedon => "boustrophedon",
-        Sequence::Nearest => "nearest",
-    };
-    let order = match order {
-        Order::Point => "point",
-        Order::Layer => "layer",
-    };
+    let (sequence, order) = (sequence.word(), order.word());
     match (asked.sequence.value, asked.order.value) {
         (Auto::Auto, Auto::Given(_)) => sequence.to_owned(),
         (Auto::Given(_), Auto::Auto) => order.to_owned(),

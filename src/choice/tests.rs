@@ -152,7 +152,7 @@ proptest! {
         let Some((first, _)) = planned_and_proven(&job) else { return Ok(()) };
         give(&mut job, &first);
         let Some((best, proven)) = planned_and_proven(&job) else { return Ok(()) };
-        let taken = proven.report.timing.total().to_s();
+        let taken = proven.report.times.all.total().to_s();
         let is_sound = |plan: &PlannedJob, proven: &Proven, highest: f64| {
             proven.findings.iter().count() == 0
                 && proven.report.scallop.height.to_mm() <= highest
@@ -163,7 +163,7 @@ proptest! {
         if limit.is_none() {
             operation(&mut job).residual.value = Auto::Given(Residual::Mixed);
             let (mixed, with_mixed) = along(&job, ROUTES[0]).unwrap();
-            inherent = super::inherent(vcut(&mixed)).max(with_mixed.report.scallop.height).to_mm() + 1e-3;
+            inherent = vcut(&mixed).parameters.scallop_bound(&vcut(&mixed).asked).max(with_mixed.report.scallop.height).to_mm() + 1e-3;
         }
         let mut any = false;
         for residual in [Residual::Mixed, Residual::Lift, Residual::Shift, Residual::Discard] {
@@ -172,7 +172,7 @@ proptest! {
                 let Some((plan, other)) = along(&job, route) else { continue };
                 if is_sound(&plan, &other, inherent) {
                     any = true;
-                    let time = other.report.timing.total().to_s();
+                    let time = other.report.times.all.total().to_s();
                     prop_assert!(taken <= time + 1e-9, "{:?} {:?} {} {}", residual, route, time, taken);
                 }
             }
@@ -235,7 +235,7 @@ fn boustrophedon_turns_round_and_stays_beside_the_work() {
         assert_eq!(run.way == crate::plan::Way::Over, index == 0, "{run:?}");
     }
     let (_, rows) = along(&job, (Sequence::Rows, Order::Point)).unwrap();
-    assert!(proven.report.timing.travel < rows.report.timing.travel);
+    assert!(proven.report.times.all.travel < rows.report.times.all.travel);
 }
 
 #[test]
@@ -287,7 +287,7 @@ fn leave_open(job: &mut CheckedJob, swing: f64, scallop: f64) {
 fn time_if_sound(job: &CheckedJob) -> Option<f64> {
     let (plan, proven) = planned_and_proven(job)?;
     (proven.findings.iter().count() == 0 && verdict::scallop_excess(&plan, &proven.report).is_none())
-        .then(|| proven.report.timing.total().to_s())
+        .then(|| proven.report.times.all.total().to_s())
 }
 
 /// The least time of a grid of swings and layers, each planned and proven.

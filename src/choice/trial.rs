@@ -10,8 +10,7 @@
 use super::bench::Bench;
 use super::{Contender, MOST_CUTS_COMPARED, route};
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Auto, Bounds, Formulas, Lattice, Objective, RoughVcut, Sourced};
-use crate::plan::blade_reach;
+use crate::job::{Auto, Formulas, Lattice, Objective, RoughVcut, Sourced};
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::lay_out;
 use crate::plan::optimum::Bound;
@@ -81,6 +80,9 @@ pub(super) fn parameters(
     parameters.binding.retain(|&bound| bound != Bound::Scallop);
     if trials.leaves_too_much {
         parameters.binding.push(Bound::Scallop);
+    }
+    let bound = parameters.scallop_bound(asked);
+    if asked.limits.scallop.is_some_and(|limit| bound > limit.value) {
         parameters.scallop_by = ScallopBy::Simulation;
     }
     let others = first.map(|standing| Candidate {
@@ -267,10 +269,7 @@ impl<'t> Trials<'t> {
             return;
         };
         let Some(free) = self.under(None) else { return };
-        let p = &free;
-        let most = blade_reach::scallop_bound(p.lattice, p.layer, p.step, p.flanks.slope)
-            + self.asked.allowance.value
-            + p.drop;
+        let most = free.scallop_bound(self.asked);
         if self.is_sound(free) || most <= limit.value {
             return;
         }
@@ -354,7 +353,17 @@ impl<'t> Trials<'t> {
         let mut assumed = self.asked.clone();
         assumed.limits.scallop = None;
         assumed.swing.value = Auto::Given(swing);
-        keeps(swing, self.asked.limits.swing).then(|| self.resolve(&assumed))?
+        self.resolve(&assumed).filter(|found| self.is_within(found))
+    }
+
+    /// Whether parameters keep the job's limits. Swing and layer that are given are taken as they are, with a step that may
+    /// keep no limit, for the proof to judge; those that are tried here are not the job's.
+    fn is_within(&self, found: &VcutParameters) -> bool {
+        let limits = &self.asked.limits;
+        limits.swing.hold(found.swing)
+            && limits.layer.hold(found.layer)
+            && limits.step.hold(found.step)
+            && found.lattice_fits()
     }
 
     /// The parameters with swing and layer changed by a factor.
@@ -376,7 +385,7 @@ impl<'t> Trials<'t> {
                         changed,
                         |most| if changed > most.value { most.value } else { changed },
                     );
-                if !keeps(changed, bounds) || changed >= Angle::deg(89.0) || changed <= Angle::deg(1.0) {
+                if changed >= Angle::deg(89.0) || changed <= Angle::deg(1.0) {
                     return None;
                 }
                 assumed.swing.value = Auto::Given(changed);
@@ -388,7 +397,7 @@ impl<'t> Trials<'t> {
             Auto::Auto => {
                 let changed = from.layer.to_mm() * libm::pow(factor, f64::from(layer));
                 let changed = Length::mm((changed * 1000.0).floor() / 1000.0);
-                if !keeps(changed, self.asked.limits.layer) || changed <= Length::ZERO {
+                if changed <= Length::ZERO {
                     return None;
                 }
                 assumed.layer.value = Auto::Given(changed);
@@ -397,16 +406,11 @@ impl<'t> Trials<'t> {
             Auto::Given(_) => {}
         }
         parameters::resolve_on(self.bench.job, &assumed, vec![from.lattice], &mut Vec::new())
-            .filter(VcutParameters::lattice_fits)
+            .filter(|found| self.is_within(found))
     }
 }
 
 /// Swings are chosen to a thousandth of a degree.
 fn thousandths(swing: Angle) -> Angle {
     Angle::deg((swing.to_deg() * 1000.0).floor() / 1000.0)
-}
-
-fn keeps<T: Copy + PartialOrd>(value: T, bounds: Bounds<T>) -> bool {
-    bounds.least.is_none_or(|least| value >= least.value)
-        && bounds.most.is_none_or(|most| value <= most.value)
 }

@@ -1,6 +1,9 @@
 //! The arguments, and the help that teaches them.
 
+use super::Targets;
+use super::files::Disk;
 use crate::diag::suggest::nearest;
+use crate::driver::{Request, Typed};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
@@ -437,6 +440,20 @@ pub(super) struct Overrides {
     /// For jobs that see several machines, such as all cells of a shop.
     #[arg(long, value_name = "NAME")]
     pub(super) machine: Option<String>,
+}
+
+impl Overrides {
+    /// To compile a job with them, whatever its target.
+    pub(super) fn request<'a>(&'a self, disk: &'a Disk, targets: &'a Targets) -> Request<'a> {
+        Request {
+            path: disk.job(),
+            loader: disk,
+            overrides: &self.set,
+            machine: self.machine.as_deref(),
+            options: Typed::default(),
+            targets,
+        }
+    }
 }
 
 /// What the command line says to the target, over what the machine's block says.

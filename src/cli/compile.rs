@@ -145,12 +145,8 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
     let disk = Disk::around(job);
     let mut progress = Progress::start(console.shows_progress());
     let request = Request {
-        path: disk.job(),
-        loader: &disk,
-        overrides: &overrides.set,
-        machine: overrides.machine.as_deref(),
         options: product.typed(),
-        targets,
+        ..overrides.request(&disk, targets)
     };
     let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,

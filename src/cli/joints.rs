@@ -9,7 +9,7 @@ use crate::job::CheckedJob;
 use crate::reach::solve::{Reached, rig};
 use crate::reach::trajectory::{Sample, trajectory};
 use std::io::{self, Write};
-use vcutc_backend_api::ir::{Action, Axis, AxisKind, Flank, Op, Site};
+use vcutc_backend_api::ir::{Axis, AxisKind, Op, Site};
 
 /// Writes the rows, one after the other.
 pub(super) fn write(job: &CheckedJob, reached: &Reached, out: &mut dyn Write) -> io::Result<()> {
@@ -43,7 +43,7 @@ fn row(op: &Op, sample: &Sample, axes: &[Axis], out: &mut dyn Write) -> io::Resu
             cut,
         } => write!(out, "{},{layer},{cut}", u32::from(operation.0) + 1)?,
     }
-    write!(out, ",{},{:.6}", motion(op.action), sample.done)?;
+    write!(out, ",{},{:.6}", op.action.kind().name(), sample.done)?;
     for (axis, value) in axes.iter().zip(sample.joints) {
         let shown = match axis.kind {
             AxisKind::Rotary => value.to_degrees(),
@@ -60,26 +60,5 @@ const fn unit(axis: &Axis) -> &'static str {
     match axis.kind {
         AxisKind::Rotary => "deg",
         AxisKind::Linear => "mm",
-    }
-}
-
-const fn motion(action: Action) -> &'static str {
-    match action {
-        Action::Home => "home",
-        Action::Travel { .. } => "travel",
-        Action::AxisTravel { .. } => "axis_travel",
-        Action::Approach { .. } => "approach",
-        Action::Retract { .. } => "retract",
-        Action::Cut {
-            flank: Flank::Left, ..
-        } => "cut_left",
-        Action::Cut {
-            flank: Flank::Right, ..
-        } => "cut_right",
-        Action::Turn { .. } => "turn",
-        Action::Ultrasonic { .. } => "ultrasonic",
-        Action::AwaitReady => "await_ready",
-        Action::Dwell { .. } => "dwell",
-        Action::ToolChange { .. } => "tool_change",
     }
 }

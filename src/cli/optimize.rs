@@ -6,7 +6,6 @@ use super::files::Disk;
 use super::output::{Destination, Output, Placed};
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::driver::{Request, Typed};
 use crate::optimisation::{self, Optimisation, Refusal, report};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::bundle::Sink;
@@ -19,14 +18,7 @@ pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console
     };
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
-    let request = Request {
-        path: disk.job(),
-        loader: &disk,
-        overrides: &args.overrides.set,
-        machine: args.overrides.machine.as_deref(),
-        options: Typed::default(),
-        targets,
-    };
+    let request = args.overrides.request(&disk, targets);
     let optimised = optimisation::optimise(request, args.points, &mut |stage| progress.enter(stage));
     progress.finish();
     match optimised {

@@ -6,7 +6,6 @@ use super::files::Disk;
 use super::output::one_file;
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::driver::{Request, Typed};
 use crate::placement::{self, Asked, Placement, Refusal, report};
 use std::path::Path;
 
@@ -14,14 +13,7 @@ use std::path::Path;
 pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> Exit {
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
-    let request = Request {
-        path: disk.job(),
-        loader: &disk,
-        overrides: &args.overrides.set,
-        machine: args.overrides.machine.as_deref(),
-        options: Typed::default(),
-        targets,
-    };
+    let request = args.overrides.request(&disk, targets);
     let asked = Asked {
         x: args.x.as_deref(),
         y: args.y.as_deref(),

@@ -7,7 +7,7 @@ use super::files::Disk;
 use super::output::{Placed, one_file};
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::driver::{self, Outcome, Request, RequestError, Typed};
+use crate::driver::{self, Outcome, RequestError};
 use crate::picture::Prefix;
 use crate::report::{Material, pictures};
 use std::path::Path;
@@ -20,14 +20,7 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
     };
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
-    let request = Request {
-        path: disk.job(),
-        loader: &disk,
-        overrides: &args.overrides.set,
-        machine: args.overrides.machine.as_deref(),
-        options: Typed::default(),
-        targets,
-    };
+    let request = args.overrides.request(&disk, targets);
     let compiled = driver::compile(request, &mut |stage| progress.enter(stage));
     progress.finish();
     let outcome = match compiled {

@@ -8,7 +8,7 @@ use super::output::{Placed, one_file};
 use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
-use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
+use crate::driver::{self, Outcome, RequestError, Stage};
 use crate::report::page::page;
 use std::path::Path;
 
@@ -22,14 +22,7 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
     }
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
-    let request = Request {
-        path: disk.job(),
-        loader: &disk,
-        overrides: &args.overrides.set,
-        machine: args.overrides.machine.as_deref(),
-        options: Typed::default(),
-        targets,
-    };
+    let request = args.overrides.request(&disk, targets);
     let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {

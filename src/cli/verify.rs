@@ -26,16 +26,12 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
     let request = Request {
-        path: disk.job(),
-        loader: &disk,
-        overrides: &args.overrides.set,
-        machine: args.overrides.machine.as_deref(),
         options: Typed {
             target: backend.id(),
             given: &args.options.option,
             beside: "",
         },
-        targets,
+        ..args.overrides.request(&disk, targets)
     };
     let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,

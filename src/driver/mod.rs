@@ -237,8 +237,7 @@ fn along_its_routes(job: &CheckedJob, sources: &SourceMap, progress: &mut dyn Fn
 fn compiled(job: &CheckedJob, program: Finished, plan: &PlannedJob, mut report: Report) -> Compiled {
     let figures = program.reached().map(reach_summary::figures);
     let paced = paced(job, &program);
-    let times = times(program.verified(), &paced.times);
-    (report.timing, report.layer_times) = (times.all, times.layers);
+    report.times = times(program.verified(), &paced.times);
     Compiled {
         numbers: Numbers::of(plan, &report),
         summary: summary(plan, &report, paced.basis, figures.as_ref()),

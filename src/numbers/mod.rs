@@ -47,7 +47,7 @@ impl Numbers {
         Self {
             cuts: report.cuts(),
             layers: report.layers.len(),
-            time_s: thousandths(report.timing.total().to_s()),
+            time_s: thousandths(report.times.all.total().to_s()),
             estimate_s: thousandths(estimate.to_s()),
             scallop_mm: thousandths(report.scallop.height.to_mm()),
             mean_scallop_mm: thousandths(report.mean_scallop.to_mm()),

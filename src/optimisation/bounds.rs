@@ -1,7 +1,7 @@
 //! Bounds that bind: where the job says them, and what relaxing them by a hundredth would buy.
 
 use crate::diag::position::position;
-use crate::job::{Auto, Objective, RoughVcut, Sourced};
+use crate::job::{Auto, RoughVcut, Sourced};
 use crate::plan::optimum::{Bound, Optimum, Problem, Sensitivity, sensitivities};
 use crate::plan::parameters::show;
 use crate::source::{SourceMap, Span};
@@ -52,12 +52,7 @@ fn tell(
         relaxed,
         then,
     } = sensitivity;
-    let measure = |optimum: &Optimum| match problem.objective {
-        Objective::Time => optimum.time.to_s(),
-        Objective::Scallop => optimum.scallop.to_mm(),
-        Objective::Cuts => optimum.cuts,
-        Objective::BladeLoad => optimum.edge.to_mm(),
-    };
+    let measure = |optimum: &Optimum| optimum.value(problem.objective);
     let before = measure(best);
     Relaxed {
         bound: *bound,

@@ -265,7 +265,7 @@ impl Optimisation {
         let subtitle = format!(
             "operation {}, {} formulas, {}",
             operation.number,
-            report::formulas(operation.formulas),
+            operation.formulas.word(),
             report::objective(operation.objective)
         );
         let trade_off = &operation.trade_off;
@@ -274,7 +274,7 @@ impl Optimisation {
             .curves
             .iter()
             .map(|curve| Curve {
-                name: report::lattice(curve.lattice),
+                name: curve.lattice.word(),
                 points: curve.points.iter().map(places).collect(),
             })
             .collect();

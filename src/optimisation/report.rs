@@ -2,31 +2,12 @@
 
 use super::bounds::{Relaxed, name, value};
 use super::{OperationOptimum, Optimisation, Planned, Row, Standing};
-use crate::job::{Formulas, Lattice, Objective};
+use crate::job::Objective;
 use crate::plan::optimum::{Bound, Infeasible, Optimum};
 use crate::plan::parameters::show;
 use serde::Serialize;
 use std::fmt::Write;
 use vcutc_backend_api::units::{Duration, Length};
-
-/// A lattice as jobs write it.
-#[must_use]
-pub const fn lattice(lattice: Lattice) -> &'static str {
-    match lattice {
-        Lattice::Orthogonal => "orthogonal",
-        Lattice::Interlaced => "interlaced",
-        Lattice::Free => "free",
-    }
-}
-
-/// Formulas as jobs write them.
-#[must_use]
-pub const fn formulas(formulas: Formulas) -> &'static str {
-    match formulas {
-        Formulas::Paper => "paper",
-        Formulas::Exact => "exact",
-    }
-}
 
 /// An objective in words.
 #[must_use]
@@ -58,7 +39,7 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
         operation.number,
         operation.place,
         objective(operation.objective),
-        formulas(operation.formulas)
+        operation.formulas.word()
     );
     text += &table(
         &[
@@ -150,7 +131,7 @@ fn row_cells(row: &Row) -> Vec<String> {
         Standing::Chosen => "*",
         Standing::Other => "",
     };
-    let head = [mark, lattice(row.lattice), formulas(row.formulas)].map(str::to_owned);
+    let head = [mark, row.lattice.word(), row.formulas.word()].map(str::to_owned);
     let rest = match &row.best {
         Ok(best) => vec![
             format!("{:.3} deg", best.swing.to_deg()),
@@ -193,7 +174,7 @@ fn point_cells(best: &Optimum, chosen: Option<&Optimum>) -> Vec<String> {
         mark.to_owned(),
         format!("{:.2} mm", best.scallop.to_mm()),
         seconds(best.time),
-        lattice(best.lattice).to_owned(),
+        best.lattice.word().to_owned(),
         format!("{:.3} deg", best.swing.to_deg()),
         format!("{:.3} mm", best.layer.to_mm()),
         format!("{:.3} mm", best.step.to_mm()),
@@ -342,8 +323,8 @@ fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
     OperationBody {
         operation: operation.number,
         place: &operation.place,
-        objective: objective_key(operation.objective),
-        model: formulas(operation.formulas),
+        objective: operation.objective.word(),
+        model: operation.formulas.word(),
         lattice_given: operation.lattice_given.as_deref(),
         best: operation.rows.iter().map(row_body).collect(),
         planned: PlannedBody {
@@ -358,20 +339,10 @@ fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
     }
 }
 
-/// An objective as jobs write it.
-const fn objective_key(objective: Objective) -> &'static str {
-    match objective {
-        Objective::Time => "time",
-        Objective::Scallop => "scallop",
-        Objective::Cuts => "cuts",
-        Objective::BladeLoad => "blade_load",
-    }
-}
-
 fn row_body(row: &Row) -> RowBody {
     RowBody {
-        lattice: lattice(row.lattice),
-        model: formulas(row.formulas),
+        lattice: row.lattice.word(),
+        model: row.formulas.word(),
         chosen: row.standing == Standing::Chosen,
         parameters: row.best.as_ref().ok().map(parameters_body),
         trouble: row.best.as_ref().err().map(why_not),
@@ -380,7 +351,7 @@ fn row_body(row: &Row) -> RowBody {
 
 fn parameters_body(best: &Optimum) -> ParametersBody {
     ParametersBody {
-        lattice: lattice(best.lattice),
+        lattice: best.lattice.word(),
         swing: best.swing.to_deg(),
         layer: best.layer.to_mm(),
         step: best.step.to_mm(),

@@ -10,6 +10,7 @@ pub mod deviation;
 pub mod heat_map;
 pub mod joints;
 pub mod lattice;
+mod marks;
 pub mod pareto;
 mod plot;
 mod scale;

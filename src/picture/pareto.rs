@@ -4,6 +4,7 @@
 //! their colours, so that they can be told apart without seeing colours.
 
 use super::Prefix;
+use super::marks::{cross, ring};
 use super::svg::{Anchor, Svg, number};
 
 /// What a Pareto picture shows. Places are scallop in mm and time in s.
@@ -248,29 +249,6 @@ fn ticks(svg: &mut Svg, plot: &Plot) {
         &format!("transform=\"rotate(-90 26 {})\"", number(middle)),
         "time, s",
     );
-}
-
-/// Light under dark: it stands out on every ground.
-fn ring(svg: &mut Svg, (x, y): (f64, f64)) {
-    let (x, y) = (number(x), number(y));
-    for paint in [
-        "stroke=\"#ffffff\" stroke-width=\"6\"",
-        "stroke=\"#2b2a27\" stroke-width=\"2.5\"",
-    ] {
-        svg.line(&format!(
-            "  <circle cx=\"{x}\" cy=\"{y}\" r=\"7\" fill=\"none\" {paint}/>"
-        ));
-    }
-}
-
-fn cross(svg: &mut Svg, (x, y): (f64, f64)) {
-    let path = format!("M{} {}l14 14m0 -14l-14 14", number(x - 7.0), number(y - 7.0));
-    for paint in [
-        "stroke=\"#ffffff\" stroke-width=\"7\"",
-        "stroke=\"#c2185b\" stroke-width=\"3.5\"",
-    ] {
-        svg.path(&path, &format!("fill=\"none\" stroke-linecap=\"round\" {paint}"));
-    }
 }
 
 fn legend(svg: &mut Svg, pareto: &Pareto<'_>) {

@@ -20,7 +20,7 @@ use crate::job::{Auto, CheckedJob, Direction, Lattice, Objective, RoughVcut};
 use crate::posture::Holder;
 use grid_forms::{fits, widest_step};
 use search::{Chosen, Unchosen};
-use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_backend_api::units::{Angle, Length};
 
 /// The parameters of one V-cutting operation, all decided.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,7 +95,7 @@ impl VcutParameters {
         let lattice = match asked.lattice.value {
             Auto::Auto => Some(Choice {
                 name: "lattice",
-                value: lattice_word(self.lattice).to_owned(),
+                value: self.lattice.word().to_owned(),
             }),
             Auto::Given(_) => None,
         };
@@ -134,15 +134,22 @@ impl VcutParameters {
         words
     }
 
+    /// What the lattice leaves on the part at most by its bound, with the allowance and the standoff.
+    #[must_use]
+    pub fn scallop_bound(&self, asked: &RoughVcut) -> Length {
+        blade_reach::scallop_bound(self.lattice, self.layer, self.step, self.flanks.slope)
+            + asked.allowance.value
+            + self.drop
+    }
+
     /// The mean-value model of the paper for a job cut with these parameters.
     #[must_use]
     pub fn time_model(&self, job: &CheckedJob, asked: &RoughVcut) -> TimeModel {
         let stock = job.stock;
-        let part = job.profile.area_below(0.0, stock.width.to_mm());
         TimeModel {
             width: stock.width,
             depth: stock.depth,
-            area: Area::mm2(stock.width.to_mm() * stock.height.to_mm()) - part,
+            area: job.area_to_remove(),
             clearance: asked.clearance.value,
             extension: self.extension,
             rake: asked.rake.value,
@@ -150,16 +157,6 @@ impl VcutParameters {
             travel_feed: asked.travel_feed.value,
             reorient_rate: asked.reorient_rate.value,
         }
-    }
-}
-
-/// What the lattice is called in the language.
-#[must_use]
-pub const fn lattice_word(lattice: Lattice) -> &'static str {
-    match lattice {
-        Lattice::Orthogonal => "orthogonal",
-        Lattice::Interlaced => "interlaced",
-        Lattice::Free => "free",
     }
 }
 

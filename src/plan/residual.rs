@@ -11,7 +11,7 @@
 
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
-use super::{PlannedCut, TipOrigin, Way, blade_reach, grid, smallest_gain};
+use super::{PlannedCut, TipOrigin, Way, grid, smallest_gain};
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{Residual, RoughVcut};
@@ -67,14 +67,7 @@ impl<'p> LayerPlanner<'p> {
         part: &'p Profile,
         surface: &'p mut Surface,
     ) -> Self {
-        let lattice = parameters.lattice;
-        let bound = blade_reach::scallop_bound(
-            lattice,
-            parameters.layer,
-            parameters.step,
-            parameters.flanks.slope,
-        );
-        let inherent = bound + asked.allowance.value + parameters.drop;
+        let inherent = parameters.scallop_bound(asked);
         let tolerated = asked.limits.scallop.map_or(inherent, |limit| limit.value);
         let relieves = strategy == Residual::Mixed && parameters.lattice_fits();
         Self {

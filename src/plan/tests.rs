@@ -6,6 +6,7 @@ use crate::job::{
     Auto, Blade, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order,
     Residual, RoughVcut, Sequence, Sourced,
 };
+use crate::plan::parameters::ScallopBy;
 use crate::sim::prove::Findings;
 use crate::source::{SourceMap, Span};
 use crate::verdict;
@@ -213,17 +214,6 @@ prop_compose! {
     }
 }
 
-fn keeps<T: Copy>(value: T, bounds: Bounds<T>, base: impl Fn(T) -> f64) -> bool {
-    // To a billionth: degrees and radians are rounded apart.
-    let (value, share) = (base(value), 1e-9);
-    bounds
-        .least
-        .is_none_or(|least| value >= base(least.value) * (1.0 - share))
-        && bounds
-            .most
-            .is_none_or(|most| value <= base(most.value) * (1.0 + share))
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -233,12 +223,15 @@ proptest! {
         prop_assert_eq!(&proven.findings, &Findings::default());
         let super::PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
         let (limits, chosen) = (&vcut.asked.limits, &vcut.parameters);
-        prop_assert!(keeps(chosen.swing, limits.swing, Angle::to_rad), "{chosen:?}");
-        prop_assert!(keeps(chosen.layer, limits.layer, Length::to_mm), "{chosen:?}");
-        prop_assert!(keeps(chosen.step, limits.step, Length::to_mm), "{chosen:?}");
+        prop_assert!(limits.swing.hold(chosen.swing), "{chosen:?}");
+        prop_assert!(limits.layer.hold(chosen.layer), "{chosen:?}");
+        prop_assert!(limits.step.hold(chosen.step), "{chosen:?}");
         // The lattice's own bound, without the optimiser.
         let bound = super::blade_reach::scallop_bound(chosen.lattice, chosen.layer, chosen.step, chosen.flanks.slope);
-        let stays = bound + vcut.asked.allowance.value + chosen.drop;
+        let stays = match chosen.scallop_by {
+            ScallopBy::Bound => bound + vcut.asked.allowance.value + chosen.drop,
+            ScallopBy::Simulation => proven.report.scallop.height,
+        };
         prop_assert!(limits.scallop.is_none_or(|limit| stays <= limit.value + Length::mm(1e-6)), "{chosen:?} {stays:?}");
         let edge = limits.edge.map_or(Length::mm(f64::INFINITY), |limit| limit.value);
         prop_assert!(proven.report.longest_edge <= edge + Length::mm(1e-6), "{chosen:?}");

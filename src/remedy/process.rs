@@ -19,25 +19,18 @@ pub(super) fn other_direction(case: &mut Case<'_>) -> Option<Remedy> {
         .into_iter()
         .filter(|direction| *direction != asked.direction.value)
         .find(|&direction| works(case, operation, |asked| asked.direction.value = direction))
-        .map(|direction| {
-            let word = match direction {
-                Direction::Alternate => "alternate",
-                Direction::Forward => "forward",
-                Direction::Backward => "backward",
-            };
-            stated(asked, "direction", asked.direction.span, word)
-        })
+        .map(|direction| stated(asked, "direction", asked.direction.span, direction.word()))
 }
 
 /// The same cuts in the other order.
 pub(super) fn other_order(case: &mut Case<'_>) -> Option<Remedy> {
     let (operation, asked) = asked(case)?;
-    let (order, word) = match asked.order.value.or(Order::Point) {
-        Order::Point => (Order::Layer, "layer"),
-        Order::Layer => (Order::Point, "point"),
+    let order = match asked.order.value.or(Order::Point) {
+        Order::Point => Order::Layer,
+        Order::Layer => Order::Point,
     };
     works(case, operation, |asked| asked.order.value = Auto::Given(order))
-        .then(|| stated(asked, "order", asked.order.span, word))
+        .then(|| stated(asked, "order", asked.order.span, order.word()))
 }
 
 /// The largest of a few smaller swings that works, in whole degrees.

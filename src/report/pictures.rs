@@ -11,7 +11,6 @@ pub use time::time;
 
 use super::Material;
 use crate::geom::curve::Point2;
-use crate::job::Lattice;
 use crate::picture::{Prefix, contour, correlation, deviation, lattice};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut, TipOrigin};
@@ -237,11 +236,7 @@ fn laid_out(material: &Material<'_>) -> String {
     match (vcuts.next(), vcuts.next()) {
         (Some(vcut), None) => {
             let chosen = &vcut.parameters;
-            let name = match chosen.lattice {
-                Lattice::Orthogonal => "orthogonal",
-                Lattice::Interlaced => "interlaced",
-                Lattice::Free => "free",
-            };
+            let name = chosen.lattice.word();
             format!(
                 "{name}, {layers}; swing {} deg, layer {} mm, step {} mm",
                 show(chosen.swing.to_deg()),

@@ -56,42 +56,6 @@ const FEED: BlockSpec = BlockSpec {
     inner: Inner::Refused,
 };
 
-const LATTICES: &[(&str, Lattice)] = &[
-    ("orthogonal", Lattice::Orthogonal),
-    ("interlaced", Lattice::Interlaced),
-    ("free", Lattice::Free),
-];
-
-const RESIDUALS: &[(&str, Residual)] = &[
-    ("discard", Residual::Discard),
-    ("lift", Residual::Lift),
-    ("shift", Residual::Shift),
-    ("mixed", Residual::Mixed),
-];
-
-const ORDERS: &[(&str, Order)] = &[("point", Order::Point), ("layer", Order::Layer)];
-
-const SEQUENCES: &[(&str, Sequence)] = &[
-    ("rows", Sequence::Rows),
-    ("boustrophedon", Sequence::Boustrophedon),
-    ("nearest", Sequence::Nearest),
-];
-
-const OBJECTIVES: &[(&str, Objective)] = &[
-    ("time", Objective::Time),
-    ("scallop", Objective::Scallop),
-    ("cuts", Objective::Cuts),
-    ("blade_load", Objective::BladeLoad),
-];
-
-const MODELS: &[(&str, Formulas)] = &[("paper", Formulas::Paper), ("exact", Formulas::Exact)];
-
-const DIRECTIONS: &[(&str, Direction)] = &[
-    ("alternate", Direction::Alternate),
-    ("forward", Direction::Forward),
-    ("backward", Direction::Backward),
-];
-
 /// Air between the blade and the stock where it turns, when the job does not say: a usual value for the errors of stock and
 /// robot together, from no source.
 const RUN_OUT: Length = Length::mm(2.0);
@@ -119,19 +83,19 @@ pub(crate) fn check(
     let blade = fields
         .required_value("blade", reader.reports)
         .and_then(|expr| find_blade(expr, blades, &mut reader));
-    let lattice = reader.auto_choice(&fields, "lattice", LATTICES);
+    let lattice = reader.auto_choice(&fields, "lattice", Lattice::WORDS);
     let rake = reader.required(&fields, "rake", RAKE);
     let swing = reader.auto(&fields, "swing", SWING);
     let layer = reader.auto(&fields, "layer", SIZE);
     let step = reader.auto(&fields, "step", SIZE);
     let overlap = reader.auto(&fields, "overlap", OVERLAP);
-    let objective = reader.choice(&fields, "objective", OBJECTIVES);
-    let formulas = reader.choice(&fields, "model", MODELS);
+    let objective = reader.choice(&fields, "objective", Objective::WORDS);
+    let formulas = reader.choice(&fields, "model", Formulas::WORDS);
     let allowance = reader.defaulted(&fields, "allowance", DISTANCE, Length::ZERO);
-    let residual = reader.auto_choice(&fields, "residual", RESIDUALS);
-    let order = reader.auto_choice(&fields, "order", ORDERS);
-    let sequence = reader.auto_choice(&fields, "sequence", SEQUENCES);
-    let direction = reader.choice(&fields, "direction", DIRECTIONS);
+    let residual = reader.auto_choice(&fields, "residual", Residual::WORDS);
+    let order = reader.auto_choice(&fields, "order", Order::WORDS);
+    let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
+    let direction = reader.choice(&fields, "direction", Direction::WORDS);
     let clearance = reader.required(&fields, "clearance", SIZE);
     let extension = reader.auto(&fields, "extension", DISTANCE);
     let run_out = reader.defaulted(&fields, "run_out", DISTANCE, RUN_OUT);

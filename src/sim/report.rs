@@ -2,7 +2,7 @@
 
 use super::contour::{Sampled, Scallop, farthest};
 use super::prove::Replay;
-use super::timing::{LayerTime, Times, Timing};
+use super::timing::Times;
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use vcutc_backend_api::ir::{OperationId, Stock};
@@ -13,10 +13,8 @@ use vcutc_backend_api::units::{Area, Length};
 pub struct Report {
     /// Cuts of each layer, operation by operation.
     pub layers: Vec<(OperationId, usize)>,
-    /// Times by what they are spent on.
-    pub timing: Timing,
-    /// The same for each layer.
-    pub layer_times: Vec<LayerTime>,
+    /// Where the time goes.
+    pub times: Times,
     /// Area of the stock's cross-section that is cut away.
     pub removed: Area,
     /// Area that stays on the part.
@@ -70,8 +68,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
         Profile::new(corners.clone()).map_or(scallop, |machined| farthest(part.points(), &machined));
     Report {
         layers: replay.layers,
-        timing: times.all,
-        layer_times: times.layers,
+        times,
         removed: Area::mm2(whole - machined),
         residual,
         scallop,

@@ -3,6 +3,7 @@
 //! A move that turns the blade along takes as long as the slower of its two parts, as controllers do it. How long moves of
 //! all axes take depends on the machine, and so does what acceleration adds: nothing of either is said here.
 
+use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, OperationId, Program, Ready, Site};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::{Pose, Stroke};
@@ -26,12 +27,41 @@ pub struct Timing {
 
 /// What time is spent on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+pub enum Kind {
+    /// A way through the work.
     Cutting,
+    /// A turn about the still tip.
     Turning,
+    /// A way through the air.
     Travel,
-    Axes,
+    /// Waiting.
     Waiting,
+    /// A move of all axes.
+    Axes,
+}
+
+impl Kind {
+    /// All of them, in the order in which people read them.
+    pub const ALL: [Self; 5] = [
+        Self::Cutting,
+        Self::Turning,
+        Self::Travel,
+        Self::Waiting,
+        Self::Axes,
+    ];
+
+    /// What an action spends time on; those that switch something spend none.
+    #[must_use]
+    pub const fn of(action: &Action) -> Option<Self> {
+        Some(match action {
+            Action::Cut { .. } => Self::Cutting,
+            Action::Turn { .. } => Self::Turning,
+            Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => Self::Travel,
+            Action::AwaitReady | Action::Dwell { .. } => Self::Waiting,
+            Action::Home | Action::AxisTravel { .. } => Self::Axes,
+            Action::Ultrasonic { .. } | Action::ToolChange { .. } => return None,
+        })
+    }
 }
 
 impl Timing {
@@ -39,6 +69,18 @@ impl Timing {
     #[must_use]
     pub fn total(&self) -> Duration {
         self.cutting + self.turning + self.travel + self.axes + self.waiting
+    }
+
+    /// What is spent on a kind.
+    #[must_use]
+    pub const fn of(&self, kind: Kind) -> Duration {
+        match kind {
+            Kind::Cutting => self.cutting,
+            Kind::Turning => self.turning,
+            Kind::Travel => self.travel,
+            Kind::Waiting => self.waiting,
+            Kind::Axes => self.axes,
+        }
     }
 
     fn add(&mut self, kind: Kind, time: Duration) {
@@ -68,8 +110,10 @@ pub struct LayerTime {
 pub struct Times {
     /// Of all ops.
     pub all: Timing,
-    /// Layer by layer, in order of work; what belongs to no layer is in [`Times::all`] only.
+    /// Layer by layer, from the top of the first operation on, in whatever order they were worked on.
     pub layers: Vec<LayerTime>,
+    /// Of the ops that belong to no layer.
+    pub rest: Timing,
 }
 
 /// How long each op takes at programmed speeds, in the order of the program.
@@ -115,50 +159,28 @@ pub fn timing(program: &VerifiedProgram) -> Times {
 /// Adds up the times of a program's ops, one for each, by what they are spent on.
 #[must_use]
 pub fn times(program: &VerifiedProgram, op_times: &[Duration]) -> Times {
-    let mut times = Times::default();
-    let mut at = None;
+    let (mut all, mut rest) = (Timing::default(), Timing::default());
+    let mut layers: BTreeMap<(OperationId, u32), Timing> = BTreeMap::new();
     for (op, &time) in program.program().ops.iter().zip(op_times) {
-        if let Some(kind) = kind(&op.action, at) {
-            times.all.add(kind, time);
-            if let Some(layer) = layer(&mut times.layers, op.site) {
-                layer.timing.add(kind, time);
+        let Some(kind) = Kind::of(&op.action) else {
+            continue;
+        };
+        let place = match op.site {
+            Site::Program | Site::Operation(_) => &mut rest,
+            Site::Layer { operation, layer } | Site::Cut { operation, layer, .. } => {
+                layers.entry((operation, layer.get())).or_default()
             }
-        }
-        at = pose_after(at, &op.action);
+        };
+        place.add(kind, time);
+        all.add(kind, time);
     }
-    times
-}
-
-/// What an op that begins at a pose spends time on; ops that switch something spend none.
-const fn kind(action: &Action, at: Option<Pose>) -> Option<Kind> {
-    Some(match (action, at) {
-        // Without a pose to start from there is no line to go along.
-        (Action::Home | Action::AxisTravel { .. }, _) | (Action::Travel { .. }, None) => Kind::Axes,
-        (Action::Travel { .. }, Some(_)) | (Action::Approach { .. } | Action::Retract { .. }, _) => {
-            Kind::Travel
-        }
-        (Action::Cut { .. }, _) => Kind::Cutting,
-        (Action::Turn { .. }, _) => Kind::Turning,
-        (Action::AwaitReady | Action::Dwell { .. }, _) => Kind::Waiting,
-        (Action::Ultrasonic { .. } | Action::ToolChange { .. }, _) => return None,
-    })
-}
-
-/// The entry of a site's layer, the last one of them or a new one; none for what belongs to no layer.
-fn layer(layers: &mut Vec<LayerTime>, site: Site) -> Option<&mut LayerTime> {
-    let (operation, layer) = match site {
-        Site::Program | Site::Operation(_) => return None,
-        Site::Layer { operation, layer } | Site::Cut { operation, layer, .. } => (operation, layer.get()),
-    };
-    let is_open = layers
-        .last()
-        .is_some_and(|last| last.operation == operation && last.layer == layer);
-    if !is_open {
-        layers.push(LayerTime {
+    let layers = layers
+        .into_iter()
+        .map(|((operation, layer), timing)| LayerTime {
             operation,
             layer,
-            timing: Timing::default(),
-        });
-    }
-    layers.last_mut()
+            timing,
+        })
+        .collect();
+    Times { all, layers, rest }
 }

@@ -68,8 +68,8 @@ pub fn figures(report: &Report, basis: Basis) -> TimeFigures {
         },
         basis_words: self::basis(basis),
         untimed: basis.untimed,
-        all: kinds(&report.timing),
-        layers: report.layer_times.iter().map(layer).collect(),
+        all: kinds(&report.times.all),
+        layers: report.times.layers.iter().map(layer).collect(),
     }
 }
 

@@ -7,49 +7,15 @@ use crate::pipeline::{Files, compile, told};
 use crate::published::{ARC, LEAD_DEG};
 use crate::repository::{read, root};
 use vcutc::driver::Outcome;
-use vcutc::job::{Formulas, Lattice, Objective};
-use vcutc::plan::optimum::{Extension, Optimum, Problem, Range, Work, solve};
+use vcutc::job::{Formulas, Lattice};
+use vcutc::plan::optimum::published::table_1;
+use vcutc::plan::optimum::{Optimum, Problem, Range, solve};
 use vcutc::plan::{PlannedOperation, blade_reach};
-use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Length, Speed};
+use vcutc_backend_api::units::{Angle, Length};
 
 const PAGE: &str = "docs/optimum.md";
 const BEGIN: &str = "<!-- table: written by tests/it/optimum_table.rs -->";
 const END: &str = "<!-- end of table -->";
-
-/// Table 1 of the paper. How far cuts run out follows from the edge in use [Cui 5].
-fn table_1(formulas: Formulas, lattice: Lattice) -> Problem {
-    Problem {
-        objective: Objective::Time,
-        formulas,
-        lattices: vec![lattice],
-        work: Work {
-            width: Length::mm(85.0),
-            depth: Length::mm(50.0),
-            area: Area::mm2(3137.0),
-            clearance: Length::mm(10.0),
-            cutting_length: Length::mm(10.0),
-            half_apex: Angle::deg(7.13),
-            rake: Angle::deg(60.0),
-            allowance: Length::ZERO,
-            standoff: Length::ZERO,
-            extension: Extension::EdgeInUse,
-            cut_feed: Speed::mm_per_s(200.0),
-            travel_feed: Speed::mm_per_s(200.0),
-            reorient_rate: AngularSpeed::deg_per_s(90.0),
-        },
-        swing: between(Angle::deg(1.0), Angle::deg(50.0)),
-        layer: between(Length::mm(0.01), Length::mm(50.0)),
-        step: between(Length::mm(0.01), Length::mm(85.0)),
-        overlap: Range {
-            least: 0.0,
-            most: 0.95,
-        },
-        scallop: Some(Length::mm(10.0)),
-        edge: None,
-        time: None,
-        cuts: None,
-    }
-}
 
 fn between<T>(least: T, most: T) -> Range<T> {
     Range { least, most }
@@ -87,7 +53,7 @@ impl Row {
         let model = &self.model;
         [
             model.time.to_s(),
-            report.timing.total().to_s(),
+            report.times.all.total().to_s(),
             model.scallop.to_mm(),
             report.scallop.height.to_mm(),
         ]

@@ -23,7 +23,7 @@ fn seconds(compiled: &Compiled) -> f64 {
     let sum: Duration = compiled.op_times.iter().copied().sum();
     let times = &compiled.times;
     assert!((sum.to_s() - times.all.total_s).abs() < 1e-6);
-    assert!((sum.to_s() - compiled.report.timing.total().to_s()).abs() < 1e-6);
+    assert!((sum.to_s() - compiled.report.times.all.total().to_s()).abs() < 1e-6);
     // Layers have all but the way from and to home, and waiting for the generator.
     let layers: f64 = times.layers.iter().map(|layer| layer.time.total_s).sum();
     assert!(layers <= sum.to_s() + 1e-6 && layers > 0.9 * sum.to_s());
@@ -42,7 +42,7 @@ fn accelerations_and_jerks_make_a_program_slower() {
         panic!("it has a machine");
     };
     let programmed: Duration = op_times(reached.program.verified()).into_iter().sum();
-    let axes = plain.report.timing.axes.to_s();
+    let axes = plain.report.times.all.axes.to_s();
     assert!(axes > 0.0 && (seconds(&plain) - programmed.to_s() - axes).abs() < 1e-6);
 
     // Accelerations beyond all that is needed change nothing.
@@ -71,7 +71,7 @@ fn the_path_has_accelerations_of_its_own() {
     let ramped = compiled("", "\n[path]\nacceleration_mm_s2 = 2000.0\n");
     assert_eq!(ramped.times.basis, "accelerations");
     let cuts = 2.0 * f64::from(u32::try_from(ramped.report.cuts()).unwrap());
-    let longer = ramped.report.timing.cutting.to_s() - plain.report.timing.cutting.to_s();
+    let longer = ramped.report.times.all.cutting.to_s() - plain.report.times.all.cutting.to_s();
     // 200 mm/s are gathered in 0.1 s.
     assert!((longer - cuts * 0.1).abs() < 1e-6, "{longer} for {cuts} cuts");
 }

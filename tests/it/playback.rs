@@ -11,9 +11,9 @@ use vcutc::driver::Outcome;
 use vcutc::reach::solve::rig;
 use vcutc::reach::trajectory::trajectory;
 use vcutc::report::playback::section;
-use vcutc::report::playback::timeline::KINDS;
+
 use vcutc::report::playback::track::{Knot, TURN_ERROR, WAY_ERROR, between};
-use vcutc_backend_api::ir::{Action, AxisKind, Flank, OpId, Program, Site};
+use vcutc_backend_api::ir::{Action, ActionKind, AxisKind, Flank, OpId, Program, Site};
 use vcutc_backend_api::motion::pose_after;
 
 fn shown(outcome: &Outcome) -> String {
@@ -140,7 +140,11 @@ fn a_page_says_every_op_of_the_program() {
         let mut pose = None;
         for (i, op) in program.ops.iter().enumerate() {
             pose = pose_after(pose, &op.action);
-            assert_eq!(KINDS[usize::from(kinds[i])], name(&op.action), "{job} {i}");
+            assert_eq!(
+                ActionKind::NAMES[usize::from(kinds[i])],
+                name(&op.action),
+                "{job} {i}"
+            );
             assert_eq!((operations[i], layers[i], cuts[i]), counted(op.site), "{job} {i}");
             assert_eq!(seconds[i], times[i].to_s(), "{job} {i}");
             assert_eq!(held[i], pose.map_or(0, |(_, held)| held.0 + 1), "{job} {i}");

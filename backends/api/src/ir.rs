@@ -408,6 +408,84 @@ pub enum Switch {
     Off,
 }
 
+/// What kind of op an action is: its variant, with the flank for cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActionKind {
+    /// [`Action::Home`].
+    Home,
+    /// [`Action::Travel`].
+    Travel,
+    /// [`Action::AxisTravel`].
+    AxisTravel,
+    /// [`Action::Approach`].
+    Approach,
+    /// [`Action::Retract`].
+    Retract,
+    /// [`Action::Cut`] of a left flank.
+    CutLeft,
+    /// [`Action::Cut`] of a right flank.
+    CutRight,
+    /// [`Action::Turn`].
+    Turn,
+    /// [`Action::Ultrasonic`].
+    Ultrasonic,
+    /// [`Action::AwaitReady`].
+    AwaitReady,
+    /// [`Action::Dwell`].
+    Dwell,
+    /// [`Action::ToolChange`].
+    ToolChange,
+}
+
+impl ActionKind {
+    /// The names of all of them, in their order.
+    pub const NAMES: [&'static str; 12] = [
+        "home",
+        "travel",
+        "axis_travel",
+        "approach",
+        "retract",
+        "cut_left",
+        "cut_right",
+        "turn",
+        "ultrasonic",
+        "await_ready",
+        "dwell",
+        "tool_change",
+    ];
+
+    /// Its name in tables of ops.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+impl Action {
+    /// What kind of op it is.
+    #[must_use]
+    pub const fn kind(&self) -> ActionKind {
+        match self {
+            Self::Home => ActionKind::Home,
+            Self::Travel { .. } => ActionKind::Travel,
+            Self::AxisTravel { .. } => ActionKind::AxisTravel,
+            Self::Approach { .. } => ActionKind::Approach,
+            Self::Retract { .. } => ActionKind::Retract,
+            Self::Cut {
+                flank: Flank::Left, ..
+            } => ActionKind::CutLeft,
+            Self::Cut {
+                flank: Flank::Right, ..
+            } => ActionKind::CutRight,
+            Self::Turn { .. } => ActionKind::Turn,
+            Self::Ultrasonic { .. } => ActionKind::Ultrasonic,
+            Self::AwaitReady => ActionKind::AwaitReady,
+            Self::Dwell { .. } => ActionKind::Dwell,
+            Self::ToolChange { .. } => ActionKind::ToolChange,
+        }
+    }
+}
+
 impl Site {
     /// The operation it belongs to, if to one.
     #[must_use]

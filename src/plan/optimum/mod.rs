@@ -24,6 +24,7 @@ mod jet;
 mod number;
 mod polish;
 mod problem;
+pub mod published;
 mod search;
 mod trade;
 

@@ -145,6 +145,19 @@ pub struct Optimum {
     pub gap: f64,
 }
 
+impl Optimum {
+    /// What an objective comes to, in s, mm or cuts.
+    #[must_use]
+    pub const fn value(&self, objective: Objective) -> f64 {
+        match objective {
+            Objective::Time => self.time.to_s(),
+            Objective::Scallop => self.scallop.to_mm(),
+            Objective::Cuts => self.cuts,
+            Objective::BladeLoad => self.edge.to_mm(),
+        }
+    }
+}
+
 /// What relaxing a bound would buy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {

@@ -2,56 +2,13 @@
 
 use super::formulas::{Keeping, Model, Tooth};
 use super::number::{Interval, Slopes};
+use super::published::table_1;
 use super::{Bound, Extension, Infeasible, Optimum, Problem, Range, Work, sensitivities, solve, trade_off};
 use crate::job::{Formulas, Lattice, Objective};
 use crate::plan::blade_reach::{needed_reach, scallop_bound};
 use crate::plan::time_model::TimeModel;
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
-
-/// Table 1 of the paper.
-pub(super) fn table_1(formulas: Formulas, lattice: Lattice) -> Problem {
-    Problem {
-        objective: Objective::Time,
-        formulas,
-        lattices: vec![lattice],
-        work: Work {
-            width: Length::mm(85.0),
-            depth: Length::mm(50.0),
-            area: Area::mm2(3137.0),
-            clearance: Length::mm(10.0),
-            cutting_length: Length::mm(10.0),
-            half_apex: Angle::deg(7.13),
-            rake: Angle::deg(60.0),
-            allowance: Length::ZERO,
-            standoff: Length::ZERO,
-            extension: Extension::EdgeInUse,
-            cut_feed: Speed::mm_per_s(200.0),
-            travel_feed: Speed::mm_per_s(200.0),
-            reorient_rate: AngularSpeed::deg_per_s(90.0),
-        },
-        swing: Range {
-            least: Angle::deg(1.0),
-            most: Angle::deg(50.0),
-        },
-        layer: Range {
-            least: Length::mm(0.01),
-            most: Length::mm(50.0),
-        },
-        step: Range {
-            least: Length::mm(0.01),
-            most: Length::mm(85.0),
-        },
-        overlap: Range {
-            least: 0.0,
-            most: 0.95,
-        },
-        scallop: Some(Length::mm(10.0)),
-        edge: None,
-        time: None,
-        cuts: None,
-    }
-}
 
 fn solved(formulas: Formulas, lattice: Lattice) -> Optimum {
     solve(&table_1(formulas, lattice)).unwrap()

@@ -6,7 +6,7 @@ use super::super::optimum::{self, Bound, Extension, Infeasible, Optimum, Problem
 use super::grid_forms::{fits, tips_per_step, widest_step};
 use super::{edge_overhang, flanks_at};
 use crate::job::{Auto, Bounds, CheckedJob, Formulas, Lattice, Objective, RoughVcut};
-use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_backend_api::units::{Angle, Length};
 
 /// Swings to choose from where there is no limit: flatter and steeper Vs are no cuts.
 const OPEN_SWINGS: Range<Angle> = Range {
@@ -108,7 +108,6 @@ pub(super) fn problem(
 
 fn work(job: &CheckedJob, asked: &RoughVcut, swing: Range<Angle>, standoff: Length) -> Work {
     let stock = job.stock;
-    let part = job.profile.area_below(0.0, stock.width.to_mm());
     let extension = match (asked.extension.value, asked.formulas.value) {
         (Auto::Given(extension), Formulas::Paper | Formulas::Exact) => Extension::Fixed(extension),
         (Auto::Auto, Formulas::Paper) => Extension::EdgeInUse,
@@ -120,7 +119,7 @@ fn work(job: &CheckedJob, asked: &RoughVcut, swing: Range<Angle>, standoff: Leng
     Work {
         width: stock.width,
         depth: stock.depth,
-        area: Area::mm2(stock.width.to_mm() * stock.height.to_mm()) - part,
+        area: job.area_to_remove(),
         clearance: asked.clearance.value,
         cutting_length: asked.blade.cutting_length.value,
         half_apex: asked.blade.half_apex.value,
@@ -175,18 +174,19 @@ pub(super) fn choose(
         problem: &problem,
         best: &best,
     };
-    let measure = |found: &Optimum| objective(problem.objective, found);
-    let (layer, step, found) = (0..=MOST_DOUBLINGS)
+    let measure = |found: &Optimum| found.value(problem.objective);
+    let (swing, (layer, step, _)) = (0..=MOST_DOUBLINGS)
         .find_map(|doublings| {
             let near = swings(asked, &problem, &best, doublings);
             near.into_iter()
-                .filter_map(|swing| rounding.at(swing))
-                .min_by(|(.., one), (.., two)| measure(one).total_cmp(&measure(two)))
+                .filter_map(|swing| Some((swing, rounding.at(swing)?)))
+                .min_by(|(_, (.., one)), (_, (.., two))| measure(one).total_cmp(&measure(two)))
         })
         .ok_or(Unchosen::OffGrid)?;
     Ok(Chosen {
         lattice: best.lattice,
-        swing: found.swing,
+        // Not that of the optimum, which went by way of its tangent and back.
+        swing,
         layer,
         step,
         overlap: rounding.overlap(),
@@ -196,16 +196,6 @@ pub(super) fn choose(
             .filter(|bound| is_open(asked, *bound))
             .collect(),
     })
-}
-
-/// What is to become least, of parameters.
-const fn objective(objective: Objective, of: &Optimum) -> f64 {
-    match objective {
-        Objective::Time => of.time.to_s(),
-        Objective::Scallop => of.scallop.to_mm(),
-        Objective::Cuts => of.cuts,
-        Objective::BladeLoad => of.edge.to_mm(),
-    }
 }
 
 /// Whether a bound limits what was open; a given value is no news.

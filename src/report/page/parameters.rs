@@ -4,10 +4,7 @@
 use super::html::{Column, escaped, table};
 use super::source::Listing;
 use super::{Section, Subject};
-use crate::job::{
-    Auto, Bounds, Direction, Formulas, Lattice, Machine, Objective, Operation, Order, Residual, RoughVcut,
-    Sequence, Sourced,
-};
+use crate::job::{Auto, Bounds, Formulas, Machine, Objective, Operation, RoughVcut, Sourced};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut};
 use crate::source::Span;
@@ -168,15 +165,13 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
     let found = &planned.parameters;
     vec![
         Row::of("objective", asked.objective, |objective| {
-            objective_word(objective).to_owned()
+            objective.word().to_owned()
         }),
-        Row::of("formulas", asked.formulas, |formulas| {
-            formulas_word(formulas).to_owned()
-        }),
+        Row::of("formulas", asked.formulas, |formulas| formulas.word().to_owned()),
         Row::open(
             "lattice",
             &asked.lattice,
-            lattice_word(found.lattice).to_owned(),
+            found.lattice.word().to_owned(),
             decided(planned, "lattice").unwrap_or_else(|| best.clone()),
         ),
         Row::of("rake", asked.rake, angle),
@@ -188,7 +183,7 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
         Row::open(
             "residual",
             &asked.residual,
-            residual_word(planned.strategy).to_owned(),
+            planned.strategy.word().to_owned(),
             decided(planned, "residual").unwrap_or_else(|| {
                 "the strategy that leaves the part within its limits in the least time".to_owned()
             }),
@@ -198,11 +193,7 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
 
 fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
     let found = &planned.parameters;
-    let direction = match asked.direction.value {
-        Direction::Alternate => "alternate",
-        Direction::Forward => "forward",
-        Direction::Backward => "backward",
-    };
+    let direction = asked.direction.value.word();
     // Where both are open, the order is decided with the sequence.
     let sequence = decided(planned, "sequence");
     let order = decided(planned, "order").or_else(|| sequence.clone());
@@ -211,13 +202,13 @@ fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
         Row::open(
             "order",
             &asked.order,
-            order_word(planned.order).to_owned(),
+            planned.order.word().to_owned(),
             order.unwrap_or_else(fastest),
         ),
         Row::open(
             "sequence",
             &asked.sequence,
-            sequence_word(planned.sequence).to_owned(),
+            planned.sequence.word().to_owned(),
             sequence.unwrap_or_else(fastest),
         ),
         Row::of("direction", asked.direction, |_| direction.to_owned()),
@@ -359,54 +350,6 @@ fn best(asked: &RoughVcut, planned: &PlannedVcut) -> String {
         return format!("{least} within the limits, by {by}");
     }
     format!("{least}, by {by}; bound by {}", bounds.join(", "))
-}
-
-const fn objective_word(objective: Objective) -> &'static str {
-    match objective {
-        Objective::Time => "time",
-        Objective::Scallop => "scallop",
-        Objective::Cuts => "cuts",
-        Objective::BladeLoad => "blade_load",
-    }
-}
-
-const fn formulas_word(formulas: Formulas) -> &'static str {
-    match formulas {
-        Formulas::Paper => "paper",
-        Formulas::Exact => "exact",
-    }
-}
-
-const fn lattice_word(lattice: Lattice) -> &'static str {
-    match lattice {
-        Lattice::Orthogonal => "orthogonal",
-        Lattice::Interlaced => "interlaced",
-        Lattice::Free => "free",
-    }
-}
-
-const fn residual_word(residual: Residual) -> &'static str {
-    match residual {
-        Residual::Discard => "discard",
-        Residual::Lift => "lift",
-        Residual::Shift => "shift",
-        Residual::Mixed => "mixed",
-    }
-}
-
-const fn order_word(order: Order) -> &'static str {
-    match order {
-        Order::Point => "point",
-        Order::Layer => "layer",
-    }
-}
-
-const fn sequence_word(sequence: Sequence) -> &'static str {
-    match sequence {
-        Sequence::Rows => "rows",
-        Sequence::Boustrophedon => "boustrophedon",
-        Sequence::Nearest => "nearest",
-    }
 }
 
 fn length(length: Length) -> String {

@@ -6,47 +6,15 @@ use super::{Section, Subject};
 use crate::picture::Prefix;
 use crate::plan::PlannedOperation;
 use crate::report::pictures;
+use crate::sim::report::Report;
+use crate::sim::timing::Timing;
 use crate::summary::time;
-use std::collections::BTreeMap;
-use vcutc_backend_api::ir::{Action, OperationId, Site};
 use vcutc_backend_api::units::Duration;
-
-/// What time is spent on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Spent {
-    cutting: Duration,
-    turning: Duration,
-    travel: Duration,
-    axes: Duration,
-    waiting: Duration,
-}
-
-impl Spent {
-    fn add(&mut self, action: Action, time: Duration) {
-        let kind = match action {
-            Action::Cut { .. } => &mut self.cutting,
-            Action::Turn { .. } => &mut self.turning,
-            Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => &mut self.travel,
-            Action::Home | Action::AxisTravel { .. } => &mut self.axes,
-            Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::Ultrasonic { .. }
-            | Action::ToolChange { .. } => &mut self.waiting,
-        };
-        *kind += time;
-    }
-
-    fn total(&self) -> Duration {
-        self.cutting + self.turning + self.travel + self.axes + self.waiting
-    }
-}
-
-/// A layer of an operation; none for what serves no layer.
-type Place = Option<(OperationId, u32)>;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {
-    let (whole, layers) = spent(subject);
+    let report = &subject.material.compiled.report;
+    let whole = &report.times.all;
     let mut body = paragraph(&agreement(subject, whole.total()));
     let basis = &subject.material.compiled.times.basis_words;
     body += &paragraph(&format!("Basis: {basis}."));
@@ -55,33 +23,13 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
         Zoom::Fixed,
         "What the time is spent on.",
     );
-    body += &by_kind(&whole);
-    body += &by_layer(&layers);
+    body += &by_kind(whole);
+    body += &by_layer(report);
     Section {
         id: "time",
         title: "Time",
         body,
     }
-}
-
-/// Adds up the ops' times.
-fn spent(subject: Subject<'_>) -> (Spent, BTreeMap<Place, (usize, Spent)>) {
-    let compiled = subject.material.compiled;
-    let program = compiled.program.verified().program();
-    let (mut whole, mut layers) = (Spent::default(), BTreeMap::<Place, (usize, Spent)>::new());
-    for (op, &time) in program.ops.iter().zip(&compiled.op_times) {
-        let place = match op.site {
-            Site::Program | Site::Operation(_) => None,
-            Site::Layer { operation, layer } | Site::Cut { operation, layer, .. } => {
-                Some((operation, layer.get()))
-            }
-        };
-        whole.add(op.action, time);
-        let (flanks, layer) = layers.entry(place).or_default();
-        *flanks += usize::from(matches!(op.action, Action::Cut { .. }));
-        layer.add(op.action, time);
-    }
-    (whole, layers)
 }
 
 /// How the mean-value model and the program agree.
@@ -101,26 +49,19 @@ fn agreement(subject: Subject<'_>, total: Duration) -> String {
     )
 }
 
-fn by_kind(whole: &Spent) -> String {
+fn by_kind(whole: &Timing) -> String {
     let columns = [
         Column::Words("Kind"),
         Column::Numbers("time"),
         Column::Numbers("share"),
     ];
-    let Spent {
-        cutting,
-        turning,
-        travel,
-        axes,
-        waiting,
-    } = *whole;
     let total = whole.total().to_s();
     let kinds = [
-        ("cutting", cutting),
-        ("turning about the still tip", turning),
-        ("travel through the air", travel),
-        ("moves of all axes", axes),
-        ("waiting", waiting),
+        ("cutting", whole.cutting),
+        ("turning about the still tip", whole.turning),
+        ("travel through the air", whole.travel),
+        ("moves of all axes", whole.axes),
+        ("waiting", whole.waiting),
     ];
     let rows = kinds
         .into_iter()
@@ -136,7 +77,7 @@ fn by_kind(whole: &Spent) -> String {
     table("Time by kind", &columns, rows)
 }
 
-fn by_layer(layers: &BTreeMap<Place, (usize, Spent)>) -> String {
+fn by_layer(report: &Report) -> String {
     let columns = [
         Column::Words("Layer"),
         Column::Numbers("flanks"),
@@ -146,15 +87,7 @@ fn by_layer(layers: &BTreeMap<Place, (usize, Spent)>) -> String {
         Column::Numbers("other"),
         Column::Numbers("all"),
     ];
-    let several = layers.keys().flatten().any(|(operation, _)| operation.0 > 0);
-    let rows = layers.iter().map(|(place, (flanks, spent))| {
-        let name = match place {
-            None => "outside of layers".to_owned(),
-            Some((operation, layer)) if several => {
-                format!("{layer} of operation {}", u32::from(operation.0) + 1)
-            }
-            Some((_, layer)) => layer.to_string(),
-        };
+    let row = |name: String, flanks: usize, spent: &Timing| {
         let times = [
             spent.cutting,
             spent.turning,
@@ -165,8 +98,24 @@ fn by_layer(layers: &BTreeMap<Place, (usize, Spent)>) -> String {
         [name, flanks.to_string()]
             .into_iter()
             .chain(times.map(time))
-            .collect()
+            .collect::<Vec<_>>()
+    };
+    let layers = &report.times.layers;
+    let several = layers.iter().any(|layer| layer.operation.0 > 0);
+    // Cuts are counted layer by layer, in the same order.
+    let of_layers = layers.iter().zip(&report.layers).map(|(layer, (_, cuts))| {
+        let name = if several {
+            format!(
+                "{} of operation {}",
+                layer.layer,
+                u32::from(layer.operation.0) + 1
+            )
+        } else {
+            layer.layer.to_string()
+        };
+        row(name, 2 * cuts, &layer.timing)
     });
+    let rows = core::iter::once(row("outside of layers".to_owned(), 0, &report.times.rest)).chain(of_layers);
     format!(
         "<div class=\"long\">{}</div>\n",
         table("Time by layer", &columns, rows)

@@ -66,8 +66,8 @@ fn rows(subject: Subject<'_>) -> Vec<(&'static str, String, String)> {
     let mut rows = vec![
         (
             "Time",
-            time(report.timing.total()),
-            format!("cutting {}", time(report.timing.cutting)),
+            time(report.times.all.total()),
+            format!("cutting {}", time(report.times.all.cutting)),
         ),
         (
             "Cuts",

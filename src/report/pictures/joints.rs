@@ -4,7 +4,7 @@
 //! takes them: what the axes do between two samples, over the time that the motion takes for it without speeding up and
 //! slowing down.
 
-use super::time::{KINDS, kind};
+use super::time::name;
 use crate::kinematics::Joints;
 use crate::picture::thin::Thinned;
 use crate::picture::{Prefix, joints};
@@ -13,6 +13,7 @@ use crate::reach::solve::rig;
 use crate::reach::trajectory::{Sample, trajectory};
 use crate::reach_summary::AxisFigure;
 use crate::report::Material;
+use crate::sim::timing::Kind;
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
 use vcutc_backend_api::motion::pose_after;
@@ -54,7 +55,7 @@ pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
         seconds: clock.total,
         axes: &axes,
         margin: &margin,
-        kinds: &KINDS,
+        kinds: &Kind::ALL.map(name),
         spans: &clock.spans,
         layers: &clock.layers,
     }))
@@ -102,8 +103,9 @@ impl Clock {
                 clock.layers.push((clock.total, name));
             }
             layer = now.or(layer);
-            if let Some(kind) = kind(&op.action).filter(|_| length > 0.0) {
+            if let Some(kind) = Kind::of(&op.action).filter(|_| length > 0.0) {
                 let time = [clock.total, clock.total + length];
+                let kind = kind as usize;
                 clock.spans.push(joints::Span { time, kind });
             }
             clock.total += length;

@@ -2,7 +2,7 @@
 
 use super::bodies::{Body, Carrier, Shape};
 use super::packing::column;
-use super::timeline::{KINDS, Timeline};
+use super::timeline::Timeline;
 use super::track::Track;
 use super::{Cell, Playback};
 use crate::geom::curve::Point2;
@@ -10,7 +10,7 @@ use crate::kinematics::linkage::{Joint, Linkage};
 use crate::kinematics::pose::Pose;
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{Axis, AxisKind, Blade, Edges, Operation, Stock};
+use vcutc_backend_api::ir::{ActionKind, Axis, AxisKind, Blade, Edges, Operation, Stock};
 
 /// The data as JSON text. What could end the element that holds it is written as an escape: a `<` can stand in strings only.
 pub(super) fn text(playback: &Playback<'_>) -> String {
@@ -19,7 +19,7 @@ pub(super) fn text(playback: &Playback<'_>) -> String {
         "part": playback.part.iter().map(corner).collect::<Vec<_>>(),
         "blades": playback.operations.iter().map(blade).collect::<Vec<_>>(),
         "orientations": playback.orientations.iter().map(quaternion).collect::<Vec<_>>(),
-        "kinds": KINDS,
+        "kinds": ActionKind::NAMES,
         "timeline": timeline(&playback.timeline),
         "cell": playback.cell.as_ref().map(cell),
     });

@@ -3,30 +3,14 @@
 //! Tips lie on the grid of a micrometre (`src/plan/grid.rs`), so they are kept as whole micrometres: who divides by 1000
 //! has the program's own numbers again, to the last bit, and can replay the cuts as the proof did.
 
-use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Site};
+use vcutc_backend_api::ir::{OpId, Program, Site};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::units::Duration;
-
-/// Kinds of op, in the order of the numbers by which the columns name them.
-pub const KINDS: [&str; 12] = [
-    "home",
-    "travel",
-    "axis_travel",
-    "approach",
-    "retract",
-    "cut_left",
-    "cut_right",
-    "turn",
-    "ultrasonic",
-    "await_ready",
-    "dwell",
-    "tool_change",
-];
 
 /// The columns. What counts from 1 has 0 where there is none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Timeline {
-    /// Place of the op's kind in [`KINDS`].
+    /// Place of the op's kind in [`ActionKind::NAMES`](vcutc_backend_api::ir::ActionKind::NAMES).
     pub kinds: Vec<u8>,
     /// The operation that it serves, counted from 1.
     pub operations: Vec<u16>,
@@ -58,7 +42,7 @@ impl Timeline {
             if let Some((at, _)) = pose {
                 tip = [at.x, at.y, at.z].map(micrometres);
             }
-            timeline.kinds.push(kind(&op.action));
+            timeline.kinds.push(op.action.kind() as u8);
             timeline.site(op.site);
             timeline.tips.extend(tip);
             timeline
@@ -99,25 +83,4 @@ fn micrometres(mm: f64) -> i32 {
     (mm * 1000.0)
         .round()
         .clamp(f64::from(i32::MIN), f64::from(i32::MAX)) as i32
-}
-
-const fn kind(action: &Action) -> u8 {
-    match action {
-        Action::Home => 0,
-        Action::Travel { .. } => 1,
-        Action::AxisTravel { .. } => 2,
-        Action::Approach { .. } => 3,
-        Action::Retract { .. } => 4,
-        Action::Cut {
-            flank: Flank::Left, ..
-        } => 5,
-        Action::Cut {
-            flank: Flank::Right, ..
-        } => 6,
-        Action::Turn { .. } => 7,
-        Action::Ultrasonic { .. } => 8,
-        Action::AwaitReady => 9,
-        Action::Dwell { .. } => 10,
-        Action::ToolChange { .. } => 11,
-    }
 }

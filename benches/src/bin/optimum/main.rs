@@ -5,16 +5,15 @@
 use std::hint::black_box;
 use std::time::Instant;
 use vcutc::job::{Formulas, Lattice, Objective};
+use vcutc::plan::optimum::published::table_1;
 use vcutc::plan::optimum::{Problem, solve};
-use vcutc_benches::optimum::{
-    LATTICES, STARTS, cobyla, conflict, is_least, slsqp, table_1, within_600_s,
-};
+use vcutc_benches::optimum::{LATTICES, STARTS, cobyla, conflict, is_least, slsqp, within_600_s};
 
 /// How closely the peers are asked to come to the least time.
 const ACCURACIES: [f64; 3] = [1e-4, 1e-6, 1e-12];
 
 fn main() {
-    let paper = table_1(Formulas::Paper, &[Lattice::Orthogonal]);
+    let paper = table_1(Formulas::Paper, Lattice::Orthogonal);
     let ours = timed(|| drop(black_box(solve(black_box(&paper)))));
     println!("the paper's problem: {ours:.1} us, proven, without a start");
     for accuracy in ACCURACIES {
@@ -41,14 +40,19 @@ fn main() {
     let mut sum = 0.0;
     for formulas in [Formulas::Paper, Formulas::Exact] {
         for lattice in LATTICES {
-            sum += row("least time", formulas, lattice, &table_1(formulas, &[lattice]));
+            sum += row("least time", formulas, lattice, &table_1(formulas, lattice));
         }
     }
     println!("least time, both formulas, all lattices: {sum:.0} us");
     for objective in [Objective::Cuts, Objective::Scallop, Objective::BladeLoad] {
         for lattice in LATTICES {
             let problem = within_600_s(objective, Formulas::Exact, lattice);
-            row(&format!("{objective:?} within 600 s"), Formulas::Exact, lattice, &problem);
+            row(
+                &format!("{objective:?} within 600 s"),
+                Formulas::Exact,
+                lattice,
+                &problem,
+            );
         }
     }
     for formulas in [Formulas::Paper, Formulas::Exact] {
