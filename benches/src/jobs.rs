@@ -38,6 +38,9 @@ rough vcut {{
   swing     = 45 deg
   layer     = {LAYER} mm
   step      = 1 mm
+  residual  = mixed
+  order     = point
+  sequence  = rows
   feed      {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}
   clearance = 10 mm
 }}

@@ -3,8 +3,9 @@
 //! The jobs here are right, so whatever goes wrong is a fault of the compiler or of the benchmark: it ends the run. None
 //! of them is inlined, so that profilers show them by their names.
 
+use vcutc::choice;
 use vcutc::job::CheckedJob;
-use vcutc::plan::{self, PlannedJob, PlannedOperation};
+use vcutc::plan::{PlannedJob, PlannedOperation};
 use vcutc::sema;
 use vcutc::sim::prove::{self, Bound, Findings, Replay};
 use vcutc::source::{LoadError, Loader, SourceMap};
@@ -70,7 +71,13 @@ pub fn parse(text: &str) -> Ast {
 pub fn check(text: &str) -> (SourceMap, CheckedJob) {
     let mut sources = SourceMap::default();
     let mut diagnostics = Vec::new();
-    let checked = sema::check(PATH, &OneText(text), sema::Choices::default(), &mut sources, &mut diagnostics);
+    let checked = sema::check(
+        PATH,
+        &OneText(text),
+        sema::Choices::default(),
+        &mut sources,
+        &mut diagnostics,
+    );
     let (_, job) = checked.expect("the text is there");
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
     (sources, job.expect("the job is right"))
@@ -80,7 +87,7 @@ pub fn check(text: &str) -> (SourceMap, CheckedJob) {
 #[must_use]
 #[inline(never)]
 pub fn plan(job: &CheckedJob) -> PlannedJob {
-    let (plan, diagnostics) = plan::choose(job);
+    let (plan, diagnostics) = choice::choose(job);
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
     plan.expect("the job can be planned")
 }

@@ -74,6 +74,9 @@ rough vcut {{
   swing     = 25 deg
   layer     = {layer:.3} mm
   step      = {step:.3} mm
+  residual  = mixed
+  order     = point
+  sequence  = rows
   feed      {{ cut = 200 mm/s, travel = 300 mm/s, reorient = 60 deg/s }}
   clearance = 20 mm
 }}
