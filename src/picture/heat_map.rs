@@ -60,11 +60,7 @@ pub fn draw(map: &HeatMap<'_>) -> String {
         map.title,
         &description(map, scale),
     );
-    svg.line(
-        "  <defs><pattern id=\"hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" \
-         patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#e9e6df\"/>\
-         <path d=\"M0 0V7\" stroke=\"#b9b3a3\" stroke-width=\"2\"/></pattern></defs>",
-    );
+    svg.define_hatch();
     svg.text(
         (24.0, 32.0),
         Anchor::Start,

@@ -48,6 +48,15 @@ impl Svg {
         svg
     }
 
+    /// Defines the pattern `url(#hatch)`: for what is out of bounds.
+    pub(super) fn define_hatch(&mut self) {
+        self.line(
+            "  <defs><pattern id=\"hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" \
+             patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#e9e6df\"/>\
+             <path d=\"M0 0V7\" stroke=\"#b9b3a3\" stroke-width=\"2\"/></pattern></defs>",
+        );
+    }
+
     /// A line of markup as it is.
     pub(super) fn line(&mut self, markup: &str) {
         self.text.push_str(markup);

@@ -1,5 +1,6 @@
 //! `vcutc report`: all there is to see of a job as one page, and its pictures by themselves.
 
+mod base64;
 pub mod page;
 pub mod pictures;
 pub mod playback;

@@ -45,7 +45,8 @@ impl Number for f64 {
     }
 }
 
-/// All numbers from `low` to `high`.
+/// All numbers from `low` to `high`. Those of `reach::path` are widened where nothing is, too, against underflow; here nothing
+/// has to stay nothing, as the search asks whether a slope is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
     pub(super) low: f64,
