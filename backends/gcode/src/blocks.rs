@@ -30,7 +30,7 @@ enum Numbers {
 
 impl Numbers {
     fn start(settings: &Settings<'_>) -> Self {
-        match (settings.dialect.numbering(), settings.profile.line_numbers) {
+        match (settings.dialect.numbering(), settings.common.profile.line_numbers) {
             (Numbering::Lines, _) => Self::Lines(0),
             (Numbering::Words, Some(of)) => Self::Words { next: of.start, of },
             (Numbering::Words, None) => Self::None,

@@ -7,12 +7,12 @@ use crate::options::Settings;
 use crate::pace::{self, Pace};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{
-    Action, AxisKind, AxisValues, Cell, Op, OpId, OperationKind, Program, Ready, Switch,
-};
+use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, Op, OpId, Program, Ready, Switch};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::End;
-use vcutc_backend_api::script::{Generator, Modal, Part, Place, State, Written, may_round};
+use vcutc_backend_api::script::{
+    Generator, Modal, Part, Place, State, Written, may_round, operation_heading,
+};
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::{Duration, Length};
 
@@ -100,16 +100,8 @@ impl Body<'_, '_, '_, '_> {
     fn lead(&mut self, op: &Op) -> Written {
         let lead = self.modal.lead(op);
         if let Some(id) = lead.operation {
-            let operations = &self.source.program().operations;
-            let operation = operations
-                .get(usize::from(id.0))
-                .ok_or(EmitError::Internal("an operation is not in its table"))?;
-            let what = match operation.kind {
-                OperationKind::RoughVcut => "rough vcut",
-            };
-            let number = u32::from(id.0) + 1;
-            let ours = format!("operation {number}: {what} with blade ");
-            self.blocks.comment(&ours, &operation.blade.name)?;
+            let (ours, blade) = operation_heading(self.source.program(), id)?;
+            self.blocks.comment(&ours, blade)?;
         }
         if let Some((layer, cut)) = lead.cut {
             let ours = format!("layer {} cut {cut}", layer.number);
@@ -157,7 +149,7 @@ impl Body<'_, '_, '_, '_> {
             | Action::Turn { .. } => {
                 let stock = self.source.program().stock;
                 let next = next.map(|next| &next.action);
-                let end = match self.source.settings.approximation {
+                let end = match self.source.settings.common.approximation {
                     Some(_) if may_round(stock, before.place, &op.action, next) => End::Rounded,
                     Some(_) | None => End::Exact,
                 };
@@ -255,7 +247,7 @@ impl Body<'_, '_, '_, '_> {
                 &mut self.tip,
                 letter,
                 value,
-                settings.lengths,
+                settings.common.lengths,
                 settings.dialect.signs(),
             )?;
         }
@@ -320,7 +312,7 @@ impl Body<'_, '_, '_, '_> {
             return Ok(());
         }
         let dialect = self.source.settings.dialect;
-        let approximation = self.source.settings.approximation.unwrap_or(Length::ZERO);
+        let approximation = self.source.settings.common.approximation.unwrap_or(Length::ZERO);
         match end {
             End::Exact => {
                 if let Some(block) = dialect.exact() {
@@ -400,7 +392,7 @@ impl Body<'_, '_, '_, '_> {
 fn axis_words(out: &mut Vec<u8>, source: Source<'_>, kind: AxisKind, axes: &AxisValues) -> Written {
     let settings = source.settings;
     let format = match kind {
-        AxisKind::Linear => settings.lengths,
+        AxisKind::Linear => settings.common.lengths,
         AxisKind::Rotary => settings.angles,
     };
     for &word in source.words.iter().filter(|word| word.kind == kind) {

@@ -3,12 +3,12 @@
 use crate::dialect::{AxisPace, Numbering, TcpCodes};
 use crate::given;
 use crate::options::{
-    APPROXIMATION, DECIMALS, DEFAULT_HOME_SPEED, HOME_SPEED, OFF_CODE, ON_CODE, PERCENT, READY_CODE,
-    Settings, TCP_OFF, TCP_ON,
+    DEFAULT_HOME_SPEED, HOME_SPEED, OFF_CODE, ON_CODE, PERCENT, READY_CODE, Settings, TCP_OFF, TCP_ON,
 };
 use crate::profile::objection;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
+use vcutc_backend_api::script::{APPROXIMATION, DECIMALS};
 
 /// Everything that is wrong with the options of a job on a machine.
 pub(crate) fn check(cell: &Cell, settings: &Settings<'_>) -> Vec<BackendIssue> {
@@ -28,12 +28,12 @@ fn conflict(key: &'static str, why: String) -> BackendIssue {
 
 fn form(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let dialect = settings.dialect;
-    let (decimals, most) = (settings.lengths.decimals(), dialect.most_decimals());
+    let (decimals, most) = (settings.common.lengths.decimals(), dialect.most_decimals());
     if decimals > most {
         let why = format!("{} reads up to {most} decimals, not {decimals}", dialect.name());
         issues.push(conflict(DECIMALS, why));
     }
-    if let Some(approximation) = settings.approximation
+    if let Some(approximation) = settings.common.approximation
         && dialect.rounded(approximation).is_none()
     {
         let why = format!(
@@ -147,7 +147,7 @@ fn blocks(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 }
 
 fn profile(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
-    let profile = settings.profile;
+    let profile = settings.common.profile;
     let mut refuse = |key, why| issues.push(BackendIssue::Profile { key, why });
     let why_not = |line: &String| unfit(line, settings).or_else(|| objection(line, settings));
     for (key, lines) in [("header", &profile.header), ("footer", &profile.footer)] {

@@ -76,14 +76,14 @@ use crate::blocks::Blocks;
 use crate::body::Source;
 use crate::limits::Sayable;
 use crate::names::{MOST_PARTS, main_name};
-use crate::options::{LINES_PER_PART, OPTIONS, Settings};
+use crate::options::{OPTIONS, Settings};
 use crate::read::GcodeReader;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, Lead, Part, Text, split};
+use vcutc_backend_api::script::{Borders, LINES_PER_PART, Lead, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// The G-code backend.
@@ -125,7 +125,7 @@ impl Backend for Gcode {
         let settings = Settings::read(options);
         let parts = split(
             &program.program().ops,
-            settings.lines_per_part,
+            settings.common.lines_per_part,
             // Tool-centre-point control is off while a part goes to its first pose: where it was held at another place than
             // the axes say by themselves, the blade would jump beside the core.
             Borders::AboveStock(program.program().stock),

@@ -152,7 +152,7 @@ impl Limits {
         let what = settings.dialect.tool_number_name();
         self.found.number(what, number, 1..=settings.dialect.most_tools());
         let Point3 { x, y, z } = cell.tool.frame.origin;
-        let half_a_unit = 0.5 * last_place(settings.lengths);
+        let half_a_unit = 0.5 * last_place(settings.common.lengths);
         for (what, value) in [("tool X", x), ("tool Y", y)] {
             let unit = "mm";
             self.found
@@ -162,7 +162,7 @@ impl Limits {
     }
 
     fn length(&mut self, op: Option<OpId>, what: &'static str, value: f64, settings: &Settings<'_>) {
-        let farthest = settings.dialect.farthest(settings.lengths.decimals());
+        let farthest = settings.dialect.farthest(settings.common.lengths.decimals());
         let unit = "mm";
         self.found
             .range(op, &Number { what, value, unit }, (-farthest, farthest));
@@ -228,7 +228,7 @@ impl Limits {
     fn words(&mut self, source: Source<'_>, op: OpId, axes: &AxisValues, kind: AxisKind) {
         let settings = source.settings;
         let (what, unit, decimals) = match kind {
-            AxisKind::Linear => ("axis position", "mm", settings.lengths.decimals()),
+            AxisKind::Linear => ("axis position", "mm", settings.common.lengths.decimals()),
             AxisKind::Rotary => ("axis angle", "deg", settings.angles.decimals()),
         };
         let farthest = settings.dialect.farthest(decimals);

@@ -24,7 +24,7 @@ const RULES: NameRules = NameRules {
 /// The name of the main program for a job of that name.
 pub(crate) fn main_name(job: &str, settings: &Settings<'_>) -> String {
     let mut namer = Namer::new(RULES);
-    namer.avoid(&settings.profile.reserved);
+    namer.avoid(&settings.common.profile.reserved);
     let two_letters = job.chars().take(2).filter(char::is_ascii_alphabetic).count() == 2;
     let wanted = if two_letters {
         job.to_owned()

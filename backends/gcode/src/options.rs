@@ -4,17 +4,11 @@
 //! crate never asks for a key by its name.
 
 use crate::dialect::{Controller, Dialect};
-use core::num::NonZeroU32;
 use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
 use vcutc_backend_api::number::FixedDecimal;
-use vcutc_backend_api::profile::Profile;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 
 const DIALECT: &str = "dialect";
-pub(crate) const DECIMALS: &str = "decimals";
-pub(crate) const LINES_PER_PART: &str = "lines_per_part";
-const HEADER: &str = "header";
-pub(crate) const APPROXIMATION: &str = "approximation";
 /// In percent. A job that gives it can not be told from one that leaves it out.
 pub(crate) const DEFAULT_HOME_SPEED: u32 = 10;
 pub(crate) const HOME_SPEED: &str = "home_speed";
@@ -41,38 +35,13 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
         },
         help: "The controller that is to read the program.",
     },
-    OptionSpec {
-        key: DECIMALS,
-        kind: OptionKind::Integer {
-            min: 3,
-            max: 6,
-            default: 3,
-        },
-        help: "Decimals of lengths in mm; angles get one more where the dialect reads it, up to six.",
-    },
-    OptionSpec {
-        key: LINES_PER_PART,
-        kind: OptionKind::Integer {
-            min: 0,
-            max: 1_000_000,
-            default: 0,
-        },
-        help: "Lines after which the program is split into subprograms, where the tip is above the stock; 0 never splits.",
-    },
-    OptionSpec {
-        key: HEADER,
-        kind: OptionKind::Lines,
-        help: "Comment lines put at the head of the main program.",
-    },
-    OptionSpec {
-        key: APPROXIMATION,
-        kind: OptionKind::Length {
-            min: Length::ZERO,
-            max: Length::mm(50.0),
-            default: Length::ZERO,
-        },
-        help: "How far corners in the air may be rounded; 0 mm stops at every point.",
-    },
+    decimals("Decimals of lengths in mm; angles get one more where the dialect reads it, up to six."),
+    lines_per_part(
+        0,
+        "Lines after which the program is split into subprograms, where the tip is above the stock; 0 never splits.",
+    ),
+    header("Comment lines put at the head of the main program."),
+    approximation("How far corners in the air may be rounded; 0 mm stops at every point."),
     OptionSpec {
         key: HOME_SPEED,
         kind: OptionKind::Integer {
@@ -150,20 +119,14 @@ pub(crate) struct Codes<'p> {
 /// The options as types.
 #[derive(Clone)]
 pub(crate) struct Settings<'p> {
+    /// What every dialect takes.
+    pub(crate) common: Common<'p>,
     /// Who reads the program.
     pub(crate) controller: Controller,
     /// How it is written for it.
     pub(crate) dialect: &'static dyn Dialect,
-    /// Format of lengths in mm.
-    pub(crate) lengths: FixedDecimal,
     /// Format of angles in degrees.
     pub(crate) angles: FixedDecimal,
-    /// Longest body of a part, when there is a limit.
-    pub(crate) lines_per_part: Option<NonZeroU32>,
-    /// Comment lines at the head.
-    pub(crate) header: &'p [String],
-    /// Rounding of corners in the air, when wanted.
-    pub(crate) approximation: Option<Length>,
     /// Speed of the moves of all axes as a part of the axes' rates.
     pub(crate) home_speed: f64,
     /// Entry of the tool table for a tool without a number.
@@ -174,8 +137,6 @@ pub(crate) struct Settings<'p> {
     pub(crate) spindle_letter: Option<u8>,
     /// What only the builder of the machine knows.
     pub(crate) codes: Codes<'p>,
-    /// The habits of the machine.
-    pub(crate) profile: &'p Profile,
 }
 
 impl<'p> Settings<'p> {
@@ -183,18 +144,13 @@ impl<'p> Settings<'p> {
     pub(crate) fn read(options: &'p Options) -> Self {
         let controller = Controller::of(options.choice(DIALECT));
         let dialect = controller.dialect();
-        let profile = options.profile();
-        // The compiler has set it to what the profile says, unless the job says otherwise.
-        let decimals = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
-        let approximation = options.length(APPROXIMATION);
+        // The compiler has set them to what the profile says, unless the job says otherwise.
+        let common = Common::read(options);
         Self {
+            common,
             controller,
             dialect,
-            lengths: FixedDecimal::new(decimals),
-            angles: FixedDecimal::new(dialect.angle_decimals(decimals)),
-            lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
-            header: options.lines(HEADER),
-            approximation: (approximation > Length::ZERO).then_some(approximation),
+            angles: FixedDecimal::new(dialect.angle_decimals(common.decimals)),
             home_speed: f64::from(options.integer(HOME_SPEED)) / PERCENT,
             tool_number: options.integer(TOOL_NUMBER),
             program_number: options.integer(PROGRAM_NUMBER),
@@ -211,7 +167,6 @@ impl<'p> Settings<'p> {
                 off: options.lines(OFF_CODE),
                 ready: options.lines(READY_CODE),
             },
-            profile,
         }
     }
 
@@ -226,6 +181,9 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
     use vcutc_backend_api::backend::OptionValue;
+    use vcutc_backend_api::profile::Profile;
+    use vcutc_backend_api::script::{APPROXIMATION, DECIMALS};
+    use vcutc_backend_api::units::Length;
 
     #[test]
     fn keys_are_unique() {
@@ -249,12 +207,12 @@ mod tests {
         }
         let settings = Settings::read(&options);
         assert_eq!(settings.dialect.name(), "Fanuc");
-        assert_eq!(settings.lengths.decimals(), 4);
-        assert_eq!(settings.approximation, Some(Length::mm(2.5)));
+        assert_eq!(settings.common.lengths.decimals(), 4);
+        assert_eq!(settings.common.approximation, Some(Length::mm(2.5)));
         assert_eq!(settings.home_speed.to_bits(), 0.3_f64.to_bits());
         assert_eq!(settings.spindle_letter, Some(b'B'));
         assert_eq!(settings.codes.on, ["M50"]);
-        assert_eq!(settings.lines_per_part, None);
+        assert_eq!(settings.common.lines_per_part, None);
     }
 
     #[test]
@@ -282,6 +240,6 @@ mod tests {
         let mut options = Options::defaults(OPTIONS).with_profile(profile);
         let spec = OPTIONS.iter().find(|spec| spec.key == DECIMALS).unwrap();
         options.set(spec, OptionValue::Integer(4)).unwrap();
-        assert_eq!(Settings::read(&options).lengths.decimals(), 4);
+        assert_eq!(Settings::read(&options).common.lengths.decimals(), 4);
     }
 }

@@ -28,7 +28,7 @@ const SECONDS_A_MINUTE: f64 = 60.0;
 
 /// Two points that a control cannot tell apart, being nearer than the last decimal in each direction.
 fn is_same_place(settings: &Settings<'_>, a: Point3, b: Point3) -> bool {
-    let unit = last_place(settings.lengths);
+    let unit = last_place(settings.common.lengths);
     [(a.x, b.x), (a.y, b.y), (a.z, b.z)]
         .into_iter()
         .all(|(a, b)| (a - b).abs() < unit)

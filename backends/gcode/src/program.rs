@@ -61,13 +61,13 @@ fn head(source: Source<'_>, file: File<'_>, blocks: &mut Blocks<'_, '_>) -> Writ
     opening(source, file, blocks)?;
     blocks.comment("job ", &source.program().name)?;
     blocks.comment("machine ", &source.cell.name)?;
-    for line in source.settings.header {
+    for line in source.settings.common.header {
         // LinuxCNC carries out comments that begin with words such as MSG or LOGOPEN [L-OV].
         blocks.comment("note: ", line)?;
     }
     frames(source, blocks)?;
     setup(source, blocks)?;
-    for line in &source.settings.profile.header {
+    for line in &source.settings.common.profile.header {
         blocks.block(line)?;
     }
     Ok(())
@@ -117,7 +117,7 @@ fn part_head(
 
 fn opening(source: Source<'_>, file: File<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
     let [main, part] = source.settings.dialect.extensions();
-    let extension = match (file.place, &source.settings.profile.extension) {
+    let extension = match (file.place, &source.settings.common.profile.extension) {
         (0, Some(extension)) => extension,
         (0, None) => main,
         (_, _) => part,
@@ -158,7 +158,7 @@ fn work_offset(source: Source<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
 
 /// The end of the main program.
 fn end(source: Source<'_>, file: File<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
-    for line in &source.settings.profile.footer {
+    for line in &source.settings.common.profile.footer {
         blocks.block(line)?;
     }
     closing(source, file, blocks)

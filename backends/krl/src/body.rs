@@ -8,12 +8,13 @@ use core::num::NonZeroU32;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, Cell, FeedId, Op, OpId, OperationId, OperationKind, OrientationId, Program, RateId, Ready, Switch,
+    Action, Cell, FeedId, Op, OpId, OperationId, OrientationId, Program, RateId, Ready, Switch,
 };
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
-    Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, may_round,
+    Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, feed, may_round, operation_heading,
+    rate,
 };
 use vcutc_backend_api::units::Duration;
 
@@ -103,20 +104,9 @@ impl Body<'_, '_, '_> {
     }
 
     fn operation(&mut self, id: OperationId) -> Written {
-        let operation = self
-            .source
-            .program
-            .operations
-            .get(usize::from(id.0))
-            .ok_or(EmitError::Internal("an operation is not in its table"))?;
-        let what = match operation.kind {
-            OperationKind::RoughVcut => "rough vcut",
-        };
-        self.text.put(b"; operation ");
-        self.text.whole(u32::from(id.0) + 1);
-        self.text.put(b": ");
-        self.text.put(what.as_bytes());
-        Ok(self.text.comment(" with blade ", &operation.blade.name)?)
+        let (ours, blade) = operation_heading(self.source.program, id)?;
+        self.text.put(b"; ");
+        Ok(self.text.comment(&ours, blade)?)
     }
 
     fn cut(&mut self, layer: Layer, cut: NonZeroU32) -> Written {
@@ -128,23 +118,12 @@ impl Body<'_, '_, '_> {
     }
 
     fn feed(&mut self, id: FeedId) -> Written {
-        let feed = self
-            .source
-            .program
-            .feeds
-            .get(usize::from(id.0))
-            .ok_or(EmitError::Internal("a feed is not in its table"))?;
+        let feed = feed(self.source.program, id)?;
         self.assign(b"$VEL.CP=", feed.to_m_per_s())
     }
 
     fn rate(&mut self, id: RateId) -> Written {
-        let rate = self
-            .source
-            .program
-            .rates
-            .get(usize::from(id.0))
-            .ok_or(EmitError::Internal("a rate is not in its table"))?
-            .to_deg_per_s();
+        let rate = rate(self.source.program, id)?.to_deg_per_s();
         // The controller limits the swivel of the tool axis (ORI1) and the turn about it (ORI2) apart [K-SI].
         self.assign(b"$VEL.ORI1=", rate)?;
         self.assign(b"$VEL.ORI2=", rate)
@@ -208,7 +187,7 @@ impl Body<'_, '_, '_> {
 
     fn end(&self, before: Place, action: &Action, next: Option<&Action>) -> End {
         let stock = self.source.program.stock;
-        if self.source.settings.approximation.is_some() && may_round(stock, before, action, next) {
+        if self.source.settings.common.approximation.is_some() && may_round(stock, before, action, next) {
             End::Rounded
         } else {
             End::Exact
@@ -242,11 +221,11 @@ impl Body<'_, '_, '_> {
             settings, attitudes, ..
         } = self.source;
         let text = &mut *self.text;
-        text.fixed(settings.lengths, tip.x)?;
+        text.fixed(settings.common.lengths, tip.x)?;
         text.put(b",Y ");
-        text.fixed(settings.lengths, tip.y)?;
+        text.fixed(settings.common.lengths, tip.y)?;
         text.put(b",Z ");
-        text.fixed(settings.lengths, tip.z)?;
+        text.fixed(settings.common.lengths, tip.z)?;
         text.put(attitudes.text(held)?);
         Ok(())
     }

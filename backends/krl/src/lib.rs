@@ -72,14 +72,14 @@ pub mod read;
 use crate::attitude::Attitudes;
 use crate::body::Source;
 use crate::keywords::{MOST_PARTS, main_name};
-use crate::options::{LINES_PER_PART, OPTIONS, Settings};
+use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, Layout, Part, Text, split};
+use vcutc_backend_api::script::{Borders, LINES_PER_PART, Layout, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
@@ -132,7 +132,7 @@ impl Backend for Krl {
         let settings = Settings::read(options);
         let parts = split(
             &program.program().ops,
-            settings.lines_per_part,
+            settings.common.lines_per_part,
             Borders::BetweenCuts,
             &|_, lead| lead.lines(LINES_OF_A_RATE),
         );
@@ -180,7 +180,11 @@ impl Emission for KrlEmission<'_> {
             settings: &self.settings,
             attitudes: &attitudes,
         };
-        let name = main_name(&program.name, self.parts.len(), &self.settings.profile.reserved);
+        let name = main_name(
+            &program.name,
+            self.parts.len(),
+            &self.settings.common.profile.reserved,
+        );
         module::write(source, &name, &self.parts, &mut Text::new(sink, LAYOUT))
     }
 }

@@ -98,10 +98,10 @@ fn marks(source: Source<'_>, text: &mut Text<'_>) -> Written {
 fn header(source: Source<'_>, text: &mut Text<'_>) -> Written {
     text.comment("; job ", &source.program.name)?;
     text.comment("; machine ", &source.cell.name)?;
-    for line in source.settings.header {
+    for line in source.settings.common.header {
         text.comment("; ", line)?;
     }
-    for line in &source.settings.profile.header {
+    for line in &source.settings.common.profile.header {
         text.line(line)?;
     }
     Ok(())
@@ -109,7 +109,7 @@ fn header(source: Source<'_>, text: &mut Text<'_>) -> Written {
 
 /// The end of the main routine, with the lines that its machine wants there.
 fn footer(source: Source<'_>, text: &mut Text<'_>) -> Written {
-    for line in &source.settings.profile.footer {
+    for line in &source.settings.common.profile.footer {
         text.line(line)?;
     }
     Ok(text.line("END")?)
@@ -132,7 +132,7 @@ fn initialise(source: Source<'_>, text: &mut Text<'_>) -> Written {
     text.line("$IPO_MODE=#BASE")?;
     text.line("$ORI_TYPE=#VAR")?;
     text.line("$ADVANCE=3")?;
-    if let Some(distance) = settings.approximation {
+    if let Some(distance) = settings.common.approximation {
         text.put(b"$APO.CDIS=");
         text.trimmed(distance.to_mm())?;
         text.end_line()?;
@@ -161,7 +161,7 @@ fn frame(source: Source<'_>, which: &str, placed: PlacedFrame, text: &mut Text<'
 
 /// `X ..,Y ..,Z ..` in mm.
 fn point(out: &mut Vec<u8>, source: Source<'_>, point: Point3) -> Result<(), NotFinite> {
-    let lengths = source.settings.lengths;
+    let lengths = source.settings.common.lengths;
     for (name, value) in [("X ", point.x), (",Y ", point.y), (",Z ", point.z)] {
         out.extend_from_slice(name.as_bytes());
         lengths.push(out, value)?;

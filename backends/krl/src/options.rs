@@ -3,16 +3,10 @@
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
 //! crate never asks for a key by its name.
 
-use core::num::NonZeroU32;
 use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
 use vcutc_backend_api::number::FixedDecimal;
-use vcutc_backend_api::profile::Profile;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 
-const DECIMALS: &str = "decimals";
-pub(crate) const LINES_PER_PART: &str = "lines_per_part";
-const HEADER: &str = "header";
-const APPROXIMATION: &str = "approximation";
 const MOTION: &str = "motion";
 const DECLARE_PARTS: &str = "declare_parts";
 const HOME_SPEED: &str = "home_speed";
@@ -24,38 +18,15 @@ const YES: &str = "yes";
 
 /// All options, in the order of the documentation.
 pub(crate) const OPTIONS: &[OptionSpec] = &[
-    OptionSpec {
-        key: DECIMALS,
-        kind: OptionKind::Integer {
-            min: 3,
-            max: 6,
-            default: 3,
-        },
-        help: "Decimals of lengths in mm; angles get one more, up to six.",
-    },
-    OptionSpec {
-        key: LINES_PER_PART,
-        kind: OptionKind::Integer {
-            min: 0,
-            max: 1_000_000,
-            default: 2500,
-        },
-        help: "Lines after which the program is split into parts at the next travel move; 0 never splits.",
-    },
-    OptionSpec {
-        key: HEADER,
-        kind: OptionKind::Lines,
-        help: "Comment lines put at the head of the main program.",
-    },
-    OptionSpec {
-        key: APPROXIMATION,
-        kind: OptionKind::Length {
-            min: Length::ZERO,
-            max: Length::mm(50.0),
-            default: Length::ZERO,
-        },
-        help: "How far from a corner in the air the robot may start rounding it; 0 mm stops at every point.",
-    },
+    decimals("Decimals of lengths in mm; angles get one more, up to six."),
+    lines_per_part(
+        2500,
+        "Lines after which the program is split into parts at the next travel move; 0 never splits.",
+    ),
+    header("Comment lines put at the head of the main program."),
+    approximation(
+        "How far from a corner in the air the robot may start rounding it; 0 mm stops at every point.",
+    ),
     OptionSpec {
         key: MOTION,
         kind: OptionKind::Choice {
@@ -127,18 +98,10 @@ pub(crate) enum PartNames {
 /// The options as types.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings<'p> {
-    /// Format of lengths in mm.
-    pub(crate) lengths: FixedDecimal,
+    /// What every dialect takes.
+    pub(crate) common: Common<'p>,
     /// Format of angles in degrees: 0.001 deg at the end of a 300 mm blade is 5 um, so one decimal more than lengths.
     pub(crate) angles: FixedDecimal,
-    /// Longest body of a part, when there is a limit.
-    pub(crate) lines_per_part: Option<NonZeroU32>,
-    /// The habits of the machine.
-    pub(crate) profile: &'p Profile,
-    /// Comment lines at the head.
-    pub(crate) header: &'p [String],
-    /// Rounding of corners in the air, when wanted.
-    pub(crate) approximation: Option<Length>,
     /// Motion planner.
     pub(crate) planner: Planner,
     /// How parts are made known.
@@ -150,15 +113,11 @@ pub(crate) struct Settings<'p> {
 impl<'p> Settings<'p> {
     /// Reads the options of a job.
     pub(crate) fn read(options: &'p Options) -> Self {
-        let decimals = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
-        let approximation = options.length(APPROXIMATION);
+        // The compiler has set them to what the profile says, unless the job says otherwise.
+        let common = Common::read(options);
         Self {
-            lengths: FixedDecimal::new(decimals),
-            angles: FixedDecimal::new(decimals.saturating_add(1)),
-            lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
-            profile: options.profile(),
-            header: options.lines(HEADER),
-            approximation: (approximation > Length::ZERO).then_some(approximation),
+            common,
+            angles: FixedDecimal::new(common.decimals.saturating_add(1)),
             planner: match options.choice(MOTION) {
                 SPLINE => Planner::Spline,
                 _ => Planner::Classic,
@@ -177,6 +136,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
     use vcutc_backend_api::backend::OptionValue;
+    use vcutc_backend_api::script::{APPROXIMATION, DECIMALS, LINES_PER_PART};
+    use vcutc_backend_api::units::Length;
 
     #[test]
     fn keys_are_unique() {
@@ -200,9 +161,12 @@ mod tests {
             options.set(spec, value).unwrap();
         }
         let settings = Settings::read(&options);
-        assert_eq!((settings.lengths.decimals(), settings.angles.decimals()), (4, 5));
-        assert_eq!(settings.lines_per_part, None);
-        assert_eq!(settings.approximation, Some(Length::mm(2.5)));
+        assert_eq!(
+            (settings.common.lengths.decimals(), settings.angles.decimals()),
+            (4, 5)
+        );
+        assert_eq!(settings.common.lines_per_part, None);
+        assert_eq!(settings.common.approximation, Some(Length::mm(2.5)));
         assert_eq!(settings.planner, Planner::Spline);
         assert_eq!(settings.part_names, PartNames::Declared);
         assert_eq!(settings.home_speed, 30);
@@ -211,6 +175,6 @@ mod tests {
     #[test]
     fn nothing_is_rounded_unless_asked_for() {
         let options = Options::defaults(OPTIONS);
-        assert_eq!(Settings::read(&options).approximation, None);
+        assert_eq!(Settings::read(&options).common.approximation, None);
     }
 }

@@ -9,12 +9,12 @@ use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, AxisValues, Cell, Op, OpId, OperationId, OperationKind, OrientationId, Program, Ready, Switch,
+    Action, AxisValues, Cell, Op, OpId, OperationId, OrientationId, Program, Ready, Switch,
 };
 use vcutc_backend_api::motion::{ReachableProgram, Waypoint};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
-    Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, may_round,
+    Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, may_round, operation_heading,
 };
 use vcutc_backend_api::units::Duration;
 
@@ -137,20 +137,9 @@ impl Body<'_, '_, '_> {
     }
 
     fn operation(&mut self, id: OperationId) -> Written {
-        let operation = self
-            .source
-            .program
-            .operations
-            .get(usize::from(id.0))
-            .ok_or(EmitError::Internal("an operation is not in its table"))?;
-        let what = match operation.kind {
-            OperationKind::RoughVcut => "rough vcut",
-        };
-        self.begin(b"! operation ");
-        self.text.whole(u32::from(id.0) + 1);
-        self.text.put(b": ");
-        self.text.put(what.as_bytes());
-        Ok(self.text.comment(" with blade ", &operation.blade.name)?)
+        let (ours, blade) = operation_heading(self.source.program, id)?;
+        self.begin(b"! ");
+        Ok(self.text.comment(&ours, blade)?)
     }
 
     fn layer(&mut self, layer: Layer) -> Written {
@@ -206,7 +195,7 @@ impl Body<'_, '_, '_> {
 
     fn end(&self, before: Place, action: &Action, next: Option<&Action>) -> End {
         let stock = self.source.program.stock;
-        if self.source.settings.approximation.is_some() && may_round(stock, before, action, next) {
+        if self.source.settings.common.approximation.is_some() && may_round(stock, before, action, next) {
             End::Rounded
         } else {
             End::Exact
@@ -271,7 +260,7 @@ impl Body<'_, '_, '_> {
             .ok_or(EmitError::Internal("a pose has no confdata"))?;
         let quaternion = self.turned.map_or(quaternion, |last| quaternion.nearer_to(last));
         self.turned = Some(quaternion);
-        let lengths = self.source.settings.lengths;
+        let lengths = self.source.settings.common.lengths;
         let text = &mut *self.text;
         for (start, value) in [(b"[[" as &[u8], tip.x), (b",", tip.y), (b",", tip.z)] {
             text.put(start);

@@ -63,7 +63,7 @@ mod speeds;
 
 use crate::body::Source;
 use crate::keywords::{MOST_PARTS, main_name};
-use crate::options::{LINES_PER_PART, OPTIONS, Settings};
+use crate::options::{OPTIONS, Settings};
 use crate::orient::Quaternion;
 use crate::read::RapidReader;
 use crate::speeds::Speeds;
@@ -72,7 +72,7 @@ use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, Layout, Part, Text, split};
+use vcutc_backend_api::script::{Borders, LINES_PER_PART, Layout, Part, Text, split};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that RobotStudio writes.
@@ -121,7 +121,7 @@ impl Backend for Rapid {
         let settings = Settings::read(options);
         let parts = split(
             &program.program().ops,
-            settings.lines_per_part,
+            settings.common.lines_per_part,
             Borders::BetweenCuts,
             &|at, lead| body::lines_of(lead) + waypoints_of(program, at),
         );

@@ -112,7 +112,7 @@ fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> 
 
 /// What the machine's profile asks for.
 fn profile(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
-    let profile = settings.profile;
+    let profile = settings.common.profile;
     let mut refuse = |key: &'static str, why: String| findings.tell(key, BackendIssue::Profile { key, why });
     if profile.line_numbers.is_some() {
         refuse("line_numbers", "RAPID has no numbers of lines".to_owned());
@@ -185,13 +185,13 @@ pub(crate) fn taken_names(settings: &Settings<'_>, cell: &Cell) -> Vec<String> {
     let used = used_names(settings, cell).into_iter().map(|(_, name)| name);
     let mut taken = own_names();
     taken.extend(used);
-    taken.extend(settings.profile.reserved.iter().cloned());
+    taken.extend(settings.common.profile.reserved.iter().cloned());
     taken
 }
 
 /// Names that the machine keeps for itself, against those that a program cannot change.
 fn reserved(settings: &Settings<'_>, cell: &Cell, job: &str, parts: usize, findings: &mut Findings) {
-    let reserved = &settings.profile.reserved;
+    let reserved = &settings.common.profile.reserved;
     if reserved.is_empty() {
         return;
     }

@@ -8,7 +8,7 @@ use crate::speeds::{EXTERNAL, RATE_OF_NOTHING};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Action, Load, RateId, Registered};
-use vcutc_backend_api::script::{Part, Text, Written, first_of};
+use vcutc_backend_api::script::{Part, Text, Written, feed, first_of, rate};
 use vcutc_backend_api::units::Length;
 
 /// The modes that moves depend on. A task that is started anew has them, one that is started at a part may not.
@@ -27,15 +27,15 @@ pub(crate) fn write(source: Source<'_>, main: &str, parts: &[Part], text: &mut T
     match parts {
         [only] => {
             modes(text)?;
-            verbatim(&source.settings.profile.header, text)?;
+            verbatim(&source.settings.common.profile.header, text)?;
             body::write(source, only, text)?;
         }
         parts => {
-            verbatim(&source.settings.profile.header, text)?;
+            verbatim(&source.settings.common.profile.header, text)?;
             calls(source, main, parts, text)?;
         }
     }
-    verbatim(&source.settings.profile.footer, text)?;
+    verbatim(&source.settings.common.profile.footer, text)?;
     text.line("  ENDPROC")?;
     text.line("ENDMODULE")?;
     if parts.len() > 1 {
@@ -115,7 +115,7 @@ fn list(main: &str, modules: &[String], text: &mut Text<'_>) -> Written {
 fn header(source: Source<'_>, text: &mut Text<'_>) -> Written {
     text.comment("  ! job ", &source.program.name)?;
     text.comment("  ! machine ", &source.cell.name)?;
-    for line in source.settings.header {
+    for line in source.settings.common.header {
         text.comment("  ! ", line)?;
     }
     Ok(())
@@ -142,7 +142,7 @@ fn data(source: Source<'_>, text: &mut Text<'_>) -> Written {
     work_object(source, text)?;
     home(source, text)?;
     speeds(source, text)?;
-    match source.settings.approximation {
+    match source.settings.common.approximation {
         Some(distance) => zone(distance, text),
         None => Ok(()),
     }
@@ -197,7 +197,7 @@ fn frame(source: Source<'_>, frame: Frame, text: &mut Text<'_>) -> Written {
 fn point(source: Source<'_>, point: Point3, text: &mut Text<'_>) -> Written {
     for (start, value) in [(b"[", point.x), (b",", point.y), (b",", point.z)] {
         text.put(start);
-        text.fixed(source.settings.lengths, value)?;
+        text.fixed(source.settings.common.lengths, value)?;
     }
     text.put(b"]");
     Ok(())
@@ -223,18 +223,10 @@ fn home(source: Source<'_>, text: &mut Text<'_>) -> Written {
 fn speeds(source: Source<'_>, text: &mut Text<'_>) -> Written {
     let program = source.program;
     for id in source.speeds.feeds() {
-        let feed = program
-            .feeds
-            .get(usize::from(id.0))
-            .ok_or(EmitError::Internal("a feed is not in its table"))?;
-        number(FEED, u32::from(id.0) + 1, feed.to_mm_per_s(), text)?;
+        number(FEED, u32::from(id.0) + 1, feed(program, id)?.to_mm_per_s(), text)?;
     }
     for id in source.speeds.rates() {
-        let rate = program
-            .rates
-            .get(usize::from(id.0))
-            .ok_or(EmitError::Internal("a rate is not in its table"))?;
-        number(RATE, u32::from(id.0) + 1, rate.to_deg_per_s(), text)?;
+        number(RATE, u32::from(id.0) + 1, rate(program, id)?.to_deg_per_s(), text)?;
     }
     let rate = |id: Option<RateId>| {
         id.map_or_else(

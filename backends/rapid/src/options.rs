@@ -4,17 +4,12 @@
 //! never asks for a key by its name.
 
 use crate::keywords::{TOOL, WORK_OBJECT};
-use core::num::NonZeroU32;
 use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
 use vcutc_backend_api::ir::{Cell, PlacedFrame};
 use vcutc_backend_api::number::FixedDecimal;
-use vcutc_backend_api::profile::Profile;
+use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 use vcutc_backend_api::units::Length;
 
-const DECIMALS: &str = "decimals";
-pub(crate) const LINES_PER_PART: &str = "lines_per_part";
-const HEADER: &str = "header";
-const APPROXIMATION: &str = "approximation";
 const HOME_SPEED: &str = "home_speed";
 pub(crate) const TOOL_NAME: &str = "tool_name";
 pub(crate) const WORK_OBJECT_NAME: &str = "wobj_name";
@@ -23,38 +18,13 @@ pub(crate) const READY_SIGNAL: &str = "ready_signal";
 
 /// All options, in the order of the documentation.
 pub(crate) const OPTIONS: &[OptionSpec] = &[
-    OptionSpec {
-        key: DECIMALS,
-        kind: OptionKind::Integer {
-            min: 3,
-            max: 6,
-            default: 3,
-        },
-        help: "Decimals of lengths in mm; axis angles get one more, up to six.",
-    },
-    OptionSpec {
-        key: LINES_PER_PART,
-        kind: OptionKind::Integer {
-            min: 0,
-            max: 1_000_000,
-            default: 5000,
-        },
-        help: "Lines after which the program is split into parts at the next travel move; 0 never splits.",
-    },
-    OptionSpec {
-        key: HEADER,
-        kind: OptionKind::Lines,
-        help: "Comment lines put at the head of the main module.",
-    },
-    OptionSpec {
-        key: APPROXIMATION,
-        kind: OptionKind::Length {
-            min: Length::ZERO,
-            max: Length::mm(50.0),
-            default: Length::ZERO,
-        },
-        help: "Zone in which a corner in the air may be rounded; 0 mm stops at every point.",
-    },
+    decimals("Decimals of lengths in mm; axis angles get one more, up to six."),
+    lines_per_part(
+        5000,
+        "Lines after which the program is split into parts at the next travel move; 0 never splits.",
+    ),
+    header("Comment lines put at the head of the main module."),
+    approximation("Zone in which a corner in the air may be rounded; 0 mm stops at every point."),
     OptionSpec {
         key: HOME_SPEED,
         kind: OptionKind::Integer {
@@ -89,38 +59,24 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
 /// The options as types.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings<'p> {
-    /// Format of lengths in mm.
-    pub(crate) lengths: FixedDecimal,
+    /// What every dialect takes.
+    pub(crate) common: Common<'p>,
     /// Format of axis angles in degrees: 0.001 deg over 3 m of arm is 0.05 mm, so one decimal more than lengths.
     pub(crate) angles: FixedDecimal,
-    /// Longest body of a part, when there is a limit.
-    pub(crate) lines_per_part: Option<NonZeroU32>,
-    /// Comment lines at the head.
-    pub(crate) header: &'p [String],
-    /// Rounding of corners in the air, when wanted.
-    pub(crate) approximation: Option<Length>,
     /// Tip speed of the moves of all axes, in mm/s.
     pub(crate) home_speed: u32,
-    /// The habits of the machine.
-    pub(crate) profile: &'p Profile,
     options: &'p Options,
 }
 
 impl<'p> Settings<'p> {
     /// Reads the options of a job.
     pub(crate) fn read(options: &'p Options) -> Self {
-        let profile = options.profile();
-        // The compiler has set it to what the profile says, unless the job says otherwise.
-        let decimals = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
-        let approximation = options.length(APPROXIMATION);
+        // The compiler has set them to what the profile says, unless the job says otherwise.
+        let common = Common::read(options);
         Self {
-            lengths: FixedDecimal::new(decimals),
-            angles: FixedDecimal::new(decimals.saturating_add(1)),
-            lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
-            header: options.lines(HEADER),
-            approximation: (approximation > Length::ZERO).then_some(approximation),
+            common,
+            angles: FixedDecimal::new(common.decimals.saturating_add(1)),
             home_speed: options.integer(HOME_SPEED),
-            profile,
             options,
         }
     }
@@ -162,7 +118,7 @@ impl<'p> Settings<'p> {
 
     /// Extension of modules.
     pub(crate) fn extension(&self) -> &'p str {
-        self.profile.extension.as_deref().unwrap_or("mod")
+        self.common.profile.extension.as_deref().unwrap_or("mod")
     }
 }
 
@@ -179,6 +135,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
     use vcutc_backend_api::backend::OptionValue;
+    use vcutc_backend_api::script::{APPROXIMATION, DECIMALS, LINES_PER_PART};
 
     #[test]
     fn keys_are_unique() {
@@ -201,9 +158,12 @@ mod tests {
             options.set(spec, value).unwrap();
         }
         let settings = Settings::read(&options);
-        assert_eq!((settings.lengths.decimals(), settings.angles.decimals()), (4, 5));
-        assert_eq!(settings.lines_per_part, None);
-        assert_eq!(settings.approximation, Some(Length::mm(2.5)));
+        assert_eq!(
+            (settings.common.lengths.decimals(), settings.angles.decimals()),
+            (4, 5)
+        );
+        assert_eq!(settings.common.lines_per_part, None);
+        assert_eq!(settings.common.approximation, Some(Length::mm(2.5)));
         assert_eq!(settings.home_speed, 30);
         assert_eq!(
             (settings.output(12), settings.input(7)),

@@ -4,11 +4,17 @@
 //! A dialect has its own words for all of this, and shares the decisions.
 
 mod listing;
+mod options;
 mod split;
 mod state;
+mod tables;
 mod text;
 
 pub use listing::{Layer, Lead, Modal, first_of, speeds};
+pub use options::{
+    APPROXIMATION, Common, DECIMALS, HEADER, LINES_PER_PART, approximation, decimals, header, lines_per_part,
+};
 pub use split::{Borders, Part, split};
 pub use state::{Generator, Place, State, may_round};
+pub use tables::{feed, operation_heading, rate};
 pub use text::{Layout, Text, Written, push_trimmed, trimmed_text};

@@ -221,7 +221,7 @@ impl<'a> Control<'a> {
                 None => Err(Trouble::Unknown),
             },
             Mode::Feed(None) => expected("a speed in mm/min or inverse time"),
-            Mode::Stop(None) => expected(match self.context.settings.approximation {
+            Mode::Stop(None) => expected(match self.context.settings.common.approximation {
                 Some(distance) => format!(
                     "`{}`, or rounding by {} mm",
                     self.tongue.exact(),
@@ -426,7 +426,7 @@ impl<'a> Control<'a> {
 
     /// Whether the tip goes farther than by its last decimal.
     fn moves_the_tip(&self, before: [Option<f64>; 3]) -> bool {
-        let unit = 2.0 * super::half_a_unit(self.context.settings.lengths);
+        let unit = 2.0 * super::half_a_unit(self.context.settings.common.lengths);
         let ways = self.tip.into_iter().zip(before);
         ways.filter_map(|(to, from)| Some((to? - from?).abs()))
             .any(|way| way > unit * 1.5)

@@ -71,7 +71,7 @@ impl Reader for GcodeReader {
         Grain {
             // Printed in the frame of the machine, compared in that of the work: a coordinate of one may be made of all three
             // of the other.
-            length: Length::mm(half_a_unit(settings.lengths) * 3.0_f64.sqrt()),
+            length: Length::mm(half_a_unit(settings.common.lengths) * 3.0_f64.sqrt()),
             attitude: angle,
             axis: angle,
             speed: Speed::mm_per_s(fine / SECONDS_A_MINUTE),

@@ -51,8 +51,8 @@ pub(super) enum Stage {
 impl OfProfile {
     pub(super) fn new(settings: &Settings<'_>, style: Style) -> Self {
         Self {
-            header: essences(&settings.profile.header, style),
-            footer: essences(&settings.profile.footer, style),
+            header: essences(&settings.common.profile.header, style),
+            footer: essences(&settings.common.profile.footer, style),
             stage: Stage::Head,
         }
     }

@@ -90,7 +90,7 @@ fn printed(axis: &Axis, value: f64) -> f64 {
 
 fn grain(context: Context<'_>, axis: &Axis) -> f64 {
     half_a_unit(match axis.kind {
-        AxisKind::Linear => context.settings.lengths,
+        AxisKind::Linear => context.settings.common.lengths,
         AxisKind::Rotary => context.settings.angles,
     })
 }

@@ -63,7 +63,7 @@ impl Reader for KrlReader {
         let settings = Settings::read(options);
         let angle = Angle::deg(half_a_unit(settings.angles));
         Grain {
-            length: Length::mm(half_a_unit(settings.lengths)),
+            length: Length::mm(half_a_unit(settings.common.lengths)),
             // A, B and C may each be off by as much, and at B = 90 deg A and C turn about the same line.
             attitude: angle * 3.0,
             axis: angle,

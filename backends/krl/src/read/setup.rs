@@ -170,7 +170,7 @@ impl Setup {
         } else if to.is("$ADVANCE") {
             self.note(Said::Advance, *value == Value::Number(ADVANCE))
         } else if to.is_field("$APO", "CDIS") {
-            let should = wanted.settings.approximation;
+            let should = wanted.settings.common.approximation;
             let is = should.is_some_and(|should| is_number(value, should.to_mm(), FINE));
             self.note(Said::Rounding, is)
         } else if to.is("$LOAD") {
@@ -250,7 +250,7 @@ fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>
             [mass, centre, inertia] => {
                 let of = |field: &Field<'_>, name| is_same_name(field.name, name);
                 let centre_of_mass = match &centre.value {
-                    Value::Coordinates(is) => is_centre(is, should, settings.lengths),
+                    Value::Coordinates(is) => is_centre(is, should, settings.common.lengths),
                     _ => false,
                 };
                 let no_inertia = match &inertia.value {

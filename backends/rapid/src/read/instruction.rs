@@ -159,7 +159,7 @@ impl Machine<'_> {
         match zone {
             Zone::Fine => Some(End::Exact),
             Zone::Fly(members) => {
-                let asked = crate::options::zone_members(self.settings.approximation?);
+                let asked = crate::options::zone_members(self.settings.common.approximation?);
                 let is_asked = members
                     .iter()
                     .zip(asked)

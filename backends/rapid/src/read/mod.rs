@@ -56,7 +56,7 @@ impl Reader for RapidReader {
         let settings = Settings::read(options);
         let trimmed = half_unit(TRIMMED_DECIMALS);
         Grain {
-            length: Length::mm(half_unit(settings.lengths.decimals())),
+            length: Length::mm(half_unit(settings.common.lengths.decimals())),
             attitude: Angle::rad(GRAIN_RAD),
             axis: Angle::deg(half_unit(settings.angles.decimals())),
             speed: Speed::mm_per_s(trimmed),
@@ -92,7 +92,7 @@ impl Reader for RapidReader {
             .map(|module| vec![Told::Not; module.pieces.len()]);
         let mut teller = Teller {
             told: told.collect(),
-            own: lines_of(settings.profile),
+            own: lines_of(settings.common.profile),
             machine,
             program,
             heed,

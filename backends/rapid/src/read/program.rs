@@ -410,7 +410,7 @@ fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Says> {
     let Some(Registered::Value(should)) = machine.cell.load else {
         return None;
     };
-    let length = super::half_unit(machine.settings.lengths.decimals());
+    let length = super::half_unit(machine.settings.common.lengths.decimals());
     let near = |is: f64, should: f64, grain: f64| (is - should).abs() <= grain * (1.0 + 1e-6);
     let is_load = near(
         load.mass.to_kg(),

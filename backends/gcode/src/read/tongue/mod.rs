@@ -113,7 +113,7 @@ fn american_g(code: u32, order: &mut Order<'_>) -> Parsed<bool> {
 
 /// Rounding as far as the job says, or else a way to stop that is not its.
 fn rounding(distance: Option<Number>, context: Context<'_>) -> Mode {
-    let is_that_of_the_job = match (distance, context.settings.approximation) {
+    let is_that_of_the_job = match (distance, context.settings.common.approximation) {
         (Some(is), Some(should)) => (is.value - should.to_mm()).abs() < 0.6e-6,
         (Some(_), None) | (None, _) => false,
     };

@@ -1,0 +1,138 @@
+//! The options that every dialect takes, under the same keys and within the same bounds: how exact numbers are written, where
+//! a program is split, what stands at its head, and how far corners in the air are rounded. A dialect puts them into its
+//! table in its own words, because what they mean to people differs.
+
+use crate::backend::{OptionKind, OptionSpec, Options};
+use crate::number::FixedDecimal;
+use crate::profile::Profile;
+use crate::units::Length;
+use core::num::NonZeroU32;
+
+/// Key of [`decimals`].
+pub const DECIMALS: &str = "decimals";
+/// Key of [`lines_per_part`].
+pub const LINES_PER_PART: &str = "lines_per_part";
+/// Key of [`header`].
+pub const HEADER: &str = "header";
+/// Key of [`approximation`].
+pub const APPROXIMATION: &str = "approximation";
+
+/// Decimals of lengths in mm. The plan lies on a grid of a micrometre, so three print it exactly.
+#[must_use]
+pub const fn decimals(help: &'static str) -> OptionSpec {
+    OptionSpec {
+        key: DECIMALS,
+        kind: OptionKind::Integer {
+            min: 3,
+            max: 6,
+            default: 3,
+        },
+        help,
+    }
+}
+
+/// Lines after which a program is split; 0 never splits.
+#[must_use]
+pub const fn lines_per_part(default: u32, help: &'static str) -> OptionSpec {
+    OptionSpec {
+        key: LINES_PER_PART,
+        kind: OptionKind::Integer {
+            min: 0,
+            max: 1_000_000,
+            default,
+        },
+        help,
+    }
+}
+
+/// Comment lines at the head of the main program.
+#[must_use]
+pub const fn header(help: &'static str) -> OptionSpec {
+    OptionSpec {
+        key: HEADER,
+        kind: OptionKind::Lines,
+        help,
+    }
+}
+
+/// How far from a corner in the air it may be rounded; zero stops at every point.
+#[must_use]
+pub const fn approximation(help: &'static str) -> OptionSpec {
+    OptionSpec {
+        key: APPROXIMATION,
+        kind: OptionKind::Length {
+            min: Length::ZERO,
+            max: Length::mm(50.0),
+            default: Length::ZERO,
+        },
+        help,
+    }
+}
+
+/// These options as types.
+#[derive(Clone, Copy, Debug)]
+pub struct Common<'p> {
+    /// Decimals of lengths in mm.
+    pub decimals: u8,
+    /// Format of lengths in mm.
+    pub lengths: FixedDecimal,
+    /// Longest body of a part, in lines, when there is a limit.
+    pub lines_per_part: Option<NonZeroU32>,
+    /// Comment lines at the head.
+    pub header: &'p [String],
+    /// Rounding of corners in the air, when wanted.
+    pub approximation: Option<Length>,
+    /// The habits of the machine.
+    pub profile: &'p Profile,
+}
+
+impl<'p> Common<'p> {
+    /// Reads the options of a job.
+    #[must_use]
+    pub fn read(options: &'p Options) -> Self {
+        let decimals = u8::try_from(options.integer(DECIMALS)).unwrap_or(u8::MAX);
+        let approximation = options.length(APPROXIMATION);
+        Self {
+            decimals,
+            lengths: FixedDecimal::new(decimals),
+            lines_per_part: NonZeroU32::new(options.integer(LINES_PER_PART)),
+            header: options.lines(HEADER),
+            approximation: (approximation > Length::ZERO).then_some(approximation),
+            profile: options.profile(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::backend::OptionValue;
+
+    const SPECS: &[OptionSpec] = &[
+        decimals("decimals"),
+        lines_per_part(2500, "lines"),
+        header("header"),
+        approximation("rounding"),
+    ];
+
+    #[test]
+    fn nothing_is_rounded_unless_asked_for() {
+        let options = Options::defaults(SPECS);
+        let common = Common::read(&options);
+        assert_eq!(common.approximation, None);
+        assert_eq!(common.lengths.decimals(), 3);
+        assert_eq!(common.lines_per_part.map(NonZeroU32::get), Some(2500));
+    }
+
+    #[test]
+    fn zero_lines_never_split() {
+        let mut options = Options::defaults(SPECS);
+        options.set(&SPECS[1], OptionValue::Integer(0)).unwrap();
+        options
+            .set(&SPECS[3], OptionValue::Length(Length::mm(2.5)))
+            .unwrap();
+        let common = Common::read(&options);
+        assert_eq!(common.lines_per_part, None);
+        assert_eq!(common.approximation, Some(Length::mm(2.5)));
+    }
+}

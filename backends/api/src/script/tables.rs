@@ -1,0 +1,39 @@
+//! Entries of a program's tables by their numbers. A verified program has them all, so one that is missing is a fault of the
+//! compiler.
+
+use crate::backend::EmitError;
+use crate::ir::{FeedId, OperationId, OperationKind, Program, RateId};
+use crate::units::{AngularSpeed, Speed};
+
+/// The comment above the first line of an operation, `operation 1: rough vcut with blade ` and the blade's name, which is the
+/// user's text.
+///
+/// # Errors
+/// That the program has no such operation.
+pub fn operation_heading(program: &Program, id: OperationId) -> Result<(String, &str), EmitError> {
+    let found = program.operations.get(usize::from(id.0));
+    let operation = found.ok_or(EmitError::Internal("an operation is not in its table"))?;
+    let what = match operation.kind {
+        OperationKind::RoughVcut => "rough vcut",
+    };
+    let ours = format!("operation {}: {what} with blade ", u32::from(id.0) + 1);
+    Ok((ours, &operation.blade.name))
+}
+
+/// A speed of the tip.
+///
+/// # Errors
+/// That the program has no such feed.
+pub fn feed(program: &Program, id: FeedId) -> Result<Speed, EmitError> {
+    let found = program.feeds.get(usize::from(id.0)).copied();
+    found.ok_or(EmitError::Internal("a feed is not in its table"))
+}
+
+/// A rate of turning.
+///
+/// # Errors
+/// That the program has no such rate.
+pub fn rate(program: &Program, id: RateId) -> Result<AngularSpeed, EmitError> {
+    let found = program.rates.get(usize::from(id.0)).copied();
+    found.ok_or(EmitError::Internal("a rate is not in its table"))
+}
