@@ -152,7 +152,7 @@ pub struct Limits {
     pub layer: Bounds<Length>,
     /// Spacing of tips within a layer.
     pub step: Bounds<Length>,
-    /// Largest height of material left standing, along the part's normal.
+    /// Largest height of material left standing: distance of the machined contour from the nearest point of the part.
     pub scallop: Option<Sourced<Length>>,
     /// Longest edge that a cut may use.
     pub edge: Option<Sourced<Length>>,

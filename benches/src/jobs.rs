@@ -55,3 +55,62 @@ machine cell = robot "kuka/kr210_r3100_ultra" {{
 "#
     )
 }
+
+/// What a job is cut on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Machine {
+    /// A large robot.
+    Robot,
+    /// Nothing.
+    None,
+}
+
+/// A job like a spoiler of 300 mm chord and 400 mm span, cut in layers and steps that give about so many cuts.
+#[must_use]
+pub fn spoiler(cuts: u32, machine: Machine) -> String {
+    // Layers by steps of 1.24 layers in some 5950 mm2 above the part.
+    let layer = (5950.0 / 1.24 / f64::from(cuts)).sqrt();
+    let machine = match machine {
+        Machine::None => "",
+        Machine::Robot => {
+            r#"
+machine cell = robot "kuka/kr210_r3100_ultra" {
+  tool       = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  base       = frame(x = 1700 mm, y = -700 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)
+  home       = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
+  ultrasonic = output(12)
+}
+"#
+        }
+    };
+    format!(
+        r#"job "bench_spoiler_{cuts}"
+
+stock {{ size = (300 mm, 400 mm, 45 mm) }}
+
+profile {{ z(x) = 30 mm - 10 mm * cos(180 deg * (x - 150 mm) / 300 mm) }}
+
+blade long_dagger {{
+  cutting_length = 32 mm
+  half_apex      = 9 deg
+  thickness      = 1.6 mm
+  edges          = double
+}}
+
+rough vcut {{
+  blade     = long_dagger
+  lattice   = orthogonal
+  rake      = 60 deg
+  swing     = 40 deg
+  layer     = {layer:.3} mm
+  step      = {step:.3} mm
+  residual  = mixed
+  order     = point
+  sequence  = rows
+  feed      {{ cut = 12 m/min, travel = 18 m/min, reorient = 90 deg/s }}
+  clearance = 20 mm
+}}
+{machine}"#,
+        step = 1.24 * layer,
+    )
+}

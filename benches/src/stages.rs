@@ -4,6 +4,7 @@
 //! of them is inlined, so that profilers show them by their names.
 
 use vcutc::choice;
+use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::job::CheckedJob;
 use vcutc::plan::{PlannedJob, PlannedOperation};
 use vcutc::sema;
@@ -81,6 +82,22 @@ pub fn check(text: &str) -> (SourceMap, CheckedJob) {
     let (_, job) = checked.expect("the text is there");
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
     (sources, job.expect("the job is right"))
+}
+
+/// A whole job, as `vcutc check` does it.
+#[must_use]
+pub fn compile(text: &str) -> Outcome {
+    let request = Request {
+        path: PATH,
+        loader: &OneText(text),
+        overrides: &[],
+        machine: None,
+        options: Typed::default(),
+        targets: &[],
+    };
+    let outcome = driver::compile(request, &mut |_| {}).expect("the text is there");
+    assert!(outcome.diagnostics.is_empty(), "{:?}", outcome.diagnostics);
+    outcome
 }
 
 /// Meaning to plan.

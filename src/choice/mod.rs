@@ -114,7 +114,7 @@ struct Contender {
     laid: LaidOut,
     standing: Standing,
     time: Duration,
-    /// The most that is left, along the part's normal.
+    /// The most that is left: the machined contour's largest distance from the part.
     height: Length,
     residual: Area,
 }

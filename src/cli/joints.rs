@@ -7,7 +7,7 @@
 
 use crate::job::CheckedJob;
 use crate::reach::solve::{Reached, rig};
-use crate::reach::trajectory::{Sample, trajectory};
+use crate::reach::trajectory::{Sample, Spacing, trajectory};
 use std::io::{self, Write};
 use vcutc_backend_api::ir::{Axis, AxisKind, Op, Site};
 
@@ -23,7 +23,7 @@ pub(super) fn write(job: &CheckedJob, reached: &Reached, out: &mut dyn Write) ->
     }
     writeln!(out)?;
     let rig = rig(&machine.model, cell);
-    trajectory(&reached.program, &rig, |sample| {
+    trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
         match program.ops.get(sample.op.0 as usize) {
             Some(op) => row(op, &sample, &cell.axes, out),
             None => Ok(()),

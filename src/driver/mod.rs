@@ -221,12 +221,17 @@ fn along_its_routes(job: &CheckedJob, sources: &SourceMap, progress: &mut dyn Fn
         if has_errors(&told) {
             return Ended::Refused(Some(plan), told);
         }
-        match reach(job, proven.program, progress) {
+        let narrower = latitude.narrower_than(&plan);
+        let changes = match narrower {
+            Some(_) => Changes::InTheAirOrElse,
+            None => Changes::InTheAir,
+        };
+        match reach(job, proven.program, changes, progress) {
             Ok(program) => {
                 let compiled = compiled(job, program, &plan, proven.report);
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
-            Err(unreached) => match latitude.narrower_than(&plan) {
+            Err(unreached) => match narrower {
                 Some(narrower) => latitude = narrower,
                 None => return Ended::Unreached(plan, told, unreached),
             },
@@ -261,13 +266,14 @@ fn paced(job: &CheckedJob, program: &Finished) -> Paced {
 fn reach(
     job: &CheckedJob,
     program: VerifiedProgram,
+    changes: Changes,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Finished, Unreached> {
     let Some(machine) = &job.machine else {
         return Ok(Finished::WithoutMachine(Box::new(program)));
     };
     progress(Stage::Reaching);
-    let reached = solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir)?;
+    let reached = solve(program, &machine.model, &LEAST_CLEARANCE, changes)?;
     Ok(Finished::Reached(Box::new(reached)))
 }
 

@@ -21,7 +21,7 @@ pub struct Numbers {
     pub time_s: f64,
     /// Time by the mean-value model [Cui 11].
     pub estimate_s: f64,
-    /// Highest material left on the part, along its normal.
+    /// Highest material left on the part: the machined contour's largest distance from it.
     pub scallop_mm: f64,
     /// Its mean.
     pub mean_scallop_mm: f64,

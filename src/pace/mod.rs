@@ -59,6 +59,8 @@ pub struct Basis {
     pub kept: Kept,
     /// How many moves of all axes have no time: the machine, where they begin, or the rate of an axis is not known.
     pub untimed: usize,
+    /// How many straight motions and turns have their programmed time after all: the axes could not be followed along them.
+    pub unfollowed: usize,
 }
 
 /// How long a program takes.
@@ -82,6 +84,7 @@ pub fn programmed(program: &VerifiedProgram) -> Paced {
                 .iter()
                 .filter(|leg| is_by_axes(leg))
                 .count(),
+            unfollowed: 0,
         },
     }
 }
@@ -112,14 +115,14 @@ pub fn paced(reached: &ReachableProgram, model: &Model) -> Paced {
     paced.basis = Basis {
         kept: clock.kept(),
         untimed: 0,
+        unfollowed: 0,
     };
     for ((leg, known), time) in legs.iter().zip(known).zip(&mut paced.times) {
         match (leg, known) {
             (Leg::Still, _) => {}
             (_, Some(seconds)) => *time = Duration::s(seconds),
             (Leg::Home | Leg::ByAxes(_), None) => paced.basis.untimed += 1,
-            // Stays at the programmed speed.
-            (Leg::Along(_), None) => {}
+            (Leg::Along(_), None) => paced.basis.unfollowed += 1,
         }
     }
     paced

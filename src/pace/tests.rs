@@ -288,6 +288,8 @@ proptest! {
             let b = Bounds { jerk: Some(jerk), ..b };
             smooth::ride(&parts, &all(b), 1.0, Bounds::default()).unwrap().time
         };
+        // A ride is searched over rates in steps and not the fastest there is: with wider bounds the steps fall elsewhere, and the
+        // one found may be slower by what its search is not refined to.
         let base = gentle(bounds(rate, acceleration), jerk);
         prop_assert!(base >= quick(bounds(rate, acceleration)) * (1.0 - 1e-3));
         prop_assert!(gentle(bounds(rate, acceleration * by), jerk) <= base * 1.02);

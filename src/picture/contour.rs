@@ -39,7 +39,7 @@ pub struct Chip {
 pub struct Highest {
     /// Its peak.
     pub peak: [f64; 2],
-    /// Its height along the part's normal.
+    /// Its height: how far it is from the nearest point of the part.
     pub height: f64,
 }
 

@@ -58,9 +58,15 @@ pub fn draw(deviation: &Deviation<'_>) -> String {
         svg.path(&plot.level(limit), &self::limit());
     }
     let circle = format!("r=\"5\" fill=\"{BLUE}\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
-    mark(&mut svg, deviation.largest, &plot, &circle);
+    // The hollow's mark is the higher one: the words of the other make room for it.
+    let side_by_side = deviation.hollow.is_some_and(|hollow| {
+        let ([x, y], [other_x, other_y]) = (plot.at(hollow), plot.at(deviation.largest));
+        (x - other_x).abs() < WORDS[0] && (y - other_y).abs() < WORDS[1]
+    });
+    let below = if side_by_side { Words::Below } else { Words::Above };
+    mark(&mut svg, deviation.largest, &plot, &circle, below);
     if let Some(hollow) = deviation.hollow {
-        mark(&mut svg, hollow, &plot, &ring());
+        mark(&mut svg, hollow, &plot, &ring(), Words::Above);
     }
     plot.frame(&mut svg, "x, mm", "distance from the part, mm");
     svg.finish()
@@ -116,8 +122,18 @@ fn ring() -> String {
     format!("r=\"5\" fill=\"#ffffff\" stroke=\"{VERMILION}\" stroke-width=\"2\"")
 }
 
+/// How much room the words of a mark take, to the side and upwards.
+const WORDS: [f64; 2] = [160.0, 16.0];
+
+/// Where the words of a mark stand.
+#[derive(Clone, Copy)]
+enum Words {
+    Above,
+    Below,
+}
+
 /// A circle at a place, with its distance and x.
-fn mark(svg: &mut Svg, place: [f64; 2], plot: &Plot, circle: &str) {
+fn mark(svg: &mut Svg, place: [f64; 2], plot: &Plot, circle: &str, words: Words) {
     let [x, y] = plot.at(place);
     svg.line(&format!(
         "  <circle cx=\"{}\" cy=\"{}\" {circle}/>",
@@ -134,8 +150,12 @@ fn mark(svg: &mut Svg, place: [f64; 2], plot: &Plot, circle: &str) {
         Anchor::End => -10.0,
         Anchor::Start | Anchor::Middle => 10.0,
     };
+    let down = match words {
+        Words::Above => -4.0,
+        Words::Below => 16.0,
+    };
     svg.text(
-        (x + side, y - 4.0),
+        (x + side, y + down),
         anchor,
         &format!("font-weight=\"bold\" {}", sheet::HALO),
         &format!("{:.2} mm at x {:.1}", place[1], place[0]),

@@ -30,7 +30,7 @@ pub enum Standing {
     Takes(Duration),
     /// More stays on the part than may.
     Leaves {
-        /// How much, along the part's normal.
+        /// How much: the machined contour's largest distance from the part.
         height: Length,
         /// How much may stay.
         limit: Length,

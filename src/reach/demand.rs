@@ -173,5 +173,15 @@ pub(super) fn turns(axis: &Axis, low: f64, high: f64) -> Vec<f64> {
     }
 }
 
+/// The turns by which a sweep is moved to lie most in the middle of an axis' range, in rad; none for a linear axis.
+pub(super) fn turn_to_middle(axis: &Axis, low: f64, high: f64) -> f64 {
+    match axis.kind {
+        AxisKind::Rotary => {
+            ((f64::midpoint(axis.min, axis.max) - f64::midpoint(low, high)) / TAU).round() * TAU
+        }
+        AxisKind::Linear => 0.0,
+    }
+}
+
 /// Most turns of one axis that are told apart; catalogues have none with more than five.
 const MOST_TURNS: u32 = 16;

@@ -31,6 +31,16 @@ pub enum Leg {
 }
 
 impl Leg {
+    /// The pose to which it leads; none for home.
+    #[must_use]
+    pub const fn taught(&self) -> Option<Taught> {
+        match self {
+            Self::ByAxes(taught) => Some(*taught),
+            Self::Along(stroke) => Some(stroke.to),
+            Self::Still | Self::Home => None,
+        }
+    }
+
     /// The course, if it is one.
     #[must_use]
     pub const fn stroke(&self) -> Option<&Stroke> {

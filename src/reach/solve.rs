@@ -2,7 +2,10 @@
 //!
 //! Wanted is one branch of the inverse kinematics, and one turn of each axis, that carries the whole program with the largest
 //! margin ([`super::demand`]). Taught poses alone say for each branch what its margin is at most, cheaply; branches are then
-//! proven in the order of these bounds, until a proven margin is no smaller than the bounds of all that are left.
+//! proven in the order of these bounds, until a proven margin is no smaller than the bounds of all that are left. A branch whose
+//! bound is larger is asked for the motions about its worst taught pose first: where these leave no more than the best branch
+//! so far, it is not proven any further. So the two ways to flip a wrist, which share their first three axes and with them
+//! mostly the margin, are not both proven.
 //!
 //! A program that a branch carries but for the rates of axes, by a factor of two at most, is refused: its speeds are the
 //! user's to choose, and moves of all axes in the place of its travels would only hide that they are too high.
@@ -13,7 +16,7 @@
 //!
 //! Nothing depends on how many threads prove: proofs are joined in the order of the ops.
 
-use super::demand::{Demand, axis_margin};
+use super::demand::{Demand, axis_margin, turn_to_middle};
 use super::ladder::{Stuck, climb};
 use super::legs::{Leg, Taught, legs};
 use super::path::{Clearance, Proof};
@@ -26,11 +29,10 @@ use super::waypoints::waypoints;
 use super::ways::{OnBranch, Ways};
 use crate::kinematics::Joints;
 use crate::machine::Model;
-use core::f64::consts::TAU;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{Action, Axis, AxisKind, AxisValues, Cell, OpId, Program};
+use vcutc_backend_api::ir::{Action, Axis, AxisValues, Cell, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch};
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
 
@@ -92,6 +94,8 @@ pub struct Unreachable {
 pub enum Changes {
     /// In the air, where no branch carries the whole program.
     InTheAir,
+    /// The same, for who has another program to try: the first run that no branch carries is the last to be looked at.
+    InTheAirOrElse,
     /// Nowhere: what needs a change is refused. That is told much sooner, and enough for who asks whether another place or
     /// speed is better.
     Never,
@@ -134,7 +138,7 @@ pub fn solve(
         None => match trouble::too_fast(&survey, &bounds) {
             Some(trouble) => Err(Box::new(trouble)),
             None => match changes {
-                Changes::InTheAir => by_changes(&survey, &bounds, home),
+                Changes::InTheAir | Changes::InTheAirOrElse => by_changes(&survey, &bounds, home, changes),
                 Changes::Never => Err(Box::new(trouble::first(&survey, &bounds))),
             },
         },
@@ -200,15 +204,7 @@ type Bound = (Branch, Option<f64>);
 
 /// What each branch makes of the taught poses alone.
 fn screen(survey: &Survey<'_>) -> Vec<Bound> {
-    let taught: Vec<Taught> = survey
-        .legs
-        .iter()
-        .filter_map(|leg| match leg {
-            Leg::ByAxes(taught) => Some(*taught),
-            Leg::Along(stroke) => Some(stroke.to),
-            Leg::Still | Leg::Home => None,
-        })
-        .collect();
+    let taught: Vec<Taught> = survey.legs.iter().filter_map(Leg::taught).collect();
     let seen = taught
         .par_chunks(SCREENED)
         .map(|poses| {
@@ -242,11 +238,7 @@ const SCREENED: usize = 1024;
 /// The margin at axis values, each axis on its best turn: the one nearest to the middle of its range.
 pub(super) fn best_margin(axes: &[Axis], joints: &Joints) -> f64 {
     let margins = axes.iter().zip(joints).map(|(axis, &value)| {
-        let from_middle = value - f64::midpoint(axis.min, axis.max);
-        let by = match axis.kind {
-            AxisKind::Rotary => -(from_middle / TAU).round() * TAU,
-            AxisKind::Linear => 0.0,
-        };
+        let by = turn_to_middle(axis, value, value);
         axis_margin(axis, value + by, value + by)
     });
     margins.fold(f64::INFINITY, f64::min)
@@ -263,8 +255,13 @@ fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) ->
     by_bound.sort_by(|(_, a), (_, b)| b.total_cmp(a));
     let mut best: Option<Solved> = None;
     for (branch, bound) in by_bound {
-        if best.as_ref().is_some_and(|best| best.report.margin >= bound) {
-            break;
+        if let Some(best) = &best {
+            if best.report.margin >= bound {
+                break;
+            }
+            if leaves_no_more(survey, branch, best.report.margin) {
+                continue;
+            }
         }
         let Some(carried) = on_branch(survey, &stations, branch) else {
             continue;
@@ -280,6 +277,36 @@ fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) ->
         }
     }
     best
+}
+
+/// Whether the motions to and from a branch's worst taught pose leave no more than a margin, or are not carried at all: no
+/// program that has them leaves more.
+fn leaves_no_more(survey: &Survey<'_>, branch: Branch, margin: f64) -> bool {
+    let worst = (survey.legs.par_iter().enumerate())
+        .filter_map(|(index, leg)| {
+            let stand = survey.stand(leg.taught()?, branch)?;
+            Some((best_margin(survey.rig.axes, &stand), index))
+        })
+        .min_by(|(a, first), (b, second)| a.total_cmp(b).then(first.cmp(second)));
+    let Some((_, index)) = worst else { return true };
+    let (before, after) = survey.legs.split_at(index + 1);
+    let to = before.last().and_then(Leg::stroke);
+    let from = after.iter().find(|leg| **leg != Leg::Still).and_then(Leg::stroke);
+    to.into_iter().chain(from).any(|stroke| {
+        survey
+            .stroke(stroke, branch)
+            .map_or(true, |proof| best_sweep(survey.rig.axes, &proof) <= margin)
+    })
+}
+
+/// The margin of a motion, each axis on its best turn.
+fn best_sweep(axes: &[Axis], proof: &Proof) -> f64 {
+    let demand = Demand::of(OpId(0), proof);
+    let by = core::array::from_fn(|index| match axes.get(index) {
+        Some(axis) => turn_to_middle(axis, demand.low[index].value, demand.high[index].value),
+        None => 0.0,
+    });
+    demand.turned(&by).margin(axes)
 }
 
 /// All stations on one branch; nothing if it fails on any.
@@ -301,11 +328,16 @@ fn on_branch(survey: &Survey<'_>, stations: &[Station], branch: Branch) -> Optio
 }
 
 /// The best way with changes of the branch in the air.
-fn by_changes(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Result<Solved, Box<Trouble>> {
+fn by_changes(
+    survey: &Survey<'_>,
+    bounds: &[Bound],
+    home: Option<Joints>,
+    changes: Changes,
+) -> Result<Solved, Box<Trouble>> {
     let stations = split(survey.legs, Split::AtDetours);
     let mut carried = Vec::with_capacity(stations.len());
     let mut failed: Vec<Vec<(Branch, Vec<Failure>)>> = Vec::with_capacity(stations.len());
-    for station in &stations {
+    for (index, station) in stations.iter().enumerate() {
         let (mut carrying, mut failing) = (Vec::new(), Vec::new());
         if station.kind != StationKind::Home {
             for &(branch, _) in bounds {
@@ -319,8 +351,14 @@ fn by_changes(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Re
                 }
             }
         }
+        let is_stuck = carrying.is_empty() && station.kind != StationKind::Home;
         carried.push(carrying);
         failed.push(failing);
+        if is_stuck && changes == Changes::InTheAirOrElse {
+            return Err(Box::new(trouble::found(
+                survey, &stations, &carried, &failed, index,
+            )));
+        }
     }
     let mut ways = Ways::new(survey, &stations, &carried, home);
     match climb(&mut ways) {

@@ -1,9 +1,10 @@
 //! Where the axes are all along a program: at the end of every op, and close enough between.
 
-use super::legs::{Leg, Poses, Stroke, legs};
-use super::path::joints_on;
+use super::legs::{Leg, Poses, Stroke, legs, numbered};
+use super::path::Followed;
 use super::rig::Rig;
 use crate::kinematics::Joints;
+use rayon::prelude::*;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program};
 use vcutc_backend_api::motion::ReachableProgram;
 
@@ -13,6 +14,8 @@ pub const CLOSE: f64 = 5.0;
 pub const CLOSE_TURN: f64 = core::f64::consts::PI / 90.0;
 /// Most samples of one motion.
 const MOST_SAMPLES: f64 = 100_000.0;
+/// About how many samples are held at once.
+const HELD: f64 = 65_536.0;
 
 /// How close samples are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +32,13 @@ impl Spacing {
         way: CLOSE,
         turn: CLOSE_TURN,
     };
+
+    /// Close enough where an op is narrower than what can be seen of it: on 25 mm of a robot's way an axis is within a few
+    /// thousandths of a degree of a straight line between samples.
+    pub const APART: Self = Self {
+        way: 5.0 * CLOSE,
+        turn: 2.5 * CLOSE_TURN,
+    };
 }
 
 /// The axes at one place.
@@ -42,88 +52,160 @@ pub struct Sample {
     pub joints: Joints,
 }
 
-/// The samples of every op that moves, in order. One op after the other is sampled, so nothing is held but the legs.
+/// What an op moves, sampled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// The axes when it begins; not known of the first motion of a machine without a home.
+    pub start: Option<Joints>,
+    /// The samples, the last one at its end.
+    pub samples: Vec<Sample>,
+}
+
+/// The samples of every op that moves, in order.
 ///
 /// # Errors
 /// What `take` returns.
 pub fn trajectory<E>(
     reached: &ReachableProgram,
     rig: &Rig<'_>,
-    take: impl FnMut(Sample) -> Result<(), E>,
-) -> Result<(), E> {
-    trajectory_by(reached, rig, &Spacing::CLOSE, take)
-}
-
-/// The same with samples at another distance.
-///
-/// # Errors
-/// What `take` returns.
-pub fn trajectory_by<E>(
-    reached: &ReachableProgram,
-    rig: &Rig<'_>,
     spacing: &Spacing,
     mut take: impl FnMut(Sample) -> Result<(), E>,
 ) -> Result<(), E> {
+    let samples = |motion: Motion| motion.samples;
+    motions(reached, rig, spacing, samples, |samples| {
+        samples.into_iter().try_for_each(&mut take)
+    })
+}
+
+/// What is made of every op that moves, in order. So many ops are sampled at once as have [`HELD`] samples, on all processors.
+///
+/// # Errors
+/// What `take` returns.
+pub fn motions<T: Send, E>(
+    reached: &ReachableProgram,
+    rig: &Rig<'_>,
+    spacing: &Spacing,
+    make: impl Fn(Motion) -> T + Sync,
+    mut take: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
     let program = reached.program();
+    let legs = legs(program);
     let mut at: Option<Joints> = program
         .cell
         .as_ref()
         .and_then(|cell| cell.home)
         .map(|home| home.0);
-    for (op, leg) in super::legs::numbered(&legs(program)) {
+    let mut held = 0.0;
+    let mut batch: Vec<Moved<'_>> = Vec::new();
+    let mut flush = |batch: &mut Vec<Moved<'_>>| -> Result<(), E> {
+        let made: Vec<T> = batch
+            .par_drain(..)
+            .map(|moved| make(moved.sampled(reached, rig)))
+            .collect();
+        made.into_iter().try_for_each(&mut take)
+    };
+    for (op, leg) in numbered(&legs) {
         let Some(end) = reached.axes_after(op).map(|end| end.0) else {
             continue;
         };
-        match (leg, at) {
-            (Leg::Still, _) => continue,
-            (Leg::Home | Leg::ByAxes(_), Some(start)) => {
-                let steps = axis_steps(rig.axes, spacing, &start, &end);
-                for done in fractions(steps) {
-                    let joints = core::array::from_fn(|axis| start[axis] + (end[axis] - start[axis]) * done);
-                    take(Sample { op, done, joints })?;
-                }
-            }
-            (Leg::Along(stroke), Some(start)) => {
-                let steps = course_steps(program, spacing, stroke);
-                along(reached, rig, (op, stroke, steps), [&start, &end], &mut take)?;
-            }
-            (Leg::Home | Leg::ByAxes(_) | Leg::Along(_), None) => {}
+        if *leg == Leg::Still {
+            continue;
         }
-        take(Sample {
+        let moved = Moved::of(program, rig, spacing, (op, leg), at, end);
+        at = Some(end);
+        held += moved.steps;
+        batch.push(moved);
+        if held >= HELD {
+            flush(&mut batch)?;
+            held = 0.0;
+        }
+    }
+    flush(&mut batch)
+}
+
+/// An op that moves, before it is sampled.
+struct Moved<'l> {
+    op: OpId,
+    leg: &'l Leg,
+    start: Option<Joints>,
+    end: Joints,
+    /// Into how many steps it is divided.
+    steps: f64,
+}
+
+impl<'l> Moved<'l> {
+    fn of(
+        program: &Program,
+        rig: &Rig<'_>,
+        spacing: &Spacing,
+        (op, leg): (OpId, &'l Leg),
+        start: Option<Joints>,
+        end: Joints,
+    ) -> Self {
+        let steps = match (leg, start) {
+            (Leg::Home | Leg::ByAxes(_), Some(start)) => axis_steps(rig.axes, spacing, &start, &end),
+            (Leg::Along(stroke), Some(_)) => course_steps(program, spacing, stroke),
+            (Leg::Still, _) | (_, None) => 1.0,
+        };
+        Self {
+            op,
+            leg,
+            start,
+            end,
+            steps: steps.clamp(1.0, MOST_SAMPLES),
+        }
+    }
+
+    fn sampled(&self, reached: &ReachableProgram, rig: &Rig<'_>) -> Motion {
+        let &Self { op, start, end, .. } = self;
+        let mut samples = match (self.leg, start) {
+            (Leg::Home | Leg::ByAxes(_), Some(start)) => fractions(self.steps)
+                .map(|done| Sample {
+                    op,
+                    done,
+                    joints: core::array::from_fn(|axis| start[axis] + (end[axis] - start[axis]) * done),
+                })
+                .collect(),
+            (Leg::Along(stroke), Some(start)) => self.along(reached, rig, stroke, &start),
+            (Leg::Still, _) | (_, None) => Vec::new(),
+        };
+        samples.push(Sample {
             op,
             done: 1.0,
             joints: end,
-        })?;
-        at = Some(end);
+        });
+        Motion { start, samples }
     }
-    Ok(())
-}
 
-/// The samples of a course, divided into so many steps, but its end.
-fn along<E>(
-    reached: &ReachableProgram,
-    rig: &Rig<'_>,
-    (op, stroke, steps): (OpId, &Stroke, f64),
-    ends: [&Joints; 2],
-    take: &mut impl FnMut(Sample) -> Result<(), E>,
-) -> Result<(), E> {
-    let program = reached.program();
-    let (Some(course), Some(branch)) = (Poses::of(program).course(stroke), reached.branch_after(op)) else {
-        return Ok(());
-    };
-    let mut near = *ends[0];
-    for done in fractions(steps) {
-        if let Some(joints) = joints_on(rig, &course, branch, ends, done, &near) {
-            take(Sample { op, done, joints })?;
-            near = joints;
-        }
+    /// The samples of a course, but its end.
+    fn along(
+        &self,
+        reached: &ReachableProgram,
+        rig: &Rig<'_>,
+        stroke: &Stroke,
+        start: &Joints,
+    ) -> Vec<Sample> {
+        let op = self.op;
+        let course = Poses::of(reached.program()).course(stroke);
+        let (Some(course), Some(branch)) = (course, reached.branch_after(op)) else {
+            return Vec::new();
+        };
+        let Some(followed) = Followed::new(rig, &course, branch, [start, &self.end]) else {
+            return Vec::new();
+        };
+        let mut near = *start;
+        fractions(self.steps)
+            .filter_map(|done| {
+                let joints = followed.joints_at(done, &near)?;
+                near = joints;
+                Some(Sample { op, done, joints })
+            })
+            .collect()
     }
-    Ok(())
 }
 
 /// `1/n`, `2/n`, ... up to but without 1.
 fn fractions(steps: f64) -> impl Iterator<Item = f64> {
-    let steps = steps.clamp(1.0, MOST_SAMPLES);
     core::iter::successors(Some(1.0), |step| Some(step + 1.0))
         .take_while(move |&step| step < steps)
         .map(move |step| step / steps)

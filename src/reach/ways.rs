@@ -1,6 +1,6 @@
 //! The ways to stand through a program's runs, as the rungs of a [`Ladder`].
 
-use super::demand::{Demand, turns};
+use super::demand::{Demand, turn_to_middle, turns};
 use super::ladder::{Cost, Ladder};
 use super::path::Proof;
 use super::runs::{Station, StationKind};
@@ -182,24 +182,12 @@ pub(super) fn axis_without_turn(carried: &Carried, axes: &[Axis]) -> Option<(usi
         match turns(axis, low, high).first() {
             Some(&turn) => by[index] = turn,
             None => {
-                by[index] = nearest_turn(axis, low, high);
+                by[index] = turn_to_middle(axis, low, high);
                 misfit = misfit.or(Some(index));
             }
         }
     }
     misfit.map(|axis| (axis, by))
-}
-
-/// The turn on which a sweep lies most in the middle of an axis' range.
-fn nearest_turn(axis: &Axis, low: f64, high: f64) -> f64 {
-    use core::f64::consts::TAU;
-    use vcutc_backend_api::ir::AxisKind;
-    match axis.kind {
-        AxisKind::Rotary => {
-            ((f64::midpoint(axis.min, axis.max) - f64::midpoint(low, high)) / TAU).round() * TAU
-        }
-        AxisKind::Linear => 0.0,
-    }
 }
 
 impl Ladder for Ways<'_> {

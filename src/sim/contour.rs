@@ -8,7 +8,7 @@ use vcutc_backend_api::units::Length;
 /// A point of one contour, by its distance from the other: material left standing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scallop {
-    /// Height along the part's normal.
+    /// Distance to the nearest point of the other.
     pub height: Length,
     /// Its peak.
     pub peak: Point2,

@@ -19,7 +19,7 @@ pub struct Report {
     pub removed: Area,
     /// Area that stays on the part.
     pub residual: Area,
-    /// The highest material on the part, along its normal, and where it stands.
+    /// The point of the machined contour that is farthest from the nearest point of the part.
     pub scallop: Scallop,
     /// Mean height of material on the part: residual area over the profile's length.
     pub mean_scallop: Length,

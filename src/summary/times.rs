@@ -16,11 +16,19 @@ pub struct TimeFigures {
     pub basis_words: String,
     /// How many moves of all axes have no time, because it is not known.
     pub untimed: usize,
+    /// How many motions have their programmed time, because the axes could not be followed along them.
+    #[serde(skip_serializing_if = "is_none")]
+    pub unfollowed: usize,
     /// Of the whole program.
     #[serde(flatten)]
     pub all: KindFigures,
     /// Layer by layer.
     pub layers: Vec<LayerFigure>,
+}
+
+/// Whether there are none.
+const fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 /// Time by what it is spent on, in s.
@@ -68,6 +76,7 @@ pub fn figures(report: &Report, basis: Basis) -> TimeFigures {
         },
         basis_words: self::basis(basis),
         untimed: basis.untimed,
+        unfollowed: basis.unfollowed,
         all: kinds(&report.times.all),
         layers: report.times.layers.iter().map(layer).collect(),
     }
@@ -109,11 +118,20 @@ pub(super) fn basis(basis: Basis) -> String {
         Kept::Accelerations => "accelerations of the machine, from stop to stop",
         Kept::Jerks => "accelerations and jerks of the machine, from stop to stop",
     };
+    let mut words = kept.to_owned();
     match basis.untimed {
-        0 => kept.to_owned(),
-        1 => format!("{kept}; 1 move of all axes not counted"),
-        more => format!("{kept}; {more} moves of all axes not counted"),
+        0 => {}
+        1 => words += "; 1 move of all axes not counted",
+        more => words += &format!("; {more} moves of all axes not counted"),
     }
+    match basis.unfollowed {
+        0 => {}
+        1 => words += "; 1 motion at programmed speed, because the axes cannot be followed",
+        more => {
+            words += &format!("; {more} motions at programmed speed, because the axes cannot be followed")
+        }
+    }
+    words
 }
 
 /// A line for each layer.
@@ -134,4 +152,28 @@ pub fn table(figures: &TimeFigures) -> Vec<String> {
     core::iter::once(head)
         .chain(figures.layers.iter().map(line))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_timed_as_the_rest_is_told() {
+        let basis = |untimed, unfollowed| {
+            self::basis(Basis {
+                kept: Kept::Jerks,
+                untimed,
+                unfollowed,
+            })
+        };
+        let kept = "accelerations and jerks of the machine, from stop to stop";
+        assert_eq!(basis(0, 0), kept);
+        assert_eq!(
+            basis(2, 1),
+            format!(
+                "{kept}; 2 moves of all axes not counted; 1 motion at programmed speed, because the axes cannot be followed"
+            )
+        );
+    }
 }

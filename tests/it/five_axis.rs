@@ -3,7 +3,7 @@
 use crate::pipeline::{Files, compile, numbers};
 use crate::repository::read;
 use vcutc::reach::solve::rig;
-use vcutc::reach::trajectory::trajectory;
+use vcutc::reach::trajectory::{Spacing, trajectory};
 
 /// The job of an example, which asks for `generic/head_head_ac`, on another machine.
 fn on(machine: &str) -> Vec<String> {
@@ -82,7 +82,7 @@ fn the_axes_shown_go_on_without_a_jump() {
     let rig = rig(&machine.model, &cell);
     let mut last: Option<[f64; 6]> = None;
     let mut rows = 0;
-    trajectory(&reached.program, &rig, |sample| {
+    trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
         rows += 1;
         for (axis, value) in rig.axes.iter().zip(sample.joints) {
             assert!(

@@ -9,7 +9,7 @@ use serde_json::Value;
 use std::convert::Infallible;
 use vcutc::driver::Outcome;
 use vcutc::reach::solve::rig;
-use vcutc::reach::trajectory::trajectory;
+use vcutc::reach::trajectory::{Spacing, trajectory};
 use vcutc::report::playback::section;
 
 use vcutc::report::playback::track::{Knot, TURN_ERROR, WAY_ERROR, between};
@@ -167,22 +167,23 @@ fn axes_are_told_again_all_along_the_program() {
             let cell = program(&outcome).cell.as_ref().unwrap();
             let machine = outcome.job.as_ref().unwrap().machine.as_ref().unwrap();
             let rig = rig(&machine.model, cell);
-            let taken: Result<(), Infallible> = trajectory(&reached.program, &rig, |sample| {
-                let told = between(&knots[sample.op.0 as usize], sample.done);
-                for (axis, (told, joint)) in cell.axes.iter().zip(told.iter().zip(sample.joints)) {
-                    let most = match axis.kind {
-                        AxisKind::Rotary => TURN_ERROR,
-                        AxisKind::Linear => WAY_ERROR,
-                    };
-                    let off = (told - joint).abs();
-                    assert!(
-                        off <= most,
-                        "{job}, {pairing:?}: {} off by {off} in {sample:?}",
-                        axis.name
-                    );
-                }
-                Ok(())
-            });
+            let taken: Result<(), Infallible> =
+                trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+                    let told = between(&knots[sample.op.0 as usize], sample.done);
+                    for (axis, (told, joint)) in cell.axes.iter().zip(told.iter().zip(sample.joints)) {
+                        let most = match axis.kind {
+                            AxisKind::Rotary => TURN_ERROR,
+                            AxisKind::Linear => WAY_ERROR,
+                        };
+                        let off = (told - joint).abs();
+                        assert!(
+                            off <= most,
+                            "{job}, {pairing:?}: {} off by {off} in {sample:?}",
+                            axis.name
+                        );
+                    }
+                    Ok(())
+                });
             assert!(taken.is_ok());
         }
     }

@@ -234,19 +234,24 @@ fn sampled_axes_join_and_stay_within_what_is_told() {
     let cell = program.cell.clone().unwrap();
     let rig = rig(&job.machine.as_ref().unwrap().model, &cell);
     let mut last: Option<Joints> = None;
-    let taken = vcutc::reach::trajectory::trajectory(&reached.program, &rig, |sample| {
-        for (index, axis) in cell.axes.iter().enumerate() {
-            let value = sample.joints[index];
-            if value < axis.min - 1e-9 || value > axis.max + 1e-9 {
-                return Err(format!("{}: {value}", axis.name));
+    let taken = vcutc::reach::trajectory::trajectory(
+        &reached.program,
+        &rig,
+        &vcutc::reach::trajectory::Spacing::CLOSE,
+        |sample| {
+            for (index, axis) in cell.axes.iter().enumerate() {
+                let value = sample.joints[index];
+                if value < axis.min - 1e-9 || value > axis.max + 1e-9 {
+                    return Err(format!("{}: {value}", axis.name));
+                }
+                // Nowhere do 5 mm or 2 deg of the blade take an axis of this arm farther.
+                if last.is_some_and(|last| (value - last[index]).abs() > 0.15) {
+                    return Err(format!("{} jumps to {value}", axis.name));
+                }
             }
-            // Nowhere do 5 mm or 2 deg of the blade take an axis of this arm farther.
-            if last.is_some_and(|last| (value - last[index]).abs() > 0.15) {
-                return Err(format!("{} jumps to {value}", axis.name));
-            }
-        }
-        last = Some(sample.joints);
-        Ok(())
-    });
+            last = Some(sample.joints);
+            Ok(())
+        },
+    );
     assert_eq!(taken, Ok(()));
 }

@@ -101,15 +101,20 @@ fn the_axes_bring_the_blade_where_the_program_has_it() {
     // One stretch on one branch, whose axes never jump.
     assert_eq!(reached.report.stretches.len(), 1);
     let mut last = None;
-    let jumps = vcutc::reach::trajectory::trajectory(&reached.program, &rig, |sample| {
-        let from = last.replace(sample.joints).unwrap_or(sample.joints);
-        let most = from
-            .iter()
-            .zip(&sample.joints)
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max);
-        if most < 0.2 { Ok(()) } else { Err(most) }
-    });
+    let jumps = vcutc::reach::trajectory::trajectory(
+        &reached.program,
+        &rig,
+        &vcutc::reach::trajectory::Spacing::CLOSE,
+        |sample| {
+            let from = last.replace(sample.joints).unwrap_or(sample.joints);
+            let most = from
+                .iter()
+                .zip(&sample.joints)
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max);
+            if most < 0.2 { Ok(()) } else { Err(most) }
+        },
+    );
     assert_eq!(jumps, Ok(()));
 }
 

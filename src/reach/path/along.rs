@@ -78,6 +78,7 @@ impl Along {
         (self.here + self.slope + self.bend * 0.5).and(self.value)
     }
 
+    #[inline(always)]
     pub(super) fn squared(self) -> Self {
         Self {
             here: self.here.squared(),
@@ -90,6 +91,7 @@ impl Along {
     }
 
     /// Where the quantity stays positive.
+    #[inline(always)]
     pub(super) fn root(self) -> Option<Self> {
         if self.value.low < NEXT_TO_NOTHING {
             return None;
@@ -109,6 +111,7 @@ impl Along {
     }
 
     /// Sine and cosine.
+    #[inline(always)]
     pub(super) fn sin_cos(self) -> (Self, Self) {
         let (sin_here, cos_here) = self.here.sin_cos();
         // Neither changes faster than the angle.
@@ -138,6 +141,7 @@ impl Along {
 
     /// The angle of a point `(x, y)` that stays away from the origin. It is continuous on the span, and at the middle of
     /// the span within half a turn either way.
+    #[inline(always)]
     pub(super) fn arc(y: Self, x: Self) -> Option<Self> {
         let distance_squared = x.value.squared() + y.value.squared();
         if distance_squared.low < NEXT_TO_NOTHING {
@@ -162,6 +166,7 @@ impl Along {
     }
 
     /// Shifted by a constant.
+    #[inline(always)]
     pub(super) fn plus(self, constant: f64) -> Self {
         let by = Interval::exactly(constant);
         Self {
@@ -171,6 +176,7 @@ impl Along {
         }
     }
 
+    #[inline(always)]
     fn narrowed(self) -> Self {
         let rate = self.rate.and(self.slope + self.bend.either_way());
         let by_rate = self.here + rate.either_way();
@@ -183,6 +189,7 @@ impl Along {
     }
 
     /// Only divisions make numbers large.
+    #[inline(always)]
     fn bounded(self) -> Option<Self> {
         (self.bend.magnitude() < HUGE && self.rate.magnitude() < HUGE).then_some(self)
     }
@@ -190,6 +197,7 @@ impl Along {
 
 impl Neg for Along {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Self {
             here: -self.here,
@@ -203,6 +211,7 @@ impl Neg for Along {
 
 impl Add for Along {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self {
             here: self.here + other.here,
@@ -217,6 +226,7 @@ impl Add for Along {
 
 impl Sub for Along {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -224,6 +234,7 @@ impl Sub for Along {
 
 impl Mul for Along {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self {
             here: self.here * other.here,
@@ -238,6 +249,7 @@ impl Mul for Along {
 
 impl Mul<f64> for Along {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         Self {
             here: self.here * factor,

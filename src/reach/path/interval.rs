@@ -90,6 +90,7 @@ impl Interval {
         low <= self.low && self.low <= self.high && self.high <= high
     }
 
+    #[inline(always)]
     pub(super) fn squared(self) -> Self {
         let (low, high) = (self.low * self.low, self.high * self.high);
         let least = if self.low <= 0.0 && self.high >= 0.0 {
@@ -105,6 +106,7 @@ impl Interval {
     }
 
     /// The quotient by a divisor that is positive throughout.
+    #[inline(always)]
     pub(super) fn over(self, divisor: Self) -> Self {
         let inverse = outward(1.0 / divisor.high, 1.0 / divisor.low);
         self * inverse
@@ -147,6 +149,7 @@ const fn greater(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
 }
 
+#[inline(always)]
 fn outward(low: f64, high: f64) -> Interval {
     Interval {
         low: low - (low.abs() * f64::EPSILON + f64::MIN_POSITIVE),
@@ -156,6 +159,7 @@ fn outward(low: f64, high: f64) -> Interval {
 
 impl Neg for Interval {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Self {
             low: -self.high,
@@ -166,6 +170,7 @@ impl Neg for Interval {
 
 impl Add for Interval {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         outward(self.low + other.low, self.high + other.high)
     }
@@ -173,6 +178,7 @@ impl Add for Interval {
 
 impl Sub for Interval {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         outward(self.low - other.high, self.high - other.low)
     }
@@ -180,6 +186,7 @@ impl Sub for Interval {
 
 impl Mul for Interval {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self.low * other.low, self.low * other.high);
         let (c, d) = (self.high * other.low, self.high * other.high);
@@ -192,6 +199,7 @@ impl Mul for Interval {
 
 impl Mul<f64> for Interval {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         let (a, b) = (self.low * factor, self.high * factor);
         outward(lesser(a, b), greater(a, b))

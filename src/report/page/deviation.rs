@@ -50,7 +50,8 @@ fn figures(subject: Subject<'_>) -> String {
             "highest scallop",
             format!("{:.3} mm", report.scallop.height.to_mm()),
             format!(
-                "material on the part, along its normal, at x {:.1} mm",
+                "the largest distance of the machined contour from the nearest point of the part, at x {:.1} mm; limits on \
+                     the scallop bound this one",
                 report.scallop.peak.x
             ),
         ),

@@ -10,7 +10,7 @@ use crate::picture::thin::Thinned;
 use crate::picture::{Prefix, joints};
 use crate::reach::demand::axis_margin;
 use crate::reach::solve::rig;
-use crate::reach::trajectory::{Sample, trajectory};
+use crate::reach::trajectory::{Sample, Spacing, trajectory};
 use crate::reach_summary::AxisFigure;
 use crate::report::Material;
 use crate::sim::timing::Kind;
@@ -29,7 +29,13 @@ pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
     let clock = Clock::of(program, &material.compiled.op_times);
     let home = cell.home.map(|home| home.0);
     let mut curves = Curves::new(&cell.axes, &clock, home);
-    let taken = trajectory(&reached.program, &rig(&machine.model, cell), |sample| {
+    let spacing = if program.ops.len() > NARROW * joints::COLUMNS as usize {
+        Spacing::APART
+    } else {
+        Spacing::CLOSE
+    };
+    let rig = rig(&machine.model, cell);
+    let taken = trajectory(&reached.program, &rig, &spacing, |sample| {
         curves.take(&sample, &clock);
         Ok::<(), Infallible>(())
     });
@@ -60,6 +66,9 @@ pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
         layers: &clock.layers,
     }))
 }
+
+/// From so many ops a column of the picture, samples within an op need not be close.
+const NARROW: usize = 4;
 
 /// When ops begin, in s.
 struct Clock {

@@ -3,7 +3,7 @@
 //! The axes at the end of every op are kept, and between them the fewest places (knots) from which the way of the axes can
 //! be told again. Between knots axes follow the cubic through the four nearest ones of the same op, its start among them; a
 //! motion of all axes needs no knots of its own, a straight cut one or two. Knots are added until every sample of
-//! [`trajectory_by`] at [`SPACING`] is told again well within [`TURN_ERROR`] and [`WAY_ERROR`], so that closer samples are
+//! [`motions`] at [`SPACING`] is told again well within [`TURN_ERROR`] and [`WAY_ERROR`], so that closer samples are
 //! within them.
 //!
 //! Values are kept in 16 bits over the range that the axis uses, which the errors take into account.
@@ -11,9 +11,9 @@
 use super::timeline::place;
 use crate::kinematics::Joints;
 use crate::reach::rig::Rig;
-use crate::reach::trajectory::{Sample, Spacing, trajectory_by};
+use crate::reach::trajectory::{Motion, Spacing, motions};
 use core::convert::Infallible;
-use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
+use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 
 /// Largest error of a rotary axis, in rad: 0.05 deg.
@@ -61,9 +61,10 @@ impl Track {
     /// Of a program and the machine that carries it out.
     #[must_use]
     pub fn of(reached: &ReachableProgram, rig: &Rig<'_>) -> Self {
-        let mut thinned = Thinned::new(reached, rig.axes);
-        let taken: Result<(), Infallible> = trajectory_by(reached, rig, &SPACING, |sample| {
-            thinned.take(sample);
+        let mut thinned = Thinned::new(reached);
+        let made = |motion: Motion| Told::of(rig.axes, &motion);
+        let taken: Result<(), Infallible> = motions(reached, rig, &SPACING, made, |told| {
+            thinned.take(told);
             Ok(())
         });
         match taken {
@@ -93,52 +94,57 @@ pub fn between(knots: &[Knot], done: f64) -> Joints {
     joints
 }
 
+/// The knots of an op.
+struct Told {
+    op: Option<OpId>,
+    /// Where its axes begin.
+    from: Joints,
+    knots: Vec<Knot>,
+}
+
+impl Told {
+    fn of(axes: &[Axis], motion: &Motion) -> Self {
+        let samples: Vec<Knot> = (motion.samples.iter())
+            .map(|sample| Knot {
+                done: in_steps(sample.done),
+                joints: sample.joints,
+            })
+            .collect();
+        // Without a home nobody knows where the axes begin: they are where the first motion brings them.
+        let ends = samples.last().map(|end| end.joints).unwrap_or_default();
+        let from = motion.start.unwrap_or(ends);
+        Self {
+            op: motion.samples.first().map(|sample| sample.op),
+            from,
+            knots: fewest(axes, from, &samples),
+        }
+    }
+}
+
 /// Knots as they are found, op by op.
-struct Thinned<'a> {
-    axes: &'a [Axis],
+struct Thinned {
     start: Option<Joints>,
-    /// Where the axes were when the op at hand began.
-    at: Option<Joints>,
-    /// Samples of the op at hand.
-    samples: Vec<Knot>,
     counts: Vec<u32>,
     knots: Vec<Knot>,
 }
 
-impl<'a> Thinned<'a> {
-    fn new(reached: &ReachableProgram, axes: &'a [Axis]) -> Self {
+impl Thinned {
+    fn new(reached: &ReachableProgram) -> Self {
         let program = reached.program();
         let home = program.cell.as_ref().and_then(|cell| cell.home);
-        let start = home.map(|home| home.0);
         Self {
-            axes,
-            start,
-            at: start,
-            samples: Vec::new(),
+            start: home.map(|home| home.0),
             counts: vec![0; program.ops.len()],
             knots: Vec::new(),
         }
     }
 
-    fn take(&mut self, sample: Sample) {
-        let Sample { op, done, joints } = sample;
-        self.samples.push(Knot {
-            done: in_steps(done),
-            joints,
-        });
-        if done < 1.0 {
-            return;
+    fn take(&mut self, told: Told) {
+        self.start.get_or_insert(told.from);
+        if let Some(count) = told.op.and_then(|op| self.counts.get_mut(place(op))) {
+            *count = u32::try_from(told.knots.len()).unwrap_or(u32::MAX);
         }
-        // Without a home nobody knows where the axes begin: they are where the first motion brings them.
-        let from = self.at.unwrap_or(joints);
-        self.start.get_or_insert(from);
-        self.at = Some(joints);
-        let kept = fewest(self.axes, from, &self.samples);
-        if let Some(count) = self.counts.get_mut(place(op)) {
-            *count = u32::try_from(kept.len()).unwrap_or(u32::MAX);
-        }
-        self.knots.extend(kept);
-        self.samples.clear();
+        self.knots.extend(told.knots);
     }
 
     fn packed(self, axes: &[Axis]) -> Track {
