@@ -21,6 +21,7 @@ mod descent;
 mod formulas;
 mod ground;
 mod jet;
+mod line;
 mod number;
 mod polish;
 mod problem;
@@ -150,7 +151,11 @@ fn halved(
 
 fn on_lattice(problem: &Problem, lattice: Lattice, measure: Measure, goal: Goal) -> Option<Optimum> {
     let model = Model::new(problem, lattice);
-    let found = search::best(&model, measure, goal)?;
+    let told = match goal {
+        Goal::Best => line::best(&model, measure),
+        Goal::Any | Goal::Quick => None,
+    };
+    let found = told.or_else(|| search::best(&model, measure, goal))?;
     Some(optimum(problem, &model, lattice, &found))
 }
 
