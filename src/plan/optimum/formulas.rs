@@ -400,22 +400,39 @@ impl Model {
         if self.given() {
             return bounds.least;
         }
-        let most = bounds.most;
-        let capped = |layer: N| if self.tame { layer } else { layer.lesser(most) };
-        let layer = match (keeping, bounds.by_scallop) {
-            (Keeping::Both, Some(by_scallop)) => bounds.by_reach.lesser(by_scallop).lesser(most),
-            (Keeping::Both, None) => bounds.by_reach.lesser(most),
+        let asked = |cap: N, layer: N| {
+            // Where the bounds do not allow the least layer nothing is kept, and what it would cost says nothing.
+            layer.greater(bounds.least).lesser(cap)
+        };
+        let capped = |cap: N| {
+            if self.tame {
+                cap
+            } else {
+                asked(cap, cap.lesser(bounds.most))
+            }
+        };
+        // Where the scallop has no room at all, some layer that is one.
+        let floor = N::constant(self.layer[0]);
+        match (keeping, bounds.by_scallop.map(|most| most.greater(floor))) {
+            (Keeping::Both, Some(by_scallop)) => {
+                let cap = bounds.by_reach.lesser(by_scallop);
+                asked(cap, cap.lesser(bounds.most))
+            }
+            (Keeping::Both, None) => asked(bounds.by_reach, bounds.by_reach.lesser(bounds.most)),
             (Keeping::Reach, _) => capped(bounds.by_reach),
             (Keeping::Scallop, Some(by_scallop)) => capped(by_scallop),
-            (Keeping::Scallop, None) | (Keeping::Neither, _) => most,
-        };
-        layer.greater(bounds.least)
+            (Keeping::Scallop, None) | (Keeping::Neither, _) => bounds.most.greater(bounds.least),
+        }
     }
 
     /// What a shape costs with the layer that some of the bounds allow.
     pub(super) fn cost<N: Number>(&self, shape: Shape<N>, bounds: &Bounds<N>, keeping: Keeping) -> Cost<N> {
         let layer = self.layer(bounds, keeping);
-        let half_step = shape.aspect * layer;
+        let reached = match keeping {
+            Keeping::Both | Keeping::Reach if !self.given() => self.reached(shape, bounds.flank),
+            Keeping::Both | Keeping::Reach | Keeping::Scallop | Keeping::Neither => f64::INFINITY,
+        };
+        let half_step = (shape.aspect * layer).known_below(reached);
         self.cost_of(&Cut {
             layer,
             half_step,
@@ -424,6 +441,14 @@ impl Model {
             extension: self.extension(shape, bounds.flank, layer),
             turn: self.turn(shape.tangent),
         })
+    }
+
+    /// The widest half step that the blade reaches in a box: `rho t h` is `rho` times the sine of the swing and the length of
+    /// edge that `h` is of, which says more of wide boxes than the product of their highest values does.
+    fn reached<N: Number>(&self, shape: Shape<N>, flank: Flank<N>) -> f64 {
+        let longest = self.upright_reach / flank.factor.lowest();
+        // For roundings, and for what still counts as reached.
+        shape.share.highest() * shape.tangent.highest().over_hypotenuse(1.0) * longest * (1.0 + 1e-10)
     }
 
     /// What cuts cost [Cui 8-11]: two passes with their run-outs, the turn between them, and the turn or the step to the next

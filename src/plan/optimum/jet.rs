@@ -28,6 +28,12 @@ pub(super) trait Scalar: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Ou
     fn arc_tangent(self) -> Self;
     /// Whether this is the smaller of two; unsure where they overlap.
     fn compared(self, other: Self) -> Compared;
+    /// No value is above this one.
+    fn highest(self) -> f64;
+    /// No value is below this one.
+    fn lowest(self) -> f64;
+    /// This, of which it is known that it is no more than that.
+    fn known_below(self, most: f64) -> Self;
     /// The smaller of two.
     fn smaller(self, other: Self) -> Self;
     /// The larger of two.
@@ -77,6 +83,15 @@ impl Scalar for f64 {
             Compared::Second
         }
     }
+    fn highest(self) -> f64 {
+        self
+    }
+    fn lowest(self) -> f64 {
+        self
+    }
+    fn known_below(self, _: f64) -> Self {
+        self
+    }
     fn smaller(self, other: Self) -> Self {
         self.lesser(other)
     }
@@ -123,6 +138,15 @@ impl Scalar for Interval {
         } else {
             Compared::Unsure
         }
+    }
+    fn highest(self) -> f64 {
+        self.high
+    }
+    fn lowest(self) -> f64 {
+        self.low
+    }
+    fn known_below(self, most: f64) -> Self {
+        self.known_below(most)
     }
     fn smaller(self, other: Self) -> Self {
         Self {
@@ -316,6 +340,18 @@ impl<S: Scalar, const D: usize, const P: usize> Number for Jet<S, D, P> {
         let first = (self.value * self.value).plus(1.0).inverse();
         let second = (self.value * first * first).times(-2.0);
         self.of(self.value.arc_tangent(), first, second)
+    }
+    fn highest(self) -> f64 {
+        self.value.highest()
+    }
+    fn lowest(self) -> f64 {
+        self.value.lowest()
+    }
+    fn known_below(self, most: f64) -> Self {
+        Self {
+            value: self.value.known_below(most),
+            ..self
+        }
     }
     fn or_down_to_one(self) -> Self {
         Self::kinked(S::exactly(1.0).larger(self.value))

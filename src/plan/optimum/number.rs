@@ -30,6 +30,12 @@ pub(super) trait Number:
     fn over_hypotenuse(self, leg: f64) -> Self;
     /// The arc of a tangent.
     fn arc_tangent(self) -> Self;
+    /// No value is above this one.
+    fn highest(self) -> f64;
+    /// No value is below this one.
+    fn lowest(self) -> f64;
+    /// This, of which it is known that it is no more than that.
+    fn known_below(self, most: f64) -> Self;
     /// Something from 1 to this, of which no more is known; for a plain number, itself.
     fn or_down_to_one(self) -> Self;
 }
@@ -64,6 +70,15 @@ impl Number for f64 {
     }
     fn arc_tangent(self) -> Self {
         libm::atan(self)
+    }
+    fn highest(self) -> f64 {
+        self
+    }
+    fn lowest(self) -> f64 {
+        self
+    }
+    fn known_below(self, _: f64) -> Self {
+        self
     }
     fn or_down_to_one(self) -> Self {
         self
@@ -165,6 +180,14 @@ impl Interval {
     pub(super) fn over_hypotenuse(self, leg: f64) -> Self {
         let share = |side: f64| side / hypotenuse(side, leg);
         far_outward(share(self.low), share(self.high))
+    }
+
+    /// As far as it is no more than that; what is above altogether comes down to its low end.
+    pub(super) fn known_below(self, most: f64) -> Self {
+        Self {
+            low: self.low,
+            high: self.high.lesser(most).greater(self.low),
+        }
     }
 
     /// With a plain number added.
@@ -390,6 +413,21 @@ impl Number for Slopes {
         let value = self.value.arc_tangent();
         let derivative = self.value.square().plus(1.0).inverse();
         self.of(value, derivative)
+    }
+
+    fn highest(self) -> f64 {
+        self.value.high
+    }
+
+    fn lowest(self) -> f64 {
+        self.value.low
+    }
+
+    fn known_below(self, most: f64) -> Self {
+        Self {
+            value: self.value.known_below(most),
+            by: self.by,
+        }
     }
 
     fn or_down_to_one(self) -> Self {
