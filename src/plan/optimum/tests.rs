@@ -641,6 +641,14 @@ fn relaxing_a_bound_pays_and_a_trade_off_is_one() {
             .all(|s| s.then.time.to_s() <= optimum.time.to_s() * (1.0 + 1e-9)),
         "{bought:?}"
     );
+    // Who cuts another lattice is not told what a change of lattice would save.
+    let orthogonal = solved(Formulas::Exact, Lattice::Orthogonal);
+    let bought = sensitivities(&problem, &orthogonal);
+    assert!(!bought.is_empty());
+    for sensitivity in bought {
+        assert_eq!(sensitivity.then.lattice, Lattice::Orthogonal);
+        assert!(sensitivity.then.time > orthogonal.time * 0.97, "{sensitivity:?}");
+    }
     let front = trade_off(&problem, 9);
     assert!(front.len() >= 8, "{}", front.len());
     assert!(
