@@ -91,19 +91,12 @@ impl<'m> Line<'m> {
             } else {
                 bracket.high = place;
             }
-            let aim = if curve > 0.0 {
-                place - slope / curve
-            } else {
-                f64::NAN
-            };
-            let next = if aim > bracket.low && aim < bracket.high {
-                aim
-            } else if aim >= self.range.high && place < self.range.high {
-                self.range.high
-            } else if aim <= self.range.low && place > self.range.low {
-                self.range.low
-            } else {
-                bracket.between()
+            let aim = (curve > 0.0).then(|| place - slope / curve);
+            let next = match aim {
+                Some(aim) if aim > bracket.low && aim < bracket.high => aim,
+                Some(aim) if aim >= self.range.high && place < self.range.high => self.range.high,
+                Some(aim) if aim <= self.range.low && place > self.range.low => self.range.low,
+                Some(_) | None => bracket.between(),
             };
             if (next - place).abs() <= SHORT * place {
                 return next;
