@@ -20,6 +20,8 @@ pub struct Relaxed {
     pub relaxed: String,
     /// Time by the model that would be saved; negative where another objective takes more of it.
     pub saves: Duration,
+    /// By how much the objective would fall, in its unit: s, mm or cuts.
+    pub gain: f64,
     /// By which share the objective would fall.
     pub share: f64,
 }
@@ -60,6 +62,7 @@ fn tell(
         place: written(*bound, asked).map(|span| place(sources, span)),
         relaxed: value(*bound, *relaxed),
         saves: best.time - then.time,
+        gain: before - measure(then),
         share: if before > 0.0 {
             1.0 - measure(then) / before
         } else {

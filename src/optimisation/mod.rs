@@ -68,14 +68,14 @@ pub struct Row {
     /// The formulas.
     pub formulas: Formulas,
     /// Whether these are the job's.
-    pub standing: Standing,
+    pub role: Role,
     /// The best parameters, or why there are none.
     pub best: Result<Optimum, Infeasible>,
 }
 
-/// How a row stands to the job.
+/// What a row is to the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum Role {
     /// The job is cut with it, but for rounding to the grid.
     Chosen,
     /// For comparison.
@@ -187,9 +187,9 @@ fn operation(
     let chosen = vcut.parameters.lattice;
     let formulas = asked.formulas.value;
     let rows = rows(&problem, chosen);
-    let best = rows.iter().find_map(|row| match row.standing {
-        Standing::Chosen => row.best.as_ref().ok(),
-        Standing::Other => None,
+    let best = rows.iter().find_map(|row| match row.role {
+        Role::Chosen => row.best.as_ref().ok(),
+        Role::Other => None,
     });
     let binding = best.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
     Some(OperationOptimum {
@@ -222,10 +222,10 @@ fn rows(problem: &Problem, chosen: Lattice) -> Vec<Row> {
         .map(|(lattice, formulas)| Row {
             lattice,
             formulas,
-            standing: if lattice == chosen && formulas == problem.formulas {
-                Standing::Chosen
+            role: if lattice == chosen && formulas == problem.formulas {
+                Role::Chosen
             } else {
-                Standing::Other
+                Role::Other
             },
             best: optimum::solve(&Problem {
                 formulas,
@@ -294,9 +294,9 @@ impl OperationOptimum {
     /// The best parameters by the job's formulas on the lattice it is cut with.
     #[must_use]
     pub fn chosen(&self) -> Option<&Optimum> {
-        self.rows.iter().find_map(|row| match row.standing {
-            Standing::Chosen => row.best.as_ref().ok(),
-            Standing::Other => None,
+        self.rows.iter().find_map(|row| match row.role {
+            Role::Chosen => row.best.as_ref().ok(),
+            Role::Other => None,
         })
     }
 }

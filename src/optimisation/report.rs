@@ -1,7 +1,7 @@
 //! What came of optimising, for people and for programs.
 
 use super::bounds::{Relaxed, name, value};
-use super::{OperationOptimum, Optimisation, Planned, Row, Standing};
+use super::{OperationOptimum, Optimisation, Planned, Role, Row};
 use crate::job::Objective;
 use crate::plan::optimum::{Bound, Infeasible, Optimum};
 use crate::plan::parameters::show;
@@ -59,7 +59,8 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
         "\n  planned    {}\n",
         planned_words(&operation.planned, scallop)
     );
-    text += &binding_text(&operation.binding);
+    text += &proven_text(operation);
+    text += &binding_text(operation.objective, &operation.binding);
     text += "\n  Least time by the model for other limits of the scallop:\n\n";
     text += &table(
         &["", "scallop", "time", "lattice", "swing", "layer", "step", "cuts"],
@@ -91,7 +92,17 @@ fn planned_words(planned: &Planned, scallop: Length) -> String {
     )
 }
 
-fn binding_text(binding: &[Relaxed]) -> String {
+/// How much better than the line the job is cut with others can be at most.
+fn proven_text(operation: &OperationOptimum) -> String {
+    operation.chosen().map_or(String::new(), |best| {
+        format!(
+            "  proven     by the model nothing else on this lattice is better by more than {:.0e} of it\n",
+            best.gap
+        )
+    })
+}
+
+fn binding_text(objective: Objective, binding: &[Relaxed]) -> String {
     let mut text = String::new();
     for (index, relaxed) in binding.iter().enumerate() {
         let head = if index == 0 { "binds" } else { "" };
@@ -105,11 +116,20 @@ fn binding_text(binding: &[Relaxed]) -> String {
             "  {head:<10} {}{place}; {} would save {} ({} %)",
             relaxed.words,
             relaxed.relaxed,
-            seconds(relaxed.saves),
+            gain(objective, relaxed),
             percent(relaxed.share)
         );
     }
     text
+}
+
+/// What is saved of the objective, with its unit.
+fn gain(objective: Objective, relaxed: &Relaxed) -> String {
+    match objective {
+        Objective::Time => seconds(relaxed.saves),
+        Objective::Scallop | Objective::BladeLoad => format!("{} mm", show(relaxed.gain)),
+        Objective::Cuts => format!("{:.1} cuts", relaxed.gain),
+    }
 }
 
 fn percent(share: f64) -> String {
@@ -127,9 +147,9 @@ fn seconds(time: Duration) -> String {
 }
 
 fn row_cells(row: &Row) -> Vec<String> {
-    let mark = match row.standing {
-        Standing::Chosen => "*",
-        Standing::Other => "",
+    let mark = match row.role {
+        Role::Chosen => "*",
+        Role::Other => "",
     };
     let head = [mark, row.lattice.word(), row.formulas.word()].map(str::to_owned);
     let rest = match &row.best {
@@ -302,8 +322,10 @@ struct BindingBody<'a> {
     words: &'a str,
     place: Option<&'a str>,
     relaxed: &'a str,
-    /// In s.
+    /// Of time by the model, in s, whatever the objective.
     saves: f64,
+    /// Of the objective, in its unit: s, mm or cuts.
+    gain: f64,
     /// Of the objective.
     share: f64,
 }
@@ -343,7 +365,7 @@ fn row_body(row: &Row) -> RowBody {
     RowBody {
         lattice: row.lattice.word(),
         model: row.formulas.word(),
-        chosen: row.standing == Standing::Chosen,
+        chosen: row.role == Role::Chosen,
         parameters: row.best.as_ref().ok().map(parameters_body),
         trouble: row.best.as_ref().err().map(why_not),
     }
@@ -371,6 +393,7 @@ fn binding_body(relaxed: &Relaxed) -> BindingBody<'_> {
         place: relaxed.place.as_deref(),
         relaxed: &relaxed.relaxed,
         saves: relaxed.saves.to_s(),
+        gain: relaxed.gain,
         share: relaxed.share,
     }
 }

@@ -125,11 +125,18 @@ fn rows() -> Vec<Row> {
 )]
 fn the_table_of_optima_is_current_and_the_papers() {
     let rows = rows();
-    let published = [515.3, 307.6, 261.6, 169.6];
-    for (row, published) in rows.iter().zip(published) {
+    // What the model says, and by which share the plan may differ from it: whole cuts and layers.
+    let published = [
+        (515.3, 0.024),
+        (307.6, 0.011),
+        (261.6, 0.021),
+        (169.6, 0.008),
+        (546.8, 0.006),
+    ];
+    for (row, (published, share)) in rows.iter().zip(published) {
         let [model, planned, bound, simulated] = row.figures();
         assert!((model - published).abs() < 0.35, "{}: {model}", row.name);
-        assert!((planned / model - 1.0).abs() < 0.25, "{}: {planned}", row.name);
+        assert!((planned / model - 1.0).abs() < share, "{}: {planned}", row.name);
         assert!(simulated <= bound + 1e-3, "{}: {simulated} {bound}", row.name);
         // What the planner needs for the lattice it has planned is within the edge in use.
         let PlannedOperation::RoughVcut(vcut) = &row.outcome.plan.as_ref().unwrap().operations[0];

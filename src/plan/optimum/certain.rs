@@ -9,7 +9,7 @@
 
 use super::descent::{Meets, Rest};
 use super::ground::{Ground, Term};
-use super::jet::Jet;
+use super::jet::OnPlane;
 use super::number::{Interval, Number, Slopes};
 use super::search::swing;
 
@@ -62,7 +62,7 @@ impl Blend {
         let mut sum = N::constant(0.0);
         for (term, weight) in self.parts {
             if weight > 0.0 {
-                sum = sum + N::constant(weight) * value(term);
+                sum = sum + value(term).times(weight);
             }
         }
         sum
@@ -89,12 +89,18 @@ impl Blend {
         None
     }
 
-    fn jet(&self, ground: &Ground<'_>, sides: [Interval; 2]) -> Jet<Interval> {
-        let at = [Jet::coordinate(0, sides[0]), Jet::coordinate(1, sides[1])];
+    fn jet(&self, ground: &Ground<'_>, sides: [Interval; 2]) -> OnPlane<Interval> {
+        let at = [OnPlane::coordinate(0, sides[0]), OnPlane::coordinate(1, sides[1])];
         self.blended(|term| ground.term(term, at))
     }
 
-    fn proves(&self, ground: &Ground<'_>, here: &Jet<Interval>, sides: [Interval; 2], least: f64) -> bool {
+    fn proves(
+        &self,
+        ground: &Ground<'_>,
+        here: &OnPlane<Interval>,
+        sides: [Interval; 2],
+        least: f64,
+    ) -> bool {
         let place = self.rest.place;
         let widths = [0, 1].map(|i| (place[i] - sides[i].low).max(sides[i].high - place[i]));
         let mut value = here.value.low;
@@ -147,8 +153,8 @@ impl Blend {
         &self,
         ground: &Ground<'_>,
         sides: [Interval; 2],
-    ) -> impl Iterator<Item = (Jet<Interval>, f64, f64)> {
-        let over = [Jet::coordinate(0, sides[0]), Jet::coordinate(1, sides[1])];
+    ) -> impl Iterator<Item = (OnPlane<Interval>, f64, f64)> {
+        let over = [OnPlane::coordinate(0, sides[0]), OnPlane::coordinate(1, sides[1])];
         let (first, top, place) = (self.parts[0].1, self.rest.top, self.rest.place);
         let rounding = |value: f64| 1e-12 * value.abs();
         self.rest

@@ -91,8 +91,7 @@ impl Chart {
             Plane::TangentAspect => shape.share,
             Plane::ShareAspect => shape.tangent,
         };
-        let [low, high] = self.third.map(N::constant);
-        let one = N::constant(1.0);
-        [third / low - one, high / third - one]
+        let [low, high] = self.third;
+        [third.times(1.0 / low).plus(-1.0), third.under(high).plus(-1.0)]
     }
 }

@@ -32,26 +32,64 @@ const MOST_HALVINGS: u32 = 120;
 
 /// Why a problem without parameters has none.
 pub(super) fn explain(problem: &Problem) -> Infeasible {
-    let mut rest = problem.clone();
+    let said: Vec<Bound> = ORDER
+        .into_iter()
+        .filter(|bound| bound.value(problem).is_some())
+        .collect();
     let mut bounds = Vec::new();
-    for bound in ORDER {
-        if bound.value(problem).is_none() {
-            continue;
-        }
-        let without = bound.dropped(&rest);
-        if any(&without).is_none() {
-            rest = without;
-        } else {
-            bounds.push(bound);
-        }
-    }
+    needed(problem.clone(), &said, &mut bounds);
     bounds.sort_unstable();
     let nearest = bounds.iter().map(|&bound| nearest(problem, bound)).collect();
     Infeasible::Conflict { bounds, nearest }
 }
 
+/// Drops those of some bounds without which the rest still conflicts, in their order, and names the others. Neighbours are
+/// dropped together where they can be: what conflicts without all of them does without each.
+fn needed(problem: Problem, bounds: &[Bound], named: &mut Vec<Bound>) -> Problem {
+    if bounds.is_empty() {
+        return problem;
+    }
+    let without = bounds
+        .iter()
+        .fold(problem.clone(), |rest, bound| bound.dropped(&rest));
+    if any(&without).is_none() {
+        return without;
+    }
+    if let [bound] = bounds {
+        named.push(*bound);
+        return problem;
+    }
+    let (first, second) = bounds.split_at(bounds.len() / 2);
+    let rest = needed(problem, first, named);
+    needed(rest, second, named)
+}
+
 /// The nearest value of a bound that all others allow.
 fn nearest(problem: &Problem, bound: Bound) -> Option<f64> {
+    match bound {
+        Bound::Time => within_least(problem, bound, Measure::Time),
+        Bound::Cuts => within_least(problem, bound, Measure::Cuts),
+        Bound::SwingLeast
+        | Bound::SwingMost
+        | Bound::LayerLeast
+        | Bound::LayerMost
+        | Bound::StepLeast
+        | Bound::StepMost
+        | Bound::OverlapLeast
+        | Bound::OverlapMost
+        | Bound::Scallop
+        | Bound::Edge => by_halving(problem, bound),
+    }
+}
+
+/// The nearest limit of what can be made least itself.
+fn within_least(problem: &Problem, bound: Bound, measure: Measure) -> Option<f64> {
+    let asked = bound.value(problem)?;
+    let value = bound.attained(&least(&bound.dropped(problem), measure)?);
+    eased(problem, bound, value, value - asked)
+}
+
+fn by_halving(problem: &Problem, bound: Bound) -> Option<f64> {
     let asked = bound.value(problem)?;
     let mut works = bound.attained(&any(&bound.dropped(problem))?);
     let mut fails = asked;

@@ -7,7 +7,7 @@
 //! first. Nothing here needs to be certain: what is found is tried as any other shape, and proven or not in `certain`.
 
 use super::ground::{Ground, KEPT, Term};
-use super::jet::Jet;
+use super::jet::OnPlane;
 
 /// Most steps.
 const MOST_STEPS: u32 = 40;
@@ -69,7 +69,7 @@ struct Step {
 }
 
 /// In shares of the place, so that both coordinates count alike.
-fn scaled(jet: Jet<f64>, place: [f64; 2]) -> Condition {
+fn scaled(jet: OnPlane<f64>, place: [f64; 2]) -> Condition {
     let [x, y] = place;
     Condition {
         off: jet.value,

@@ -51,16 +51,36 @@ pub(super) enum Keeping {
     Neither,
 }
 
+/// How flanks stand in the lattice.
+#[derive(Clone, Copy, Debug)]
+struct Flank<N> {
+    /// Secant of the swing.
+    secant: N,
+    /// Reach for each millimetre of layer.
+    factor: N,
+}
+
 /// What the layer of a shape is bounded by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds<N> {
-    secant: N,
-    factor: N,
+    flank: Flank<N>,
     pub(super) by_reach: N,
     pub(super) by_scallop: Option<N>,
     /// The least layer that is asked for, and the largest.
     pub(super) least: N,
     most: N,
+}
+
+/// What the cost of cuts is made of, each as tightly as it is known.
+struct Cut<N> {
+    layer: N,
+    half_step: N,
+    /// Steps in the stock's width.
+    points: N,
+    /// Layers in its mean depth.
+    layers: N,
+    extension: N,
+    turn: N,
 }
 
 /// What a shape costs with some layer.
@@ -294,27 +314,25 @@ impl Model {
             (Formulas::Paper, Lattice::Orthogonal, _) => N::constant(1.5),
             (Formulas::Paper, Lattice::Interlaced, _) => N::constant(1.0),
             (Formulas::Paper, Lattice::Free, _) => N::constant(2.0),
-            (Formulas::Exact, Lattice::Free, _) | (Formulas::Exact, _, Tooth::Any) => {
-                N::constant(1.0) + share
-            }
+            (Formulas::Exact, Lattice::Free, _) | (Formulas::Exact, _, Tooth::Any) => share.plus(1.0),
             (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced, Tooth::Behind(number)) => {
                 let (_, steps) = self.jump(number);
-                (N::constant(0.5) + share * N::constant(steps)).greater(N::constant(1.0))
+                share.times(steps).plus(0.5).greater(N::constant(1.0))
             }
             (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced, Tooth::Later(_)) => {
-                (N::constant(1.0) + share).or_down_to_one()
+                share.plus(1.0).or_down_to_one()
             }
         }
     }
 
     /// Scallop for each millimetre of layer: [Cui 12], or what is derived in `docs/process.md`, "Scallop".
     pub(super) fn scallop_factor<N: Number>(&self, shape: Shape<N>) -> N {
-        let drop = N::constant(1.0) + shape.share;
+        let drop = shape.share.plus(1.0);
         match self.lattice {
             Lattice::Orthogonal | Lattice::Free => (shape.aspect * shape.aspect + drop * drop).root(),
             Lattice::Interlaced => match self.formulas {
                 Formulas::Paper => drop,
-                Formulas::Exact => drop.greater((shape.aspect * shape.aspect + N::constant(1.0)).root()),
+                Formulas::Exact => drop.greater((shape.aspect * shape.aspect).plus(1.0).root()),
             },
         }
     }
@@ -325,7 +343,7 @@ impl Model {
     }
 
     fn drop<N: Number>(&self, tangent: N) -> N {
-        N::constant(self.standoff) * (N::constant(1.0) + tangent * tangent).root() / tangent
+        tangent.over_hypotenuse(1.0).under(self.standoff)
     }
 
     /// The edge in use.
@@ -333,27 +351,35 @@ impl Model {
         self.reach_factor(shape.share) * layer * (1.0 + shape.tangent * shape.tangent).sqrt() / self.sin_lead
     }
 
+    fn flank<N: Number>(&self, shape: Shape<N>, tooth: Tooth) -> Flank<N> {
+        Flank {
+            secant: shape.tangent.hypotenuse(1.0),
+            factor: self.factor(shape.share, tooth),
+        }
+    }
+
+    /// The layer that the blade reaches.
+    fn by_reach<N: Number>(&self, flank: Flank<N>) -> N {
+        (flank.secant * flank.factor).under(self.upright_reach)
+    }
+
     /// What bounds the layer of a shape.
     pub(super) fn bounds<N: Number>(&self, shape: Shape<N>, tooth: Tooth) -> Bounds<N> {
-        let one = N::constant(1.0);
-        let secant = (one + shape.tangent * shape.tangent).root();
-        let factor = self.factor(shape.share, tooth);
-        let by_reach = N::constant(self.upright_reach) / (secant * factor);
+        let flank = self.flank(shape, tooth);
+        let by_reach = self.by_reach(flank);
         let room = self.scallop.map(|scallop| {
             let room = N::constant(scallop - self.allowance);
             if self.standoff > 0.0 {
-                room - N::constant(self.standoff) * secant / shape.tangent
+                room - self.drop(shape.tangent)
             } else {
                 room
             }
         });
         let by_scallop = room.map(|room| room / self.scallop_factor(shape));
-        let two = shape.aspect + shape.aspect;
-        let least = N::constant(self.layer[0]).greater(N::constant(self.step[0]) / two);
-        let most = N::constant(self.layer[1]).lesser(N::constant(self.step[1]) / two);
+        let least = N::constant(self.layer[0]).greater(shape.aspect.under(0.5 * self.step[0]));
+        let most = N::constant(self.layer[1]).lesser(shape.aspect.under(0.5 * self.step[1]));
         Bounds {
-            secant,
-            factor,
+            flank,
             by_reach,
             by_scallop,
             least,
@@ -365,7 +391,7 @@ impl Model {
     pub(super) fn asked<N: Number>(&self, shape: Shape<N>, asked: Asked) -> N {
         match asked {
             Asked::Layer => N::constant(self.layer[0]),
-            Asked::Step => N::constant(self.step[0]) / (shape.aspect + shape.aspect),
+            Asked::Step => shape.aspect.under(0.5 * self.step[0]),
         }
     }
 
@@ -374,29 +400,71 @@ impl Model {
         if self.given() {
             return bounds.least;
         }
-        let most = bounds.most;
-        let capped = |layer: N| if self.tame { layer } else { layer.lesser(most) };
-        let layer = match (keeping, bounds.by_scallop) {
-            (Keeping::Both, Some(by_scallop)) => bounds.by_reach.lesser(by_scallop).lesser(most),
-            (Keeping::Both, None) => bounds.by_reach.lesser(most),
+        let asked = |cap: N, layer: N| {
+            // Where the bounds do not allow the least layer nothing is kept, and what it would cost says nothing.
+            layer.greater(bounds.least).lesser(cap)
+        };
+        let capped = |cap: N| {
+            if self.tame {
+                cap
+            } else {
+                asked(cap, cap.lesser(bounds.most))
+            }
+        };
+        // Where the scallop has no room at all, some layer that is one.
+        let floor = N::constant(self.layer[0]);
+        match (keeping, bounds.by_scallop.map(|most| most.greater(floor))) {
+            (Keeping::Both, Some(by_scallop)) => {
+                let cap = bounds.by_reach.lesser(by_scallop);
+                asked(cap, cap.lesser(bounds.most))
+            }
+            (Keeping::Both, None) => asked(bounds.by_reach, bounds.by_reach.lesser(bounds.most)),
             (Keeping::Reach, _) => capped(bounds.by_reach),
             (Keeping::Scallop, Some(by_scallop)) => capped(by_scallop),
-            (Keeping::Scallop, None) | (Keeping::Neither, _) => most,
-        };
-        layer.greater(bounds.least)
+            (Keeping::Scallop, None) | (Keeping::Neither, _) => bounds.most.greater(bounds.least),
+        }
     }
 
     /// What a shape costs with the layer that some of the bounds allow.
     pub(super) fn cost<N: Number>(&self, shape: Shape<N>, bounds: &Bounds<N>, keeping: Keeping) -> Cost<N> {
         let layer = self.layer(bounds, keeping);
-        let two = shape.aspect + shape.aspect;
-        let points = N::constant(self.width) / (two * layer) + N::constant(0.5);
-        let layers = (N::constant(self.depth) / layer - N::constant(0.5)).greater(N::constant(1.0));
-        let cuts = points * layers;
-        let change = N::constant(self.change) - layer - shape.aspect * layer;
-        let time = cuts * self.each_cut(shape, bounds.secant, bounds.factor, layer)
-            + layers * change * N::constant(1.0 / self.travel_feed);
-        Cost { layer, time, cuts }
+        let reached = match keeping {
+            Keeping::Both | Keeping::Reach if !self.given() => self.reached(shape, bounds.flank),
+            Keeping::Both | Keeping::Reach | Keeping::Scallop | Keeping::Neither => f64::INFINITY,
+        };
+        let half_step = (shape.aspect * layer).known_below(reached);
+        self.cost_of(&Cut {
+            layer,
+            half_step,
+            points: half_step.under(0.5 * self.width),
+            layers: layer.under(self.depth),
+            extension: self.extension(shape, bounds.flank, layer),
+            turn: self.turn(shape.tangent),
+        })
+    }
+
+    /// The widest half step that the blade reaches in a box: `rho t h` is `rho` times the sine of the swing and the length of
+    /// edge that `h` is of, which says more of wide boxes than the product of their highest values does.
+    fn reached<N: Number>(&self, shape: Shape<N>, flank: Flank<N>) -> f64 {
+        let longest = self.upright_reach / flank.factor.lowest();
+        // For roundings, and for what still counts as reached.
+        shape.share.highest() * shape.tangent.highest().over_hypotenuse(1.0) * longest * (1.0 + 1e-10)
+    }
+
+    /// What cuts cost [Cui 8-11]: two passes with their run-outs, the turn between them, and the turn or the step to the next
+    /// cut, whichever takes longer.
+    fn cost_of<N: Number>(&self, cut: &Cut<N>) -> Cost<N> {
+        let layers = cut.layers.plus(-0.5).greater(N::constant(1.0));
+        let cuts = cut.points.plus(0.5) * layers;
+        let sideways = cut.half_step.times(2.0 / self.travel_feed);
+        let each =
+            cut.extension.times(4.0 / self.cut_feed).plus(self.pass) + cut.turn + cut.turn.greater(sideways);
+        let change = (cut.layer + cut.half_step).times(-1.0).plus(self.change);
+        Cost {
+            layer: cut.layer,
+            time: cuts * each + (layers * change).times(1.0 / self.travel_feed),
+            cuts,
+        }
     }
 
     /// What comes of a shape.
@@ -406,7 +474,7 @@ impl Model {
         let one = N::constant(1.0);
         // Not `limit / value - 1`: over a wide box the enclosure of the time reaches below nothing.
         let kept =
-            |limit: Option<f64>, value: N| limit.map_or(one, |limit| one - value * N::constant(1.0 / limit));
+            |limit: Option<f64>, value: N| limit.map_or(one, |limit| value.times(-1.0 / limit).plus(1.0));
         Outcome {
             layer: cost.layer,
             slack: [
@@ -422,30 +490,79 @@ impl Model {
         }
     }
 
+    /// Whether no shape costs less than its swing does [`at_widest`](Self::at_widest): thicker layers cost less where the model
+    /// is tame, and on one layer wider steps do as long as the overlap changes neither the reach nor the extension
+    /// (`docs/process.md`, "The optimum").
+    pub(super) fn is_least_at_widest(&self) -> bool {
+        let reaches_alike = match self.formulas {
+            Formulas::Paper => true,
+            Formulas::Exact => false,
+        };
+        let runs_out_alike = match self.extension {
+            Extension::Fixed(_) | Extension::EdgeInUse => true,
+            Extension::Leaning { .. } => false,
+        };
+        reaches_alike && runs_out_alike && self.tame && !self.given()
+    }
+
+    /// The shape of a swing with the widest step.
+    pub(super) fn widest(&self, tangent: f64) -> Shape<f64> {
+        let share = self.ranges.share[1];
+        Shape {
+            tangent,
+            share,
+            aspect: tangent * share,
+        }
+    }
+
+    /// What a swing costs with the thickest layer that the blade reaches and the widest step, whatever else is bounded. All of
+    /// the edge is in use then, so the extension is the same for all swings.
+    pub(super) fn at_widest<N: Number>(&self, tangent: N) -> Cost<N> {
+        let share = self.ranges.share[1];
+        let upright = self.upright_reach / self.reach_factor(share);
+        let (secant, sine) = (tangent.hypotenuse(1.0), tangent.over_hypotenuse(1.0));
+        let extension = match self.extension {
+            Extension::Fixed(length) => length.to_mm(),
+            Extension::EdgeInUse | Extension::Leaning { .. } => self.upright_reach * self.along,
+        };
+        self.cost_of(&Cut {
+            layer: secant.under(upright),
+            half_step: sine.times(share * upright),
+            points: sine.under(0.5 * self.width / (share * upright)),
+            layers: secant.times(self.depth / upright),
+            extension: N::constant(extension),
+            turn: self.turn(tangent),
+        })
+    }
+
     /// Whether layer or step is one value: the shape then decides both.
     pub(super) fn given(&self) -> bool {
         self.layer[0] >= self.layer[1] || self.step[0] >= self.step[1]
     }
 
-    /// Time of a cut [Cui 9, 10]: two passes with their run-outs, the turn between them, and the turn or the step to the
-    /// next cut, whichever takes longer.
-    fn each_cut<N: Number>(&self, shape: Shape<N>, secant: N, factor: N, layer: N) -> N {
-        let sine = (shape.tangent * shape.tangent + N::constant(self.cos_rake * self.cos_rake)).root();
-        // phi = 2 acos(cos(alpha) sin(theta)), of which this is half the tangent.
-        let half = (sine * N::constant(1.0 / self.sin_rake)).arc_tangent();
-        let turn = (half + half) * N::constant(1.0 / self.rate);
-        let extension = match self.extension {
+    /// Time of a turn: phi = 2 acos(cos(alpha) sin(theta)), of which the arc is half.
+    fn turn<N: Number>(&self, tangent: N) -> N {
+        tangent
+            .hypotenuse(self.cos_rake)
+            .times(1.0 / self.sin_rake)
+            .arc_tangent()
+            .times(2.0 / self.rate)
+    }
+
+    /// How far a cut runs out.
+    fn extension<N: Number>(&self, shape: Shape<N>, flank: Flank<N>, layer: N) -> N {
+        match self.extension {
             Extension::Fixed(length) => N::constant(length.to_mm()),
-            Extension::EdgeInUse => factor * layer * secant * N::constant(self.along),
+            Extension::EdgeInUse => (flank.factor * layer * flank.secant).times(self.along),
             Extension::Leaning { edge, run_out } => {
-                let teeth = layer * (N::constant(1.0) + shape.share);
-                let per_height = N::constant(self.cos_rake.max(0.0) / self.sin_rake) * secant;
-                (N::constant(self.half_width) + teeth * per_height).greater(N::constant(edge.to_mm()))
-                    + N::constant(run_out.to_mm())
+                let teeth = layer * shape.share.plus(1.0);
+                let per_height = flank.secant.times(self.cos_rake.max(0.0) / self.sin_rake);
+                (teeth * per_height)
+                    .plus(self.half_width)
+                    .greater(N::constant(edge.to_mm()))
+                    .plus(run_out.to_mm())
             }
-        };
-        let sideways = (shape.aspect + shape.aspect) * layer * N::constant(1.0 / self.travel_feed);
-        N::constant(self.pass) + extension * N::constant(4.0 / self.cut_feed) + turn + turn.greater(sideways)
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::chart::Chart;
 use super::formulas::{Keeping, Model, Outcome, Shape, Tooth};
-use super::jet::Jet;
+use super::jet::OnPlane;
 use super::number::{Interval, Number, Slopes};
 
 /// Bounds are kept to this share of them: what rounding may take.
@@ -171,7 +171,7 @@ impl Ground<'_> {
         let cost = |keeping: Keeping| self.model.cost(shape, &bounds(), keeping);
         let one = N::constant(1.0);
         let beyond = |limit: Option<f64>, value: N| {
-            limit.map_or(N::constant(-1.0), |limit| value * N::constant(1.0 / limit) - one)
+            limit.map_or(N::constant(-1.0), |limit| value.times(1.0 / limit).plus(-1.0))
         };
         match term {
             Term::Time(keeping) => cost(keeping).time,
@@ -183,8 +183,8 @@ impl Ground<'_> {
             }
             Term::Late(keeping) => beyond(self.model.time, cost(keeping).time),
             Term::Many(keeping) => beyond(self.model.cuts, cost(keeping).cuts),
-            Term::Below => N::constant(0.0) - self.chart.slack(shape)[0],
-            Term::Above => N::constant(0.0) - self.chart.slack(shape)[1],
+            Term::Below => self.chart.slack(shape)[0].times(-1.0),
+            Term::Above => self.chart.slack(shape)[1].times(-1.0),
         }
     }
 
@@ -192,8 +192,11 @@ impl Ground<'_> {
         self.term(term, place)
     }
 
-    pub(super) fn jet(&self, term: Term, [first, second]: [f64; 2]) -> Jet<f64> {
-        self.term(term, [Jet::coordinate(0, first), Jet::coordinate(1, second)])
+    pub(super) fn jet(&self, term: Term, [first, second]: [f64; 2]) -> OnPlane<f64> {
+        self.term(
+            term,
+            [OnPlane::coordinate(0, first), OnPlane::coordinate(1, second)],
+        )
     }
 
     fn applies(&self, term: Term) -> bool {

@@ -12,14 +12,30 @@ pub(super) trait Number:
 {
     /// A constant.
     fn constant(value: f64) -> Self;
+    /// This many times a plain number: as with a constant, in a fraction of the work.
+    fn times(self, factor: f64) -> Self;
+    /// With a plain number added.
+    fn plus(self, more: f64) -> Self;
+    /// A plain number over this, which is positive.
+    fn under(self, numerator: f64) -> Self;
     /// The smaller of two.
     fn lesser(self, other: Self) -> Self;
     /// The larger of two.
     fn greater(self, other: Self) -> Self;
     /// The root of something positive.
     fn root(self) -> Self;
+    /// The hypotenuse over this leg, which is not negative, and a plain one, which is positive.
+    fn hypotenuse(self, leg: f64) -> Self;
+    /// This leg, which is not negative, over that hypotenuse.
+    fn over_hypotenuse(self, leg: f64) -> Self;
     /// The arc of a tangent.
     fn arc_tangent(self) -> Self;
+    /// No value is above this one.
+    fn highest(self) -> f64;
+    /// No value is below this one.
+    fn lowest(self) -> f64;
+    /// This, of which it is known that it is no more than that.
+    fn known_below(self, most: f64) -> Self;
     /// Something from 1 to this, of which no more is known; for a plain number, itself.
     fn or_down_to_one(self) -> Self;
 }
@@ -27,6 +43,15 @@ pub(super) trait Number:
 impl Number for f64 {
     fn constant(value: f64) -> Self {
         value
+    }
+    fn times(self, factor: f64) -> Self {
+        self * factor
+    }
+    fn plus(self, more: f64) -> Self {
+        self + more
+    }
+    fn under(self, numerator: f64) -> Self {
+        numerator / self
     }
     fn lesser(self, other: Self) -> Self {
         if self < other { self } else { other }
@@ -37,12 +62,31 @@ impl Number for f64 {
     fn root(self) -> Self {
         self.sqrt()
     }
+    fn hypotenuse(self, leg: f64) -> Self {
+        hypotenuse(self, leg)
+    }
+    fn over_hypotenuse(self, leg: f64) -> Self {
+        self / hypotenuse(self, leg)
+    }
     fn arc_tangent(self) -> Self {
         libm::atan(self)
+    }
+    fn highest(self) -> f64 {
+        self
+    }
+    fn lowest(self) -> f64 {
+        self
+    }
+    fn known_below(self, _: f64) -> Self {
+        self
     }
     fn or_down_to_one(self) -> Self {
         self
     }
+}
+
+fn hypotenuse(one: f64, other: f64) -> f64 {
+    (one * one + other * other).sqrt()
 }
 
 /// All numbers from `low` to `high`. Those of `reach::path` are widened where nothing is, too, against underflow; here nothing
@@ -116,6 +160,40 @@ impl Interval {
     pub(super) fn inverse(self) -> Self {
         outward(1.0 / self.high, 1.0 / self.low)
     }
+
+    /// This many times a plain number.
+    pub(super) fn times(self, factor: f64) -> Self {
+        let (one, other) = (self.low * factor, self.high * factor);
+        if factor < 0.0 {
+            outward(other, one)
+        } else {
+            outward(one, other)
+        }
+    }
+
+    /// The hypotenuse over this leg and a plain one: it grows with the leg.
+    pub(super) fn hypotenuse(self, leg: f64) -> Self {
+        far_outward(hypotenuse(self.low, leg), hypotenuse(self.high, leg))
+    }
+
+    /// This leg over that hypotenuse: it grows with the leg too.
+    pub(super) fn over_hypotenuse(self, leg: f64) -> Self {
+        let share = |side: f64| side / hypotenuse(side, leg);
+        far_outward(share(self.low), share(self.high))
+    }
+
+    /// As far as it is no more than that; what is above altogether comes down to its low end.
+    pub(super) fn known_below(self, most: f64) -> Self {
+        Self {
+            low: self.low,
+            high: self.high.lesser(most).greater(self.low),
+        }
+    }
+
+    /// With a plain number added.
+    pub(super) fn plus(self, more: f64) -> Self {
+        outward(self.low + more, self.high + more)
+    }
 }
 
 /// Bounds moved outward by a unit in the last place or more, which is more than the rounding of an operation; what is nothing
@@ -125,6 +203,14 @@ pub(super) fn outward(low: f64, high: f64) -> Interval {
     Interval {
         low: low - low.abs() * f64::EPSILON,
         high: high + high.abs() * f64::EPSILON,
+    }
+}
+
+/// Bounds of something that took a few roundings, moved outward by more than these.
+fn far_outward(low: f64, high: f64) -> Interval {
+    Interval {
+        low: low - low.abs() * (4.0 * f64::EPSILON),
+        high: high + high.abs() * (4.0 * f64::EPSILON),
     }
 }
 
@@ -259,6 +345,27 @@ impl Number for Slopes {
         }
     }
 
+    fn times(self, factor: f64) -> Self {
+        Self {
+            value: self.value.times(factor),
+            by: self.by.map(|slope| slope.times(factor)),
+        }
+    }
+
+    fn plus(self, more: f64) -> Self {
+        Self {
+            value: self.value.plus(more),
+            by: self.by,
+        }
+    }
+
+    fn under(self, numerator: f64) -> Self {
+        let inverse = self.value.inverse();
+        let value = inverse.times(numerator);
+        let falls = product(value, inverse).times(-1.0);
+        self.of(value, falls)
+    }
+
     fn lesser(self, other: Self) -> Self {
         if self.value.high < other.value.low {
             return self;
@@ -289,13 +396,38 @@ impl Number for Slopes {
 
     fn root(self) -> Self {
         let value = self.value.root();
-        self.of(value, Interval::exactly(0.5) * value.inverse())
+        self.of(value, value.inverse().times(0.5))
+    }
+
+    fn hypotenuse(self, leg: f64) -> Self {
+        self.of(self.value.hypotenuse(leg), self.value.over_hypotenuse(leg))
+    }
+
+    fn over_hypotenuse(self, leg: f64) -> Self {
+        let inverse = self.value.hypotenuse(leg).inverse();
+        let cube = product(inverse.square(), inverse);
+        self.of(self.value.over_hypotenuse(leg), cube.times(leg * leg))
     }
 
     fn arc_tangent(self) -> Self {
         let value = self.value.arc_tangent();
-        let derivative = (Interval::exactly(1.0) + self.value * self.value).inverse();
+        let derivative = self.value.square().plus(1.0).inverse();
         self.of(value, derivative)
+    }
+
+    fn highest(self) -> f64 {
+        self.value.high
+    }
+
+    fn lowest(self) -> f64 {
+        self.value.low
+    }
+
+    fn known_below(self, most: f64) -> Self {
+        Self {
+            value: self.value.known_below(most),
+            by: self.by,
+        }
     }
 
     fn or_down_to_one(self) -> Self {

@@ -94,6 +94,15 @@ enum Fate {
     Open(f64, usize),
 }
 
+/// What shapes of a box may come to.
+struct Promise {
+    /// What is made least.
+    measured: Slopes,
+    /// How the bounds that may be broken in it slope.
+    unsure: [Interval; 2],
+    least: f64,
+}
+
 /// A box in which nothing is better than what is known, on its ground.
 struct Region {
     ground: usize,
@@ -248,6 +257,9 @@ impl<'m> Search<'m> {
             return;
         };
         let number = self.stand(chart, tooth);
+        if self.promise(&self.grounds[number], chart.sides).is_none() {
+            return;
+        }
         match tooth {
             Tooth::Any | Tooth::Behind(_) => self.look_around(number),
             Tooth::Later(_) => {}
@@ -435,42 +447,14 @@ impl<'m> Search<'m> {
     }
 
     fn judge(&mut self, number: usize, ground: &Ground<'_>, sides: [Interval; 2]) -> Fate {
-        let chart = &ground.chart;
-        let (measured, slacks) = ground.enclosed(sides);
-        let centre = chart.shape(sides[0].middle(), sides[1].middle());
-        let at_centre = self.model.outcome(centre, ground.tooth, Keeping::Both);
-        let at_centres = at_centre.slack.into_iter().chain(chart.slack(centre));
-        let mut unsure = [Interval::ZERO; 2];
-        let mut broken = f64::NEG_INFINITY;
-        for (slack, centre) in slacks.into_iter().zip(at_centres) {
-            let high = match ground.tooth {
-                // The value in the middle is not that of one function all over the box.
-                Tooth::Later(_) => slack.value.high,
-                Tooth::Any | Tooth::Behind(_) => slack
-                    .value
-                    .high
-                    .min(centre + 1e-13 * (1.0 + centre.abs()) + swing(&slack, sides)),
-            };
-            if high < -KEPT {
-                return Fate::Out;
-            }
-            broken = broken.max(-high);
-            if slack.value.low < 0.0 {
-                unsure = [unsure[0].hull(slack.by[0]), unsure[1].hull(slack.by[1])];
-            }
-        }
-        let least = match (self.measure, ground.tooth) {
-            (Measure::Breach, _) => broken,
-            (Measure::Time | Measure::Cuts, Tooth::Later(_)) => measured.value.low,
-            (Measure::Time, _) => {
-                let from_centre = at_centre.time * (1.0 - 1e-13) - swing(&measured, sides);
-                measured.value.low.max(from_centre)
-            }
-            (Measure::Cuts, _) => {
-                let from_centre = at_centre.cuts * (1.0 - 1e-13) - swing(&measured, sides);
-                measured.value.low.max(from_centre)
-            }
+        let Some(promise) = self.promise(ground, sides) else {
+            return Fate::Out;
         };
+        let Promise {
+            measured,
+            unsure,
+            least,
+        } = promise;
         if self.hopeless(self.blended(number, ground, sides, least)) {
             return Fate::Out;
         }
@@ -493,6 +477,46 @@ impl<'m> Search<'m> {
                 Fate::Open(least, usize::from(reach(1) > reach(0)))
             }
         }
+    }
+
+    /// What a box promises; none if a bound is broken all over it or nothing in it is better than what is known.
+    fn promise(&self, ground: &Ground<'_>, sides: [Interval; 2]) -> Option<Promise> {
+        let chart = &ground.chart;
+        let (measured, slacks) = ground.enclosed(sides);
+        let centre = chart.shape(sides[0].middle(), sides[1].middle());
+        let at_centre = self.model.outcome(centre, ground.tooth, Keeping::Both);
+        let at_centres = at_centre.slack.into_iter().chain(chart.slack(centre));
+        let mut unsure = [Interval::ZERO; 2];
+        let mut broken = f64::NEG_INFINITY;
+        for (slack, centre) in slacks.into_iter().zip(at_centres) {
+            let high = match ground.tooth {
+                // The value in the middle is not that of one function all over the box.
+                Tooth::Later(_) => slack.value.high,
+                Tooth::Any | Tooth::Behind(_) => slack
+                    .value
+                    .high
+                    .min(centre + 1e-13 * (1.0 + centre.abs()) + swing(&slack, sides)),
+            };
+            if high < -KEPT {
+                return None;
+            }
+            broken = broken.max(-high);
+            if slack.value.low < 0.0 {
+                unsure = [unsure[0].hull(slack.by[0]), unsure[1].hull(slack.by[1])];
+            }
+        }
+        let from_centre = |value: f64| value * (1.0 - 1e-13) - swing(&measured, sides);
+        let least = match (self.measure, ground.tooth) {
+            (Measure::Breach, _) => broken,
+            (Measure::Time | Measure::Cuts, Tooth::Later(_)) => measured.value.low,
+            (Measure::Time, _) => measured.value.low.max(from_centre(at_centre.time)),
+            (Measure::Cuts, _) => measured.value.low.max(from_centre(at_centre.cuts)),
+        };
+        (!self.hopeless(least)).then_some(Promise {
+            measured,
+            unsure,
+            least,
+        })
     }
 
     /// What a box can come to at least, by what bounds the best shape too.

@@ -88,7 +88,7 @@ pub(super) fn conflict(
 pub(super) fn off_grid(asked: &RoughVcut) -> Diagnostic {
     Diagnostic::new(
         Code::LimitsConflict,
-        "no layer and step in whole micrometres keep all limits",
+        "no layer and step in whole micrometres were found that keep all limits",
         asked.head_span,
         "the limits leave too little between them",
     )

@@ -26,8 +26,14 @@ const SWINGS_PER_DEG: f64 = 1000.0;
 /// How often the distance of swings from the optimum is doubled: up to a quarter of a degree.
 const MOST_DOUBLINGS: u32 = 9;
 
-/// How many grid spacings from the optimum a layer is looked for that keeps all limits after rounding.
+/// How many grid spacings from the optimum every layer is looked at for one that keeps all limits after rounding.
 const MOST_SPACINGS: i32 = 200;
+
+/// Farther down layers are looked at whose distance from it grows by this factor.
+const FARTHER: f64 = 1.05;
+
+/// As many of them: as far as a metre.
+const MOST_FARTHER: u32 = 175;
 
 /// What was chosen, on the grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -286,8 +292,13 @@ impl Rounding<'_> {
             Objective::Time | Objective::Cuts => downwards.chain(upwards).collect(),
             Objective::Scallop | Objective::BladeLoad => upwards.chain(downwards).collect(),
         };
+        let farther = (1..=MOST_FARTHER).scan(f64::from(MOST_SPACINGS), |distance, _| {
+            *distance *= FARTHER;
+            Some(Length::mm(grid::up(down) - *distance * grid::SPACING))
+        });
         tried
             .into_iter()
+            .chain(farther)
             .map(|layer| Length::mm(grid::nearest(layer.to_mm())))
             .filter(|layer| *layer > Length::ZERO)
             .filter(|layer| *layer >= self.problem.layer.least && *layer <= self.problem.layer.most)
