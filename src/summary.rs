@@ -166,7 +166,7 @@ fn why_else(plan: &PlannedJob) -> String {
     let is_by_layer = vcuts().any(|vcut| vcut.order == Order::Layer);
     let counts = format!(": it reckons with {estimated:.0} cuts for the mean depth, the plan has {planned}");
     let turns = if is_by_layer {
-        ", and with turns in the work, which `order = layer` saves"
+        "; it does not know of `order = layer`, which turns the blade less"
     } else {
         ""
     };
