@@ -2,6 +2,7 @@
 
 pub mod times;
 
+use crate::job::Order;
 use crate::pace::Basis;
 use crate::plan::decision::{Decision, Standing};
 use crate::plan::parameters::show;
@@ -60,7 +61,7 @@ pub fn summary(
         &format!(
             "{} by the mean-value model, from the parameters alone{}",
             time(estimate),
-            against(estimate, report.times.all.total())
+            against(estimate, report.times.all.total(), &why_else(plan))
         ),
     ));
     lines.push(row(
@@ -115,6 +116,9 @@ fn standing(standing: Standing) -> String {
         Standing::Impossible => "cuts nothing".to_owned(),
         Standing::ByModel(duration) => format!("{} by the model, not planned", time(duration)),
         Standing::Last => "the machine does not follow the others".to_owned(),
+        Standing::Narrowed => "the widest tried that the machine follows".to_owned(),
+        Standing::NotFollowed => "the machine does not follow".to_owned(),
+        Standing::LeftOut => "left out, for the machine did not follow".to_owned(),
         Standing::NotCompared => "not compared, there are too many cuts".to_owned(),
     }
 }
@@ -136,13 +140,37 @@ fn row(name: &str, text: &str) -> String {
 }
 
 /// `, 4.2 % above the time`: how far the model and the planned program agree.
-fn against(estimate: Duration, planned: Duration) -> String {
+fn against(estimate: Duration, planned: Duration, why: &str) -> String {
     if planned <= Duration::ZERO {
         return String::new();
     }
     let percent = (estimate.to_s() / planned.to_s() - 1.0) * 100.0;
     let way = if percent < 0.0 { "below" } else { "above" };
-    format!(", {:.1} % {way} the time", percent.abs())
+    let why = if percent.abs() > FAR_APART { why } else { "" };
+    format!(", {:.1} % {way} the time{why}", percent.abs())
+}
+
+/// From so many percent on it is said why model and program differ.
+const FAR_APART: f64 = 20.0;
+
+/// What the mean-value model does not see of a plan: where the part and the sides of the stock take Vs away or ask for more, and
+/// that the route turns the blade less.
+fn why_else(plan: &PlannedJob) -> String {
+    let vcuts = || {
+        plan.operations
+            .iter()
+            .map(|PlannedOperation::RoughVcut(vcut)| vcut)
+    };
+    let planned: usize = vcuts().map(|vcut| vcut.cuts.len()).sum();
+    let estimated: f64 = vcuts().map(|vcut| vcut.estimated_cuts).sum();
+    let is_by_layer = vcuts().any(|vcut| vcut.order == Order::Layer);
+    let counts = format!(": it reckons with {estimated:.0} cuts for the mean depth, the plan has {planned}");
+    let turns = if is_by_layer {
+        "; it does not know of `order = layer`, which turns the blade less"
+    } else {
+        ""
+    };
+    counts + turns
 }
 
 fn cuts_per_layer(report: &Report) -> String {
@@ -189,9 +217,11 @@ mod tests {
 
     #[test]
     fn the_model_is_held_against_the_planned_time() {
-        let shown = |estimate: f64, planned: f64| against(Duration::s(estimate), Duration::s(planned));
+        let shown =
+            |estimate: f64, planned: f64| against(Duration::s(estimate), Duration::s(planned), ": why");
         assert_eq!(shown(90.0, 100.0), ", 10.0 % below the time");
         assert_eq!(shown(101.26, 100.0), ", 1.3 % above the time");
+        assert_eq!(shown(130.0, 100.0), ", 30.0 % above the time: why");
         assert_eq!(shown(1.0, 0.0), "");
     }
 

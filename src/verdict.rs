@@ -2,7 +2,7 @@
 //!
 //! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
 
-use crate::choice::{self, Latitude};
+use crate::choice::{self, Latitude, Leeway};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, Operation, Residual, RoughVcut};
@@ -322,7 +322,7 @@ fn attempt(
 }
 
 fn planned_and_proven(job: &CheckedJob, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
-    let (plan, diagnostics) = choice::choose_within(job, latitude);
+    let (plan, diagnostics) = choice::choose_within(job, Leeway::along(latitude));
     let plan = plan.filter(|_| diagnostics.is_empty())?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
     (proven.findings == Findings::default()).then_some((plan, proven))

@@ -1,7 +1,7 @@
 //! Ways to cut an operation, written down as programs of their own and measured.
 
 use super::{Contender, Latitude};
-use crate::job::CheckedJob;
+use crate::job::{CheckedJob, Objective};
 use crate::lower::lower;
 use crate::plan::decision::Standing;
 use crate::plan::{LaidOut, PlannedJob, PlannedOperation, PlannedVcut};
@@ -55,6 +55,7 @@ impl<'j> Bench<'j> {
                 laid,
                 standing: Standing::Impossible,
                 time: Duration::ZERO,
+                merit: f64::INFINITY,
                 height: Length::ZERO,
                 residual: Area::ZERO,
             };
@@ -69,6 +70,13 @@ impl<'j> Bench<'j> {
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
+        let height = farthest(&corners, &self.job.profile).height;
+        let merit = match vcut.asked.objective.value {
+            Objective::Time => time.to_s(),
+            Objective::Cuts => vcut.cuts.len() as f64,
+            Objective::Scallop => height.to_mm(),
+            Objective::BladeLoad => replay.longest_edge.to_mm(),
+        };
         Contender {
             laid,
             standing: match failing {
@@ -76,7 +84,8 @@ impl<'j> Bench<'j> {
                 _ => Standing::Fails(failing),
             },
             time,
-            height: farthest(&corners, &self.job.profile).height,
+            merit,
+            height,
             residual: Area::mm2(area_under(&corners)) - part,
         }
     }

@@ -11,10 +11,13 @@
 //! `boustrophedon` and by `point`.
 
 mod bench;
+mod leeway;
 mod route;
 #[cfg(test)]
 mod tests;
 mod trial;
+
+pub use leeway::{Latitude, Leeway, Narrowed, is_swing_open};
 
 use crate::diag::Diagnostic;
 use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
@@ -24,74 +27,39 @@ use crate::plan::residual::Strategies;
 use crate::plan::{LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations};
 use bench::Bench;
 use core::cmp::Ordering;
+use trial::FoundBy;
 use vcutc_backend_api::units::{Area, Duration, Length};
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
 /// are chosen by.
 pub const MOST_CUTS_COMPARED: usize = 20_000;
 
-/// A lattice whose time by the mean-value model is longer than this many times the best planned time is not planned.
+/// A lattice whose time by the mean-value model is longer than this many times that of the best plan is not planned.
 const FAR_BEHIND: f64 = 1.5;
-
-/// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,
-/// which not every machine can follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Latitude {
-    /// All of them.
-    Full,
-    /// Those that cut V by V.
-    ByPoint,
-    /// Rows, V by V: what leaves the machine the most freedom.
-    RowsByPoint,
-}
-
-impl Latitude {
-    /// What is considered next where the machine cannot carry out what came of this.
-    const fn narrower(self) -> Option<Self> {
-        match self {
-            Self::Full => Some(Self::ByPoint),
-            Self::ByPoint => Some(Self::RowsByPoint),
-            Self::RowsByPoint => None,
-        }
-    }
-
-    /// The next one under which something else would come out than this plan.
-    #[must_use]
-    pub fn narrower_than(self, plan: &PlannedJob) -> Option<Self> {
-        let mut next = self.narrower();
-        while let Some(latitude) = next {
-            let is_same = plan.operations.iter().all(|PlannedOperation::RoughVcut(vcut)| {
-                route::allows(latitude, &vcut.asked, (vcut.sequence, vcut.order))
-            });
-            if !is_same {
-                break;
-            }
-            next = latitude.narrower();
-        }
-        next
-    }
-}
 
 /// Makes every choice. Without errors there is a plan.
 #[must_use]
 pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
-    choose_within(job, Latitude::Full)
+    choose_within(job, Leeway::along(Latitude::Full))
 }
 
-/// Makes every choice, with some routes left out.
+/// Makes every choice, with some routes and swings left out.
 #[must_use]
-pub fn choose_within(job: &CheckedJob, latitude: Latitude) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, Vec<Diagnostic>) {
     if let Some(refused) = refuse_operations(job) {
         return (None, vec![refused]);
     }
     let mut diagnostics = Vec::new();
-    let mut bench = Bench::new(job, latitude);
+    let mut bench = Bench::new(job, leeway.routes);
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
-        match best_lattice(&bench, asked, cuts_left) {
-            Ok(LaidOut { vcut, after, .. }) => {
+        match best_lattice(&bench, &leeway::within(asked, leeway.swing), cuts_left) {
+            Ok(LaidOut { mut vcut, after, .. }) => {
+                if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
+                    leeway::told(&mut vcut, asked.limits.swing, swing);
+                }
                 cuts_left -= vcut.cuts.len();
                 bench.before = after;
                 operations.push(PlannedOperation::RoughVcut(vcut));
@@ -114,6 +82,8 @@ struct Contender {
     laid: LaidOut,
     standing: Standing,
     time: Duration,
+    /// What the operation's objective makes small: seconds, cuts, or millimetres.
+    merit: f64,
     /// The most that is left: the machined contour's largest distance from the part.
     height: Length,
     residual: Area,
@@ -142,6 +112,13 @@ impl Contender {
     fn compare(&self, other: &Self) -> Ordering {
         if let (Standing::Fails(_), Standing::Fails(_)) = (self.standing, other.standing) {
             return Ordering::Equal;
+        }
+        if let (Standing::Takes(_), Standing::Takes(_)) = (self.standing, other.standing) {
+            let by_merit = self.merit.total_cmp(&other.merit);
+            let by_time = self.time.total_cmp(&other.time);
+            return by_merit
+                .then(by_time)
+                .then(self.residual.total_cmp(&other.residual));
         }
         self.standing
             .compare(&other.standing)
@@ -230,8 +207,46 @@ fn best_on(
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
     let found = trial::parameters(bench, asked, lattices, cuts_left)?;
-    let mut laid = best_residual(bench, asked, &found.parameters, cuts_left)?;
-    if let Some(decision) = found.decision {
+    let limit = asked.limits.scallop.map(|limit| limit.value);
+    if let [only] = &found.finalists[..]
+        && only.found == FoundBy::Formulas
+    {
+        return best_residual(bench, asked, &only.parameters, cuts_left);
+    }
+    let mut compared: Vec<(FoundBy, Contender)> = Vec::new();
+    let mut refused = Vec::new();
+    for finalist in found.finalists {
+        match best_residual(bench, asked, &finalist.parameters, cuts_left) {
+            Ok(laid) => compared.push((finalist.found, bench.weigh(laid).held_to(limit))),
+            Err(told) => refused = told,
+        }
+    }
+    // A stable sort: among equals the first one stands.
+    compared.sort_by(|(_, one), (_, other)| one.compare(other));
+    let mut compared = compared.into_iter();
+    let Some((by, best)) = compared.next() else {
+        return Err(refused);
+    };
+    let decision = match by {
+        FoundBy::Formulas => None,
+        FoundBy::Simulation => {
+            let formulas = compared.find(|(by, _)| *by == FoundBy::Formulas);
+            let standing = found.by_formulas.or(formulas.map(|(_, one)| one.standing));
+            Some(Decision {
+                field: "parameters",
+                taken: best.candidate(by.words()),
+                others: standing
+                    .into_iter()
+                    .map(|standing| Candidate {
+                        what: FoundBy::Formulas.words().to_owned(),
+                        standing,
+                    })
+                    .collect(),
+            })
+        }
+    };
+    let mut laid = best.laid;
+    if let Some(decision) = decision {
         laid.vcut.decisions.insert(0, decision);
     }
     Ok(laid)
@@ -259,9 +274,7 @@ fn compare_lattices(
     for &(time, lattice) in &by_model {
         let what = lattice.word();
         let best = contest.best.as_ref().map(|(_, best)| best);
-        if best
-            .is_some_and(|best| matches!(best.standing, Standing::Takes(_)) && time > best.time * FAR_BEHIND)
-        {
+        if best.is_some_and(|best| is_far_behind(time, best)) {
             contest.rule_out(what, Standing::ByModel(time));
             continue;
         }
@@ -286,6 +299,23 @@ fn compare_lattices(
     match contest.finish("lattice") {
         Some(best) => Ok(best.laid),
         None => Err(refused.unwrap_or_default()),
+    }
+}
+
+/// Whether a time by the model is far behind a plan: behind its own time, and behind what the model says of it, for on small
+/// parts the model is far from what is planned.
+fn is_far_behind(model: Duration, best: &Contender) -> bool {
+    match best.standing {
+        Standing::Takes(time) => model > time.max(best.laid.vcut.estimate) * FAR_BEHIND,
+        Standing::Leaves { .. }
+        | Standing::Fails(_)
+        | Standing::Impossible
+        | Standing::ByModel(_)
+        | Standing::NotCompared
+        | Standing::Last
+        | Standing::Narrowed
+        | Standing::NotFollowed
+        | Standing::LeftOut => false,
     }
 }
 

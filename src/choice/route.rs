@@ -34,7 +34,9 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
         (Open::Nothing, _) => along(vcut, usual),
         (Open::Something(field), [only]) => match bench.latitude {
             Latitude::Full => along(vcut, *only),
-            Latitude::ByPoint | Latitude::RowsByPoint => beyond_the_rest(along(vcut, *only), field, *only),
+            Latitude::ByPoint | Latitude::RowsByPoint | Latitude::ByLayer | Latitude::RowsByLayer => {
+                beyond_the_rest(along(vcut, *only), field, *only)
+            }
         },
         (Open::Something(field), _) if vcut.cuts.len() > MOST_CUTS_COMPARED => {
             let decision = not_compared(field, words(&vcut.asked, usual));
@@ -58,24 +60,26 @@ pub(super) fn usual(bench: &Bench<'_>, mut laid: LaidOut) -> LaidOut {
 
 fn usual_route(latitude: Latitude, asked: &RoughVcut) -> Route {
     let sequence = match latitude {
-        Latitude::Full | Latitude::ByPoint => Sequence::Boustrophedon,
-        Latitude::RowsByPoint => Sequence::Rows,
+        Latitude::Full | Latitude::ByPoint | Latitude::ByLayer => Sequence::Boustrophedon,
+        Latitude::RowsByPoint | Latitude::RowsByLayer => Sequence::Rows,
     };
     (
         asked.sequence.value.or(sequence),
-        asked.order.value.or(Order::Point),
+        asked.order.value.or(latitude.order().unwrap_or(Order::Point)),
     )
 }
 
 /// Whether a route is one of those that are considered.
 pub(super) fn allows(latitude: Latitude, asked: &RoughVcut, (sequence, order): Route) -> bool {
-    let by_point = order == Order::Point || asked.order.value != Auto::Auto;
+    let is_ordered = latitude
+        .order()
+        .is_none_or(|only| order == only || asked.order.value != Auto::Auto);
     let in_rows = sequence == Sequence::Rows || asked.sequence.value != Auto::Auto;
-    match latitude {
-        Latitude::Full => true,
-        Latitude::ByPoint => by_point,
-        Latitude::RowsByPoint => by_point && in_rows,
-    }
+    is_ordered
+        && match latitude {
+            Latitude::Full | Latitude::ByPoint | Latitude::ByLayer => true,
+            Latitude::RowsByPoint | Latitude::RowsByLayer => in_rows,
+        }
 }
 
 /// Says that it came out so because the machine does not follow anything else.
@@ -117,11 +121,25 @@ fn fastest(
     let Some((taken, planned, _)) = timed.next() else {
         return vcut;
     };
-    let others: Vec<Candidate> = timed.map(|(candidate, ..)| candidate).collect();
+    let left_out = left_out(bench.latitude, &vcut.asked);
+    let others: Vec<Candidate> = timed.map(|(candidate, ..)| candidate).chain(left_out).collect();
     if others.is_empty() {
         return planned;
     }
     remembering(planned, Decision { field, taken, others })
+}
+
+/// The order that is not considered because the machine does not follow the best plan that has it.
+fn left_out(latitude: Latitude, asked: &RoughVcut) -> Option<Candidate> {
+    let only = latitude.order().filter(|_| asked.order.value == Auto::Auto)?;
+    let other = match only {
+        Order::Point => Order::Layer,
+        Order::Layer => Order::Point,
+    };
+    Some(Candidate {
+        what: format!("by {}", other.word()),
+        standing: Standing::LeftOut,
+    })
 }
 
 fn remembering(mut vcut: PlannedVcut, decision: Decision) -> PlannedVcut {

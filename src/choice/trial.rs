@@ -3,15 +3,20 @@
 //! The formulas hold a lattice's scallop bound [Cui 12] against the limit. That is always sound, and often far from what a
 //! planned program leaves, for its residual strategy puts tips onto the part. So the search for parameters is repeated with
 //! laxer limits on scallop, and with swings and layers beside the best ones; each outcome is planned, written down and
-//! replayed. Only what leaves no more than the job's own limit, with every chip free, is sound, and the fastest sound one is
-//! taken. Soundness does not grow or shrink steadily with a parameter, so this is a search, not a proof of least time: the
-//! best of a bounded number of plans.
+//! replayed. Only what leaves no more than the job's own limit, with every chip free, is sound. Where none of these is sound,
+//! smaller swings and layers are tried until one is ([`spread`]). The best few sound ones are the [`Finalist`]s: they
+//! are compared again along the routes and with the residual strategies that they would be cut by.
+//!
+//! Soundness does not grow or shrink steadily with a parameter, so this is a search, not a proof of least time: the best of a
+//! bounded number of plans.
+
+mod spread;
 
 use super::bench::Bench;
 use super::{Contender, MOST_CUTS_COMPARED, route};
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, Formulas, Lattice, Objective, RoughVcut, Sourced};
-use crate::plan::decision::{Candidate, Decision, Standing};
+use crate::plan::decision::Standing;
 use crate::plan::lay_out;
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, ScallopBy, VcutParameters};
@@ -29,25 +34,61 @@ const HALVINGS: usize = 3;
 /// By which factors swing and layer are changed, the coarse ones first.
 const FACTORS: [f64; 3] = [1.3, 1.12, 1.04];
 
-/// Directions in which swing and layer are changed, those first that promise most.
-const MOVES: [(i32, i32); 8] = [
-    (0, 1),
-    (1, 0),
-    (-1, 1),
-    (1, 1),
-    (-1, 0),
-    (1, -1),
-    (0, -1),
-    (-1, -1),
+/// Directions in which swing, layer and overlap are changed, those first that promise most.
+const MOVES: [Move; 11] = [
+    [0, 1, 0],
+    [1, 0, 0],
+    [-1, 1, 0],
+    [1, 1, 0],
+    [-1, 0, 0],
+    [1, -1, 0],
+    [0, 0, -1],
+    [0, 1, 1],
+    [0, 0, 1],
+    [0, -1, 0],
+    [-1, -1, 0],
 ];
+
+/// A change of swing, layer and overlap: up, down or not at all.
+type Move = [i32; 3];
 
 /// A candidate that by the model takes this many times as long as the best one is not planned.
 const BEHIND: f64 = 1.15;
 
-/// Parameters, and how they were found where formulas alone did not do it.
-pub(super) struct Found {
+/// Most finalists of operations of up to so many cuts.
+const FINALISTS: [(usize, usize); 2] = [(2_000, 3), (MOST_CUTS_COMPARED, 2)];
+
+/// Parameters that are to be compared along the routes that they would be cut by.
+pub(super) struct Finalist {
     pub(super) parameters: VcutParameters,
-    pub(super) decision: Option<Decision>,
+    pub(super) found: FoundBy,
+}
+
+/// How parameters were found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FoundBy {
+    /// By formulas alone.
+    Formulas,
+    /// By what the simulated plan leaves.
+    Simulation,
+}
+
+impl FoundBy {
+    /// In words.
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::Formulas => "by the lattice's bound",
+            Self::Simulation => "as simulated",
+        }
+    }
+}
+
+/// What the search came to.
+pub(super) struct Found {
+    /// The best ones; at least one.
+    pub(super) finalists: Vec<Finalist>,
+    /// What came of the formulas' parameters, where they are no finalist.
+    pub(super) by_formulas: Option<Standing>,
 }
 
 /// The best parameters on one of these lattices.
@@ -66,48 +107,59 @@ pub(super) fn parameters(
     let mut trials = Trials::new(bench, asked, lattices, cuts_left);
     let first = by_bound.clone().and_then(|found| trials.weigh(found));
     trials.climb();
+    trials.spread();
     trials.wander();
-    let Some(best) = trials.best else {
-        return plain(by_bound, told);
-    };
-    if by_bound
-        .as_ref()
-        .is_some_and(|found| alike(found, &best.parameters))
-    {
+    let (finalists, leaves_too_much) = (trials.finalists(), trials.leaves_too_much);
+    if finalists.is_empty() {
         return plain(by_bound, told);
     }
-    let mut parameters = best.parameters;
+    let is_by_bound = |found: &VcutParameters| by_bound.as_ref().is_some_and(|bound| alike(bound, found));
+    let named = |parameters: VcutParameters| {
+        if is_by_bound(&parameters) {
+            Finalist {
+                parameters,
+                found: FoundBy::Formulas,
+            }
+        } else {
+            Finalist {
+                parameters: held_by_simulation(asked, parameters, leaves_too_much),
+                found: FoundBy::Simulation,
+            }
+        }
+    };
+    let finalists: Vec<Finalist> = finalists.into_iter().map(named).collect();
+    let is_in = finalists.iter().any(|one| one.found == FoundBy::Formulas);
+    Ok(Found {
+        finalists,
+        by_formulas: first.filter(|_| !is_in),
+    })
+}
+
+/// Says of parameters by what the limit on scallop was held against them.
+fn held_by_simulation(
+    asked: &RoughVcut,
+    mut parameters: VcutParameters,
+    leaves_too_much: bool,
+) -> VcutParameters {
     parameters.binding.retain(|&bound| bound != Bound::Scallop);
-    if trials.leaves_too_much {
+    if leaves_too_much {
         parameters.binding.push(Bound::Scallop);
     }
     let bound = parameters.scallop_bound(asked);
     if asked.limits.scallop.is_some_and(|limit| bound > limit.value) {
         parameters.scallop_by = ScallopBy::Simulation;
     }
-    let others = first.map(|standing| Candidate {
-        what: "by the lattice's bound".to_owned(),
-        standing,
-    });
-    let taken = Candidate {
-        what: "as simulated".to_owned(),
-        standing: Standing::Takes(best.time),
-    };
-    Ok(Found {
-        parameters,
-        decision: Some(Decision {
-            field: "parameters",
-            taken,
-            others: others.into_iter().collect(),
-        }),
-    })
+    parameters
 }
 
 /// What the formulas say.
 fn plain(by_bound: Option<VcutParameters>, told: Vec<Diagnostic>) -> Result<Found, Vec<Diagnostic>> {
     by_bound.ok_or(told).map(|parameters| Found {
-        parameters,
-        decision: None,
+        finalists: vec![Finalist {
+            parameters,
+            found: FoundBy::Formulas,
+        }],
+        by_formulas: None,
     })
 }
 
@@ -137,12 +189,18 @@ fn alike(one: &VcutParameters, two: &VcutParameters) -> bool {
     (one.lattice, one.swing, one.layer, one.step) == (two.lattice, two.swing, two.layer, two.step)
 }
 
-/// The best plan so far.
-struct Best {
+/// A plan with nothing wrong.
+struct Sound {
     parameters: VcutParameters,
-    time: Duration,
-    measure: f64,
+    merit: f64,
+    cuts: usize,
     model: Duration,
+}
+
+/// Parameters that were planned, and what came of them.
+struct Tried {
+    parameters: VcutParameters,
+    standing: Standing,
 }
 
 struct Trials<'t> {
@@ -152,8 +210,11 @@ struct Trials<'t> {
     cuts_left: usize,
     /// How many plans may still be made; not known before the first one.
     plans_left: Option<usize>,
-    tried: Vec<(VcutParameters, Standing)>,
-    best: Option<Best>,
+    /// How many plans there are in all, by the cuts of the first one.
+    most_plans: &'static [(usize, usize)],
+    tried: Vec<Tried>,
+    /// The best first.
+    sound: Vec<Sound>,
     leaves_too_much: bool,
 }
 
@@ -170,10 +231,29 @@ impl<'t> Trials<'t> {
             lattices,
             cuts_left,
             plans_left: None,
+            most_plans: &PLANS,
             tried: Vec::new(),
-            best: None,
+            sound: Vec::new(),
             leaves_too_much: false,
         }
+    }
+
+    /// The best few, the best first, and the formulas' parameters if they are sound: those that were tried first.
+    fn finalists(&self) -> Vec<VcutParameters> {
+        let Some(best) = self.sound.first() else {
+            return Vec::new();
+        };
+        let most = FINALISTS.iter().find(|(below, _)| best.cuts < *below);
+        let most = most.map_or(1, |&(_, count)| count);
+        let first = self.tried.first().map(|tried| &tried.parameters);
+        self.sound
+            .iter()
+            .enumerate()
+            .filter(|(rank, sound)| {
+                *rank < most || (most > 1 && first.is_some_and(|first| alike(first, &sound.parameters)))
+            })
+            .map(|(_, sound)| sound.parameters.clone())
+            .collect()
     }
 
     fn may_go_on(&self) -> bool {
@@ -182,8 +262,9 @@ impl<'t> Trials<'t> {
 
     /// What comes of parameters; none where no more plans may be made or none can be.
     fn weigh(&mut self, found: VcutParameters) -> Option<Standing> {
-        if let Some((_, known)) = self.tried.iter().find(|(tried, _)| alike(tried, &found)) {
-            return Some(*known);
+        let known = self.tried.iter().find(|tried| alike(&tried.parameters, &found));
+        if let Some(known) = known {
+            return Some(known.standing);
         }
         if !self.may_go_on() {
             return None;
@@ -198,8 +279,7 @@ impl<'t> Trials<'t> {
         );
         let Ok(laid) = laid else {
             self.spend(MOST_CUTS_COMPARED - 1);
-            self.tried.push((found, Standing::Impossible));
-            return Some(Standing::Impossible);
+            return Some(self.note(found, Standing::Impossible));
         };
         let cuts = laid.vcut.cuts.len();
         self.spend(cuts);
@@ -207,40 +287,43 @@ impl<'t> Trials<'t> {
             return None;
         }
         let limit = self.asked.limits.scallop.map(|limit| limit.value);
-        let Contender { standing, time, .. } =
+        let Contender { standing, merit, .. } =
             self.bench.weigh(route::usual(self.bench, laid)).held_to(limit);
-        self.tried.push((found.clone(), standing));
         match standing {
-            Standing::Takes(_) => self.keep(found, time, cuts, model),
+            Standing::Takes(_) => self.keep(Sound {
+                parameters: found.clone(),
+                merit,
+                cuts,
+                model,
+            }),
             Standing::Leaves { .. } => self.leaves_too_much = true,
             Standing::Fails(_)
             | Standing::Impossible
             | Standing::ByModel(_)
             | Standing::NotCompared
-            | Standing::Last => {}
+            | Standing::Last
+            | Standing::Narrowed
+            | Standing::NotFollowed
+            | Standing::LeftOut => {}
         }
-        Some(standing)
+        Some(self.note(found, standing))
     }
 
-    fn keep(&mut self, parameters: VcutParameters, time: Duration, cuts: usize, model: Duration) {
-        let measure = match self.asked.objective.value {
-            Objective::Cuts => f64::from(u32::try_from(cuts).unwrap_or(u32::MAX)),
-            Objective::Time | Objective::Scallop | Objective::BladeLoad => time.to_s(),
-        };
-        if self.best.as_ref().is_none_or(|best| measure < best.measure) {
-            self.best = Some(Best {
-                parameters,
-                time,
-                measure,
-                model,
-            });
-        }
+    fn note(&mut self, parameters: VcutParameters, standing: Standing) -> Standing {
+        self.tried.push(Tried { parameters, standing });
+        standing
+    }
+
+    /// Puts a sound plan in its place; behind its equals.
+    fn keep(&mut self, sound: Sound) {
+        let rank = self.sound.partition_point(|other| other.merit <= sound.merit);
+        self.sound.insert(rank, sound);
     }
 
     /// Counts a plan.
     fn spend(&mut self, cuts: usize) {
         let left = self.plans_left.unwrap_or_else(|| {
-            let fitting = PLANS.iter().find(|(below, _)| cuts < *below);
+            let fitting = self.most_plans.iter().find(|(below, _)| cuts < *below);
             fitting.map_or(1, |&(_, plans)| plans)
         });
         self.plans_left = Some(left.saturating_sub(1));
@@ -302,23 +385,17 @@ impl<'t> Trials<'t> {
         matches!(self.weigh(found), Some(Standing::Takes(_)))
     }
 
-    /// Changes swing and layer for as long as something better comes of it: from the best, and before that from the
-    /// largest layers at some swings.
+    /// From the best on, changes swing and layer for as long as something better comes of it.
     fn wander(&mut self) {
-        for swing in self.swings() {
-            if let Some(found) = self.largest_layer(swing) {
-                self.weigh_if_promising(found);
-            }
-        }
         for factor in FACTORS {
             while self.may_go_on() {
-                let Some(best) = &self.best else { return };
-                let (from, measure) = (best.parameters.clone(), best.measure);
+                let Some(best) = self.sound.first() else { return };
+                let (from, merit) = (best.parameters.clone(), best.merit);
                 let is_better = MOVES.into_iter().any(|moved| {
                     if let Some(found) = self.beside(&from, factor, moved) {
                         self.weigh_if_promising(found);
                     }
-                    self.best.as_ref().is_some_and(|best| best.measure < measure)
+                    self.sound.first().is_some_and(|best| best.merit < merit)
                 });
                 if !is_better {
                     break;
@@ -330,30 +407,12 @@ impl<'t> Trials<'t> {
     fn weigh_if_promising(&mut self, found: VcutParameters) {
         let model = self.model(&found);
         let is_behind = match self.asked.objective.value {
-            Objective::Time => self.best.as_ref().is_some_and(|best| model > best.model * BEHIND),
+            Objective::Time => self.sound.first().is_some_and(|best| model > best.model * BEHIND),
             Objective::Cuts | Objective::Scallop | Objective::BladeLoad => false,
         };
         if !is_behind {
             self.weigh(found);
         }
-    }
-
-    /// The limit on swing, and less.
-    fn swings(&self) -> Vec<Angle> {
-        match (self.asked.swing.value, self.asked.limits.swing.most) {
-            (Auto::Auto, Some(most)) => [1.0, 0.8, 2.0 / 3.0]
-                .map(|share| thousandths(most.value * share))
-                .to_vec(),
-            (Auto::Auto, None) => [30.0, 40.0, 50.0].map(Angle::deg).to_vec(),
-            (Auto::Given(_), _) => Vec::new(),
-        }
-    }
-
-    fn largest_layer(&self, swing: Angle) -> Option<VcutParameters> {
-        let mut assumed = self.asked.clone();
-        assumed.limits.scallop = None;
-        assumed.swing.value = Auto::Given(swing);
-        self.resolve(&assumed).filter(|found| self.is_within(found))
     }
 
     /// Whether parameters keep the job's limits. Swing and layer that are given are taken as they are, with a step that may
@@ -371,7 +430,7 @@ impl<'t> Trials<'t> {
         &self,
         from: &VcutParameters,
         factor: f64,
-        (swing, layer): (i32, i32),
+        [swing, layer, overlap]: Move,
     ) -> Option<VcutParameters> {
         let mut assumed = self.asked.clone();
         assumed.limits.scallop = None;
@@ -405,8 +464,30 @@ impl<'t> Trials<'t> {
             Auto::Given(_) if layer != 0 => return None,
             Auto::Given(_) => {}
         }
+        match (self.asked.step.value, self.asked.overlap.value) {
+            (Auto::Auto, Auto::Auto) => {
+                let changed = from.overlap + (factor - 1.0) / 2.0 * f64::from(overlap);
+                if overlap < 0 && from.overlap <= 0.0 {
+                    return None;
+                }
+                give_overlap(&mut assumed, changed);
+            }
+            (Auto::Given(_), _) | (Auto::Auto, Auto::Given(_)) if overlap != 0 => return None,
+            (Auto::Given(_), _) | (Auto::Auto, Auto::Given(_)) => {}
+        }
         parameters::resolve_on(self.bench.job, &assumed, vec![from.lattice], &mut Vec::new())
             .filter(|found| self.is_within(found))
+    }
+}
+
+/// Overlaps are tried up to this; larger ones cut most of what is cut twice.
+const MOST_OVERLAP: f64 = 0.8;
+
+/// Vs that overlap by this share; where they would just meet, that is what comes of an open overlap too.
+fn give_overlap(asked: &mut RoughVcut, overlap: f64) {
+    let overlap = (overlap * 1000.0).round() / 1000.0;
+    if overlap > 0.0 {
+        asked.overlap.value = Auto::Given(overlap.min(MOST_OVERLAP));
     }
 }
 

@@ -4,10 +4,11 @@
 //! caller's [`Sink`].
 
 mod target;
+mod yielding;
 
 pub use crate::sema::Typed;
 
-use crate::choice::{self, Latitude};
+use crate::choice;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::numbers::Numbers;
@@ -31,6 +32,7 @@ use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::motion::MotionFault;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
+use yielding::Yielding;
 
 /// What to compile.
 #[derive(Clone, Copy)]
@@ -200,14 +202,15 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
     (outcome.plan, outcome.compiled) = (plan, compiled);
 }
 
-/// Along fewer and fewer routes where the machine does not follow: the fastest ones ask the most of it.
+/// Along fewer routes and with narrower swings where the machine does not follow: the fastest ask the most of it.
 fn along_its_routes(job: &CheckedJob, sources: &SourceMap, progress: &mut dyn FnMut(Stage)) -> Ended {
-    let mut latitude = Latitude::Full;
+    let mut yielding = Yielding::new(job);
+    let mut refused: Option<Ended> = None;
     loop {
         progress(Stage::Planning);
-        let (plan, mut told) = choice::choose_within(job, latitude);
+        let (plan, mut told) = choice::choose_within(job, yielding.leeway());
         let Some(plan) = plan else {
-            return Ended::Refused(None, told);
+            return refused.unwrap_or(Ended::Refused(None, told));
         };
         progress(Stage::Proving);
         let proven = match verdict::prove(&plan, sources) {
@@ -219,22 +222,28 @@ fn along_its_routes(job: &CheckedJob, sources: &SourceMap, progress: &mut dyn Fn
         };
         told.extend(verdict::diagnose(job, &plan, &proven));
         if has_errors(&told) {
-            return Ended::Refused(Some(plan), told);
+            // What the machine did not follow was sound, and is what there is to tell.
+            return refused.unwrap_or(Ended::Refused(Some(plan), told));
         }
-        let narrower = latitude.narrower_than(&plan);
-        let changes = match narrower {
-            Some(_) => Changes::InTheAirOrElse,
-            None => Changes::InTheAir,
-        };
+        let changes = yielding.changes(&plan);
         match reach(job, proven.program, changes, progress) {
             Ok(program) => {
                 let compiled = compiled(job, program, &plan, proven.report);
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
-            Err(unreached) => match narrower {
-                Some(narrower) => latitude = narrower,
-                None => return Ended::Unreached(plan, told, unreached),
-            },
+            Err(unreached) => {
+                let is_usual = yielding.is_usual();
+                let goes_on = yielding.narrow(&plan, &unreached);
+                let this = Ended::Unreached(plan, told, unreached);
+                let told_of = match refused {
+                    Some(usual) if !is_usual => usual,
+                    Some(_) | None => this,
+                };
+                if !goes_on {
+                    return told_of;
+                }
+                refused = Some(told_of);
+            }
         }
     }
 }

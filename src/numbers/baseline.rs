@@ -45,7 +45,7 @@ pub fn read(text: &str) -> Result<Vec<Record>, Flaw> {
     serde_json::from_str(json).map_err(|error| {
         let place = text.len() - json.len() + place(json, error.line(), error.column());
         let reason = match error.classify() {
-            Category::Data => "a figure or a name is missing, or of another kind",
+            Category::Data => "a figure or a name is missing, below zero, or of another kind",
             Category::Eof => "the text ends too early",
             Category::Syntax | Category::Io => "the text is not JSON",
         };

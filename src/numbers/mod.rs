@@ -7,7 +7,8 @@ pub mod baseline;
 
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::sim::report::Report;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 use vcutc_backend_api::units::Duration;
 
 /// Figures of a program. The names carry their units; `docs/ci.md` explains each.
@@ -18,18 +19,25 @@ pub struct Numbers {
     /// Layers that cut something.
     pub layers: usize,
     /// Time of the planned program, as far as it is known.
+    #[serde(deserialize_with = "not_negative")]
     pub time_s: f64,
     /// Time by the mean-value model [Cui 11].
+    #[serde(deserialize_with = "not_negative")]
     pub estimate_s: f64,
     /// Highest material left on the part: the machined contour's largest distance from it.
+    #[serde(deserialize_with = "not_negative")]
     pub scallop_mm: f64,
     /// Its mean.
+    #[serde(deserialize_with = "not_negative")]
     pub mean_scallop_mm: f64,
     /// Longest edge that a cut uses.
+    #[serde(deserialize_with = "not_negative")]
     pub longest_edge_mm: f64,
     /// Area of the cross-section that is cut away.
+    #[serde(deserialize_with = "not_negative")]
     pub removed_mm2: f64,
     /// Area that stays on the part.
+    #[serde(deserialize_with = "not_negative")]
     pub residual_mm2: f64,
     /// Largest normalised cross-correlation of machined and theoretical contour [Cui 15].
     pub correlation: f64,
@@ -56,6 +64,16 @@ impl Numbers {
             residual_mm2: thousandths(report.residual.to_mm2()),
             correlation: (report.correlation * 1e6).round() / 1e6,
         }
+    }
+}
+
+/// A figure as it is read: less than nothing is none.
+fn not_negative<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let value = f64::deserialize(deserializer)?;
+    if value >= 0.0 {
+        Ok(value)
+    } else {
+        Err(D::Error::custom("a figure below zero"))
     }
 }
 

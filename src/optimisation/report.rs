@@ -84,10 +84,12 @@ fn planned_words(planned: &Planned, scallop: Length) -> String {
         Some(_) | None => "as the model says".to_owned(),
     };
     format!(
-        "{} for {} cuts in {} layers; {model}; simulated scallop of the job {:.2} mm",
+        "{} for {} {} in {} {}; {model}; simulated scallop of the job {:.2} mm",
         seconds(planned.time),
         planned.cuts,
+        if planned.cuts == 1 { "cut" } else { "cuts" },
         planned.layers,
+        if planned.layers == 1 { "layer" } else { "layers" },
         scallop.to_mm()
     )
 }

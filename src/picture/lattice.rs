@@ -135,12 +135,18 @@ fn description(lattice: &Lattice<'_>) -> String {
         .map(|(count, words)| format!("{count} {words}"))
         .collect();
     format!(
-        "{}. Section of a stock {:.1} mm wide and {:.1} mm high with the tips of {} cuts in {} layers above the part: {}.",
+        "{}. Section of a stock {:.1} mm wide and {:.1} mm high with the tips of {} {} in {} {} above the part: {}.",
         lattice.heading.subtitle,
         lattice.stock[0],
         lattice.stock[1],
         lattice.tips.len(),
+        if lattice.tips.len() == 1 { "cut" } else { "cuts" },
         lattice.layers.len(),
+        if lattice.layers.len() == 1 {
+            "layer"
+        } else {
+            "layers"
+        },
         counts.join(", ")
     )
 }

@@ -11,7 +11,7 @@ pub mod report;
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
-use crate::choice::{self, Latitude};
+use crate::choice::{self, Latitude, Leeway};
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{Request, Stage, internal, rules_broken};
 use crate::job::{CheckedJob, Machine};
@@ -158,7 +158,7 @@ fn prepare(
     };
     progress(Stage::Planning);
     // Where the machine follows these routes, the job compiles, whatever faster ones there are.
-    let (plan, found) = choice::choose_within(&job, Latitude::RowsByPoint);
+    let (plan, found) = choice::choose_within(&job, Leeway::along(Latitude::RowsByPoint));
     diagnostics.extend(found);
     let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
         return Err(Failed::Diagnostics(diagnostics));

@@ -45,6 +45,12 @@ pub enum Standing {
     NotCompared,
     /// The machine does not follow the faster ones.
     Last,
+    /// It is the widest of those tried that the machine follows.
+    Narrowed,
+    /// The machine does not follow it.
+    NotFollowed,
+    /// It was left out, for the machine did not follow the best plan of its kind.
+    LeftOut,
 }
 
 impl Standing {
@@ -68,7 +74,10 @@ impl Standing {
             Self::ByModel(_) => 3,
             Self::NotCompared => 4,
             Self::Last => 5,
-            Self::Impossible => 6,
+            Self::Narrowed => 6,
+            Self::NotFollowed => 7,
+            Self::LeftOut => 8,
+            Self::Impossible => 9,
         }
     }
 }

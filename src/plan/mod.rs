@@ -76,6 +76,8 @@ pub struct PlannedVcut {
     pub bound: Profile,
     /// The mean-value estimate of the time [Cui 11].
     pub estimate: Duration,
+    /// How many Vs that estimate is made for.
+    pub estimated_cuts: f64,
     /// The cuts, layer by layer, each layer from left to right.
     pub cuts: Vec<PlannedCut>,
     /// In which order they are made: every cut in one run.
@@ -176,10 +178,9 @@ pub fn lay_out(
         Ok(decided) => decided,
         Err(count) => return Err(vec![too_many_cuts(asked, &parameters, count)]),
     };
-    let estimate =
-        parameters
-            .time_model(job, asked)
-            .estimate(parameters.swing, parameters.layer, parameters.step);
+    let model = parameters.time_model(job, asked);
+    let estimate = model.estimate(parameters.swing, parameters.layer, parameters.step);
+    let estimated_cuts = model.cuts(parameters.layer, parameters.step);
     let vcut = PlannedVcut {
         asked: asked.clone(),
         parameters,
@@ -188,6 +189,7 @@ pub fn lay_out(
         sequence: Sequence::Rows,
         bound,
         estimate,
+        estimated_cuts,
         cuts,
         runs: Vec::new(),
         decisions: Vec::new(),

@@ -106,11 +106,19 @@ impl VcutParameters {
             }),
             Auto::Given(_) => None,
         };
+        let overlap = match (asked.overlap.value, asked.step.value) {
+            (Auto::Auto, Auto::Auto) => Some(Choice {
+                name: "overlap",
+                value: format!("{} %", show(self.overlap * 100.0)),
+            }),
+            (Auto::Given(_), _) | (_, Auto::Given(_)) => None,
+        };
         [
             lattice,
             swing,
             length("layer", asked.layer.value, self.layer),
             length("step", asked.step.value, self.step),
+            overlap,
             length("extension", asked.extension.value, self.extension),
             length("standoff", asked.standoff.value, self.standoff),
         ]

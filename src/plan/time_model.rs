@@ -29,13 +29,27 @@ pub struct TimeModel {
 }
 
 impl TimeModel {
+    /// How many Vs the estimate is made for.
+    #[must_use]
+    pub fn cuts(&self, layer: Length, step: Length) -> f64 {
+        self.points(step) * self.layers(layer)
+    }
+
+    fn points(&self, step: Length) -> f64 {
+        self.width / step + 0.5
+    }
+
+    /// Less than one layer is still one.
+    fn layers(&self, layer: Length) -> f64 {
+        let mean_depth = self.area.to_mm2() / self.width.to_mm();
+        (mean_depth / layer.to_mm() - 0.5).max(1.0)
+    }
+
     /// Estimated process time for a swing, a layer and a step.
     #[must_use]
     pub fn estimate(&self, swing: Angle, layer: Length, step: Length) -> Duration {
-        let points = self.width / step + 0.5;
+        let (points, layers) = (self.points(step), self.layers(layer));
         let mean_depth = self.area.to_mm2() / self.width.to_mm();
-        // Less than one layer is still one.
-        let layers = (mean_depth / layer.to_mm() - 0.5).max(1.0);
         let turn = Angle::rad(2.0 * libm::acos(swing.cos() * self.rake.sin())) / self.reorient_rate;
         let cuts = (2.0 * self.depth + 4.0 * self.extension) / self.cut_feed;
         let per_point = cuts + turn + turn.max(step / self.travel_feed);

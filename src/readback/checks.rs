@@ -472,7 +472,7 @@ const fn rule_words(rule: Rule) -> &'static str {
         Rule::ReadyNotAwaited => "the blade cuts before the generator is known to run",
         Rule::Ending => "the program does not end at home with the generator off",
         Rule::CutPair => "a V is not made of one left and one right flank",
-        Rule::Order => "cuts, layers or operations are not in the order in which they were proven",
+        Rule::Order => "operations are out of order, or a layer's cuts are not all there",
     }
 }
 

@@ -34,7 +34,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("lower", &["geom", "job", "plan", "posture", "source"]),
     ("choice", &["diag", "job", "lower", "plan", "sim", "source"]),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
-    ("summary", &["pace", "plan", "reach_summary", "sim"]),
+    ("summary", &["job", "pace", "plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
     (
@@ -101,6 +101,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "choice",
             "diag",
             "job",
+            "lower",
             "machine",
             "numbers",
             "pace",

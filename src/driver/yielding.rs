@@ -1,0 +1,181 @@
+//! How what a job leaves open yields to its machine: other routes, then narrower swings, until the machine follows.
+//!
+//! A program that fails as a whole is dear to refute. Whether the cuts of an order, or of a swing, can be followed at all, a
+//! few telling motions say much sooner ([`Strokes`]): those that they rule out are not planned. How many plans are
+//! proven is bounded by [`MOST_PLANS`].
+
+use crate::choice::{Latitude, Leeway, Narrowed, is_swing_open};
+use crate::job::{Auto, CheckedJob, Operation, Order, Sequence};
+use crate::lower;
+use crate::plan::{PlannedJob, PlannedOperation};
+use crate::reach::place::strokes::Strokes;
+use crate::reach::rig::Rig;
+use crate::reach::solve::{Changes, Unreached};
+use crate::reach::trouble::Trouble;
+use crate::sim::surface::Surface;
+use crate::source::SourceMap;
+use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::verify::verify;
+
+/// Most plans that are put to the machine.
+const MOST_PLANS: usize = 10;
+
+/// By which factor swings are narrowed while one is looked for whose telling motions are followed.
+const NARROWER: f64 = 0.95;
+
+/// The narrowest swing that is looked at.
+const NARROWEST: Angle = Angle::deg(10.0);
+
+/// What was tried for a job, and what is tried next.
+pub(super) struct Yielding<'j> {
+    job: &'j CheckedJob,
+    leeway: Leeway,
+    plans: usize,
+}
+
+impl<'j> Yielding<'j> {
+    pub(super) const fn new(job: &'j CheckedJob) -> Self {
+        Self {
+            job,
+            leeway: Leeway::along(Latitude::Full),
+            plans: 0,
+        }
+    }
+
+    /// What is considered now.
+    pub(super) const fn leeway(&self) -> Leeway {
+        self.leeway
+    }
+
+    /// Whether what the machine refuses now is what the job is told of: beyond it, the compiler helped itself.
+    pub(super) const fn is_usual(&self) -> bool {
+        self.leeway.swing.is_none()
+            && match self.leeway.routes {
+                Latitude::Full | Latitude::ByPoint | Latitude::RowsByPoint => true,
+                Latitude::ByLayer | Latitude::RowsByLayer => false,
+            }
+    }
+
+    /// How hard the machine is tried: less where routes come next whose refusal is the one that is told.
+    pub(super) fn changes(&self, plan: &PlannedJob) -> Changes {
+        match self.leeway.routes.narrower_than(plan) {
+            Some(Latitude::Full | Latitude::ByPoint | Latitude::RowsByPoint) => Changes::InTheAirOrElse,
+            Some(Latitude::ByLayer | Latitude::RowsByLayer) | None => Changes::InTheAir,
+        }
+    }
+
+    /// Goes on to what is considered where the machine does not follow a plan. Without effect where there is nothing left.
+    pub(super) fn narrow(&mut self, plan: &PlannedJob, unreached: &Unreached) -> bool {
+        self.plans += 1;
+        if self.plans >= MOST_PLANS {
+            return false;
+        }
+        let next = self.other_routes(plan).or_else(|| match trouble(unreached)? {
+            Trouble::Motion { .. } | Trouble::NoCommonBranch { .. } => self.narrower_swing(plan),
+            Trouble::Way { .. } | Trouble::Nowhere => None,
+        });
+        self.leeway = next.unwrap_or(self.leeway);
+        next.is_some()
+    }
+
+    /// Fewer routes, but for those whose telling motions are not followed.
+    fn other_routes(&self, plan: &PlannedJob) -> Option<Leeway> {
+        let has_open_swing = self.job.operations.iter().any(is_swing_open);
+        let mut next = self.leeway.routes.narrower_than(plan);
+        while let Some(routes) = next {
+            let is_checked = has_open_swing
+                || match routes {
+                    Latitude::Full | Latitude::ByPoint | Latitude::RowsByPoint => false,
+                    Latitude::ByLayer | Latitude::RowsByLayer => true,
+                };
+            if !is_checked || self.is_followed(plan, routes.order(), None) {
+                break;
+            }
+            next = routes.narrower_than(plan);
+        }
+        next.map(|routes| Leeway {
+            routes,
+            ..self.leeway
+        })
+    }
+
+    /// The widest of some narrower swings whose telling motions are followed in some order.
+    fn narrower_swing(&self, plan: &PlannedJob) -> Option<Leeway> {
+        let now = widest_open(plan)?;
+        let least = self.least_swing();
+        let mut swing = now;
+        loop {
+            swing = Angle::deg((swing.to_deg() * NARROWER * 10.0).floor() / 10.0);
+            if swing < least {
+                return None;
+            }
+            let orders = [Order::Point, Order::Layer];
+            if orders
+                .into_iter()
+                .any(|order| self.is_followed(plan, Some(order), Some(swing)))
+            {
+                break;
+            }
+        }
+        Some(Leeway {
+            routes: Latitude::Full,
+            swing: Some(Narrowed {
+                widest: swing,
+                refused: self.leeway.swing.map_or(now, |swing| swing.refused),
+            }),
+        })
+    }
+
+    /// The narrowest swing that all open ones may be held to.
+    fn least_swing(&self) -> Angle {
+        let limits = self.job.operations.iter().filter_map(|operation| {
+            let Operation::RoughVcut(asked) = operation;
+            asked.limits.swing.least.map(|least| least.value)
+        });
+        limits.fold(
+            NARROWEST,
+            |least, limit| if limit > least { limit } else { least },
+        )
+    }
+
+    /// Whether the machine follows a plan's telling motions, in rows, with this order and with swings no wider than this
+    /// where they are open.
+    fn is_followed(&self, plan: &PlannedJob, order: Option<Order>, swing: Option<Angle>) -> bool {
+        let Some(machine) = &self.job.machine else {
+            return true;
+        };
+        let mut changed = plan.clone();
+        let untouched = Surface::flat(plan.stock.width.to_mm(), plan.stock.height.to_mm());
+        for operation in &mut changed.operations {
+            let PlannedOperation::RoughVcut(vcut) = operation;
+            if let (Auto::Auto, Some(swing)) = (vcut.asked.swing.value, swing)
+                && swing < vcut.parameters.swing
+            {
+                vcut.parameters.swing = swing;
+            }
+            let order = vcut.asked.order.value.or(order.unwrap_or(vcut.order));
+            *vcut = vcut.clone().along(order, Sequence::Rows, &untouched, plan.stock);
+        }
+        let Ok(program) = verify(lower::lower(&changed, &SourceMap::default())) else {
+            return true;
+        };
+        let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
+        Strokes::of(program.program()).are_each_followed(&rig)
+    }
+}
+
+/// The widest of the swings that the job leaves open.
+fn widest_open(plan: &PlannedJob) -> Option<Angle> {
+    let swings = plan.operations.iter().filter_map(|operation| {
+        let PlannedOperation::RoughVcut(vcut) = operation;
+        (vcut.asked.swing.value == Auto::Auto).then_some(vcut.parameters.swing)
+    });
+    swings.reduce(|one, other| if other > one { other } else { one })
+}
+
+fn trouble(unreached: &Unreached) -> Option<&Trouble> {
+    match unreached {
+        Unreached::Unreachable(unreachable) => Some(&unreachable.trouble),
+        Unreached::Rules(_) | Unreached::Motion(_) => None,
+    }
+}
