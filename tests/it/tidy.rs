@@ -25,6 +25,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("reach", &["kinematics", "machine"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),
+    ("format", &["diag", "source", "syntax"]),
     (
         "sema",
         &["diag", "document", "geom", "job", "machine", "source", "syntax"],
@@ -126,6 +127,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "diag",
             "document",
             "driver",
+            "format",
             "job",
             "kinematics",
             "machine",
@@ -142,6 +144,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "report",
             "source",
             "summary",
+            "syntax",
         ],
     ),
 ];
@@ -167,7 +170,8 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("tempfile::", &["src/cli/"]),
     ("toml::", &["src/document/"]),
     ("std::fs", &["src/cli/"]),
-    ("std::net", &[]),
+    ("std::net", &["src/cli/watch/server.rs"]),
+    ("ctrlc::", &["src/cli/watch/"]),
     ("std::env::", &["src/cli/"]),
     ("std::process", &["src/cli/", "src/main.rs"]),
     ("std::thread", &["src/cli/"]),
