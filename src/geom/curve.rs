@@ -272,6 +272,16 @@ impl Curve {
     }
 }
 
+/// The control points of the cubics of [`Curve::spline`], end to end.
+///
+/// # Errors
+/// As [`Curve::spline`].
+pub fn spline_cubics(points: &[Point2]) -> Result<Vec<Vec<Point2>>, CurveError> {
+    check_points(points)?;
+    let cubics = spline::interpolate(points)?;
+    Ok(cubics.into_iter().map(Bezier::into_control).collect())
+}
+
 /// What all lists of points must satisfy.
 fn check_points(points: &[Point2]) -> Result<(), CurveError> {
     if points.len() < 2 {

@@ -1,13 +1,17 @@
-//! Files of points: CSV and airfoil coordinates.
+//! Files of points and drawings: CSV, airfoil coordinates, DXF and SVG.
 //!
-//! Both readers take the text of a file and never guess silently: what cannot be read is a [`DataError`] that says
-//! where and, in the user's words, why. Both take time in proportion to the text.
+//! All readers take the text of a file and never guess silently: what cannot be read is a [`DataError`] that says
+//! where and, in the user's words, why. Readers of points take time in proportion to the text; what drawings unfold to is
+//! bounded ([`drawing`]).
 
 mod airfoil;
 mod csv;
+pub mod drawing;
+mod dxf;
 
 pub use airfoil::{Airfoil, airfoil};
 pub use csv::csv;
+pub use dxf::dxf;
 
 use super::point::LARGEST_COORDINATE;
 use core::ops::Range;
