@@ -8,6 +8,7 @@
 //! stands on the wanted layer is listed. The plane of the drawing is x and y of the world; what is tilted out of it is
 //! listed too, what is only lifted off it is read.
 
+mod encoding;
 mod entity;
 mod fields;
 mod groups;
@@ -15,6 +16,8 @@ mod insert;
 mod polyline;
 mod sections;
 mod spline;
+
+pub use encoding::{NoText, dxf_text};
 
 use super::DataError;
 use super::drawing::{Drawing, Place, Unit};

@@ -287,11 +287,12 @@ impl Walked {
             let middle = last.lerp(first, 0.5);
             // What is nearer to the middle than the ends would lead back.
             let near = |point: &Point2| point.distance(middle) <= size;
+            let owner = self.owners.last().copied().unwrap_or(line.stroke);
             while self.points.len() > 1 && self.points.last().is_some_and(near) {
                 self.points.pop();
             }
             self.owners.truncate(self.points.len());
-            self.push(middle, self.owners.last().copied().unwrap_or(line.stroke));
+            self.push(middle, owner);
             let inner = next.len() - 1;
             leading = 1 + next[1..inner].iter().take_while(|point| near(point)).count();
         }

@@ -25,10 +25,7 @@ impl<'t> Fields<'t> {
     /// Takes the groups of the entity whose name is the group at hand, up to the next code 0.
     pub(super) fn take(name: Group, groups: &mut Groups<'t>) -> Result<Self, DataError> {
         let mut text = Vec::new();
-        while let Some(group) = groups.peek()? {
-            if group.code == 0 {
-                break;
-            }
+        while groups.peek()?.is_none_or(|group| group.code != 0) {
             let group = groups.take()?;
             text.push((group, groups.value(group)));
         }
