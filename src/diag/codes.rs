@@ -113,6 +113,16 @@ codes! {
     ProfileOutsideStock = "VC0223", Error, "a profile that leaves the stock";
     /// A line of a data file that cannot be read.
     BadData = "VC0224", Error, "a data file that cannot be understood";
+    /// A layer that a drawing does not have.
+    UnknownLayer = "VC0225", Error, "a layer that is not in the drawing";
+    /// A drawing whose lines are not one outline.
+    BrokenOutline = "VC0226", Error, "a drawing that is not one outline";
+    /// Things in a drawing that are left out, or decided on.
+    PartlyRead = "VC0227", Warning, "parts of a drawing that are not taken as they stand";
+    /// A drawing whose numbers have no unit.
+    UnknownScale = "VC0228", Error, "a drawing without a unit";
+    /// A drawing, or a layer, without lines.
+    NothingDrawn = "VC0229", Error, "a drawing with no line to read";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "a job that leaves nothing to cut";

@@ -8,20 +8,30 @@
 //! * **Bezier curve** of degree `n` (and the cubics of a **spline**): a piece with control points `P_i` is at most
 //!   `n (n-1)/8 max |P_i - 2 P_(i+1) + P_(i+2)|` off its chord. (The factor `n (n-1)` times the second differences
 //!   bounds the second derivative, and a function is at most `max |f''| / 8` off its chord over the unit interval.)
+//! * **elliptic arc**: half the longer axis times `h^2 / 8` for a chord over the parameter `h` (see `ellipse`);
+//! * **B-spline**: cut into Bezier curves at its knots; rational ones by the hull of their control points (see
+//!   `rational`).
 //!
 //! All bounds hold up to the rounding of the coordinates themselves.
 
 mod arc;
 mod bezier;
+mod ellipse;
+mod nurbs;
+mod rational;
 mod sample;
 mod spline;
 
 pub use super::point::{LARGEST_COORDINATE, Point2};
+pub use nurbs::{Nurbs, NurbsError};
 pub use sample::{MOST_SAMPLES, SampleError, sample};
 
 use arc::Arc;
 use bezier::Bezier;
-use vcutc_backend_api::units::Length;
+use ellipse::EllipticArc;
+use nurbs::Pieces;
+use rational::Rational;
+use vcutc_backend_api::units::{Angle, Length};
 
 /// Most control points of a Bezier curve, its ends included.
 pub const MOST_CONTROL_POINTS: usize = 64;
@@ -31,6 +41,9 @@ pub const MOST_POINTS: usize = 2_000_000;
 
 /// Points closer than this count as one, in mm. Far below any tolerance, far above rounding.
 pub(super) const COINCIDENT: f64 = 1e-9;
+
+/// Arcs that turn through less are straight, in rad.
+const STRAIGHT: f64 = 1e-9;
 
 /// Smallest tolerance that is honoured, in mm; smaller ones are raised to it.
 const FINEST_TOLERANCE: f64 = 1e-9;
@@ -46,9 +59,12 @@ enum Shape {
     /// Straight from corner to corner; at least two.
     Polyline(Vec<Point2>),
     Arc(Arc),
+    Ellipse(EllipticArc),
     Bezier(Bezier),
-    /// The cubics of an interpolating spline, end to end; at least one.
+    /// The Bezier curves of a spline, end to end; at least one.
     Spline(Vec<Bezier>),
+    /// Those of a spline with weights.
+    Rational(Vec<Rational>),
 }
 
 /// Why a curve cannot be made or flattened. An `index` counts the points in the order they were handed over, from 0.
@@ -140,6 +156,48 @@ impl Curve {
         })
     }
 
+    /// The arc that turns through an angle on its way, to the left where it is positive. An arc that turns through less
+    /// than 1e-9 rad is a straight line.
+    ///
+    /// # Errors
+    /// [`CurveError::PointsCoincide`], [`CurveError::OutOfRange`] (index 2 is an angle of a whole turn or more).
+    pub fn arc_by_sweep(from: Point2, to: Point2, sweep: Angle) -> Result<Self, CurveError> {
+        if sweep.to_rad().abs() < STRAIGHT {
+            return Self::line(from, to);
+        }
+        Ok(Self {
+            shape: Shape::Arc(Arc::by_sweep(from, to, sweep.to_rad())?),
+        })
+    }
+
+    /// An arc of the ellipse `center + half[0] cos t + half[1] sin t`, from one parameter on over `sweep`, which is cut off
+    /// at a whole turn. The half-diameters need not be its axes, but conjugate.
+    ///
+    /// # Errors
+    /// [`CurveError::OutOfRange`].
+    pub fn elliptic_arc(
+        center: Point2,
+        half: [Point2; 2],
+        start: Angle,
+        sweep: Angle,
+    ) -> Result<Self, CurveError> {
+        Ok(Self {
+            shape: Shape::Ellipse(EllipticArc::new(center, half, start.to_rad(), sweep.to_rad())?),
+        })
+    }
+
+    /// A B-spline of any degree, with any knots and weights.
+    ///
+    /// # Errors
+    /// See [`NurbsError`].
+    pub fn nurbs(nurbs: &Nurbs) -> Result<Self, NurbsError> {
+        let shape = match nurbs.pieces()? {
+            Pieces::Plain(pieces) => Shape::Spline(pieces),
+            Pieces::Rational(pieces) => Shape::Rational(pieces),
+        };
+        Ok(Self { shape })
+    }
+
     /// A Bezier curve given by all its control points, ends included.
     ///
     /// # Errors
@@ -167,6 +225,21 @@ impl Curve {
         })
     }
 
+    /// Where it starts.
+    #[must_use]
+    pub fn start(&self) -> Point2 {
+        let start = match &self.shape {
+            Shape::Polyline(points) => points.first().copied(),
+            Shape::Arc(arc) => Some(arc.from()),
+            Shape::Ellipse(arc) => Some(arc.from()),
+            Shape::Bezier(bezier) => Some(bezier.from()),
+            Shape::Spline(pieces) => pieces.first().map(Bezier::from),
+            Shape::Rational(pieces) => pieces.first().map(Rational::from),
+        };
+        // Never taken: there are points.
+        start.unwrap_or(Point2::new(0.0, 0.0))
+    }
+
     /// Appends the polyline of this curve to `out`, all points after the first. The curve stays within `tolerance`
     /// of the polyline (see the module documentation), and the end point is exact. Tolerances below 1e-9 mm are
     /// raised to that.
@@ -178,6 +251,7 @@ impl Curve {
         match &self.shape {
             Shape::Polyline(points) => out.extend(points.iter().skip(1)),
             Shape::Arc(arc) => arc.flatten(tolerance, out)?,
+            Shape::Ellipse(arc) => arc.flatten(tolerance, out)?,
             Shape::Bezier(bezier) => bezier.flatten(tolerance, MOST_POINTS, out)?,
             Shape::Spline(cubics) => {
                 let before = out.len();
@@ -186,9 +260,26 @@ impl Curve {
                     cubic.flatten(tolerance, left, out)?;
                 }
             }
+            Shape::Rational(pieces) => {
+                let before = out.len();
+                for piece in pieces {
+                    let left = MOST_POINTS.saturating_sub(out.len() - before);
+                    piece.flatten(tolerance, left, out)?;
+                }
+            }
         }
         Ok(())
     }
+}
+
+/// The control points of the cubics of [`Curve::spline`], end to end.
+///
+/// # Errors
+/// As [`Curve::spline`].
+pub fn spline_cubics(points: &[Point2]) -> Result<Vec<Vec<Point2>>, CurveError> {
+    check_points(points)?;
+    let cubics = spline::interpolate(points)?;
+    Ok(cubics.into_iter().map(Bezier::into_control).collect())
 }
 
 /// What all lists of points must satisfy.

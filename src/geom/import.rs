@@ -1,13 +1,19 @@
-//! Files of points: CSV and airfoil coordinates.
+//! Files of points and drawings: CSV, airfoil coordinates, DXF and SVG.
 //!
-//! Both readers take the text of a file and never guess silently: what cannot be read is a [`DataError`] that says
-//! where and, in the user's words, why. Both take time in proportion to the text.
+//! All readers take the text of a file and never guess silently: what cannot be read is a [`DataError`] that says
+//! where and, in the user's words, why. Readers of points take time in proportion to the text; what drawings unfold to is
+//! bounded ([`drawing`]).
 
 mod airfoil;
 mod csv;
+pub mod drawing;
+mod dxf;
+mod svg;
 
 pub use airfoil::{Airfoil, airfoil};
 pub use csv::csv;
+pub use dxf::{NoText, dxf, dxf_text};
+pub use svg::svg;
 
 use super::point::LARGEST_COORDINATE;
 use core::ops::Range;
@@ -93,15 +99,16 @@ fn coordinate(piece: Piece<'_>, text: &str) -> Result<f64, DataError> {
     if text.is_empty() {
         return Err(DataError::new(piece.range(), "a number is missing here"));
     }
-    let value = number(text).ok_or_else(|| {
-        DataError::new(
-            piece.range(),
-            format!("`{}` is not a number", shortened(piece.text)),
-        )
-    })?;
+    coordinate_of(text, piece.text).map_err(|message| DataError::new(piece.range(), message))
+}
+
+/// A number within the range of coordinates, or why it is none; `shown` is how the file has it.
+fn coordinate_of(text: &str, shown: &str) -> Result<f64, String> {
+    let value = number(text).ok_or_else(|| format!("`{}` is not a number", shortened(shown)))?;
     if value.abs() > LARGEST_COORDINATE {
-        let message = format!("coordinates go up to {LARGEST_COORDINATE:e}, this is beyond");
-        return Err(DataError::new(piece.range(), message));
+        return Err(format!(
+            "coordinates go up to {LARGEST_COORDINATE:e}, this is beyond"
+        ));
     }
     Ok(value)
 }

@@ -316,6 +316,11 @@ impl<'a> Fields<'a> {
         reports.push(diagnostic.fix(title, self.insertion.at, self.insertion.text(&sample)))
     }
 
+    /// Offers to add a field with a value.
+    pub(crate) fn offer(&self, diagnostic: Diagnostic, title: impl Into<String>, field: &str) -> Diagnostic {
+        diagnostic.fix(title, self.insertion.at, self.insertion.text(field))
+    }
+
     fn unknown_field(&self, name: &Spanned<String>) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::UnknownField,
@@ -514,6 +519,8 @@ pub(crate) const fn curve_words(curve: &Curve) -> &'static str {
         Curve::Polyline { .. } => "`polyline`",
         Curve::Points { .. } => "`points`",
         Curve::Airfoil { .. } => "`airfoil`",
+        Curve::Dxf { .. } => "`dxf`",
+        Curve::Svg { .. } => "`svg`",
     }
 }
 
@@ -526,8 +533,31 @@ struct Insertion {
 }
 
 impl Insertion {
-    /// Just before the closing brace, in the manner of the block: on a line of its own when the brace has one.
+    /// Just before the closing bracket, in the manner of the block: on a line of its own when the bracket has one, behind a
+    /// comma in the short form of a profile. A piece of a profile without options gets brackets of its own.
     fn before_end_of(whole: Span, sources: &SourceMap) -> Self {
+        match sources.slice(whole).bytes().last() {
+            Some(b'"') => {
+                return Self {
+                    at: whole.after(),
+                    before: " { ",
+                    after: " }".to_owned(),
+                };
+            }
+            Some(b')') => {
+                let at = whole.end.saturating_sub(1);
+                return Self {
+                    at: Span {
+                        start: at,
+                        end: at,
+                        ..whole
+                    },
+                    before: ", ",
+                    after: String::new(),
+                };
+            }
+            _ => {}
+        }
         let brace = whole.end.saturating_sub(1).max(whole.start);
         let at = Span {
             start: brace,

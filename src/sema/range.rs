@@ -72,6 +72,8 @@ pub(crate) const MOST_CUTS: Range = range(Dimension::PURE, Low::AtLeast(1.0), Hi
 pub(crate) const MASS: Range = range(Dimension::MASS, Low::AtLeast(0.0), High::AtMost(10_000.0));
 /// Factors by which a file's points are stretched.
 pub(crate) const SCALE: Range = range(Dimension::PURE, Low::Above(0.0), High::AtMost(1e6));
+/// Gaps between the lines of a drawing over which they are joined.
+pub(crate) const JOINING: Range = range(Dimension::LENGTH, Low::Above(0.0), High::AtMost(10.0));
 /// Numbers of inputs and outputs of a controller.
 pub(crate) const SIGNAL: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(65_535.0));
 /// Numbers of a controller's own tables, counted from 1.

@@ -241,6 +241,35 @@ impl Reader<'_> {
         Err(self.reports.push(diagnostic))
     }
 
+    /// A text in quotes, if the field is given.
+    pub(crate) fn text(&mut self, fields: &Fields<'_>, name: &str) -> Checked<Option<Spanned<String>>> {
+        let Some(expr) = fields.value(name)? else {
+            return Ok(None);
+        };
+        if let Expr::Text(text) = &expr.node {
+            return Ok(Some(Spanned::new(text.clone(), expr.span)));
+        }
+        let diagnostic = Diagnostic::new(
+            Code::WrongKind,
+            format!("`{name}` takes a text in quotes"),
+            expr.span,
+            format!("this is {}", looks_like(&expr.node)),
+        );
+        let diagnostic = match &expr.node {
+            Expr::Name(word) => diagnostic.fix("put it in quotes", expr.span, format!("\"{word}\"")),
+            Expr::Number { .. }
+            | Expr::Text(_)
+            | Expr::Call { .. }
+            | Expr::Negate(_)
+            | Expr::Binary { .. }
+            | Expr::Tuple(_) => match fields.typical(name) {
+                Some(typical) => diagnostic.help(format!("write it like `{name} = {typical}`")),
+                None => diagnostic,
+            },
+        };
+        Err(self.reports.push(diagnostic))
+    }
+
     /// A whole number within a range.
     pub(crate) fn whole(&mut self, expr: &Spanned<Expr>, range: Range, taker: &str) -> Checked<u32> {
         let value = self.within(expr, range, taker, None)?;

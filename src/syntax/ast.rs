@@ -181,6 +181,20 @@ pub enum Curve {
         /// Fields in braces behind it.
         options: Vec<Entry>,
     },
+    /// `dxf "file.dxf"`, optionally with `{ fields }`.
+    Dxf {
+        /// The file.
+        path: Spanned<String>,
+        /// Fields in braces behind it.
+        options: Vec<Entry>,
+    },
+    /// `svg "file.svg"`, optionally with `{ fields }`.
+    Svg {
+        /// The file.
+        path: Spanned<String>,
+        /// Fields in braces behind it.
+        options: Vec<Entry>,
+    },
 }
 
 /// What determines an arc besides its ends.

@@ -45,6 +45,17 @@ impl Place {
     }
 }
 
+/// What a piece of a profile that is a file becomes, by its rule or by its word.
+fn of_a_file(rule: Rule) -> Option<fn(Spanned<String>, Vec<Entry>) -> Curve> {
+    match rule {
+        Rule::points | Rule::points_word => Some(|path, options| Curve::Points { path, options }),
+        Rule::airfoil | Rule::airfoil_word => Some(|path, options| Curve::Airfoil { path, options }),
+        Rule::dxf | Rule::dxf_word => Some(|path, options| Curve::Dxf { path, options }),
+        Rule::svg | Rule::svg_word => Some(|path, options| Curve::Svg { path, options }),
+        _ => None,
+    }
+}
+
 /// Builds the tree of one text.
 #[derive(Debug)]
 pub(super) struct Builder<'t> {
@@ -117,6 +128,7 @@ impl<'t> Builder<'t> {
                 Some(Item::Let { name, value, span })
             }
             Rule::block => self.block(pair).map(Item::Block),
+            Rule::file_profile => self.file_profile(pair).map(Item::Block),
             Rule::bad_item => {
                 self.bad(&pair, Rule::only_item);
                 None
@@ -144,6 +156,37 @@ impl<'t> Builder<'t> {
             .collect();
         let entries = self.entries(parts);
         Some(Block { head, entries, span })
+    }
+
+    /// A profile in its short form, as the block that it stands for.
+    fn file_profile(&mut self, pair: Pair<'_, Rule>) -> Option<Block> {
+        let span = self.place.span_of(&pair);
+        let word = find(pair.clone(), Rule::profile_word)?;
+        let head = vec![Spanned::new(
+            HeadPart::Word(word.as_str().to_owned()),
+            self.place.span_of(&word),
+        )];
+        let piece = find(pair.clone(), Rule::file_piece)?;
+        let start = self.place.span_of(&piece);
+        let path = self.place.text(&find(pair.clone(), Rule::text)?);
+        let mut options = Vec::new();
+        for option in find(pair, Rule::file_options)?.into_inner() {
+            let span = self.place.span_of(&option);
+            if option.as_rule() == Rule::file_option {
+                let (name, value) = self.name_and_value(option)?;
+                options.push(Entry::Field { name, value, span });
+            }
+        }
+        let make = of_a_file(piece.into_inner().next()?.as_rule())?;
+        let curve = Entry::Curve {
+            curve: make(path, options),
+            span: start.to(span),
+        };
+        Some(Block {
+            head,
+            entries: vec![curve],
+            span,
+        })
     }
 
     fn head_part(&self, pair: &Pair<'_, Rule>) -> Spanned<HeadPart> {
@@ -187,7 +230,9 @@ impl<'t> Builder<'t> {
             | Rule::spline
             | Rule::polyline
             | Rule::points
-            | Rule::airfoil => {
+            | Rule::airfoil
+            | Rule::dxf
+            | Rule::svg => {
                 let curve = self.curve(pair)?;
                 Some(Entry::Curve { curve, span })
             }
@@ -232,19 +277,13 @@ impl<'t> Builder<'t> {
 
     fn curve(&mut self, pair: Pair<'_, Rule>) -> Option<Curve> {
         let rule = pair.as_rule();
-        match rule {
-            Rule::points | Rule::airfoil => {
-                let path = self.place.text(&find(pair.clone(), Rule::text)?);
-                let options = match find(pair, Rule::curve_options) {
-                    Some(options) => self.entries(options.into_inner()),
-                    None => Vec::new(),
-                };
-                return Some(match rule {
-                    Rule::points => Curve::Points { path, options },
-                    _ => Curve::Airfoil { path, options },
-                });
-            }
-            _ => {}
+        if let Some(make) = of_a_file(rule) {
+            let path = self.place.text(&find(pair.clone(), Rule::text)?);
+            let options = match find(pair, Rule::curve_options) {
+                Some(options) => self.entries(options.into_inner()),
+                None => Vec::new(),
+            };
+            return Some(make(path, options));
         }
         let mut points = Vec::new();
         let mut by = None;

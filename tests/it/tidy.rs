@@ -162,7 +162,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
         &["src/kinematics/", "src/machine/", "src/posture.rs", "src/reach/"],
     ),
     ("nalgebra::", &["src/kinematics/"]),
-    ("roxmltree::", &["src/machine/urdf/"]),
+    ("roxmltree::", &["src/geom/import/svg/", "src/machine/urdf/"]),
     ("pulp::", &["src/kinematics/lanes.rs", "src/kinematics/batch.rs"]),
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),

@@ -6,7 +6,7 @@
 //! nearly straight arcs, whose centre is far away, keep their precision.
 
 use super::{COINCIDENT, CurveError, MOST_POINTS, Point2, check_points};
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use vcutc_backend_api::units::Length;
 
 /// How unequal the distances of a centre from both ends may be, in mm. It also tells a half circle.
@@ -94,6 +94,24 @@ impl Arc {
             to,
             sweep: 2.0 * libm::atan2(turn, first.dot(second)),
         })
+    }
+
+    /// The arc that turns through an angle below a whole turn.
+    pub(super) fn by_sweep(from: Point2, to: Point2, sweep: f64) -> Result<Self, CurveError> {
+        check_points(&[from, to])?;
+        if from.distance(to) < COINCIDENT {
+            return Err(CurveError::PointsCoincide { index: 1 });
+        }
+        let turn = sweep.abs();
+        if turn > 0.0 && turn < TAU {
+            Ok(Self { from, to, sweep })
+        } else {
+            Err(CurveError::OutOfRange { index: 2 })
+        }
+    }
+
+    pub(super) const fn from(&self) -> Point2 {
+        self.from
     }
 
     pub(super) fn flatten(&self, tolerance: f64, out: &mut Vec<Point2>) -> Result<(), CurveError> {

@@ -21,6 +21,14 @@ impl Bezier {
         Self { control }
     }
 
+    pub(super) fn into_control(self) -> Vec<Point2> {
+        self.control
+    }
+
+    pub(super) fn from(&self) -> Point2 {
+        self.control.first().copied().unwrap_or(Point2::new(0.0, 0.0))
+    }
+
     /// As [`super::Curve::flatten`], with at most `most` points for a line and fewer by the degree for curves: a
     /// halving costs its square.
     pub(super) fn flatten(

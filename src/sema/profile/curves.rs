@@ -1,6 +1,6 @@
 //! A profile drawn piece by piece: every piece begins where the one before ended.
 
-use super::{Piece, TOLERANCE, Trace, data, point};
+use super::{Piece, TOLERANCE, Trace, data, drawing, point};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::{Curve as Shape, CurveError, Point2};
 use crate::sema::dimension::Dimension;
@@ -9,8 +9,8 @@ use crate::sema::fields::curve_words;
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reported, Reports};
 use crate::sema::session::Session;
-use crate::source::Span;
-use crate::syntax::ast::{ArcBy, Curve, Point};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{ArcBy, Curve, Entry, Point};
 use vcutc_backend_api::units::Length;
 
 /// The polyline of a chain of pieces.
@@ -70,13 +70,15 @@ impl Drawing<'_> {
                 let points = data::airfoil(path, options, piece.span, self.scope, session);
                 self.place_data(points)
             }
+            Curve::Dxf { path, options } => self.drawing(piece, &drawing::DXF, (path, options), session),
+            Curve::Svg { path, options } => self.drawing(piece, &drawing::SVG, (path, options), session),
         }
     }
 
     fn must_be_first(&self, piece: &Piece<'_>, reports: &mut Reports) -> Checked<()> {
         let first = match (self.pen, self.trace.pieces.first()) {
             (Pen::Up, _) | (_, None) => return Ok(()),
-            (Pen::At(_) | Pen::Lost(_), Some(first)) => *first,
+            (Pen::At(_) | Pen::Lost(_), Some(first)) => first.span,
         };
         let words = curve_words(piece.curve);
         let diagnostic = Diagnostic::new(
@@ -90,6 +92,33 @@ impl Drawing<'_> {
             "move {words} to the front, or draw this part with curves"
         ));
         Err(reports.push(diagnostic))
+    }
+
+    /// The outline of a drawing, with what drew each stretch of it.
+    fn drawing(
+        &mut self,
+        piece: &Piece<'_>,
+        format: &'static drawing::Format,
+        (path, options): (&Spanned<String>, &[Entry]),
+        session: &mut Session<'_>,
+    ) -> Checked<()> {
+        self.must_be_first(piece, &mut session.reports)?;
+        match drawing::read(format, path, options, piece.span, self.scope, session) {
+            Ok(stretches) => {
+                for (drawn, points) in stretches {
+                    if let Some(last) = points.last() {
+                        self.pen = Pen::At(*last);
+                    }
+                    self.trace.begin_drawn(piece.span, drawn);
+                    self.trace.extend(points);
+                }
+                Ok(())
+            }
+            Err(reported) => {
+                self.pen = Pen::Lost(reported);
+                Err(reported)
+            }
+        }
     }
 
     fn place_data(&mut self, points: Checked<Vec<Point2>>) -> Checked<()> {

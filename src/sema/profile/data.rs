@@ -64,7 +64,7 @@ enum Flip {
 const FLIPS: &[(&str, Flip)] = &[("none", Flip::None), ("x", Flip::X)];
 
 /// The place of a piece as that of a block.
-const fn place_of(path: &Spanned<String>, piece: Span) -> Place {
+pub(super) const fn place_of(path: &Spanned<String>, piece: Span) -> Place {
     Place {
         head: path.span,
         whole: piece,
@@ -148,13 +148,29 @@ pub(super) fn airfoil(
 
 /// Loads a data file.
 fn load(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<FileId> {
+    let (resolved, bytes) = bytes_of(path, session)?;
+    as_text(&resolved, bytes, path, session)
+}
+
+/// The bytes of a data file, and its path from where the job's own is relative to.
+pub(super) fn bytes_of(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<(String, Vec<u8>)> {
     let resolved = join_path(session.sources.name(path.span.file), &path.node);
     match session.loader.load(&resolved) {
-        Ok(bytes) => match text_of(session, &resolved, bytes, Some(path.span)) {
-            (file, None) => Ok(file),
-            (_, Some(reported)) => Err(reported),
-        },
+        Ok(bytes) => Ok((resolved, bytes)),
         Err(error) => Err(session.reports.push(not_loaded(&path.span, &resolved, &error))),
+    }
+}
+
+/// A data file's text as a source of the run.
+pub(super) fn as_text(
+    resolved: &str,
+    bytes: Vec<u8>,
+    path: &Spanned<String>,
+    session: &mut Session<'_>,
+) -> Checked<FileId> {
+    match text_of(session, resolved, bytes, Some(path.span)) {
+        (file, None) => Ok(file),
+        (_, Some(reported)) => Err(reported),
     }
 }
 
@@ -166,22 +182,24 @@ fn read<T>(
     session: &mut Session<'_>,
 ) -> Checked<T> {
     let text = session.sources.get(file).map_or("", |file| file.text.as_str());
-    reader(text).map_err(|error| {
-        let span = Span {
-            file,
-            start: error.start,
-            end: error.end,
-        };
-        let diagnostic = Diagnostic::new(
-            Code::BadData,
-            format!("`{}` cannot be understood", path.node),
-            span,
-            error.message,
-        )
-        .and(path.span, "the file is named here")
-        .help("mend this place in the file");
-        session.reports.push(diagnostic)
-    })
+    reader(text).map_err(|error| session.reports.push(bad_data(error, file, path)))
+}
+
+/// The diagnostic for a place in a data file that cannot be read.
+pub(super) fn bad_data(error: DataError, file: FileId, path: &Spanned<String>) -> Diagnostic {
+    let span = Span {
+        file,
+        start: error.start,
+        end: error.end,
+    };
+    Diagnostic::new(
+        Code::BadData,
+        format!("`{}` cannot be understood", path.node),
+        span,
+        error.message,
+    )
+    .and(path.span, "the file is named here")
+    .help("mend this place in the file")
 }
 
 /// Points that are of a size that can mean something.

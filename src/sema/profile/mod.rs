@@ -6,6 +6,7 @@
 
 mod curves;
 mod data;
+mod drawing;
 mod formula;
 mod shape;
 
@@ -31,13 +32,30 @@ pub(crate) struct Trace {
     /// For each point the piece that leads to it, as a place in `pieces`.
     owners: Vec<usize>,
     /// Where the pieces stand.
-    pieces: Vec<Span>,
+    pieces: Vec<Origin>,
+}
+
+/// Where a piece comes from.
+#[derive(Clone, Copy, Debug)]
+struct Origin {
+    /// The piece in the job.
+    span: Span,
+    /// What drew it in a drawing that the job names.
+    drawn: Option<Span>,
 }
 
 impl Trace {
     /// Starts a new piece.
     fn begin(&mut self, span: Span) {
-        self.pieces.push(span);
+        self.pieces.push(Origin { span, drawn: None });
+    }
+
+    /// Starts a new piece that something in a drawing drew.
+    fn begin_drawn(&mut self, span: Span, drawn: Span) {
+        self.pieces.push(Origin {
+            span,
+            drawn: Some(drawn),
+        });
     }
 
     /// Adds points of the piece begun last.
@@ -50,6 +68,15 @@ impl Trace {
 
     /// The piece that leads to a point, or the last of them.
     fn piece_at(&self, point: usize) -> Option<Span> {
+        Some(self.origin_at(point)?.span)
+    }
+
+    /// What drew the way to a point, if it stands in a drawing.
+    fn drawn_at(&self, point: usize) -> Option<Span> {
+        self.origin_at(point)?.drawn
+    }
+
+    fn origin_at(&self, point: usize) -> Option<Origin> {
         let owner = self.owners.get(point).or_else(|| self.owners.last())?;
         self.pieces.get(*owner).copied()
     }
@@ -154,8 +181,8 @@ fn second_formula(second: Span, first: Span) -> Diagnostic {
     .help("take one of the two out")
 }
 
-const FORMS: &str = "a profile holds start, line, arc, bezier, spline, polyline, points, airfoil, or a formula \
-                     z(x) = ...";
+const FORMS: &str = "a profile holds start, line, arc, bezier, spline, polyline, points, airfoil, dxf, svg, or a \
+                     formula z(x) = ...";
 
 fn no_field(name: &Spanned<String>) -> Diagnostic {
     let diagnostic = Diagnostic::new(

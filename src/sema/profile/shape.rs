@@ -28,7 +28,8 @@ pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports)
     let profile = match profile {
         Ok(profile) => profile,
         Err(ProfileError::NotSingleValued { index }) => {
-            return Err(reports.push(two_heights(&strip, trace, index, stock.span)));
+            let diagnostic = two_heights(&strip, trace, index, stock.span);
+            return Err(reports.push(with_drawn(diagnostic, strip.drawn_at(trace, index))));
         }
         Err(ProfileError::TooFew | ProfileError::OutOfRange { .. }) => {
             let span = trace.piece_at(0).unwrap_or(stock.span);
@@ -44,7 +45,9 @@ pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports)
     };
     let mut fault = None;
     for leaving in outside(&strip, stock.node.height.to_mm()) {
-        fault = Some(reports.push(leaving.diagnostic(&strip, trace, stock)));
+        let diagnostic = leaving.diagnostic(&strip, trace, stock);
+        let drawn = strip.drawn_at(trace, leaving.farthest);
+        fault = Some(reports.push(with_drawn(diagnostic, drawn)));
     }
     match fault {
         Some(reported) => Err(reported),
@@ -86,6 +89,18 @@ impl Strip {
     fn piece_at(&self, trace: &Trace, index: usize, otherwise: Span) -> Span {
         let source = self.sources.get(index).copied().unwrap_or(0);
         trace.piece_at(source).unwrap_or(otherwise)
+    }
+
+    fn drawn_at(&self, trace: &Trace, index: usize) -> Option<Span> {
+        trace.drawn_at(self.sources.get(index).copied()?)
+    }
+}
+
+/// Points at what drew a place, if that stands in a drawing.
+fn with_drawn(diagnostic: Diagnostic, drawn: Option<Span>) -> Diagnostic {
+    match drawn {
+        Some(span) => diagnostic.and(span, "drawn here"),
+        None => diagnostic,
     }
 }
 

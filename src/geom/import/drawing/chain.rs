@@ -1,0 +1,409 @@
+//! From strokes to one chain: scaled to the workpiece, flattened, joined end to end.
+//!
+//! Every stroke is flattened within the tolerance of curves ([`crate::geom::curve`]) after scaling, so that the bound
+//! holds in the workpiece. Where two ends are joined over a gap both go to its middle: there the chain is off the drawing
+//! by at most the gap.
+
+use super::join::{End, JoinError, SAME, join};
+use super::shape::ShapeError;
+use super::{Affine, Stroke};
+use crate::geom::curve::{COINCIDENT, CurveError, MOST_POINTS, NurbsError};
+use crate::geom::point::Point2;
+use std::collections::BTreeMap;
+use vcutc_backend_api::units::Length;
+
+/// A chain that is everything drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Its corners in the workpiece; of a closed one the last is the first.
+    pub points: Vec<Point2>,
+    /// For each point the stroke that leads to it, as a place in the list of strokes.
+    pub owners: Vec<usize>,
+    /// Whether it ends where it begins.
+    pub is_closed: bool,
+    /// The widest gap over which ends were joined; none when all ends coincide.
+    pub widest: Option<Gap>,
+    /// Strokes that are drawn over by an earlier one, and count once.
+    pub repeated: Vec<usize>,
+}
+
+/// Two ends that do not meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Where one is.
+    pub from: Point2,
+    /// Where the other is.
+    pub to: Point2,
+    /// The strokes they belong to.
+    pub strokes: [usize; 2],
+}
+
+impl Gap {
+    /// How far they are apart.
+    #[must_use]
+    pub fn size(&self) -> Length {
+        Length::mm(self.from.distance(self.to))
+    }
+}
+
+/// One of several chains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chain {
+    /// Where it begins.
+    pub from: Point2,
+    /// Where it ends.
+    pub to: Point2,
+    /// Whether it ends where it begins.
+    pub is_closed: bool,
+    /// The stroke it begins with, and how many it has.
+    pub first: usize,
+    /// How many strokes it has.
+    pub strokes: usize,
+}
+
+/// Why strokes are no outline.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OutlineError {
+    /// There is none, or none of any extent.
+    Nothing,
+    /// A stroke is no curve.
+    Curve {
+        /// The stroke.
+        stroke: usize,
+        /// Why not.
+        error: CurveError,
+    },
+    /// A stroke is no B-spline.
+    Nurbs {
+        /// The stroke.
+        stroke: usize,
+        /// Why not.
+        error: NurbsError,
+    },
+    /// More points than a profile may have.
+    TooManyPoints,
+    /// More than two ends meet.
+    Branch {
+        /// Where.
+        at: Point2,
+        /// Strokes that do.
+        strokes: Vec<usize>,
+    },
+    /// The tolerance is larger than what is drawn.
+    Crowded {
+        /// One place where it is.
+        at: Point2,
+    },
+    /// There are several chains.
+    Several {
+        /// All of them, in the order in which their first strokes are drawn.
+        chains: Vec<Chain>,
+        /// The two ends of different chains that are nearest each other.
+        nearest: Option<Gap>,
+    },
+}
+
+/// A flattened stroke.
+struct Line {
+    stroke: usize,
+    points: Vec<Point2>,
+}
+
+impl Line {
+    fn ends(&self) -> Option<[Point2; 2]> {
+        Some([*self.points.first()?, *self.points.last()?])
+    }
+
+    fn is_closed(&self) -> bool {
+        self.points.len() > 2 && self.ends().is_some_and(|[from, to]| from.distance(to) <= SAME)
+    }
+
+    /// Whether it is longer than so much.
+    fn is_longer_than(&self, length: f64) -> bool {
+        let mut so_far = 0.0;
+        self.points.windows(2).any(|pair| {
+            so_far += pair[0].distance(pair[1]);
+            so_far > length
+        })
+    }
+}
+
+/// The one chain that strokes form, after a map from the drawing to the workpiece. Curves are flattened within `flat`, and
+/// ends joined that are no farther apart than `tolerance`.
+///
+/// # Errors
+/// See [`OutlineError`].
+pub fn outline(
+    strokes: &[Stroke],
+    map: Affine,
+    flat: Length,
+    tolerance: Length,
+) -> Result<Outline, OutlineError> {
+    let tolerance = tolerance.to_mm().max(SAME);
+    let lines = flatten(strokes, map, flat)?;
+    let (lines, repeated) = without_repeats(lines);
+    let open: Vec<&Line> = lines.iter().filter(|line| !line.is_closed()).collect();
+    let ends: Vec<End> = open
+        .iter()
+        .enumerate()
+        .flat_map(|(line, drawn)| drawn.ends().into_iter().flatten().map(move |at| End { line, at }))
+        .collect();
+    let may_close = |line: usize| open[line].is_longer_than(10.0 * tolerance);
+    let partners = join(&ends, tolerance, &may_close).map_err(|error| in_strokes(error, &open))?;
+    let mut chains = walk(&open, &partners);
+    chains.extend(lines.iter().filter(|line| line.is_closed()).map(Walked::alone));
+    chains.sort_by_key(|chain| chain.owners.first().copied());
+    match chains.len() {
+        0 => Err(OutlineError::Nothing),
+        1 => Ok(chains.swap_remove(0).finish(repeated)),
+        _ => Err(several(&chains)),
+    }
+}
+
+fn flatten(strokes: &[Stroke], map: Affine, flat: Length) -> Result<Vec<Line>, OutlineError> {
+    let mut lines = Vec::new();
+    let mut left = MOST_POINTS;
+    for (stroke, drawn) in strokes.iter().enumerate() {
+        let mut points: Vec<Point2> = Vec::new();
+        for shape in &drawn.shapes {
+            let curve = shape.clone().mapped(map).curve();
+            let curve = curve.map_err(|error| match error {
+                ShapeError::Curve(error) => OutlineError::Curve { stroke, error },
+                ShapeError::Nurbs(error) => OutlineError::Nurbs { stroke, error },
+            })?;
+            if points.is_empty() {
+                points.push(curve.start());
+            }
+            curve
+                .flatten(flat, &mut points)
+                .map_err(|error| OutlineError::Curve { stroke, error })?;
+        }
+        left = left
+            .checked_sub(points.len())
+            .ok_or(OutlineError::TooManyPoints)?;
+        points.dedup_by(|next, last| last.distance(*next) < COINCIDENT);
+        if points.len() > 1 {
+            lines.push(Line { stroke, points });
+        }
+    }
+    Ok(lines)
+}
+
+/// Lines that do not lie on an earlier one from end to end, and the strokes of those that do.
+fn without_repeats(lines: Vec<Line>) -> (Vec<Line>, Vec<usize>) {
+    // Lines are compared only where their ends agree to a micrometre.
+    let cell = |value: f64| libm::round(value * 1000.0) as i64;
+    let mut seen: BTreeMap<[(i64, i64); 2], Vec<usize>> = BTreeMap::new();
+    let mut kept: Vec<Line> = Vec::new();
+    let mut repeated = Vec::new();
+    for line in lines {
+        let Some(ends) = line.ends() else { continue };
+        let mut key = ends.map(|end| (cell(end.x), cell(end.z)));
+        key.sort_unstable();
+        let alike = seen.entry(key).or_default();
+        // More than a few different lines between the same ends branch anyway.
+        if alike.iter().take(8).any(|&other| is_same(&kept[other], &line)) {
+            repeated.push(line.stroke);
+        } else {
+            alike.push(kept.len());
+            kept.push(line);
+        }
+    }
+    (kept, repeated)
+}
+
+/// Whether two lines have the same corners, in the same or the opposite order.
+fn is_same(one: &Line, other: &Line) -> bool {
+    let near = |(a, b): (&Point2, &Point2)| a.distance(*b) <= SAME;
+    one.points.len() == other.points.len()
+        && (one.points.iter().zip(&other.points).all(near)
+            || one.points.iter().zip(other.points.iter().rev()).all(near))
+}
+
+fn in_strokes(error: JoinError, open: &[&Line]) -> OutlineError {
+    match error {
+        JoinError::Branch { at, lines } => OutlineError::Branch {
+            at,
+            strokes: lines.into_iter().map(|line| open[line].stroke).collect(),
+        },
+        JoinError::Crowded { at } => OutlineError::Crowded { at },
+    }
+}
+
+/// A chain while it grows.
+#[derive(Default)]
+struct Walked {
+    points: Vec<Point2>,
+    owners: Vec<usize>,
+    strokes: usize,
+    is_closed: bool,
+    widest: Option<Gap>,
+}
+
+/// The chains of joined lines: first those with loose ends, then the rings.
+fn walk(open: &[&Line], partners: &[Option<usize>]) -> Vec<Walked> {
+    let mut is_done = vec![false; open.len()];
+    let loose = (0..partners.len()).filter(|&end| partners[end].is_none());
+    let starts: Vec<usize> = loose.chain((0..open.len()).map(|line| 2 * line)).collect();
+    let mut chains = Vec::new();
+    for start in starts {
+        let mut chain = Walked::default();
+        let mut end = start;
+        while !is_done[end / 2] {
+            is_done[end / 2] = true;
+            chain.add(open[end / 2], end);
+            match partners[end ^ 1] {
+                Some(next) if next == start => chain.close(),
+                Some(next) => end = next,
+                None => {}
+            }
+        }
+        if !chain.points.is_empty() {
+            chains.push(chain);
+        }
+    }
+    chains
+}
+
+impl Walked {
+    fn alone(line: &Line) -> Self {
+        let mut chain = Self::default();
+        chain.add(line, 0);
+        chain.close();
+        chain
+    }
+
+    /// Adds a line from one of its ends (even: its first point) to the other.
+    fn add(&mut self, line: &Line, end: usize) {
+        let mut next = line.points.clone();
+        if end % 2 == 1 {
+            next.reverse();
+        }
+        self.strokes += 1;
+        let mut leading = 0;
+        if let (Some(&last), Some(&first)) = (self.points.last(), next.first()) {
+            let size = last.distance(first);
+            self.note(last, first, line.stroke);
+            let middle = last.lerp(first, 0.5);
+            // What is nearer to the middle than the ends would lead back.
+            let near = |point: &Point2| point.distance(middle) <= size;
+            let owner = self.owners.last().copied().unwrap_or(line.stroke);
+            while self.points.len() > 1 && self.points.last().is_some_and(near) {
+                self.points.pop();
+            }
+            self.owners.truncate(self.points.len());
+            self.push(middle, owner);
+            let inner = next.len() - 1;
+            leading = 1 + next[1..inner].iter().take_while(|point| near(point)).count();
+        }
+        for &point in &next[leading..] {
+            self.push(point, line.stroke);
+        }
+    }
+
+    /// Joins the last point to the first.
+    fn close(&mut self) {
+        self.is_closed = true;
+        let (Some(&last), Some(&first)) = (self.points.last(), self.points.first()) else {
+            return;
+        };
+        self.note(last, first, self.owners.first().copied().unwrap_or(0));
+        let middle = last.lerp(first, 0.5);
+        if let Some(place) = self.points.first_mut() {
+            *place = middle;
+        }
+        if let Some(place) = self.points.last_mut() {
+            *place = middle;
+        }
+    }
+
+    /// Remembers the widest gap.
+    fn note(&mut self, from: Point2, to: Point2, stroke: usize) {
+        let gap = Gap {
+            from,
+            to,
+            strokes: [self.owners.last().copied().unwrap_or(stroke), stroke],
+        };
+        let widest = self.widest.map_or(SAME, |widest| widest.size().to_mm());
+        if gap.size().to_mm() > widest {
+            self.widest = Some(gap);
+        }
+    }
+
+    fn push(&mut self, point: Point2, owner: usize) {
+        self.points.push(point);
+        self.owners.push(owner);
+    }
+
+    fn finish(mut self, repeated: Vec<usize>) -> Outline {
+        let leads_left = match (self.points.first(), self.points.last()) {
+            (Some(first), Some(last)) => last.x < first.x,
+            _ => false,
+        };
+        if leads_left {
+            reverse(&mut self.points, &mut self.owners);
+        }
+        Outline {
+            points: self.points,
+            owners: self.owners,
+            is_closed: self.is_closed,
+            widest: self.widest,
+            repeated,
+        }
+    }
+}
+
+/// Turns a chain round. An owner leads to its point, so it goes to the point on the other end of its line.
+pub(super) fn reverse(points: &mut [Point2], owners: &mut [usize]) {
+    points.reverse();
+    owners.reverse();
+    owners.rotate_right(1);
+    if let [first, second, ..] = owners {
+        *first = *second;
+    }
+}
+
+fn several(chains: &[Walked]) -> OutlineError {
+    let listed = chains.iter().filter_map(|chain| {
+        Some(Chain {
+            from: *chain.points.first()?,
+            to: *chain.points.last()?,
+            is_closed: chain.is_closed,
+            first: *chain.owners.first()?,
+            strokes: chain.strokes,
+        })
+    });
+    OutlineError::Several {
+        chains: listed.collect(),
+        nearest: nearest(chains),
+    }
+}
+
+/// Most chains among which the nearest ends are looked for; more are no outline that was left open.
+const MOST_COMPARED: usize = 200;
+
+fn nearest(chains: &[Walked]) -> Option<Gap> {
+    let open = chains.iter().filter(|chain| !chain.is_closed).take(MOST_COMPARED);
+    let ends: Vec<[(Point2, usize); 2]> = open
+        .filter_map(|chain| {
+            let first = (*chain.points.first()?, *chain.owners.first()?);
+            Some([first, (*chain.points.last()?, *chain.owners.last()?)])
+        })
+        .collect();
+    let mut best: Option<Gap> = None;
+    for (place, one) in ends.iter().enumerate() {
+        for other in ends.iter().skip(place + 1) {
+            for (from, to) in one.iter().flat_map(|a| other.iter().map(move |b| (a, b))) {
+                let gap = Gap {
+                    from: from.0,
+                    to: to.0,
+                    strokes: [from.1, to.1],
+                };
+                if best.is_none_or(|best| gap.size() < best.size()) {
+                    best = Some(gap);
+                }
+            }
+        }
+    }
+    best
+}

@@ -1,0 +1,204 @@
+//! Entities: from groups to shapes.
+//!
+//! ARC, CIRCLE, polylines and INSERT are given in a system of their own, whose z axis is the extrusion direction (groups
+//! 210, 220, 230); for a direction straight down x runs backwards in it (the arbitrary axis algorithm of the DXF
+//! Reference). LINE, ELLIPSE and SPLINE are given in the world.
+
+use super::super::DataError;
+use super::super::drawing::{Affine, Place, Shape, Why, sincos_degrees};
+use super::fields::Fields;
+use super::groups::{Group, Groups};
+use super::{insert, polyline, spline};
+use crate::geom::point::Point2;
+use core::f64::consts::TAU;
+
+/// Heights over the plane of the drawing that differ by less are the same, in the file's unit; and so are directions.
+const LEVEL: f64 = 1e-6;
+
+/// An entity.
+pub(super) struct Entity<'t> {
+    pub(super) kind: &'t str,
+    pub(super) place: Place,
+    pub(super) layer: &'t str,
+    pub(super) content: Content<'t>,
+}
+
+/// What an entity is to outlines.
+pub(super) enum Content<'t> {
+    /// A connected line.
+    Stroke(&'static str, Vec<Shape>),
+    /// The same, of points that a spline passes through.
+    Fitted(&'static str, Vec<Shape>),
+    /// A block once more.
+    Insert(insert::Insert<'t>),
+    /// Nothing.
+    Unread(Why),
+}
+
+/// Takes the entity whose name is the group at hand. None for the ends of lists of attributes.
+pub(super) fn take<'t>(name: Group, groups: &mut Groups<'t>) -> Result<Option<Entity<'t>>, DataError> {
+    let fields = Fields::take(name, groups)?;
+    if fields.kind == "SEQEND" {
+        return Ok(None);
+    }
+    // A polyline of the old kind goes on with its corners, whatever becomes of it.
+    let corners = match fields.kind {
+        "POLYLINE" => polyline::take_corners(groups)?,
+        _ => Vec::new(),
+    };
+    let content = if fields.whole(67)? == 1 {
+        Content::Unread(Why::Paper)
+    } else {
+        content(&fields, &corners)?
+    };
+    Ok(Some(Entity {
+        kind: fields.kind,
+        place: fields.place,
+        layer: fields.layer(),
+        content,
+    }))
+}
+
+fn content<'t>(fields: &Fields<'t>, corners: &[Fields<'t>]) -> Result<Content<'t>, DataError> {
+    match fields.kind {
+        "LINE" => line(fields),
+        "ARC" => arc(fields),
+        "CIRCLE" => circle(fields),
+        "ELLIPSE" => ellipse(fields),
+        "LWPOLYLINE" => polyline::light(fields),
+        "POLYLINE" => polyline::heavy(fields, corners),
+        "SPLINE" => spline::spline(fields),
+        "INSERT" => insert::read(fields),
+        _ => Ok(Content::Unread(Why::Kind)),
+    }
+}
+
+/// Which way the plane of an entity faces.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Facing {
+    Up,
+    Down,
+    Tilted,
+}
+
+impl Facing {
+    /// By its extrusion direction.
+    pub(super) fn of(fields: &Fields<'_>) -> Result<Self, DataError> {
+        let x = fields.number_or(210, 0.0)?;
+        let y = fields.number_or(220, 0.0)?;
+        let z = fields.number_or(230, 1.0)?;
+        let is_straight = libm::hypot(x, y) <= LEVEL * z.abs();
+        Ok(match is_straight {
+            true if z > 0.0 => Self::Up,
+            true if z < 0.0 => Self::Down,
+            true | false => Self::Tilted,
+        })
+    }
+
+    /// From the system of an entity to the world; none when it is tilted.
+    pub(super) const fn map(self) -> Option<Affine> {
+        match self {
+            Self::Up => Some(Affine::IDENTITY),
+            Self::Down => Some(Affine::stretch(-1.0, 1.0)),
+            Self::Tilted => None,
+        }
+    }
+}
+
+/// Whether heights are all the same.
+pub(super) fn is_level(heights: impl IntoIterator<Item = f64>) -> bool {
+    let (low, high) = heights
+        .into_iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
+            (low.min(z), high.max(z))
+        });
+    high - low <= LEVEL || high < low
+}
+
+/// A stroke in the system of an entity.
+pub(super) fn placed<'t>(
+    fields: &Fields<'_>,
+    kind: &'static str,
+    shapes: Vec<Shape>,
+) -> Result<Content<'t>, DataError> {
+    Ok(match Facing::of(fields)?.map() {
+        Some(map) => Content::Stroke(kind, shapes.into_iter().map(|shape| shape.mapped(map)).collect()),
+        None => Content::Unread(Why::Tilted),
+    })
+}
+
+fn line<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> {
+    let ends = vec![fields.point(10)?, fields.point(11)?];
+    if !is_level([fields.number_or(30, 0.0)?, fields.number_or(31, 0.0)?]) {
+        return Ok(Content::Unread(Why::Tilted));
+    }
+    Ok(Content::Stroke("LINE", vec![Shape::Polyline(ends)]))
+}
+
+/// A radius, which is above 0.
+fn radius(fields: &Fields<'_>) -> Result<f64, DataError> {
+    let radius = fields.required(40)?;
+    if radius > 0.0 {
+        Ok(radius)
+    } else {
+        Err(fields.error(format!("the radius of this {} is not above 0", fields.kind)))
+    }
+}
+
+fn circle<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> {
+    let shapes = Shape::circle(fields.point(10)?, radius(fields)?);
+    placed(fields, "CIRCLE", shapes)
+}
+
+/// An arc goes from its start angle to its end angle to the left.
+fn arc<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> {
+    let (center, radius) = (fields.point(10)?, radius(fields)?);
+    let (start, end) = (fields.required(50)?, fields.required(51)?);
+    let sweep = (end - start).rem_euclid(360.0);
+    if sweep <= 0.0 {
+        return placed(fields, "ARC", Shape::circle(center, radius));
+    }
+    let at = |degrees: f64| {
+        let (sin, cos) = sincos_degrees(degrees);
+        Point2::new(center.x + radius * cos, center.z + radius * sin)
+    };
+    let arc = |from: f64, sweep: f64| Shape::Arc {
+        from: at(from),
+        to: at(from + sweep),
+        sweep: sweep.to_radians(),
+    };
+    // In two, so that the ends of an arc that is nearly a circle stay apart.
+    let half = sweep / 2.0;
+    let shapes = vec![arc(start, half), arc(start + half, half)];
+    placed(fields, "ARC", shapes)
+}
+
+/// An ellipse by its longer half-axis, the ratio of the shorter one, and parameters in rad. Seen from below the shorter
+/// axis lies to the right of the longer one.
+fn ellipse<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> {
+    let (center, major) = (fields.point(10)?, fields.point(11)?);
+    let ratio = fields.required(40)?;
+    let (start, end) = (fields.number_or(41, 0.0)?, fields.number_or(42, TAU)?);
+    if !is_level([0.0, fields.number_or(31, 0.0)?]) {
+        return Ok(Content::Unread(Why::Tilted));
+    }
+    let side = match Facing::of(fields)? {
+        Facing::Up => ratio,
+        Facing::Down => -ratio,
+        Facing::Tilted => return Ok(Content::Unread(Why::Tilted)),
+    };
+    let is_sound = ratio > 0.0 && ratio <= 1e6 && libm::hypot(major.x, major.z) > 0.0;
+    if !is_sound {
+        return Err(fields.error("the half-axes of this ELLIPSE are not above 0"));
+    }
+    // A whole turn is written with as many digits as a program has.
+    let turn = (end - start).rem_euclid(TAU);
+    let is_whole = !(1e-6..=TAU - 1e-6).contains(&turn);
+    let ellipse = Shape::Ellipse {
+        center,
+        half: [major, Point2::new(-major.z * side, major.x * side)],
+        start,
+        sweep: if is_whole { TAU } else { turn },
+    };
+    Ok(Content::Stroke("ELLIPSE", vec![ellipse]))
+}

@@ -1,0 +1,254 @@
+//! Files that are no DXF, or one that cannot be understood: all are pointed at.
+
+use super::super::drawing::{Shape, Why};
+use super::*;
+use crate::geom::point::Point2;
+use proptest::prelude::*;
+
+/// A file with these groups in its section ENTITIES, written `code value code value`.
+fn entities(groups: &str) -> String {
+    file(&format!("0 SECTION 2 ENTITIES {groups} 0 ENDSEC 0 EOF"))
+}
+
+fn file(groups: &str) -> String {
+    groups.split(' ').map(|part| format!("{part}\n")).collect()
+}
+
+fn complaint(text: &str) -> (String, String) {
+    let error = dxf(text, None).unwrap_err();
+    let place = text.get(error.start as usize..error.end as usize).unwrap();
+    (place.to_owned(), error.message)
+}
+
+const LINE: &str = "0 LINE 8 SKIN 10 0.0 20 0.0 30 0.0 11 10.0 21 5.0 31 0.0";
+
+#[test]
+fn what_is_no_dxf_is_told_so() {
+    assert!(complaint("").1.contains("empty"));
+    assert!(complaint("x,z\n0,1\n").1.contains("begins with"));
+    assert!(complaint("<svg/>\n<g/>\n").1.contains("begins with"));
+    assert_eq!(
+        dxf_text(b"AutoCAD Binary DXF\r\n\x1a\0".to_vec()),
+        Err(NoText::Binary)
+    );
+    assert_eq!(dxf_text(b"AC1032\0\0".to_vec()), Err(NoText::Dwg));
+    let page = |name: &str| {
+        let head = file(&format!("0 SECTION 2 HEADER 9 $DWGCODEPAGE 3 {name} 8"));
+        let mut bytes = head.into_bytes();
+        bytes.extend([b'R', 0xfc, b'c', b'k', b'\n']);
+        dxf_text(bytes)
+    };
+    assert!(page("ANSI_1252").unwrap().ends_with("Rück\n"));
+    assert_eq!(page("ANSI_932"), Err(NoText::CodePage("ANSI_932".to_owned())));
+}
+
+#[test]
+fn files_that_were_cut_off_are_told_so() {
+    let text = entities(LINE);
+    for (at, _) in text.match_indices('\n') {
+        let cut = &text[..at];
+        let Err(error) = dxf(cut, None) else {
+            assert!(cut.ends_with("EOF"), "{cut:?}");
+            continue;
+        };
+        assert!(
+            error.message.contains("cut off") || cut.len() < 20,
+            "{cut:?}: {}",
+            error.message
+        );
+    }
+}
+
+#[test]
+fn faults_of_entities_are_pointed_at() {
+    let whole = |groups: &str| complaint(&entities(groups));
+    assert_eq!(
+        whole(&LINE.replace("5.0", "five")),
+        ("five".into(), "`five` is not a number".into())
+    );
+    assert_eq!(whole(&LINE.replace("5.0", "nan")).0, "nan");
+    assert_eq!(whole(&LINE.replace("5.0", "1e12")).0, "1e12");
+    assert_eq!(whole(&LINE.replace(" 21 ", " 2l ")).0, "2l");
+    assert_eq!(
+        whole(&LINE.replace("21 5.0 ", "")),
+        ("LINE".into(), "this LINE lacks its group 21".into())
+    );
+    assert!(whole("0 CIRCLE 10 0 20 0 40 -1").1.contains("radius"));
+    assert!(
+        whole("0 LWPOLYLINE 90 3 10 0 20 0 10 1 20 1")
+            .1
+            .contains("3 corners, and has 2")
+    );
+    assert!(
+        whole("0 POLYLINE 66 1 0 VERTEX 10 0 20 0 0 LINE")
+            .1
+            .contains("SEQEND")
+    );
+    assert!(whole("0 INSERT 2 RIB 10 0 20 0").1.contains("no block `RIB`"));
+    assert!(whole("0 INSERT 2 RIB 10 0 20 0 41 0").1.contains("to nothing"));
+    let spline = "0 SPLINE 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 1 20 1 10 2 20 0";
+    assert!(dxf(&entities(spline), None).is_ok());
+    assert!(
+        whole(&spline.replace("40 1 40 1 40 1", "40 1 40 1"))
+            .1
+            .contains("take 6 knots")
+    );
+    assert!(
+        whole(&spline.replace("71 2", "71 2 73 4"))
+            .1
+            .contains("4 control points, and has 3")
+    );
+    assert!(
+        whole(&spline.replace("71 2", "71 2 41 1 41 1 41 -1"))
+            .1
+            .contains("weight number 3")
+    );
+    assert!(
+        whole("0 SPLINE 71 3 11 0 21 0 11 5 21 5 12 1 22 0")
+            .1
+            .contains("directions at its ends")
+    );
+}
+
+#[test]
+fn what_is_not_read_is_listed_with_its_reason() {
+    let groups = format!(
+        "{LINE} 0 TEXT 8 SKIN 1 RIB 0 TEXT 8 SKIN 1 RIB 0 3DSOLID 8 SKIN 0 LINE 8 SKIN 67 1 10 0 20 0 11 1 21 1 \
+         0 LINE 8 SKIN 10 0 20 0 30 0 11 1 21 1 31 4 0 ARC 8 SKIN 10 0 20 0 40 1 50 0 51 90 210 1 220 0 230 0 \
+         0 LWPOLYLINE 8 SKIN 10 1 20 1 0 TEXT 8 OTHER"
+    );
+    let drawing = dxf(&entities(&groups), Some("skin")).unwrap();
+    assert_eq!(drawing.strokes.len(), 1);
+    let listed: Vec<(&str, Why, usize)> = drawing
+        .unread
+        .iter()
+        .map(|unread| (unread.kind.as_str(), unread.why, unread.count))
+        .collect();
+    assert_eq!(
+        listed,
+        [
+            ("TEXT", Why::Kind, 2),
+            ("3DSOLID", Why::Kind, 1),
+            ("LINE", Why::Paper, 1),
+            ("LINE", Why::Tilted, 1),
+            ("ARC", Why::Tilted, 1),
+            ("LWPOLYLINE", Why::NoExtent, 1)
+        ]
+    );
+    assert_eq!(drawing.layers.keys().collect::<Vec<_>>(), ["OTHER", "SKIN"]);
+}
+
+/// A file whose blocks are given, and one insertion of the block A.
+fn with_blocks(blocks: &str) -> String {
+    file(&format!(
+        "0 SECTION 2 BLOCKS {blocks} 0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 8 SKIN 2 A 10 0 20 0 0 ENDSEC 0 EOF"
+    ))
+}
+
+#[test]
+fn blocks_without_end_are_refused() {
+    let own = with_blocks("0 BLOCK 2 A 0 INSERT 2 a 10 0 20 0 0 ENDBLK");
+    assert!(complaint(&own).1.contains("into itself"));
+    let circle = with_blocks(
+        "0 BLOCK 2 A 0 INSERT 2 B 10 0 20 0 0 ENDBLK 0 BLOCK 2 B 0 INSERT 2 A 10 0 20 0 0 ENDBLK",
+    );
+    assert!(complaint(&circle).1.contains("into itself"));
+    let deep: Vec<String> = (0..40)
+        .map(|i| {
+            format!(
+                "0 BLOCK 2 {} 0 INSERT 2 B{} 10 0 20 0 0 ENDBLK",
+                if i == 0 { "A".into() } else { format!("B{i}") },
+                i + 1
+            )
+        })
+        .collect();
+    assert!(complaint(&with_blocks(&deep.join(" "))).1.contains("deep"));
+    // Every block holds the next one ten times.
+    let ten = |name: &str, next: &str| {
+        let inserts = format!("0 INSERT 2 {next} 10 0 20 0 ").repeat(10);
+        format!("0 BLOCK 2 {name} {inserts}0 ENDBLK ")
+    };
+    let bomb: String = (0..12)
+        .map(|i| {
+            ten(
+                &if i == 0 { "A".into() } else { format!("B{i}") },
+                &format!("B{}", i + 1),
+            )
+        })
+        .collect();
+    let bomb = with_blocks(&format!("{bomb}0 BLOCK 2 B12 {LINE} 0 ENDBLK"));
+    assert!(dxf(&bomb, None).unwrap_err().message.contains("more than"));
+    let array = with_blocks("0 BLOCK 2 A 0 ENDBLK").replace("\n2\nA\n10", "\n2\nA\n70\n99999\n71\n99999\n10");
+    assert!(complaint(&array).1.contains("too often"));
+    let other = with_blocks("0 BLOCK 2 A 70 4 0 ENDBLK");
+    assert_eq!(dxf(&other, None).unwrap().unread[0].why, Why::OtherFile);
+}
+
+/// An insertion in columns and rows, turned by a right angle, of a block with a base point: worked by hand.
+#[test]
+fn insertions_put_blocks_where_they_belong() {
+    let text = with_blocks("0 BLOCK 2 A 10 1 20 1 0 LINE 8 0 10 1 20 1 11 2 21 1 0 ENDBLK").replace(
+        "\n2\nA\n10\n0\n20\n0\n0\nENDSEC",
+        "\n2\nA\n10\n5\n20\n5\n50\n90\n41\n2\n70\n2\n44\n10\n71\n2\n45\n3\n0\nENDSEC",
+    );
+    let drawing = dxf(&text, Some("SKIN")).unwrap();
+    let ends: Vec<Vec<(f64, f64)>> = drawing
+        .strokes
+        .iter()
+        .map(|stroke| match &stroke.shapes[0] {
+            Shape::Polyline(points) => points.iter().map(|p| (p.x, p.z)).collect(),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(
+        ends,
+        [
+            [(5.0, 5.0), (5.0, 7.0)],
+            [(5.0, 15.0), (5.0, 17.0)],
+            [(2.0, 5.0), (2.0, 7.0)],
+            [(2.0, 15.0), (2.0, 17.0)]
+        ]
+    );
+}
+
+#[test]
+fn arcs_seen_from_below_are_mirrored() {
+    let groups = "0 ARC 8 0 10 -5 20 1 40 2 50 0 51 90 210 0 220 0 230 -1";
+    let drawing = dxf(&entities(groups), None).unwrap();
+    let Shape::Arc { from, sweep, .. } = drawing.strokes[0].shapes[0] else {
+        panic!("an arc stays an arc");
+    };
+    assert_eq!(from, Point2::new(3.0, 1.0));
+    assert!(sweep < 0.0);
+}
+
+#[test]
+fn units_of_the_head_are_known() {
+    let unit = |number: &str| {
+        let text = format!(
+            "0 SECTION 2 HEADER 9 $INSUNITS 70 {number} 0 ENDSEC 0 SECTION 2 ENTITIES 0 ENDSEC 0 EOF"
+        );
+        dxf(&file(&text), None).unwrap().unit
+    };
+    assert_eq!(unit("1"), Unit::Known(25.4));
+    assert_eq!(unit("6"), Unit::Known(1000.0));
+    assert!(matches!(unit("0"), Unit::Unsaid(_)));
+    assert!(matches!(unit("18"), Unit::Unsaid(_)));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    /// Whatever becomes of a good file, it gives a drawing or a place in the text.
+    #[test]
+    fn damaged_files_never_fail_otherwise(
+        at in 0..20_000usize, length in 0..40usize, put in "[-0-9a-zA-Z. \n]{0,12}",
+    ) {
+        let text = include_str!("../../../../tests/data/drawings/ezdxf.dxf");
+        let start = at % text.len();
+        let end = (start + length).min(text.len());
+        let damaged = format!("{}{put}{}", &text[..start], &text[end..]);
+        if let Err(error) = dxf(&damaged, Some("SKIN")) {
+            prop_assert!(damaged.get(error.start as usize..error.end as usize).is_some());
+        }
+    }
+}

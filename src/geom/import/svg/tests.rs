@@ -1,0 +1,239 @@
+//! Elements, transformations and pages; files that are no SVG or cannot be understood.
+
+use super::super::drawing::{Affine, OutlineError, Unit, Why, outline};
+use super::*;
+use crate::geom::point::Point2;
+use proptest::prelude::*;
+use vcutc_backend_api::units::Length;
+
+fn page(inside: &str) -> String {
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='50mm' viewBox='0 0 100 50'>{inside}</svg>"
+    )
+}
+
+fn complaint(text: &str) -> (String, String) {
+    let error = svg(text, None).unwrap_err();
+    let place = text.get(error.start as usize..error.end as usize).unwrap();
+    (place.to_owned(), error.message)
+}
+
+fn points(text: &str) -> Vec<Point2> {
+    let drawing = svg(text, None).unwrap();
+    let outline = outline(
+        &drawing.strokes,
+        Affine::IDENTITY,
+        Length::mm(1e-3),
+        Length::mm(1e-3),
+    )
+    .unwrap();
+    outline.points
+}
+
+fn rounded(text: &str) -> Vec<(f64, f64)> {
+    let round = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+    points(text).iter().map(|p| (round(p.x), round(p.z))).collect()
+}
+
+#[test]
+fn all_ways_to_draw_a_line_are_the_same() {
+    for inside in [
+        "<line x1='10' y1='40' x2='30' y2='20'/>",
+        "<polyline points='10,40 30,20'/>",
+        "<polyline points='10 40,30 20'/>",
+        "<path d='M10,40 L30,20'/>",
+        "<path d='m10 40 20-20'/>",
+        "<path d='M10,40L30,40m0,0' visibility='hidden'/><path d='M1e1,4.0E1l2e1-20'/>",
+        "<path d='M.1 40.m9.9 0 20,-20'/>",
+        "<g transform='translate(10,40) scale(2 -2)'><path d='M0 0 10 10'/></g>",
+        "<g transform='rotate(-90 10 40)'><path d='M10,40 l20,20'/></g>",
+        "<g transform='matrix(0 1 1 0 0 0),skewX(0)'><path d='M40,10 H20 M20,10'/><path d='M20 10V30'/></g>",
+        "<defs><line id='a' x1='0' y1='20' x2='20' y2='0'/></defs><use href='#a' x='10' y='20'/>",
+        "<svg x='10' y='20' width='40' height='40' viewBox='0 0 20 20'><path d='M0 10 10 0'/></svg>",
+        "<symbol id='s' viewBox='0 0 10 10'><path d='M0 10 10 0'/></symbol><use href='#s' x='10' y='20' width='20' \
+         height='20'/>",
+        "<line x1='10mm' y1='40' x2='30' y2='20' transform='scale(1)' style='display:none'/><path d='M10 40 30 20'/>",
+    ] {
+        let found = rounded(&page(inside));
+        let ends = [found[0], found[found.len() - 1]];
+        assert_eq!(ends, [(10.0, 10.0), (30.0, 30.0)], "{inside}");
+    }
+}
+
+#[test]
+fn pages_say_what_the_unit_is() {
+    let unit = |head: &str| {
+        svg(&format!("<svg xmlns='http://www.w3.org/2000/svg' {head}/>"), None)
+            .unwrap()
+            .unit
+    };
+    assert_eq!(unit("width='100mm' viewBox='0 0 200 100'"), Unit::Known(0.5));
+    assert_eq!(unit("height='2cm' viewBox='0 0 100 80'"), Unit::Known(0.25));
+    assert_eq!(unit("width='10cm' height='100mm'"), Unit::Known(25.4 / 96.0));
+    for head in [
+        "width='100' height='50'",
+        "width='100px'",
+        "width='100%' viewBox='0 0 9 9'",
+        "",
+    ] {
+        assert!(matches!(unit(head), Unit::Unsaid(_)), "{head}");
+    }
+    // Stretched apart: z is in the unit of x.
+    let text = "<svg width='10mm' height='30mm' viewBox='0 0 10 10' preserveAspectRatio='none'>\
+                <path d='M0 0 10 10'/></svg>";
+    assert_eq!(rounded(text), [(0.0, 30.0), (10.0, 0.0)]);
+}
+
+/// The circles of arcs by flags: four arcs lead from (0, 0) to (10, 0) on circles of radius 6.
+#[test]
+fn arcs_follow_their_flags() {
+    for (flags, up, is_large) in [
+        ("00", false, false),
+        ("01", true, false),
+        ("10", false, true),
+        ("11", true, true),
+    ] {
+        let found = points(&page(&format!("<path d='M0 50a6 6 0 {flags}10 0'/>")));
+        let depth = 11.0_f64.sqrt();
+        let reach = if is_large { 6.0 + depth } else { 6.0 - depth };
+        let (low, high) = found
+            .iter()
+            .fold((0.0_f64, 0.0_f64), |(l, h), p| (l.min(p.z), h.max(p.z)));
+        let expected = if up { (0.0, reach) } else { (-reach, 0.0) };
+        assert!(
+            (low - expected.0).abs() < 2e-3 && (high - expected.1).abs() < 2e-3,
+            "{flags}: {low} {high}"
+        );
+        let center = Point2::new(5.0, if up == is_large { depth } else { -depth });
+        assert!(found.iter().all(|p| (p.distance(center) - 6.0).abs() < 1e-9));
+    }
+    // Radii that are too small grow to half the chord, and radii of 0 are lines.
+    let grown = points(&page("<path d='M0 50 A1 1 0 0 1 10 50'/>"));
+    assert!(
+        grown
+            .iter()
+            .all(|p| (p.distance(Point2::new(5.0, 0.0)) - 5.0).abs() < 1e-9)
+    );
+    assert_eq!(
+        rounded(&page("<path d='M0 50 A0 5 0 0 1 10 50'/>")),
+        [(0.0, 0.0), (10.0, 0.0)]
+    );
+}
+
+#[test]
+fn closed_shapes_are_rings() {
+    for (inside, width, height) in [
+        ("<rect x='10' y='10' width='30' height='20'/>", 30.0, 20.0),
+        ("<rect x='10' y='10' width='30' height='20' rx='4'/>", 30.0, 20.0),
+        ("<circle cx='20' cy='20' r='10'/>", 20.0, 20.0),
+        (
+            "<ellipse cx='20' cy='20' rx='10' ry='5' transform='rotate(90 20 20)'/>",
+            10.0,
+            20.0,
+        ),
+        ("<polygon points='10,10 40,10 40,30'/>", 30.0, 20.0),
+        ("<path d='M10 10H40V30z'/>", 30.0, 20.0),
+    ] {
+        let found = points(&page(inside));
+        let first = found[0];
+        assert!(found[found.len() - 1].distance(first) < 1e-9, "{inside}");
+        let extent = |part: fn(&Point2) -> f64| {
+            let all = found.iter().map(part);
+            all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
+        };
+        assert!((extent(|p| p.x) - width).abs() < 2e-3, "{inside}");
+        assert!((extent(|p| p.z) - height).abs() < 2e-3, "{inside}");
+    }
+}
+
+#[test]
+fn faults_are_pointed_at() {
+    let inside = |inside: &str| complaint(&page(inside));
+    assert_eq!(inside("<path d='M0 0 L5 x'/>").0, "x");
+    assert_eq!(inside("<path d='M0 0 L5'/>").0, "5");
+    assert_eq!(
+        inside("<path d='M0 0 B5 5'/>").1,
+        "a command of a path before this is expected here, not `5`"
+    );
+    assert!(inside("<path d='L5 5'/>").1.contains("`M`"));
+    assert_eq!(inside("<path d='M0 0 A5 5 0 2 1 5 5'/>").0, "2");
+    assert_eq!(inside("<path d='M0 0 1e12 0'/>").0, "1e12");
+    assert_eq!(inside("<g transform='shift(1)'/>").0, "shift(1)");
+    assert_eq!(inside("<g transform='scale(0)'/>").0, "scale(0)");
+    assert_eq!(inside("<line x1='1parsec'/>").0, "1parsec");
+    assert!(inside("<line x1='10%'/>").1.contains("shares"));
+    assert_eq!(inside("<circle r='-1'/>").0, "<circle");
+    assert!(
+        inside("<use href='#nowhere'/>")
+            .1
+            .contains("no element with the id `nowhere`")
+    );
+    assert!(
+        inside("<g style='transform: rotate(3deg)'/>")
+            .1
+            .contains("attribute `transform`")
+    );
+    assert!(complaint("<svg").1.contains("well-formed"));
+    assert!(complaint("<html/>").1.contains("`svg`"));
+    assert!(
+        complaint("<!DOCTYPE svg [<!ENTITY a 'b'>]><svg/>")
+            .1
+            .contains("entities")
+    );
+}
+
+#[test]
+fn references_without_end_are_refused() {
+    let own = page("<g id='a'><use href='#a'/></g>");
+    assert!(complaint(&own).1.contains("deep") || complaint(&own).1.contains("itself"));
+    let deep = page(&format!("{}{}", "<g>".repeat(100), "</g>".repeat(100)));
+    assert!(complaint(&deep).1.contains("nested more than"));
+    let bomb: String = (0..12)
+        .map(|i| {
+            format!(
+                "<g id='g{i}'>{}</g>",
+                format!("<use href='#g{}'/>", i + 1).repeat(10)
+            )
+        })
+        .collect();
+    let bomb = page(&format!("{bomb}<g id='g12'><path d='M0 0 1 1'/></g>"));
+    assert!(svg(&bomb, None).unwrap_err().message.contains("more than"));
+}
+
+#[test]
+fn layers_are_groups_with_names_and_the_rest_is_listed() {
+    let text = page(
+        "<g id='g1' xmlns:i='http://www.inkscape.org/namespaces/inkscape' i:label='Skin'><path d='M0 0 9 9'/>\
+         <text>RIB</text><image/><g style='display:none'><path d='M0 0 1 1'/></g></g>\
+         <g id='notes'><path d='M5 5 6 6'/><text>NOTE</text></g><metadata><path d='M0 0'/></metadata>",
+    );
+    for name in ["Skin", "g1"] {
+        let drawing = svg(&text, Some(name)).unwrap();
+        assert_eq!(drawing.strokes.len(), 1);
+        let listed: Vec<(&str, Why)> = drawing.unread.iter().map(|u| (u.kind.as_str(), u.why)).collect();
+        let expected = [("text", Why::Kind), ("image", Why::Kind), ("path", Why::Hidden)];
+        assert_eq!(listed, expected);
+    }
+    let all = svg(&text, None).unwrap();
+    assert_eq!(
+        all.layers.iter().collect::<Vec<_>>(),
+        [(&"Skin".to_owned(), &1), (&"notes".to_owned(), &1)]
+    );
+    assert!(svg(&text, Some("nothing")).unwrap().strokes.is_empty());
+}
+
+proptest! {
+    #[test]
+    fn any_path_data_gives_a_drawing_or_a_place(data in "[MmLlHhVvCcSsQqTtAaZz0-9.,eE+ -]{0,60}") {
+        let text = page(&format!("<path d='{data}'/>"));
+        match svg(&text, None) {
+            Err(error) => prop_assert!(text.get(error.start as usize..error.end as usize).is_some()),
+            Ok(drawing) => {
+                let map = Affine::stretch(1e-3, 1e-3);
+                let joined = outline(&drawing.strokes, map, Length::mm(1e-3), Length::mm(1e-3));
+                let is_spline = matches!(joined, Err(OutlineError::Nurbs { .. }));
+                prop_assert!(!is_spline);
+            }
+        }
+    }
+}
