@@ -5,7 +5,7 @@ use super::batch::{self, Unit};
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::inner::{self, Progressed};
-use super::output::{Destination, Headings, Output};
+use super::output::{Destination, Headings, Output, Placed};
 use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
@@ -17,7 +17,7 @@ use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
 
 /// What is made of a job.
-enum Product {
+pub(super) enum Product {
     /// A program.
     Program(Program),
     /// One of its inner forms.
@@ -30,7 +30,7 @@ enum Product {
 }
 
 /// A program to make.
-struct Program {
+pub(super) struct Program {
     backend: &'static dyn Backend,
     to: Destination,
     fate: Fate,
@@ -97,6 +97,21 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
         .unwrap_or(Exit::Success)
 }
 
+/// The program of a job that has no file of its own.
+pub(super) fn program_of(
+    target: &str,
+    output: Option<&str>,
+    options: &[String],
+    targets: &Targets,
+) -> Result<Product, Failure> {
+    Ok(Product::Program(Program {
+        backend: targets::find(targets, target)?,
+        to: program_destination(output),
+        fate: Fate::Write,
+        options: options.to_vec(),
+    }))
+}
+
 fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
     let output = args.output.as_deref();
     match (&args.target, args.emit) {
@@ -143,23 +158,50 @@ fn inner_destination(output: Option<&str>) -> Destination {
 /// Takes one job through the pipeline and tells what came of it.
 fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product, console: &Console) -> Exit {
     let disk = Disk::around(job);
-    let mut progress = Progress::start(console.shows_progress());
     let request = Request {
         options: product.typed(),
         ..overrides.request(&disk, targets)
     };
-    let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
+    let carried = Carried {
+        placed: Vec::new(),
+        amend: &mut |_| {},
+    };
+    carried_out(request, product, carried, console)
+}
+
+/// What a run brings along.
+pub(super) struct Carried<'a> {
+    /// Files that have been written already.
+    pub(super) placed: Vec<Placed>,
+    /// Changes what is told of the outcome before anything is made of it.
+    pub(super) amend: &'a mut dyn FnMut(&mut Outcome),
+}
+
+/// Takes a job through the pipeline, makes the product and tells what came of it.
+pub(super) fn carried_out(
+    request: Request<'_>,
+    product: &Product,
+    carried: Carried<'_>,
+    console: &Console,
+) -> Exit {
+    let job = request.path;
+    let mut progress = Progress::start(console.shows_progress());
+    let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);
             return console.failure(&unreadable(job, &reason));
         }
     };
-    let made = make(product, &outcome, disk.job(), &mut progress);
+    (carried.amend)(&mut outcome);
+    let made = make(product, &outcome, job, &mut progress);
     let timings = progress.finish();
 
     match made {
-        Ok(made) => tell(disk.job(), outcome, &made, &timings, product, console),
+        Ok(mut made) => {
+            made.placed.splice(0..0, carried.placed);
+            tell(job, outcome, &made, &timings, product, console)
+        }
         Err(failure) => {
             console.diagnostics(&outcome.diagnostics, &outcome.sources);
             console.failure(&failure)
@@ -169,7 +211,7 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
 
 impl Product {
     /// The options of the command line for its target.
-    fn typed(&self) -> Typed<'_> {
+    pub(super) fn typed(&self) -> Typed<'_> {
         match self {
             Self::Program(program) => Typed {
                 target: program.backend.id(),

@@ -4,9 +4,11 @@
 //! before it loses.
 
 mod joints;
+mod paths;
 mod time;
 
 pub use joints::joints;
+pub use paths::paths;
 pub use time::time;
 
 use super::Material;
@@ -195,7 +197,7 @@ fn tips(material: &Material<'_>) -> Vec<lattice::Tip> {
     cuts.map(|cut| lattice::Tip {
         at: pair(cut.tip),
         origin: match cut.origin {
-            TipOrigin::Lattice => lattice::Origin::Lattice,
+            TipOrigin::Lattice | TipOrigin::Given => lattice::Origin::Lattice,
             TipOrigin::Lifted => lattice::Origin::Lifted,
             TipOrigin::Shifted => lattice::Origin::Shifted,
             TipOrigin::Relieved => lattice::Origin::Relieved,

@@ -149,7 +149,7 @@ fn is_value_line(bad: &Bad<'_>) -> bool {
 fn is_plain_name(word: &str) -> bool {
     !matches!(
         word,
-        "start" | "line" | "arc" | "bezier" | "spline" | "polyline" | "points" | "airfoil"
+        "start" | "line" | "arc" | "bezier" | "spline" | "polyline" | "points" | "airfoil" | "tips"
     )
 }
 
