@@ -47,6 +47,7 @@ fn converted(args: &ConvertArgs, console: &Console) -> Result<Result<Conversion,
         asked: &asked,
         name: name(args),
         cell: cell.as_deref(),
+        machine: args.machine.as_deref(),
         blade: args.blade.as_deref(),
         profile: profile.as_deref(),
     };
@@ -107,7 +108,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         path: &overlaid.path,
         loader: &overlaid,
         overrides: &[],
-        machine: args.machine.as_deref(),
+        machine: None,
         options: product.typed(),
         targets,
     };
@@ -174,11 +175,11 @@ fn picture(args: &ConvertArgs, conversion: &Conversion, outcome: &Outcome) -> Re
     one_file(Path::new(path), svg.as_bytes())
 }
 
-/// The folder that the job lies in, or would; none for the current one.
+/// The folder that the job lies in; none for the current one, where a job that is not written is taken to lie.
 fn folder_of_the_job(args: &ConvertArgs) -> Option<&Path> {
     match args.output.as_deref() {
-        None | Some("-") => None,
-        Some(folder) => Some(Path::new(folder)),
+        Some(folder) if args.as_job && folder != "-" => Some(Path::new(folder)),
+        Some(_) | None => None,
     }
 }
 

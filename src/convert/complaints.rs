@@ -52,6 +52,16 @@ pub(super) fn unknown_end(place: Span, why: &str) -> Diagnostic {
     .help("give the `.dat` file with the positions too, or write X, Y and Z into the motion")
 }
 
+pub(super) fn unknown_motion(place: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotFollowed,
+        "what this motion does is not known",
+        place,
+        "a target that is worked out, or more behind it than `C_DIS` and its like",
+    )
+    .help("write the motion with a target such as `{X 1.0,Y 2.0,Z 3.0}` and nothing behind it")
+}
+
 pub(super) fn jump(place: Span, word: &str) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
@@ -83,7 +93,7 @@ pub(super) fn endless(place: Span) -> Diagnostic {
     .help("convert its parts one by one")
 }
 
-pub(super) fn speed_unknown(place: Span) -> Diagnostic {
+pub(super) fn speed_unknown(place: Span) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         "this speed is no number above 0",
@@ -91,6 +101,7 @@ pub(super) fn speed_unknown(place: Span) -> Diagnostic {
         "what is it?",
     )
     .help("write the number, or give the speeds with `--feed 200mm/s` and `--travel 200mm/s`")
+    .into()
 }
 
 /// A motion in the material that is no pass.
@@ -136,7 +147,7 @@ pub(super) fn leans(place: Span, earlier: Option<Span>) -> Diagnostic {
         .help("use a three-axis operation of the CAM system; if another axis points up, say so with `--up`")
 }
 
-pub(super) fn too_short_pass(pass: &Pass, depth: f64) -> Diagnostic {
+pub(super) fn too_short_pass(pass: &Pass, depth: f64) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new(
         Code::NoPass,
         format!(
@@ -148,20 +159,23 @@ pub(super) fn too_short_pass(pass: &Pass, depth: f64) -> Diagnostic {
         pass.places[0],
         "ends within the blank",
     );
-    diagnostic.help("extend the passes beyond the blank in the CAM system")
+    diagnostic
+        .help("extend the passes beyond the blank in the CAM system")
+        .into()
 }
 
-pub(super) fn nothing_straight(milling: &Milling) -> Diagnostic {
+pub(super) fn nothing_straight(milling: &Milling) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::NothingToConvert,
         "there is no straight motion along an axis in this program",
         at_the_program(milling),
-        "the first motion",
+        "this program",
     )
     .help("passes have to run along x or y of the program's base; if another axis than z points up, say so with `--up`")
+    .into()
 }
 
-pub(super) fn no_passes(milling: &Milling, top: f64) -> Diagnostic {
+pub(super) fn no_passes(milling: &Milling, top: f64) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::NothingToConvert,
         format!(
@@ -169,12 +183,13 @@ pub(super) fn no_passes(milling: &Milling, top: f64) -> Diagnostic {
             show(top)
         ),
         at_the_program(milling),
-        "the first motion",
+        "this program",
     )
     .help("give the size of the blank with `--stock`, and where its lowest corner lies with `--origin X,Y,Z`")
+    .into()
 }
 
-pub(super) fn too_low(milling: &Milling, lowest: f64, height: f64) -> Diagnostic {
+pub(super) fn too_low(milling: &Milling, lowest: f64, height: f64) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         format!(
@@ -183,16 +198,17 @@ pub(super) fn too_low(milling: &Milling, lowest: f64, height: f64) -> Diagnostic
             show(height)
         ),
         at_the_program(milling),
-        "the first motion",
+        "this program",
     )
     .help("say where the blank's lowest corner lies in the file with `--origin X,Y,Z`, or mend `--stock`")
+    .into()
 }
 
 pub(super) fn unclear_place(
     milling: &Milling,
     (axis, size): (Direction, f64),
     [least, most]: [f64; 2],
-) -> Diagnostic {
+) -> Box<Diagnostic> {
     let [low, high] = match axis.of([1.0; 3]) < 0.0 {
         true => [-most, -least],
         false => [least, most],
@@ -207,12 +223,13 @@ pub(super) fn unclear_place(
             show(size)
         ),
         at_the_program(milling),
-        "the first motion",
+        "this program",
     )
     .help("say where the blank's lowest corner lies in the file, for example `--origin 0,0,0`")
+    .into()
 }
 
-pub(super) fn too_short(milling: &Milling, length: f64, size: f64) -> Diagnostic {
+pub(super) fn too_short(milling: &Milling, length: f64, size: f64) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::NoPass,
         format!(
@@ -221,16 +238,17 @@ pub(super) fn too_short(milling: &Milling, length: f64, size: f64) -> Diagnostic
             show(size)
         ),
         at_the_program(milling),
-        "the first motion",
+        "this program",
     )
     .help("the sizes of `--stock` are width across the passes, depth along them, height; passes have to run through")
+    .into()
 }
 
 pub(super) fn both_ways(
     milling: &Milling,
     (one, first): (Axis, f64),
     (other, second): (Axis, f64),
-) -> Diagnostic {
+) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         format!(
@@ -241,22 +259,24 @@ pub(super) fn both_ways(
             other.letter()
         ),
         at_the_program(milling),
-        "the first motion",
+        "this program",
     )
     .help(format!("say it: `--along {}` or `--along {}`", one.letter(), other.letter()))
+    .into()
 }
 
-pub(super) fn no_speed(place: Span) -> Diagnostic {
+pub(super) fn no_speed(place: Span) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         "the program says no speed for this pass",
         place,
-        "no `$VEL.CP` before it",
+        "no `$VEL.CP` with a number before it",
     )
     .help("give the speed in the material with `--feed`, for example `--feed 200mm/s`")
+    .into()
 }
 
-pub(super) fn two_speeds(one: Written, other: Written) -> Diagnostic {
+pub(super) fn two_speeds(one: Written, other: Written) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         format!(
@@ -269,9 +289,10 @@ pub(super) fn two_speeds(one: Written, other: Written) -> Diagnostic {
     )
     .and(one.place, "and this one for the first")
     .help("give the one speed in the material with `--feed`, for example `--feed 200mm/s`")
+    .into()
 }
 
-pub(super) fn unclear_speed(fastest: Written) -> Diagnostic {
+pub(super) fn unclear_speed(fastest: Written) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         format!(
@@ -282,16 +303,18 @@ pub(super) fn unclear_speed(fastest: Written) -> Diagnostic {
         "in which unit?",
     )
     .help("say it: `--feed-unit mm/min` or `--feed-unit mm/s`")
+    .into()
 }
 
-pub(super) fn no_clearance(milling: &Milling) -> Diagnostic {
+pub(super) fn no_clearance(milling: &Milling) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         "the program never goes above the blank, so how high the safe plane lies is not clear",
         at_the_program(milling),
-        "the first motion",
+        "this program",
     )
     .help("give its height above the blank, for example `--clearance 10mm`")
+    .into()
 }
 
 /// Most statements that a warning shows.

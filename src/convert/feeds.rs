@@ -35,7 +35,7 @@ pub(super) fn feeds(
     raster: &Raster,
     asked: &Asked,
     inferences: &mut Vec<Inference>,
-) -> Result<Feeds, Diagnostic> {
+) -> Result<Feeds, Box<Diagnostic>> {
     let unit = unit(raster, asked, inferences)?;
     let cut = match asked.feed {
         Some(feed) => feed,
@@ -105,7 +105,7 @@ fn mm_per_s(speed: Speed) -> String {
 }
 
 /// The one speed of all passes.
-fn cutting(milling: &Milling, raster: &Raster) -> Result<Written, Diagnostic> {
+fn cutting(milling: &Milling, raster: &Raster) -> Result<Written, Box<Diagnostic>> {
     let mut first: Option<Written> = None;
     for pass in &raster.passes {
         match (pass.speed, first) {
@@ -123,7 +123,11 @@ fn cutting(milling: &Milling, raster: &Raster) -> Result<Written, Diagnostic> {
 }
 
 /// The unit that the program writes speeds in.
-fn unit(raster: &Raster, asked: &Asked, inferences: &mut Vec<Inference>) -> Result<FeedUnit, Diagnostic> {
+fn unit(
+    raster: &Raster,
+    asked: &Asked,
+    inferences: &mut Vec<Inference>,
+) -> Result<FeedUnit, Box<Diagnostic>> {
     if let Some(unit) = asked.feed_unit {
         return Ok(unit);
     }

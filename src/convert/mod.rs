@@ -56,6 +56,8 @@ pub struct Request<'a> {
     pub name: &'a str,
     /// The file of the shop that the job uses, seen from the job.
     pub cell: Option<&'a str>,
+    /// The machine of that file.
+    pub machine: Option<&'a str>,
     /// The blade of that file.
     pub blade: Option<&'a str>,
     /// A file with the points of the part's profile, seen from the job.
@@ -201,14 +203,14 @@ fn understood(
     files: &Files<'_>,
     sources: &SourceMap,
 ) -> Result<Found, Vec<Diagnostic>> {
-    let one = |diagnostic| vec![diagnostic];
+    let one = |diagnostic: Box<Diagnostic>| vec![*diagnostic];
     let asked = request.asked;
     let mut inferences = Vec::new();
     let milling = read::read(files)?;
     let axes = place::axes(&milling, asked, &mut inferences).map_err(one)?;
     let blank = place::blank(&milling, axes, asked, &mut inferences).map_err(one)?;
     if let Some(refused) = attitude::leaning(&milling, axes, blank) {
-        return Err(one(refused));
+        return Err(vec![refused]);
     }
     let raster = raster::recognise(&milling, axes, blank)?;
     check(&milling, &raster, blank).map_err(one)?;
@@ -220,6 +222,7 @@ fn understood(
     let job = write::job(&Material {
         name: request.name,
         cell: request.cell,
+        machine: request.machine,
         milling: &milling,
         raster: &raster,
         blank,
@@ -246,7 +249,7 @@ fn understood(
 }
 
 /// There are passes, and all of them run through the blank.
-fn check(milling: &Milling, raster: &Raster, blank: Blank) -> Result<(), Diagnostic> {
+fn check(milling: &Milling, raster: &Raster, blank: Blank) -> Result<(), Box<Diagnostic>> {
     if raster.passes.is_empty() {
         return Err(complaints::no_passes(milling, blank.height));
     }
@@ -294,7 +297,7 @@ fn clearance(
     blank: Blank,
     asked: &Asked,
     inferences: &mut Vec<Inference>,
-) -> Result<Length, Diagnostic> {
+) -> Result<Length, Box<Diagnostic>> {
     if let Some(clearance) = asked.clearance {
         return Ok(clearance);
     }

@@ -28,7 +28,7 @@ pub struct Blank {
 
 impl Blank {
     /// A point as seen from the corner.
-    pub(super) fn from_corner(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub(super) fn seen_from_corner(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [x0, y0, z0] = self.corner;
         [x - x0, y - y0, z - z0]
     }
@@ -45,7 +45,7 @@ pub(super) fn axes(
     milling: &Milling,
     asked: &Asked,
     inferences: &mut Vec<Inference>,
-) -> Result<Axes, Diagnostic> {
+) -> Result<Axes, Box<Diagnostic>> {
     let up = asked.up;
     let level: Vec<Axis> = Axis::ALL.into_iter().filter(|&axis| axis != up.axis).collect();
     let (one, other) = match level.as_slice() {
@@ -98,7 +98,7 @@ pub(super) fn blank(
     axes: Axes,
     asked: &Asked,
     inferences: &mut Vec<Inference>,
-) -> Result<Blank, Diagnostic> {
+) -> Result<Blank, Box<Diagnostic>> {
     let [width, depth, height] = asked.stock;
     let mut blank = Blank {
         width,
@@ -159,7 +159,11 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 /// The height of the blank's bottom. What goes below zero cuts from a zero at the top, for nobody mills the table.
-fn bottom(milling: &Milling, along: &[Stretch<'_>], height: f64) -> Result<(f64, &'static str), Diagnostic> {
+fn bottom(
+    milling: &Milling,
+    along: &[Stretch<'_>],
+    height: f64,
+) -> Result<(f64, &'static str), Box<Diagnostic>> {
     let Some([lowest, _]) = range(along.iter().map(Stretch::lowest)) else {
         return Err(complaints::nothing_straight(milling));
     };
@@ -201,7 +205,7 @@ fn ends((direction, size): (Direction, f64)) -> [End; 2] {
 
 /// The side of the blank: from an edge where all passes lie over the blank then, else from the middle; passes that lie farther
 /// out on both sides are taken to run beside it.
-fn side(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> Result<End, Diagnostic> {
+fn side(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> Result<End, Box<Diagnostic>> {
     let size = axis.1;
     let holds = |end: &End| least >= end.low - SAME && most <= end.low + size + SAME;
     let covers = |end: &End| least <= end.low + SAME && most >= end.low + size - SAME;
@@ -217,7 +221,7 @@ fn side(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> R
 }
 
 /// The front of the blank: passes run over all of it, and where the zero is not at an edge as far out on either side.
-fn front(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> Result<End, Diagnostic> {
+fn front(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> Result<End, Box<Diagnostic>> {
     let size = axis.1;
     let covers = |end: &End| least <= end.low + SAME && most >= end.low + size - SAME;
     let [corner, middle] = ends(axis);

@@ -123,8 +123,8 @@ pub(super) fn recognise(milling: &Milling, axes: Axes, blank: Blank) -> Result<R
     builder.raster.highest = all.map(|point| point[2]).reduce(f64::max);
     for stretch in stretches(milling, axes) {
         builder.take(Stretch {
-            from: blank.from_corner(stretch.from),
-            to: blank.from_corner(stretch.to),
+            from: blank.seen_from_corner(stretch.from),
+            to: blank.seen_from_corner(stretch.to),
             ..stretch
         });
     }
@@ -142,7 +142,7 @@ fn path(milling: &Milling, axes: Axes, blank: Blank) -> Vec<Vec<[f64; 3]>> {
         .split(|step| step.to.is_none())
         .map(|known| {
             let points = known.iter().filter_map(|step| step.to);
-            points.map(|to| blank.from_corner(axes.point(to))).collect()
+            points.map(|to| blank.seen_from_corner(axes.point(to))).collect()
         })
         .filter(|points: &Vec<_>| !points.is_empty())
         .collect()

@@ -255,10 +255,7 @@ impl<'t> Reader<'t, '_> {
         } else if is(&[
             "LIN", "PTP", "SLIN", "SPTP", "LIN_REL", "PTP_REL", "SLIN_REL", "SPTP_REL",
         ]) {
-            self.push(complaints::unknown_end(
-                place,
-                "the syntax of this motion is not known",
-            ));
+            self.push(complaints::unknown_motion(place));
         } else if is(&["GOTO", "RETURN", "RESUME"]) {
             self.push(complaints::jump(place, word));
         } else if is(&["IF", "FOR", "LOOP", "WHILE", "REPEAT", "SWITCH"]) {
@@ -294,7 +291,8 @@ impl<'t> Reader<'t, '_> {
         if to.is_field("$VEL", "CP") {
             match number {
                 Some(value) => self.speed = Some(Written { value, place }),
-                None => self.push(complaints::speed_unknown(place)),
+                // Worked out while the program runs: whoever needs it has to say it.
+                None => self.speed = None,
             }
         } else if let (true, Value::Structure(fields)) = (to.is("$VEL"), value) {
             for field in fields {

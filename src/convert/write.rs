@@ -58,6 +58,7 @@ pub enum Part {
 pub(super) struct Material<'a> {
     pub(super) name: &'a str,
     pub(super) cell: Option<&'a str>,
+    pub(super) machine: Option<&'a str>,
     pub(super) milling: &'a Milling,
     pub(super) raster: &'a Raster,
     pub(super) blank: Blank,
@@ -145,6 +146,9 @@ impl Writer<'_> {
             self.line(&format!("use {}\n", quoted(cell)));
         }
         self.line(&format!("job {}\n", quoted(material.name)));
+        if let Some(machine) = material.machine {
+            self.line(&format!("cell {{ machine = {machine} }}\n"));
+        }
     }
 
     fn scene(&mut self, material: &Material<'_>) {

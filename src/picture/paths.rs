@@ -145,6 +145,16 @@ fn remains(svg: &mut Svg, paths: &Paths<'_>, view: &View) {
         }
     }
     svg.path(side.text(), REMAINS);
+    let last = paths.contour.last().map_or(height, |&[_, z]| z);
+    let end = [
+        [width, 0.0, 0.0],
+        [width, depth, 0.0],
+        [width, depth, last],
+        [width, 0.0, last],
+    ];
+    let mut right = Trace::default();
+    right.closed(end.map(|point| view.at(point)));
+    svg.path(right.text(), REMAINS);
     let mut front = Trace::default();
     front.closed(face(0.0).map(|point| view.at(point)));
     svg.path(front.text(), REMAINS);
@@ -172,7 +182,7 @@ fn bar(svg: &mut Svg, paths: &Paths<'_>, view: &View) {
     let names = [
         ("x", [width / 2.0, 0.0, 0.0], 18.0),
         ("y", [width, depth / 2.0, 0.0], 18.0),
-        ("z", [0.0, 0.0, height / 2.0], 5.0),
+        ("z", [0.0, 0.0, height / 4.0], 5.0),
     ];
     for (name, place, down) in names {
         let [x, y] = view.at(place);

@@ -238,7 +238,10 @@ fn laid_out(material: &Material<'_>) -> String {
     match (vcuts.next(), vcuts.next()) {
         (Some(vcut), None) => {
             let chosen = &vcut.parameters;
-            let name = chosen.lattice.word();
+            let name = match vcut.asked.tips {
+                Some(_) => "given tips",
+                None => chosen.lattice.word(),
+            };
             format!(
                 "{name}, {layers}; swing {} deg, layer {} mm, step {} mm",
                 show(chosen.swing.to_deg()),

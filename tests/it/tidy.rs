@@ -73,6 +73,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "optimisation",
         &["diag", "driver", "job", "picture", "plan", "source"],
     ),
+    ("convert", &["diag", "geom", "plan", "sema", "sim", "source"]),
     (
         "report",
         &[
@@ -122,6 +123,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "comparison",
+            "convert",
             "diag",
             "document",
             "driver",
