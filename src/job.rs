@@ -2,6 +2,7 @@
 //!
 //! Every value that a later stage may have to complain about knows where it was written.
 
+use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::machine::Model;
 use crate::source::{Span, Spanned};
@@ -99,6 +100,9 @@ pub struct RoughVcut {
     pub head_span: Span,
     /// The blade.
     pub blade: Blade,
+    /// Where the tips run, in the order in which they are cut; none for a lattice. Where they are given, `lattice`, `layer`
+    /// and `step` are what they come nearest to, `residual` and `sequence` have no say, and the swing is given.
+    pub tips: Option<Arc<Tips>>,
     /// How tips are laid out.
     pub lattice: Sourced<Auto<Lattice>>,
     /// Angle between tool axis and feed; above 0 to 90 degrees.
@@ -141,6 +145,24 @@ pub struct RoughVcut {
     pub run_out: Sourced<Length>,
     /// Distance of the blade's middle plane from the material that stays; `auto` is half the blade's thickness.
     pub standoff: Sourced<Auto<Length>>,
+}
+
+/// Tips that a job gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tips {
+    /// The tips in the order in which they are cut, at least one, within the stock.
+    pub tips: Vec<Tip>,
+    /// Where the word `tips` stands.
+    pub span: Span,
+}
+
+/// A tip that a job gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tip {
+    /// Where it runs in the x-z plane of the workpiece, in mm.
+    pub point: Point2,
+    /// Where it is written.
+    pub span: Span,
 }
 
 /// Bounds on what the planner may choose and on the result.

@@ -5,6 +5,8 @@ pub mod choice;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod comparison;
+#[cfg(feature = "krl")]
+pub mod convert;
 pub mod diag;
 pub mod document;
 pub mod driver;

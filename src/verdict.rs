@@ -2,6 +2,8 @@
 //!
 //! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
 
+mod given;
+
 use crate::choice::{self, Latitude, Leeway};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
@@ -9,7 +11,7 @@ use crate::job::{Auto, CheckedJob, Operation, Residual, RoughVcut};
 use crate::lower;
 use crate::plan::grid;
 use crate::plan::parameters::{self, show};
-use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
+use crate::plan::{self, PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
 use crate::sim::report::{Report, report};
 use crate::sim::surface::Surface;
@@ -98,6 +100,10 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
     if diagnostics.is_empty() {
         diagnostics.extend(scallop_over_limit(job, plan, &proven.report));
     }
+    diagnostics.extend(plan.operations.iter().filter_map(|operation| {
+        let PlannedOperation::RoughVcut(vcut) = operation;
+        plan::given::idle(vcut.course.as_ref()?, vcut.asked.tips.as_ref()?)
+    }));
     diagnostics
 }
 
@@ -151,6 +157,9 @@ fn not_freed(
     [needed, available]: [Length; 2],
 ) -> Diagnostic {
     let asked = &vcut.asked;
+    if let Some(tips) = &asked.tips {
+        return given::not_freed(job, (asked, tips), finding, count, [needed, available]);
+    }
     let edge = UsableEdge::of(asked, available);
     // Rounded up: 10.003 mm is not 10 mm.
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
@@ -381,6 +390,31 @@ pub fn scallop_excess<'p>(
     (report.scallop.height > tightest.2 + Length::mm(1e-3)).then_some(tightest)
 }
 
+/// A residual strategy and a layer that keep the limit on scallop.
+fn residual_and_layer(
+    job: &CheckedJob,
+    operation: OperationId,
+    vcut: &PlannedVcut,
+) -> Option<(Residual, f64)> {
+    let layers = [1.0, 0.75, 0.5, 0.25].map(|share| vcut.parameters.layer.to_mm() * share);
+    [Residual::Mixed, Residual::Lift]
+        .into_iter()
+        .find_map(|residual| {
+            layers
+                .iter()
+                .copied()
+                .map(|layer| grid::down(layer * 0.1) * 10.0)
+                .filter(|&layer| layer > 0.0)
+                .find_map(|layer| {
+                    let works = proves_with(job, operation, |asked| {
+                        asked.residual.value = Auto::Given(residual);
+                        asked.layer.value = Auto::Given(Length::mm(layer));
+                    });
+                    works.then_some((residual, layer))
+                })
+        })
+}
+
 fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> Option<Diagnostic> {
     let (operation, asked, limit) = scallop_excess(plan, report)?;
     let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
@@ -403,23 +437,11 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
     );
     let planned = plan.operations.get(usize::from(operation.0))?;
     let PlannedOperation::RoughVcut(vcut) = planned;
-    let layers = [1.0, 0.75, 0.5, 0.25].map(|share| vcut.parameters.layer.to_mm() * share);
-    let works = [Residual::Mixed, Residual::Lift]
-        .into_iter()
-        .find_map(|residual| {
-            layers
-                .iter()
-                .copied()
-                .map(|layer| grid::down(layer * 0.1) * 10.0)
-                .filter(|&layer| layer > 0.0)
-                .find_map(|layer| {
-                    let works = proves_with(job, operation, |asked| {
-                        asked.residual.value = Auto::Given(residual);
-                        asked.layer.value = Auto::Given(Length::mm(layer));
-                    });
-                    works.then_some((residual, layer))
-                })
-        });
+    let works = match asked.tips {
+        // Nothing moves given tips.
+        Some(_) => None,
+        None => residual_and_layer(job, operation, vcut),
+    };
     Some(match works {
         Some((residual, layer)) => {
             let word = residual.word();

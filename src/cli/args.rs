@@ -1,5 +1,11 @@
 //! The arguments, and the help that teaches them.
 
+#[cfg(feature = "krl")]
+mod convert;
+
+#[cfg(feature = "krl")]
+pub(super) use convert::ConvertArgs;
+
 use super::Targets;
 use super::files::Disk;
 use crate::diag::suggest::nearest;
@@ -32,6 +38,8 @@ Examples:
   vcutc targets                           See what programs can be written, and with which options
   vcutc watch rib.vcut --target krl --serve
                                           The same after every change, with the report in a browser
+  vcutc convert rib_3x.src --rake 60deg --swing 34deg --extension 8mm --stock 85x50x50 --as-job
+                                          Turn a milling program of three axes into a job of V-cuts
   vcutc verify rib.vcut out/rib.src out/rib.dat
                                           See whether a program still is what its job says
 
@@ -125,6 +133,12 @@ pub(super) enum Command {
     /// vcut.toml is looked for in the current folder and above it. Programs are compiled side by side and told of in the
     /// order of the list; each is written whole or not at all, and files that would not change are left alone.
     Build(BuildArgs),
+    /// Turn a KUKA milling program of three axes into V-cuts
+    ///
+    /// Reads the passes of a raster from the program of any CAM system, and cuts each of them as a V: left flank there, right
+    /// flank back. What the command line does not say is taken from the program where that leaves one possibility, and told.
+    #[cfg(feature = "krl")]
+    Convert(Box<ConvertArgs>),
     /// Explain a diagnostic code, or list them all
     ///
     /// Every error and warning has a permanent code such as VC0203. Its page says what it means, shows a job that has

@@ -5,7 +5,7 @@ use super::batch::{self, Unit};
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::inner::{self, Progressed};
-use super::output::{Destination, Headings, Output};
+use super::output::{Destination, Headings, Output, Placed};
 use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
@@ -18,7 +18,7 @@ use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
 
 /// What is made of a job.
-enum Product {
+pub(super) enum Product {
     /// A program.
     Program(Program),
     /// One of its inner forms.
@@ -31,7 +31,7 @@ enum Product {
 }
 
 /// A program to make.
-struct Program {
+pub(super) struct Program {
     backend: &'static dyn Backend,
     to: Destination,
     fate: Fate,
@@ -96,6 +96,21 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
         .map(|job| judge(job, &args.overrides, targets, &product, console))
         .max()
         .unwrap_or(Exit::Success)
+}
+
+/// The program of a job that has no file of its own.
+pub(super) fn program_of(
+    target: &str,
+    output: Option<&str>,
+    options: &[String],
+    targets: &Targets,
+) -> Result<Product, Failure> {
+    Ok(Product::Program(Program {
+        backend: targets::find(targets, target)?,
+        to: program_destination(output),
+        fate: Fate::Write,
+        options: options.to_vec(),
+    }))
 }
 
 fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
@@ -166,7 +181,11 @@ pub(super) fn judge_again(
         loader,
         ..watched.args.overrides.request(&disk, watched.targets)
     };
-    judge_request(request, &watched.product, console, see)
+    let carried = Carried {
+        placed: Vec::new(),
+        amend: &mut |outcome| see(outcome),
+    };
+    carried_out(request, &watched.product, carried, console)
 }
 
 fn fate(check: bool, output: Option<&str>) -> Result<Fate, Failure> {
@@ -196,15 +215,27 @@ fn inner_destination(output: Option<&str>) -> Destination {
 /// Takes one job through the pipeline and tells what came of it.
 fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product, console: &Console) -> Exit {
     let disk = Disk::around(job);
-    let request = overrides.request(&disk, targets);
-    judge_request(request, product, console, &mut |_| {})
+    let carried = Carried {
+        placed: Vec::new(),
+        amend: &mut |_| {},
+    };
+    carried_out(overrides.request(&disk, targets), product, carried, console)
 }
 
-fn judge_request(
+/// What a run brings along.
+pub(super) struct Carried<'a> {
+    /// Files that have been written already.
+    pub(super) placed: Vec<Placed>,
+    /// Changes what is told of the outcome before anything is made of it.
+    pub(super) amend: &'a mut dyn FnMut(&mut Outcome),
+}
+
+/// Takes a job through the pipeline, makes the product and tells what came of it.
+pub(super) fn carried_out(
     request: Request<'_>,
     product: &Product,
+    carried: Carried<'_>,
     console: &Console,
-    see: &mut dyn FnMut(&Outcome),
 ) -> Exit {
     let job = request.path;
     let request = Request {
@@ -212,19 +243,22 @@ fn judge_request(
         ..request
     };
     let mut progress = Progress::start(console.shows_progress());
-    let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
+    let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);
             return console.failure(&unreadable(job, &reason));
         }
     };
+    (carried.amend)(&mut outcome);
     let made = make(product, &outcome, job, &mut progress);
-    see(&outcome);
     let timings = progress.finish();
 
     match made {
-        Ok(made) => tell(job, outcome, &made, &timings, product, console),
+        Ok(mut made) => {
+            made.placed.splice(0..0, carried.placed);
+            tell(job, outcome, &made, &timings, product, console)
+        }
         Err(failure) => {
             console.diagnostics(&outcome.diagnostics, &outcome.sources);
             console.failure(&failure)
@@ -234,7 +268,7 @@ fn judge_request(
 
 impl Product {
     /// The options of the command line for its target.
-    fn typed(&self) -> Typed<'_> {
+    pub(super) fn typed(&self) -> Typed<'_> {
         match self {
             Self::Program(program) => Typed {
                 target: program.backend.id(),

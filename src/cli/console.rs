@@ -215,6 +215,27 @@ impl Console {
         }
     }
 
+    /// Prints what was taken from somewhere because the user did not say it: lines for people, an object each for programs.
+    pub(super) fn inferences<T: Serialize>(&self, text: &str, bodies: &[T]) {
+        match self.format {
+            MessageFormat::Json => {
+                for body in bodies {
+                    self.json_line("inference", body);
+                }
+            }
+            MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
+            MessageFormat::Human | MessageFormat::Github => self.stderr(text),
+        }
+    }
+
+    /// Prints which files were written beside what a summary tells.
+    pub(super) fn placed(&self, files: &[Placed]) {
+        match (self.format, self.detail) {
+            (MessageFormat::Json, _) | (_, Detail::DiagnosticsOnly) => {}
+            (MessageFormat::Human | MessageFormat::Github, _) => self.stderr(&placed(files)),
+        }
+    }
+
     /// Prints why nothing could be judged.
     pub(super) fn failure(&self, failure: &Failure) -> Exit {
         match self.format {

@@ -108,6 +108,7 @@ fn write_vcut(number: u32, vcut: &PlannedVcut, out: &mut dyn Write) -> io::Resul
         for (cut, planned) in (1_u32..).zip(layer) {
             let origin = match planned.origin {
                 TipOrigin::Lattice => "lattice",
+                TipOrigin::Given => "given",
                 TipOrigin::Lifted => "lifted",
                 TipOrigin::Shifted => "shifted",
                 TipOrigin::Relieved => "relieved",

@@ -36,6 +36,8 @@ mod batch;
 mod build;
 mod compile;
 mod console;
+#[cfg(feature = "krl")]
+mod convert;
 mod differences;
 mod explain;
 mod external;
@@ -99,6 +101,8 @@ pub fn run(linked: &Targets) -> ExitCode {
     let exit = match &arguments.command {
         Some(Command::Build(args)) => build::build(args, targets, &console),
         Some(Command::Check(check)) => compile::check(check, targets, &console),
+        #[cfg(feature = "krl")]
+        Some(Command::Convert(args)) => convert::convert(args, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
         Some(Command::Fmt(args)) => fmt::fmt(args, &console),
         Some(Command::Optimize(optimize)) => optimize::optimize(optimize, targets, &console),

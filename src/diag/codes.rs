@@ -231,6 +231,25 @@ codes! {
 
     /// A fault of the compiler.
     Internal = "VC0901", Error, "a fault of the compiler";
+
+    /// A field that has no meaning beside given tips, or that they need.
+    TipsBesideField = "VC1001", Error, "a field that does not go with given tips";
+    /// A given tip whose cut would enter the part.
+    TipInPart = "VC1002", Error, "a given tip whose cut would enter the part";
+    /// A given tip that cuts nothing.
+    TipCutsNothing = "VC1003", Warning, "a given tip that cuts nothing";
+    /// A motion of a milling program that is no pass.
+    NoPass = "VC1004", Error, "a motion that cannot be part of a V-cut";
+    /// A milling program whose motions cannot be followed.
+    NotFollowed = "VC1005", Error, "a milling program whose motions cannot be followed";
+    /// A milling program without passes.
+    NothingToConvert = "VC1006", Error, "a milling program without passes";
+    /// Something that a milling program does not say clearly.
+    Unclear = "VC1007", Error, "something that a milling program does not say clearly";
+    /// Statements of a milling program that are left out.
+    LeftOut = "VC1008", Warning, "statements of a milling program that are left out";
+    /// Passes beside the blank.
+    BesideBlank = "VC1009", Warning, "passes beside the blank";
 }
 
 #[cfg(test)]

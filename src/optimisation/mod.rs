@@ -183,6 +183,9 @@ fn operation(
     planned: Planned,
     Scale { index, points }: Scale,
 ) -> Option<OperationOptimum> {
+    if asked.tips.is_some() {
+        return None;
+    }
     let problem = parameters::problem(job, asked)?;
     let chosen = vcut.parameters.lattice;
     let formulas = asked.formulas.value;

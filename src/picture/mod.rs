@@ -12,6 +12,7 @@ pub mod joints;
 pub mod lattice;
 mod marks;
 pub mod pareto;
+pub mod paths;
 mod plot;
 mod scale;
 mod section;

@@ -11,6 +11,7 @@
 pub mod blade_reach;
 mod complaints;
 pub mod decision;
+pub mod given;
 pub mod grid;
 pub mod lattice;
 pub mod optimum;
@@ -27,10 +28,11 @@ use crate::geom::cone;
 use crate::geom::curve::Point2;
 use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
-use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence};
+use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
 use crate::sim::surface::Surface;
 use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
 use decision::Decision;
+use given::Course;
 use parameters::VcutParameters;
 use residual::Strategies;
 use route::Run;
@@ -80,6 +82,8 @@ pub struct PlannedVcut {
     pub estimated_cuts: f64,
     /// The cuts, layer by layer, each layer from left to right.
     pub cuts: Vec<PlannedCut>,
+    /// Which way layers go and what is not cut, where the job gives the tips.
+    pub course: Option<Course>,
     /// In which order they are made: every cut in one run.
     pub runs: Vec<Run>,
     /// Why it came out so, where the job left the choice open.
@@ -113,6 +117,8 @@ pub enum Way {
 pub enum TipOrigin {
     /// A point of the lattice.
     Lattice,
+    /// Given by the job.
+    Given,
     /// Raised to clear the part.
     Lifted,
     /// Moved sideways to clear the part.
@@ -157,6 +163,17 @@ pub fn lay_out(
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
+    if let Some(tips) = &asked.tips {
+        if tips.tips.len() > cuts_left || given::passed_corners(tips, &parameters) > MOST_PASSED {
+            return Err(vec![given::too_many(tips)]);
+        }
+        let ground = Ground {
+            layout: &layout,
+            parameters: &parameters,
+            bound: &bound,
+        };
+        return lay_out_given(job, asked, tips, before, ground);
+    }
     if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
         return Err(vec![too_many_cuts(asked, &parameters, layout.most_tips())]);
     }
@@ -178,21 +195,15 @@ pub fn lay_out(
         Ok(decided) => decided,
         Err(count) => return Err(vec![too_many_cuts(asked, &parameters, count)]),
     };
-    let model = parameters.time_model(job, asked);
-    let estimate = model.estimate(parameters.swing, parameters.layer, parameters.step);
-    let estimated_cuts = model.cuts(parameters.layer, parameters.step);
+    let ground = Ground {
+        layout: &layout,
+        parameters: &parameters,
+        bound: &bound,
+    };
     let vcut = PlannedVcut {
-        asked: asked.clone(),
-        parameters,
         strategy,
-        order: asked.order.value.or(Order::Point),
-        sequence: Sequence::Rows,
-        bound,
-        estimate,
-        estimated_cuts,
         cuts,
-        runs: Vec::new(),
-        decisions: Vec::new(),
+        ..unplanned(job, asked, ground)
     };
     let order = vcut.order;
     Ok(LaidOut {
@@ -202,8 +213,65 @@ pub fn lay_out(
     })
 }
 
+/// What is known of an operation before its cuts are.
+#[derive(Clone, Copy)]
+struct Ground<'g> {
+    layout: &'g lattice::Layout<'g>,
+    parameters: &'g VcutParameters,
+    bound: &'g Profile,
+}
+
+/// An operation without cuts.
+fn unplanned(job: &CheckedJob, asked: &RoughVcut, ground: Ground<'_>) -> PlannedVcut {
+    let parameters = ground.parameters;
+    let model = parameters.time_model(job, asked);
+    PlannedVcut {
+        asked: asked.clone(),
+        parameters: parameters.clone(),
+        strategy: Residual::Discard,
+        order: asked.order.value.or(Order::Point),
+        sequence: Sequence::Rows,
+        bound: ground.bound.clone(),
+        estimate: model.estimate(parameters.swing, parameters.layer, parameters.step),
+        estimated_cuts: model.cuts(parameters.layer, parameters.step),
+        cuts: Vec::new(),
+        course: None,
+        runs: Vec::new(),
+        decisions: Vec::new(),
+    }
+}
+
+/// As [`lay_out`], where the job gives the tips.
+fn lay_out_given(
+    job: &CheckedJob,
+    asked: &RoughVcut,
+    tips: &Tips,
+    before: &Surface,
+    ground: Ground<'_>,
+) -> Result<LaidOut, Vec<Diagnostic>> {
+    if let Some(refused) = given::in_the_part(job, tips, ground.layout) {
+        return Err(vec![refused]);
+    }
+    let mut after = before.clone();
+    let (cuts, course) = given::cuts(tips, ground.parameters, &mut after);
+    if cuts.is_empty() {
+        return Err(vec![given::nothing_to_cut(job, tips)]);
+    }
+    let vcut = PlannedVcut {
+        cuts,
+        course: Some(course),
+        ..unplanned(job, asked, ground)
+    };
+    let order = vcut.order;
+    Ok(LaidOut {
+        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
+        after,
+        strategies: Strategies::Alike,
+    })
+}
+
 impl PlannedVcut {
-    /// The same cuts in another order.
+    /// The same cuts in another order. Given tips keep their sequence.
     #[must_use]
     pub fn along(mut self, order: Order, sequence: Sequence, before: &Surface, stock: Stock) -> Self {
         let terrain = route::Terrain {
@@ -212,7 +280,10 @@ impl PlannedVcut {
             parameters: &self.parameters,
             safe: (stock.height + self.asked.clearance.value).to_mm(),
         };
-        self.runs = route::route(terrain, sequence, order);
+        self.runs = match &self.course {
+            Some(course) => route::as_given(terrain, &course.headings, order),
+            None => route::route(terrain, sequence, order),
+        };
         self.order = order;
         self.sequence = sequence;
         self

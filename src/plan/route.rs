@@ -70,6 +70,16 @@ pub fn route(terrain: Terrain<'_>, sequence: Sequence, order: Order) -> Vec<Run>
     }
 }
 
+/// The cuts of all layers, one after the other, each in the direction that is given for it.
+#[must_use]
+pub fn as_given(terrain: Terrain<'_>, headings: &[Heading], order: Order) -> Vec<Run> {
+    let mut walker = Walker::new(terrain, order);
+    layers(terrain.cuts)
+        .zip(headings)
+        .map(|(cuts, &heading)| walker.visit(cuts, heading))
+        .collect()
+}
+
 /// Places of the cuts of each layer.
 pub fn layers(cuts: &[PlannedCut]) -> impl Iterator<Item = Range<usize>> {
     runs_between(cuts, |a, b| a.layer == b.layer)

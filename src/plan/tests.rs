@@ -44,6 +44,7 @@ pub(crate) fn paper_job(profile: Vec<Point2>) -> CheckedJob {
         profile_span: span,
         operations: vec![Operation::RoughVcut(RoughVcut {
             head_span: span,
+            tips: None,
             blade: Blade {
                 name: "dagger".to_owned(),
                 span,

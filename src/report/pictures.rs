@@ -4,9 +4,11 @@
 //! before it loses.
 
 mod joints;
+mod paths;
 mod time;
 
 pub use joints::joints;
+pub use paths::paths;
 pub use time::time;
 
 use super::Material;
@@ -195,7 +197,7 @@ fn tips(material: &Material<'_>) -> Vec<lattice::Tip> {
     cuts.map(|cut| lattice::Tip {
         at: pair(cut.tip),
         origin: match cut.origin {
-            TipOrigin::Lattice => lattice::Origin::Lattice,
+            TipOrigin::Lattice | TipOrigin::Given => lattice::Origin::Lattice,
             TipOrigin::Lifted => lattice::Origin::Lifted,
             TipOrigin::Shifted => lattice::Origin::Shifted,
             TipOrigin::Relieved => lattice::Origin::Relieved,
@@ -236,7 +238,10 @@ fn laid_out(material: &Material<'_>) -> String {
     match (vcuts.next(), vcuts.next()) {
         (Some(vcut), None) => {
             let chosen = &vcut.parameters;
-            let name = chosen.lattice.word();
+            let name = match vcut.asked.tips {
+                Some(_) => "given tips",
+                None => chosen.lattice.word(),
+            };
             format!(
                 "{name}, {layers}; swing {} deg, layer {} mm, step {} mm",
                 show(chosen.swing.to_deg()),

@@ -10,7 +10,7 @@ use super::session::Session;
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{SourceMap, Span, Spanned};
-use crate::syntax::ast::{Block, Curve, Entry, Expr, HeadPart, Relation};
+use crate::syntax::ast::{Block, Curve, Entry, Expr, HeadPart, Point, Relation};
 use std::collections::BTreeMap;
 
 /// What kind of entry a field is.
@@ -24,6 +24,8 @@ pub(crate) enum Form {
     Limit,
     /// `name <= value`, `name >= value`, or both.
     Bounds,
+    /// `name (x, z) (x, z) ...`.
+    Points,
 }
 
 /// How an entry is written.
@@ -35,6 +37,8 @@ enum Written {
     Block,
     /// `name <= value` or `name >= value`.
     Limit(Relation),
+    /// `name (x, z) (x, z) ...`.
+    Points,
 }
 
 impl Form {
@@ -44,8 +48,9 @@ impl Form {
             (Self::Value, Written::Value)
             | (Self::Block, Written::Block)
             | (Self::Limit, Written::Limit(Relation::AtMost))
-            | (Self::Bounds, Written::Limit(Relation::AtMost | Relation::AtLeast)) => true,
-            (Self::Value | Self::Block | Self::Limit | Self::Bounds, _) => false,
+            | (Self::Bounds, Written::Limit(Relation::AtMost | Relation::AtLeast))
+            | (Self::Points, Written::Points) => true,
+            (Self::Value | Self::Block | Self::Limit | Self::Bounds | Self::Points, _) => false,
         }
     }
 }
@@ -66,7 +71,7 @@ impl FieldSpec {
     fn sample(&self) -> String {
         match self.form {
             Form::Value => format!("{} = {}", self.name, self.typical),
-            Form::Block => format!("{} {}", self.name, self.typical),
+            Form::Block | Form::Points => format!("{} {}", self.name, self.typical),
             Form::Limit | Form::Bounds => format!("{} <= {}", self.name, self.typical),
         }
     }
@@ -86,6 +91,15 @@ pub(crate) const fn block(name: &'static str, typical: &'static str) -> FieldSpe
     FieldSpec {
         name,
         form: Form::Block,
+        typical,
+    }
+}
+
+/// A field of the form `name (x, z) (x, z) ...`.
+pub(crate) const fn points(name: &'static str, typical: &'static str) -> FieldSpec {
+    FieldSpec {
+        name,
+        form: Form::Points,
         typical,
     }
 }
@@ -142,6 +156,7 @@ pub(crate) struct Place {
 enum Slot<'a> {
     Value(&'a Spanned<Expr>),
     Block(&'a Block),
+    Points(&'a [Point]),
     Spoiled(Reported),
 }
 
@@ -197,6 +212,9 @@ impl<'a> Fields<'a> {
                 self.put(entry.related_at(relation.span), reports);
             }
             Entry::Block(inner) => self.sort_block(inner, reports),
+            Entry::Tips { points, span } => {
+                self.put(Given::points(&tips_name(*span), points, *span), reports)
+            }
             Entry::Formula { span, .. } => {
                 reports.push(self.belongs_in_profile("a formula", *span));
             }
@@ -241,7 +259,9 @@ impl<'a> Fields<'a> {
             return;
         };
         let slots = match given.written {
-            Written::Value | Written::Block | Written::Limit(Relation::AtMost) => &mut self.slots,
+            Written::Value | Written::Block | Written::Points | Written::Limit(Relation::AtMost) => {
+                &mut self.slots
+            }
             Written::Limit(Relation::AtLeast) => &mut self.least,
         };
         if let Some((_, first)) = slots.get(spec.name) {
@@ -284,8 +304,22 @@ impl<'a> Fields<'a> {
         match self.slots.get(name) {
             Some((Slot::Block(block), _)) => Ok(Some(block)),
             Some((Slot::Spoiled(reported), _)) => Err(*reported),
-            Some((Slot::Value(_), _)) | None => Ok(None),
+            Some((Slot::Value(_) | Slot::Points(_), _)) | None => Ok(None),
         }
+    }
+
+    /// A field that is a row of points, if it is given, and where it stands.
+    pub(crate) fn points(&self, name: &str) -> Checked<Option<(&'a [Point], Span)>> {
+        match self.slots.get(name) {
+            Some((Slot::Points(points), span)) => Ok(Some((points, *span))),
+            Some((Slot::Spoiled(reported), _)) => Err(*reported),
+            Some((Slot::Value(_) | Slot::Block(_), _)) | None => Ok(None),
+        }
+    }
+
+    /// Where the name of a field stands, if it is given in whatever form.
+    pub(crate) fn place_of(&self, name: &str) -> Option<Span> {
+        self.slots.get(name).map(|(_, span)| *span)
     }
 
     /// A field that is a block and must be given.
@@ -348,8 +382,15 @@ const fn taken_value<'a>(slot: Option<&(Slot<'a>, Span)>) -> Checked<Option<&'a 
     match slot {
         Some((Slot::Value(value), _)) => Ok(Some(value)),
         Some((Slot::Spoiled(reported), _)) => Err(*reported),
-        Some((Slot::Block(_), _)) | None => Ok(None),
+        Some((Slot::Block(_) | Slot::Points(_), _)) | None => Ok(None),
     }
+}
+
+/// The word that a row of tips begins with.
+fn tips_name(row: Span) -> Spanned<String> {
+    const WORD: &str = "tips";
+    let end = row.start.saturating_add(4).min(row.end);
+    Spanned::new(WORD.to_owned(), Span { end, ..row })
 }
 
 /// The fields of a block, as a note.
@@ -436,6 +477,17 @@ impl<'n, 'a> Given<'n, 'a> {
         }
     }
 
+    const fn points(name: &'n Spanned<String>, points: &'a [Point], whole: Span) -> Self {
+        Self {
+            name,
+            written: Written::Points,
+            slot: Slot::Points(points),
+            whole,
+            between: None,
+            relation: None,
+        }
+    }
+
     const fn related_at(self, relation: Span) -> Self {
         Self {
             relation: Some(relation),
@@ -461,7 +513,7 @@ impl<'n, 'a> Given<'n, 'a> {
             (Form::Limit | Form::Bounds, Written::Value) => {
                 let relations = match spec.form {
                     Form::Bounds => "`<=` or `>=`",
-                    Form::Value | Form::Block | Form::Limit => "`<=`",
+                    Form::Value | Form::Block | Form::Limit | Form::Points => "`<=`",
                 };
                 let diagnostic = Diagnostic::new(
                     Code::Misplaced,
@@ -483,13 +535,22 @@ impl<'n, 'a> Given<'n, 'a> {
             .help(format!(
                 "give a value like `{sample}`, or move this line into `limits {{ ... }}`"
             )),
-            (Form::Block, Written::Value | Written::Block | Written::Limit(_)) => Diagnostic::new(
+            (Form::Points, _) => Diagnostic::new(
                 Code::WrongKind,
-                format!("`{}` is a block", spec.name),
+                format!("`{}` is a row of points", spec.name),
                 self.value_span().unwrap_or(self.whole),
-                "braces with fields are wanted here",
+                "points in round brackets are wanted here",
             )
             .help(format!("write it like `{sample}`")),
+            (Form::Block, Written::Value | Written::Block | Written::Limit(_) | Written::Points) => {
+                Diagnostic::new(
+                    Code::WrongKind,
+                    format!("`{}` is a block", spec.name),
+                    self.value_span().unwrap_or(self.whole),
+                    "braces with fields are wanted here",
+                )
+                .help(format!("write it like `{sample}`"))
+            }
             (Form::Value | Form::Limit | Form::Bounds, _) => Diagnostic::new(
                 Code::WrongKind,
                 format!("`{}` is a single value, not a block", spec.name),
@@ -503,7 +564,7 @@ impl<'n, 'a> Given<'n, 'a> {
     const fn value_span(&self) -> Option<Span> {
         match self.slot {
             Slot::Value(value) => Some(value.span),
-            Slot::Block(_) | Slot::Spoiled(_) => None,
+            Slot::Block(_) | Slot::Points(_) | Slot::Spoiled(_) => None,
         }
     }
 }

@@ -27,6 +27,7 @@ mod model;
 mod names;
 mod options;
 mod overrides;
+mod point;
 mod profile;
 mod quantity;
 mod range;
@@ -35,6 +36,7 @@ mod report;
 mod rough_vcut;
 mod session;
 mod stock;
+mod tips;
 pub(crate) mod units;
 
 #[cfg(test)]
@@ -184,7 +186,8 @@ fn understand(root: &File, files: &Files, said: Said<'_>, session: &mut Session<
         .roughings
         .iter()
         .map(|placed| {
-            let operation = rough_vcut::check(placed.block, placed.place, scope, &blades, session);
+            let operation =
+                rough_vcut::check(placed.block, placed.place, scope, &blades, stock.ok(), session);
             operation.map(Operation::RoughVcut)
         })
         .collect();

@@ -1,25 +1,28 @@
 //! `rough vcut { ... }`: V-shaped roughing.
 
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, block, head_span, value};
+use super::fields::{BlockSpec, Fields, Inner, Place, block, head_span, points, value};
 use super::limits;
 use super::names::Thing;
 use super::range::{DISTANCE, OVERLAP, RAKE, SIZE, SPEED, SWING, TURNING_RATE};
 use super::read::{Reader, default, looks_like};
 use super::report::Checked;
 use super::session::Session;
+use super::tips;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{
     Blade, Direction, Formulas, Lattice, Objective, Order, Residual, RoughVcut, Sequence, Sourced,
 };
 use crate::source::Spanned;
 use crate::syntax::ast::{Block, Expr};
+use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
 
 const SPEC: BlockSpec = BlockSpec {
     title: "`rough vcut`",
     fields: &[
         value("blade", "dagger"),
+        points("tips", "(10 mm, 40 mm) (16 mm, 40 mm)"),
         value("lattice", "auto"),
         value("rake", "60 deg"),
         value("swing", "auto"),
@@ -66,9 +69,11 @@ pub(crate) fn check(
     place: Place,
     scope: Scope<'_>,
     blades: &[Checked<Blade>],
+    stock: Option<Spanned<Stock>>,
     session: &mut Session<'_>,
 ) -> Checked<RoughVcut> {
     let fields = Fields::sort(&SPEC, place, &operation.entries, session);
+    let given = tips::check(&fields, stock, scope, session);
     // Blocks within first: they need the session, of which the reader holds a part.
     let limits = fields
         .block("limits")
@@ -101,8 +106,9 @@ pub(crate) fn check(
     let run_out = reader.defaulted(&fields, "run_out", DISTANCE, RUN_OUT);
     let standoff = reader.auto(&fields, "standoff", DISTANCE);
     let feeds = feeds?;
-    Ok(RoughVcut {
+    let operation = RoughVcut {
         head_span: place.head,
+        tips: None,
         blade: blade?,
         lattice: lattice?,
         rake: rake?,
@@ -125,7 +131,11 @@ pub(crate) fn check(
         extension: extension?,
         run_out: run_out?,
         standoff: standoff?,
-    })
+    };
+    match given? {
+        Some(given) => tips::over(given, operation, &fields, &mut session.reports),
+        None => Ok(operation),
+    }
 }
 
 /// The place of a block within the operation.

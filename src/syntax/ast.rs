@@ -105,6 +105,13 @@ pub enum Entry {
         /// All of it.
         span: Span,
     },
+    /// `tips (x, z) ...`: where blades are to run.
+    Tips {
+        /// The points, at least one.
+        points: Vec<Point>,
+        /// All of it.
+        span: Span,
+    },
     /// A block within the block.
     Block(Block),
 }
@@ -118,7 +125,7 @@ pub enum Relation {
     AtLeast,
 }
 
-/// A point `(x, z)` of a profile, as written.
+/// A point `(x, z)` of a profile or of tips, as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// Along x.

@@ -219,6 +219,10 @@ impl<'t> Builder<'t> {
             Rule::limit => self.limit(pair),
             Rule::formula => self.formula(pair),
             Rule::inner_block => self.block(pair).map(Entry::Block),
+            Rule::tips => {
+                let points = self.points(pair)?;
+                Some(Entry::Tips { points, span })
+            }
             Rule::bad_entry => {
                 self.bad(&pair, Rule::only_entry);
                 None
@@ -304,6 +308,13 @@ impl<'t> Builder<'t> {
             Rule::polyline => Some(Curve::Polyline { through: points, to }),
             _ => None,
         }
+    }
+
+    /// The points of a row of them. All are read even if one is wrong, so that all are reported.
+    fn points(&mut self, pair: Pair<'_, Rule>) -> Option<Vec<Point>> {
+        let rows = pair.into_inner().filter(|part| part.as_rule() == Rule::point);
+        let points: Vec<Option<Point>> = rows.map(|row| self.point(row)).collect();
+        points.into_iter().collect()
     }
 
     fn arc_by(&mut self, pair: Pair<'_, Rule>) -> Option<ArcBy> {

@@ -149,7 +149,17 @@ fn is_value_line(bad: &Bad<'_>) -> bool {
 fn is_plain_name(word: &str) -> bool {
     !matches!(
         word,
-        "start" | "line" | "arc" | "bezier" | "spline" | "polyline" | "points" | "airfoil" | "dxf" | "svg"
+        "start"
+            | "line"
+            | "arc"
+            | "bezier"
+            | "spline"
+            | "polyline"
+            | "points"
+            | "airfoil"
+            | "dxf"
+            | "svg"
+            | "tips"
     )
 }
 

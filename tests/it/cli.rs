@@ -3,6 +3,8 @@
 mod baseline;
 mod build;
 mod ci;
+#[cfg(all(feature = "gcode", feature = "rapid"))]
+mod convert;
 #[cfg(feature = "gcode")]
 mod dialects;
 mod fmt;

@@ -73,6 +73,42 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "a_program_that_breaks_a_rule_is_the_compilers_fault",
         "a job that shows a fault of the compiler would be mended",
     ),
+    (
+        Code::NoPass,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::NotFollowed,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::NothingToConvert,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::Unclear,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::LeftOut,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::BesideBlank,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
 ];
 
 #[test]

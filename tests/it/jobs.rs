@@ -252,6 +252,7 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
         for cut in &vcut.cuts {
             subjects.insert(match cut.origin {
                 TipOrigin::Lattice => "tip on the lattice".to_owned(),
+                TipOrigin::Given => "tip given".to_owned(),
                 TipOrigin::Lifted => "tip lifted".to_owned(),
                 TipOrigin::Shifted => "tip shifted".to_owned(),
                 TipOrigin::Relieved => "tip relieved".to_owned(),
@@ -311,6 +312,7 @@ fn jobs_cover_the_process() {
         "standoff auto",
         "standoff given",
         "tip on the lattice",
+        "tip given",
         "tip lifted",
         "tip shifted",
         "tip relieved",

@@ -16,6 +16,8 @@ mod chromium;
 mod cli;
 mod codes;
 #[cfg(feature = "krl")]
+mod convert;
+#[cfg(feature = "krl")]
 mod examples;
 #[cfg(feature = "krl")]
 mod five_axis;

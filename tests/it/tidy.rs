@@ -74,6 +74,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "optimisation",
         &["diag", "driver", "job", "picture", "plan", "source"],
     ),
+    ("convert", &["diag", "geom", "plan", "sema", "sim", "source"]),
     (
         "report",
         &[
@@ -124,6 +125,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "comparison",
+            "convert",
             "diag",
             "document",
             "driver",

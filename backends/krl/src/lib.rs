@@ -43,8 +43,9 @@
 //!
 //! # Reading
 //!
-//! [`read::KrlReader`] tells what a program does, whoever wrote it; [`read::syntax`] has the statements of a text with their
-//! places, for other readers of KRL.
+//! [`read::KrlReader`] tells what a program does, whoever wrote it; Three of its modules serve other readers of KRL as
+//! well: [`read::syntax`] has the statements of a text with their places, [`read::index`] the routines of a program and where it
+//! begins, [`read::variables`] the positions with names.
 //!
 //! # Machines
 //!

@@ -107,8 +107,11 @@ pub(super) fn section(subject: Subject<'_>, listing: &Listing<'_>) -> Section {
             String::new()
         };
         body += &rows(&format!("Blade{of}"), blade(asked));
-        body += &rows(&format!("Cut{of}"), cut(asked, planned));
-        body += &rows(&format!("Motion{of}"), motion(asked, planned));
+        body += &rows(&format!("Cut{of}"), as_laid_out(asked, cut(asked, planned)));
+        body += &rows(
+            &format!("Motion{of}"),
+            without_lattice(asked, motion(asked, planned)),
+        );
         let limits = limits(asked);
         if !limits.is_empty() {
             body += &rows(&format!("Limits{of}"), limits);
@@ -189,6 +192,31 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
             }),
         ),
     ]
+}
+
+/// Where tips are given, they stand for the rows of a lattice.
+fn as_laid_out(asked: &RoughVcut, rows: Vec<Row>) -> Vec<Row> {
+    let tips = asked.tips.as_ref();
+    let given = tips.map(|tips| Row::written("tips", format!("{} given", tips.tips.len()), tips.span));
+    given.into_iter().chain(without_lattice(asked, rows)).collect()
+}
+
+/// Rows that say something where tips are given.
+fn without_lattice(asked: &RoughVcut, mut rows: Vec<Row>) -> Vec<Row> {
+    const OF_A_LATTICE: [&str; 8] = [
+        "objective",
+        "formulas",
+        "lattice",
+        "layer",
+        "step",
+        "overlap",
+        "residual",
+        "sequence",
+    ];
+    if asked.tips.is_some() {
+        rows.retain(|row| !OF_A_LATTICE.contains(&row.name));
+    }
+    rows
 }
 
 fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {

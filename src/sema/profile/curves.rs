@@ -1,11 +1,12 @@
 //! A profile drawn piece by piece: every piece begins where the one before ended.
 
-use super::{Piece, TOLERANCE, Trace, data, drawing, point};
+use super::{Piece, TOLERANCE, Trace, data, drawing};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::{Curve as Shape, CurveError, Point2};
 use crate::sema::dimension::Dimension;
 use crate::sema::eval::Scope;
 use crate::sema::fields::curve_words;
+use crate::sema::point::point;
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reported, Reports};
 use crate::sema::session::Session;

@@ -12,7 +12,7 @@ mod shape;
 
 use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
-use super::report::{Checked, Reports};
+use super::report::Checked;
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
@@ -154,6 +154,7 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
             },
             Entry::Field { name, .. } => no_field(name),
             Entry::Limit { name, .. } => no_field(name),
+            Entry::Tips { span, .. } => no_tips(*span),
             Entry::Block(inner) => no_block(inner),
         };
         fault = Some(session.reports.push(found));
@@ -168,6 +169,16 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
         }),
         (None, [_, ..], None) => Ok(Content::Pieces(pieces)),
     }
+}
+
+fn no_tips(span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::Misplaced,
+        "`tips` does not belong in `profile`",
+        span,
+        "says where the blade runs, not what the part looks like",
+    )
+    .help("move it into the `rough vcut { ... }` block; a profile through points is a `polyline`")
 }
 
 fn second_formula(second: Span, first: Span) -> Diagnostic {
@@ -229,15 +240,4 @@ fn empty(place: Place) -> Diagnostic {
     )
     .note(FORMS)
     .help("start with a point and a line, like `start (0 mm, 18 mm) line to (85 mm, 14 mm)`")
-}
-
-/// A point of the profile.
-fn point(point: &crate::syntax::ast::Point, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Point2> {
-    use super::dimension::Dimension;
-    let mut coordinate = |expr: &Spanned<Expr>, taker: &str| {
-        scope.expect(expr, Dimension::LENGTH, taker, Some("10 mm"), reports)
-    };
-    let x = coordinate(&point.x, "the x of a point");
-    let z = coordinate(&point.z, "the z of a point");
-    Ok(Point2::new(x?, z?))
 }

@@ -8,22 +8,22 @@ use vcutc_backend_api::readback::ProgramFile;
 
 /// A routine of a source file.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Routine<'t> {
-    /// Place of its file.
-    pub(super) file: usize,
+pub struct Routine<'t> {
+    /// Place of its file among those that were indexed.
+    pub file: usize,
     /// Its name; empty when its head has none that could be called.
-    pub(super) name: &'t str,
+    pub name: &'t str,
     /// From the line of its head to behind the line that ends it.
-    pub(super) span: Span,
+    pub span: Span,
     /// The module's own routine is its first.
-    pub(super) rank: Rank,
+    pub rank: Rank,
     /// Who may call a routine that is not the first.
     scope: Scope,
 }
 
 /// A routine's place in its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rank {
+pub enum Rank {
     /// The module's routine, which bears the name of the file.
     First,
     /// A subprogram behind it.
@@ -32,10 +32,11 @@ pub(super) enum Rank {
 
 /// The routines of all files.
 #[derive(Debug, Default)]
-pub(super) struct Index<'t> {
-    pub(super) routines: Vec<Routine<'t>>,
+pub struct Index<'t> {
+    /// File by file, in the order of their text.
+    pub routines: Vec<Routine<'t>>,
     /// What stands in source files outside of routines.
-    pub(super) gaps: Vec<(usize, Span)>,
+    pub gaps: Vec<(usize, Span)>,
     /// Names, in upper case, of what everyone may call.
     open: BTreeMap<String, usize>,
     /// Names, in upper case, of what only routines of a file may call.
@@ -45,13 +46,14 @@ pub(super) struct Index<'t> {
 }
 
 /// The name of a file without its extension, and that.
-pub(super) fn stem(file: &str) -> (&str, &str) {
+#[must_use]
+pub fn stem(file: &str) -> (&str, &str) {
     file.rsplit_once('.').unwrap_or((file, ""))
 }
 
 /// What a file holds.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum FileKind {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
     /// Routines.
     Source,
     /// A data list.
@@ -59,7 +61,9 @@ pub(super) enum FileKind {
 }
 
 impl FileKind {
-    pub(super) fn of(file: &ProgramFile) -> Self {
+    /// By the name of the file: what does not end in `.dat` is taken for routines.
+    #[must_use]
+    pub fn of(file: &ProgramFile) -> Self {
         if is_same_name(stem(&file.name).1, "dat") {
             Self::Data
         } else {
@@ -69,7 +73,9 @@ impl FileKind {
 }
 
 impl<'t> Index<'t> {
-    pub(super) fn of(files: &'t [ProgramFile]) -> Self {
+    /// The routines of these files.
+    #[must_use]
+    pub fn of(files: &'t [ProgramFile]) -> Self {
         let mut index = Self::default();
         for (place, file) in files.iter().enumerate() {
             match FileKind::of(file) {
@@ -157,14 +163,16 @@ impl<'t> Index<'t> {
     }
 
     /// The routine of that name, as a file calls it.
-    pub(super) fn find(&self, file: usize, name: &str) -> Option<usize> {
+    #[must_use]
+    pub fn find(&self, file: usize, name: &str) -> Option<usize> {
         let name = name.to_ascii_uppercase();
         let open = self.open.get(&name).copied();
         self.local.get(&(file, name)).copied().or(open)
     }
 
     /// The routine to begin with: the first of a file that nobody calls.
-    pub(super) fn main(&self) -> Option<usize> {
+    #[must_use]
+    pub fn main(&self) -> Option<usize> {
         let firsts = || {
             let all = self.routines.iter().enumerate();
             all.filter(|(_, routine)| routine.rank == Rank::First)

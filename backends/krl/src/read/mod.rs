@@ -27,13 +27,13 @@
 
 mod controller;
 mod cursor;
-mod index;
+pub mod index;
 mod parse;
 mod profile;
 mod run;
 mod setup;
 pub mod syntax;
-mod variables;
+pub mod variables;
 
 use crate::configuration::Configuration;
 use crate::options::Settings;

@@ -35,8 +35,10 @@ pub struct Statements<'t> {
 }
 
 impl<'t> Statements<'t> {
-    /// Over the lines that begin in this span only.
-    pub(crate) const fn within(text: &'t str, span: Span) -> Self {
+    /// Over the lines that begin in this span only, such as those of a routine
+    /// ([`Routine::span`](super::index::Routine::span)).
+    #[must_use]
+    pub const fn within(text: &'t str, span: Span) -> Self {
         Self {
             text,
             at: span.start,

@@ -16,11 +16,11 @@ enum Place {
 
 /// Who asks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asker<'t> {
+pub struct Asker<'t> {
     /// The routine, unless it is a data list.
-    pub(super) routine: Option<usize>,
+    pub routine: Option<usize>,
     /// The module's name.
-    pub(super) module: &'t str,
+    pub module: &'t str,
 }
 
 impl Asker<'_> {
@@ -40,7 +40,7 @@ impl Asker<'_> {
 
 /// What a statement about variables came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Outcome {
+pub enum Outcome {
     /// It is known from now on.
     Known,
     /// It is not of the part of KRL that is read.
@@ -49,13 +49,14 @@ pub(super) enum Outcome {
 
 /// All positions and frames that have names.
 #[derive(Debug, Default)]
-pub(super) struct Variables {
+pub struct Variables {
     values: BTreeMap<(Place, String), Coordinates>,
 }
 
 impl Variables {
     /// The value of a variable, as it is now.
-    pub(super) fn get(&self, asker: Asker<'_>, variable: &Variable<'_>) -> Option<Coordinates> {
+    #[must_use]
+    pub fn get(&self, asker: Asker<'_>, variable: &Variable<'_>) -> Option<Coordinates> {
         if variable.index.is_some() || variable.field.is_some() {
             return None;
         }
@@ -66,7 +67,7 @@ impl Variables {
 
     /// Takes a declaration. Only positions and frames are kept; numbers, texts and the data of inline forms move nothing by
     /// themselves, and who uses one is not understood.
-    pub(super) fn declare(&mut self, asker: Asker<'_>, declaration: &Declaration<'_>) -> Outcome {
+    pub fn declare(&mut self, asker: Asker<'_>, declaration: &Declaration<'_>) -> Outcome {
         let Declaration {
             scope,
             kind,
@@ -100,7 +101,7 @@ impl Variables {
     }
 
     /// Takes an assignment to a variable that was declared.
-    pub(super) fn assign(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>) -> Outcome {
+    pub fn assign(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>) -> Outcome {
         let new = self.value(asker, value);
         let name = to.name.to_ascii_uppercase();
         let mut places = asker.places();
@@ -128,7 +129,8 @@ impl Variables {
     }
 
     /// The coordinates that a value stands for.
-    pub(super) fn value(&self, asker: Asker<'_>, value: &Value<'_>) -> Option<Coordinates> {
+    #[must_use]
+    pub fn value(&self, asker: Asker<'_>, value: &Value<'_>) -> Option<Coordinates> {
         match value {
             Value::Coordinates(coordinates) => Some(*coordinates),
             Value::Variable(variable) => self.get(asker, variable),

@@ -1,0 +1,381 @@
+//! `vcutc convert`: a milling program of three axes as a job of V-cuts [Cui III].
+//!
+//! The paper's post processor turns every reciprocating pass of a milling program into a left tilt, a cut, a right tilt and a
+//! cut back. Here the passes become the tips of a job (`tips` in `docs/language.md`), in their order, and everything else is
+//! the compiler's: the same intermediate program, the same proofs, the same targets. So there are two steps and no third way
+//! to a program: text of a program to text of a job, and that job as any other.
+//!
+//! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate.
+//! 2. [`place`] finds out along which axis it cuts and where the blank lies, [`raster`] which motions are passes.
+//! 3. `feeds` and `part` take speeds, the part and the least edge from the passes where the user gives none.
+//! 4. [`write`] writes the job, and knows for every tip the line of the program that it stands for.
+//!
+//! What is not said by the user is taken from the program only where that leaves one possibility, and told
+//! ([`Inference`]).
+
+pub mod asked;
+mod attitude;
+pub mod axes;
+mod complaints;
+mod feeds;
+pub mod milling;
+mod part;
+pub mod place;
+pub mod raster;
+mod read;
+pub mod write;
+
+use crate::diag::{Diagnostic, Label};
+use crate::plan::blade_reach::Flanks;
+use crate::plan::grid;
+use crate::plan::parameters::show;
+use crate::source::{FileId, SourceMap, Span};
+use asked::Asked;
+use axes::Axes;
+use core::fmt;
+use milling::Milling;
+use place::Blank;
+use raster::{Raster, SAME};
+use read::Files;
+use serde::Serialize;
+use vcutc_backend_api::readback::ProgramFile;
+use vcutc_backend_api::units::{Angle, Length};
+use write::{Blade, JobText, Material, Part};
+
+/// Half the apex angle of the blade of [Cui 2020], table 1, for a blade of which nothing is said.
+pub(crate) const HALF_APEX: Angle = Angle::deg(7.13);
+
+/// What to convert.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// All files of one program; at least one.
+    pub files: &'a [ProgramFile],
+    /// What the user says.
+    pub asked: &'a Asked,
+    /// The job's name.
+    pub name: &'a str,
+    /// The file of the shop that the job uses, seen from the job.
+    pub cell: Option<&'a str>,
+    /// The machine of that file.
+    pub machine: Option<&'a str>,
+    /// The blade of that file.
+    pub blade: Option<&'a str>,
+    /// A file with the points of the part's profile, seen from the job.
+    pub profile: Option<&'a str>,
+}
+
+/// A program as a job.
+#[derive(Debug)]
+pub struct Conversion {
+    /// The job.
+    pub job: JobText,
+    /// The passes.
+    pub raster: Raster,
+    /// What was taken from the program, a line each.
+    pub inferences: Vec<Inference>,
+    /// What is not carried over.
+    pub warnings: Vec<Diagnostic>,
+    /// The texts of the program, which places point into.
+    pub sources: SourceMap,
+    /// The files of the program among them.
+    pub files: Vec<FileId>,
+}
+
+/// Why there is no job.
+#[derive(Debug)]
+pub struct Refused {
+    /// Why.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The texts of the program.
+    pub sources: SourceMap,
+}
+
+/// Something that was taken from the program because the user did not say it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Inference {
+    /// What it is about, in a word.
+    pub subject: &'static str,
+    /// What was taken.
+    pub what: String,
+    /// From what.
+    pub why: String,
+}
+
+impl Inference {
+    fn new(subject: &'static str, what: String, why: impl Into<String>) -> Self {
+        Self {
+            subject,
+            what,
+            why: why.into(),
+        }
+    }
+}
+
+impl fmt::Display for Inference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "  {:<10} {} ({})", self.subject, self.what, self.why)
+    }
+}
+
+/// Makes messages about the job of a conversion point at the lines of the program that its tips stand for. The texts of the
+/// program join those of the job.
+pub fn point_back(
+    conversion: &Conversion,
+    job: &str,
+    sources: &mut SourceMap,
+    diagnostics: &mut [Diagnostic],
+) {
+    let Some((job, _)) = sources.iter().find(|(_, file)| file.name == job) else {
+        return;
+    };
+    let mut moved: Vec<(FileId, FileId)> = Vec::new();
+    for &file in &conversion.files {
+        if let Some(text) = conversion.sources.get(file) {
+            moved.push((file, sources.add(text.name.clone(), text.text.clone())));
+        }
+    }
+    for diagnostic in diagnostics {
+        let primary = diagnostic.primary.span;
+        let origins = &conversion.job.origins;
+        let tip = origins.partition_point(|origin| origin.at.end <= primary.start as usize);
+        let Some(origin) = origins
+            .get(tip)
+            .filter(|origin| primary.file == job && origin.at.contains(&(primary.start as usize)))
+        else {
+            continue;
+        };
+        if let Some(&(_, file)) = moved.iter().find(|(known, _)| *known == origin.said.file) {
+            let span = Span { file, ..origin.said };
+            diagnostic.secondary.push(Label {
+                span,
+                text: "the pass that it stands for".to_owned(),
+            });
+        }
+    }
+}
+
+/// Converts a program.
+///
+/// # Errors
+/// What keeps it from being a raster of passes, and what the user has to say in its place.
+pub fn convert(request: Request<'_>) -> Result<Conversion, Refused> {
+    let mut sources = SourceMap::default();
+    // A byte order mark is no statement.
+    let stripped: Vec<ProgramFile> = request
+        .files
+        .iter()
+        .map(|file| ProgramFile {
+            name: file.name.clone(),
+            text: file
+                .text
+                .strip_prefix('\u{feff}')
+                .unwrap_or(&file.text)
+                .to_owned(),
+        })
+        .collect();
+    let Some(files) = Files::add(&stripped, &mut sources) else {
+        let diagnostics = Vec::new();
+        return Err(Refused { diagnostics, sources });
+    };
+    match understood(request, &files, &sources) {
+        Ok(found) => Ok(Conversion {
+            warnings: found.warnings,
+            job: found.job,
+            raster: found.raster,
+            inferences: found.inferences,
+            files: files.ids,
+            sources,
+        }),
+        Err(diagnostics) => Err(Refused { diagnostics, sources }),
+    }
+}
+
+/// What a program came to.
+struct Found {
+    job: JobText,
+    raster: Raster,
+    inferences: Vec<Inference>,
+    warnings: Vec<Diagnostic>,
+}
+
+fn understood(
+    request: Request<'_>,
+    files: &Files<'_>,
+    sources: &SourceMap,
+) -> Result<Found, Vec<Diagnostic>> {
+    let one = |diagnostic: Box<Diagnostic>| vec![*diagnostic];
+    let asked = request.asked;
+    let mut inferences = Vec::new();
+    let milling = read::read(files)?;
+    let axes = place::axes(&milling, asked, &mut inferences).map_err(one)?;
+    let blank = place::blank(&milling, axes, asked, &mut inferences).map_err(one)?;
+    if let Some(refused) = attitude::leaning(&milling, axes, blank) {
+        return Err(vec![refused]);
+    }
+    let raster = raster::recognise(&milling, axes, blank)?;
+    check(&milling, &raster, blank).map_err(one)?;
+    inferences.push(in_passes(&milling, &raster));
+    let feeds = feeds::feeds(&milling, &raster, asked, &mut inferences).map_err(one)?;
+    let clearance = clearance(&milling, &raster, blank, asked, &mut inferences).map_err(one)?;
+    let blade = blade(request, &raster, blank, &mut inferences);
+    let part = part(request, &raster, blank, &blade, &mut inferences);
+    let job = write::job(&Material {
+        name: request.name,
+        cell: request.cell,
+        machine: request.machine,
+        milling: &milling,
+        raster: &raster,
+        blank,
+        part,
+        blade,
+        angles: [asked.rake, asked.swing],
+        extension: asked.extension,
+        clearance,
+        feeds,
+        sources,
+    });
+    let mut warnings = Vec::new();
+    let lines = write::Numbered::of(sources);
+    warnings.extend(complaints::left_out(&milling.left_out, &|place| {
+        lines.line(place)
+    }));
+    warnings.extend(complaints::beside(&raster.beside));
+    Ok(Found {
+        job,
+        raster,
+        inferences,
+        warnings,
+    })
+}
+
+/// There are passes, and all of them run through the blank.
+fn check(milling: &Milling, raster: &Raster, blank: Blank) -> Result<(), Box<Diagnostic>> {
+    if raster.passes.is_empty() {
+        return Err(complaints::no_passes(milling, blank.height));
+    }
+    let ends_within = |pass: &&raster::Pass| pass.y[0] > SAME || pass.y[1] < blank.depth - SAME;
+    match raster.passes.iter().find(ends_within) {
+        Some(pass) => Err(complaints::too_short_pass(pass, blank.depth)),
+        None => Ok(()),
+    }
+}
+
+fn in_passes(milling: &Milling, raster: &Raster) -> Inference {
+    let count = raster.passes.len();
+    let what = format!(
+        "{count} V-cuts, two ways each, out of {} motions",
+        milling.moves.len()
+    );
+    let mut others = vec![format!(
+        "{} motions beside or above the blank are made anew",
+        raster.other_moves
+    )];
+    if milling.axis_moves > 0 {
+        others.push(format!("{} of all axes are those of `home`", milling.axis_moves));
+    }
+    if raster.repeated > 0 {
+        others.push(format!(
+            "{} passes repeat the one before and are one with it",
+            raster.repeated
+        ));
+    }
+    let joint = raster
+        .passes
+        .iter()
+        .filter(|pass| pass.way == milling::Way::Joint)
+        .count();
+    if joint > 0 {
+        others.push(format!("{joint} passes by `PTP` are taken as straight"));
+    }
+    Inference::new("passes", what, others.join("; "))
+}
+
+/// The safe plane: as high above the blank as the program goes.
+fn clearance(
+    milling: &Milling,
+    raster: &Raster,
+    blank: Blank,
+    asked: &Asked,
+    inferences: &mut Vec<Inference>,
+) -> Result<Length, Box<Diagnostic>> {
+    if let Some(clearance) = asked.clearance {
+        return Ok(clearance);
+    }
+    let above = raster
+        .highest
+        .map_or(0.0, |highest| grid::up(highest - blank.height));
+    if above <= SAME {
+        return Err(complaints::no_clearance(milling));
+    }
+    inferences.push(Inference::new(
+        "clearance",
+        format!("{} mm", show(above)),
+        "the highest place of the file, above the blank",
+    ));
+    Ok(Length::mm(above))
+}
+
+/// The blade: one of the shop's, or what is said of it, with the shortest edge that frees all chips.
+fn blade(request: Request<'_>, raster: &Raster, blank: Blank, inferences: &mut Vec<Inference>) -> Blade {
+    if let Some(name) = request.blade {
+        return Blade::Named(name.to_owned());
+    }
+    let asked = request.asked;
+    let mut assume = |what: String, why: &str| inferences.push(Inference::new("blade", what, why));
+    let half_apex = asked.half_apex.unwrap_or_else(|| {
+        assume(
+            format!("half_apex = {} deg", show(HALF_APEX.to_deg())),
+            "assumed, as that of [Cui 2020]",
+        );
+        HALF_APEX
+    });
+    let thickness = asked.thickness.unwrap_or_else(|| {
+        assume("thickness = 0 mm".to_owned(), "assumed");
+        Length::ZERO
+    });
+    let cutting_length = asked.edge.unwrap_or_else(|| {
+        let flanks = Flanks::new(Length::mm(1.0), half_apex, asked.rake, asked.swing);
+        let edge = part::least_edge(&raster.passes, &flanks, [blank.width, blank.height]);
+        assume(
+            format!("cutting_length = {} mm", show(edge.to_mm())),
+            "the least that frees every chip",
+        );
+        edge
+    });
+    Blade::Own {
+        cutting_length,
+        half_apex,
+        thickness,
+    }
+}
+
+/// The part: in a file, or below the lowest passes.
+fn part(
+    request: Request<'_>,
+    raster: &Raster,
+    blank: Blank,
+    blade: &Blade,
+    inferences: &mut Vec<Inference>,
+) -> Part {
+    if let Some(path) = request.profile {
+        return Part::File(path.to_owned());
+    }
+    let asked = request.asked;
+    let thickness = match blade {
+        Blade::Named(_) => asked.thickness.unwrap_or(Length::ZERO),
+        Blade::Own { thickness, .. } => *thickness,
+    };
+    let drop = thickness / (2.0 * asked.swing.sin());
+    let points = part::profile(&raster.passes, 1.0 / asked.swing.tan(), drop, blank.width);
+    let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+    inferences.push(Inference::new(
+        "profile",
+        format!(
+            "a polyline of {} points, lowest at z {} mm",
+            points.len(),
+            show(lowest)
+        ),
+        "the passes that show when all are cut",
+    ));
+    Part::Polyline(points)
+}

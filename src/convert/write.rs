@@ -1,0 +1,265 @@
+//! The job that stands for a milling program, as text.
+
+use super::feeds::Feeds;
+use super::milling::Milling;
+use super::place::Blank;
+use super::raster::Raster;
+use crate::geom::curve::Point2;
+use crate::plan::parameters::show;
+use crate::source::{FileId, SourceMap, Span};
+use core::fmt::Write;
+use core::ops::Range;
+use vcutc_backend_api::units::{Angle, Length};
+
+/// A job's text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JobText {
+    /// The text.
+    pub text: String,
+    /// Where its tips stand in it, each with the pass that it stands for.
+    pub origins: Vec<Origin>,
+}
+
+/// A tip of the job's text, and the motions of the program that it stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// Bytes of the job's text.
+    pub at: Range<usize>,
+    /// The first motion of the pass.
+    pub said: Span,
+}
+
+/// The blade of the job.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Blade {
+    /// One that a file of the shop defines.
+    Named(String),
+    /// One of the job's own.
+    Own {
+        /// Usable edge.
+        cutting_length: Length,
+        /// Half the apex angle.
+        half_apex: Angle,
+        /// Thickness.
+        thickness: Length,
+    },
+}
+
+/// The part of the job.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Part {
+    /// Its profile is in a file of points.
+    File(String),
+    /// A polyline.
+    Polyline(Vec<Point2>),
+}
+
+/// What a job is written from.
+pub(super) struct Material<'a> {
+    pub(super) name: &'a str,
+    pub(super) cell: Option<&'a str>,
+    pub(super) machine: Option<&'a str>,
+    pub(super) milling: &'a Milling,
+    pub(super) raster: &'a Raster,
+    pub(super) blank: Blank,
+    pub(super) part: Part,
+    pub(super) blade: Blade,
+    pub(super) angles: [Angle; 2],
+    pub(super) extension: Length,
+    pub(super) clearance: Length,
+    pub(super) feeds: Feeds,
+    pub(super) sources: &'a SourceMap,
+}
+
+/// The text of the job.
+pub(super) fn job(material: &Material<'_>) -> JobText {
+    let mut writer = Writer {
+        sources: material.sources,
+        lines: Numbered::of(material.sources),
+        text: String::new(),
+        origins: Vec::with_capacity(material.raster.passes.len()),
+    };
+    writer.head(material);
+    writer.scene(material);
+    writer.operation(material);
+    JobText {
+        text: writer.text,
+        origins: writer.origins,
+    }
+}
+
+/// A value in degrees, to a millionth: what was typed in degrees comes out as that.
+fn deg(angle: Angle) -> String {
+    let text = format!("{:.6}", angle.to_deg());
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn mm(value: f64) -> String {
+    format!("{} mm", show(value))
+}
+
+fn point(point: Point2) -> String {
+    format!("({}, {})", mm(point.x), mm(point.z))
+}
+
+/// A text in quotes of the language.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+struct Writer<'a> {
+    sources: &'a SourceMap,
+    lines: Numbered,
+    text: String,
+    origins: Vec<Origin>,
+}
+
+impl Writer<'_> {
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    /// `NAME.src:12`.
+    fn named(&self, place: Span) -> String {
+        format!("{}:{}", self.sources.name(place.file), self.lines.line(place))
+    }
+
+    fn head(&mut self, material: &Material<'_>) {
+        self.line(&format!(
+            "// {} passes of a milling program as V-cuts, in its order.",
+            material.raster.passes.len()
+        ));
+        let left_out = &material.milling.left_out;
+        if !left_out.is_empty() {
+            self.line("// Statements of it that have no place in a job:");
+        }
+        for &place in left_out.iter().take(MOST_LISTED) {
+            let said = self.sources.slice(place).replace(['\r', '\n'], " ");
+            self.line(&format!("//   {}: {said}", self.named(place)));
+        }
+        if let Some(more) = left_out.len().checked_sub(MOST_LISTED).filter(|&more| more > 0) {
+            self.line(&format!("//   and {more} more"));
+        }
+        self.line("");
+        if let Some(cell) = material.cell {
+            self.line(&format!("use {}\n", quoted(cell)));
+        }
+        self.line(&format!("job {}\n", quoted(material.name)));
+        if let Some(machine) = material.machine {
+            self.line(&format!("cell {{ machine = {machine} }}\n"));
+        }
+    }
+
+    fn scene(&mut self, material: &Material<'_>) {
+        let blank = material.blank;
+        let sizes = [blank.width, blank.depth, blank.height].map(mm);
+        self.line(&format!("stock {{ size = ({}) }}\n", sizes.join(", ")));
+        self.line("profile {");
+        match &material.part {
+            Part::File(path) => self.line(&format!("  points {}", quoted(path))),
+            Part::Polyline(points) => self.polyline(points),
+        }
+        self.line("}\n");
+        if let Blade::Own {
+            cutting_length,
+            half_apex,
+            thickness,
+        } = &material.blade
+        {
+            self.line(&format!("blade {OWN} {{"));
+            self.line(&format!("  cutting_length = {}", mm(cutting_length.to_mm())));
+            self.line(&format!("  half_apex      = {} deg", deg(*half_apex)));
+            self.line(&format!("  thickness      = {}", mm(thickness.to_mm())));
+            self.line("  edges          = double\n}\n");
+        }
+    }
+
+    fn polyline(&mut self, points: &[Point2]) {
+        let [first, inner @ .., last] = points else { return };
+        self.line(&format!("  start {}", point(*first)));
+        if inner.is_empty() {
+            self.line(&format!("  line to {}", point(*last)));
+            return;
+        }
+        self.line("  polyline");
+        for corner in inner {
+            self.line(&format!("    {}", point(*corner)));
+        }
+        self.line(&format!("    to {}", point(*last)));
+    }
+
+    fn operation(&mut self, material: &Material<'_>) {
+        let blade = match &material.blade {
+            Blade::Named(name) => name,
+            Blade::Own { .. } => OWN,
+        };
+        let [rake, swing] = material.angles.map(deg);
+        let feeds = &material.feeds;
+        self.line("rough vcut {");
+        self.line(&format!("  blade     = {blade}"));
+        self.line(&format!("  rake      = {rake} deg"));
+        self.line(&format!("  swing     = {swing} deg"));
+        self.line(&format!("  extension = {}", mm(material.extension.to_mm())));
+        self.line("  order     = point");
+        self.line(&format!("  clearance = {}", mm(material.clearance.to_mm())));
+        self.line(&format!(
+            "  feed {{ cut = {} mm/s, travel = {} mm/s, reorient = {} deg/s }}",
+            show(feeds.cut.to_mm_per_s()),
+            show(feeds.travel.to_mm_per_s()),
+            show(feeds.reorient.to_deg_per_s())
+        ));
+        self.line("  tips");
+        self.tips(material);
+        self.line("}");
+    }
+
+    fn tips(&mut self, material: &Material<'_>) {
+        let mut height = None;
+        for pass in &material.raster.passes {
+            if height != Some(pass.z) {
+                height = Some(pass.z);
+                let [first, _] = pass.places;
+                self.line(&format!("    // from {}", self.named(first)));
+            }
+            self.text.push_str("    ");
+            let start = self.text.len();
+            // Writing into a text never fails.
+            let _ = write!(self.text, "({}, {})", mm(pass.x), mm(pass.z));
+            self.origins.push(Origin {
+                at: start..self.text.len(),
+                said: pass.places[0],
+            });
+            self.text.push('\n');
+        }
+    }
+}
+
+/// Most statements that are listed at the head of a job.
+const MOST_LISTED: usize = 200;
+
+/// The name of a blade of the job's own.
+const OWN: &str = "converted";
+
+/// Where the lines of the texts end, to number places.
+pub(super) struct Numbered {
+    ends: Vec<(FileId, Vec<u32>)>,
+}
+
+impl Numbered {
+    pub(super) fn of(sources: &SourceMap) -> Self {
+        let ends = |text: &str| {
+            let at = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+            at.map(|(at, _)| u32::try_from(at).unwrap_or(u32::MAX)).collect()
+        };
+        Self {
+            ends: sources.iter().map(|(id, file)| (id, ends(&file.text))).collect(),
+        }
+    }
+
+    /// The line that a place begins on, from 1.
+    pub(super) fn line(&self, place: Span) -> usize {
+        let file = self.ends.iter().find(|(id, _)| *id == place.file);
+        1 + file.map_or(0, |(_, ends)| ends.partition_point(|&end| end < place.start))
+    }
+}

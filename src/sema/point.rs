@@ -1,0 +1,18 @@
+//! Points `(x, z)` of profiles and of tips.
+
+use super::dimension::Dimension;
+use super::eval::Scope;
+use super::report::{Checked, Reports};
+use crate::geom::curve::Point2;
+use crate::source::Spanned;
+use crate::syntax::ast::{Expr, Point};
+
+/// A point, in mm.
+pub(crate) fn point(point: &Point, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Point2> {
+    let mut coordinate = |expr: &Spanned<Expr>, taker: &str| {
+        scope.expect(expr, Dimension::LENGTH, taker, Some("10 mm"), reports)
+    };
+    let x = coordinate(&point.x, "the x of a point");
+    let z = coordinate(&point.z, "the z of a point");
+    Ok(Point2::new(x?, z?))
+}

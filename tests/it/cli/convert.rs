@@ -1,0 +1,163 @@
+//! `vcutc convert`: a milling program becomes a job or a program, and both are the same.
+
+use super::{folder, names, vcutc};
+use crate::repository::{read, root};
+use std::fs;
+
+const PANEL: &str = "examples/milling/panel.src";
+const HOW: [&str; 8] = [
+    "--rake",
+    "60deg",
+    "--swing",
+    "34.16deg",
+    "--extension",
+    "8mm",
+    "--stock",
+    "85x50x50",
+];
+const CELL: [&str; 4] = ["--cell", "examples/shop/cells.vcut", "--machine", "large_cell"];
+
+fn convert<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["convert", PANEL][..], &HOW, more].concat()
+}
+
+#[test]
+fn the_job_gives_the_program_that_is_written_at_once() {
+    let out = folder();
+    let (job, direct, later) = (
+        out.path().join("job"),
+        out.path().join("direct"),
+        out.path().join("later"),
+    );
+    let texts = [&job, &direct, &later].map(|path| path.to_str().unwrap());
+    for target in ["krl", "rapid", "gcode"] {
+        let cell = match target {
+            "krl" => "large_cell",
+            "rapid" => "abb_cell",
+            _ => "knife_gantry",
+        };
+        let cell = [
+            "--cell",
+            "examples/shop/cells.vcut",
+            "--machine",
+            cell,
+            "--travel",
+            "500mm/s",
+        ];
+        let run = vcutc(
+            root(),
+            &convert(&[&cell[..], &["--as-job", "-o", texts[0]]].concat()),
+        );
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let run = vcutc(
+            root(),
+            &convert(&[&cell[..], &["--target", target, "-o", texts[1]]].concat()),
+        );
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let path = job.join("panel.vcut");
+        let run = vcutc(
+            root(),
+            &[path.to_str().unwrap(), "--target", target, "-o", texts[2]],
+        );
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    let written = names(&direct);
+    assert_eq!(written, names(&later));
+    assert!(written.len() >= 4, "{written:?}");
+    for name in written {
+        assert_eq!(
+            fs::read(direct.join(&name)).unwrap(),
+            fs::read(later.join(&name)).unwrap(),
+            "{name}"
+        );
+    }
+}
+
+/// What the page shows is what is printed, and its picture is drawn.
+#[test]
+fn the_page_is_true() {
+    let out = folder();
+    let picture = out.path().join("paths.svg");
+    let program = out.path().join("program");
+    let arguments = [
+        &CELL[..],
+        &[
+            "--target",
+            "krl",
+            "-o",
+            program.to_str().unwrap(),
+            "--picture",
+            picture.to_str().unwrap(),
+        ],
+    ];
+    let run = vcutc(root(), &convert(&arguments.concat()));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let page = read("docs/convert.md");
+    for line in run.stderr.lines().filter(|line| line.starts_with("  ")) {
+        let is_inference = ["blank", "passes", "feed", "clearance", "blade", "profile"]
+            .iter()
+            .any(|subject| line.trim_start().starts_with(subject));
+        assert!(!is_inference || page.contains(line), "{line}");
+    }
+    let drawn = fs::read_to_string(picture).unwrap();
+    let path = root().join("docs/images/panel_paths.svg");
+    if std::env::var_os("UPDATE_PICTURES").is_some() {
+        fs::write(&path, &drawn).unwrap();
+    }
+    assert_eq!(
+        fs::read_to_string(path).unwrap(),
+        drawn,
+        "UPDATE_PICTURES=1 writes it anew"
+    );
+    let text = fs::read_to_string(program.join("panel.src"))
+        .unwrap()
+        .replace("\r\n", "\n");
+    let shown = page
+        .split("```krl\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next())
+        .unwrap();
+    assert!(text.contains(shown), "{shown}");
+}
+
+#[test]
+fn messages_about_tips_show_the_line_of_the_program() {
+    let run = vcutc(root(), &convert(&["--edge", "9mm"]));
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("error[VC0401]"), "{}", run.stderr);
+    assert!(run.stderr.contains("panel.src:"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("the pass that it stands for"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn a_program_needs_a_machine_and_files_have_to_be_there() {
+    let run = vcutc(root(), &convert(&["--target", "krl"]));
+    assert_eq!(run.code, Some(2));
+    assert!(run.stderr.contains("--cell"), "{}", run.stderr);
+    let mut arguments = convert(&[]);
+    arguments[1] = "examples/milling/none.src";
+    let run = vcutc(root(), &arguments);
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr
+            .contains("cannot read the program examples/milling/none.src"),
+        "{}",
+        run.stderr
+    );
+    let run = vcutc(root(), &convert(&["--picture", "paths.png"]));
+    assert_eq!(run.code, Some(2));
+}
+
+#[test]
+fn what_is_inferred_is_told_to_programs_too() {
+    let run = vcutc(root(), &convert(&["--message-format", "json"]));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let first = run.stderr.lines().next().unwrap();
+    let body: serde_json::Value = serde_json::from_str(first).unwrap();
+    assert_eq!(body["kind"], "inference");
+    assert_eq!(body["subject"], "blank");
+}

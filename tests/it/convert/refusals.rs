@@ -1,0 +1,321 @@
+//! What cannot be converted, what is left out, and what is said of it.
+
+use super::posts::{PASSES, Post, Style, Zero};
+use super::{WORDS, paper, request};
+use vcutc::convert::asked::Words;
+use vcutc::convert::convert;
+use vcutc::diag::{Code, Diagnostic, render};
+use vcutc::source::SourceMap;
+use vcutc_backend_api::readback::ProgramFile;
+
+fn program() -> String {
+    let post = Post {
+        style: Style::Full,
+        zero: Zero::Corner,
+        passes: PASSES[0],
+    };
+    let files = post.write(&paper());
+    files[0].text.replace("\r\n", "\n").replace(" C_DIS ; cut", "")
+}
+
+fn told(text: &str, words: Words<'_>) -> (Vec<Diagnostic>, SourceMap) {
+    let files = [ProgramFile {
+        name: "raster.src".to_owned(),
+        text: text.to_owned(),
+    }];
+    let asked = words.asked().unwrap();
+    match convert(request(&files, &asked)) {
+        Ok(conversion) => (conversion.warnings, conversion.sources),
+        Err(refused) => (refused.diagnostics, refused.sources),
+    }
+}
+
+/// A pass in the middle of the first row.
+const PASS: &str = "LIN {X 30.560,Y -3.000,Z 45.600,A 0.0,B 90.0,C 0.0}\n";
+
+/// What is written in the place of that pass, or how the whole program changes, and what is then wrong.
+fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
+    let instead = |line: &str| program().replacen(PASS, &format!("{line}\n"), 1);
+    vec![
+        (
+            "an arc",
+            instead("CIRC {X 30,Y 20,Z 45},{X 30.560,Y -3.000,Z 45.600}"),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "a lean",
+            instead("LIN {X 30.560,Y -3.000,Z 45.600,A 0.0,B 80.0,C 0.0}"),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "another tool axis",
+            instead("LIN {X 30.560,Y -3.000,Z 45.600,A 0.0,B 0.0,C 0.0}"),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "a diagonal",
+            instead("LIN {X 36.530,Y -3.000,Z 45.600,A 0.0,B 90.0,C 0.0}"),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "a slope",
+            instead("LIN {X 30.560,Y -3.000,Z 41.600,A 0.0,B 90.0,C 0.0}"),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "a cut across",
+            instead("LIN {X 30.560,Y 25.0,Z 45.600}\nLIN {X 32.560,Y 25.0}\nLIN {Y -3.0}\nLIN {X 30.560}"),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "a pass that ends early",
+            instead("LIN {X 30.560,Y 25.000,Z 45.600}\nLIN {Z 60}\nLIN {Y -3}\nLIN {Z 45.6}"),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "a blank that is deeper than the passes are long",
+            program(),
+            Words {
+                stock: "85x60x50",
+                ..WORDS
+            },
+            Code::NoPass,
+        ),
+        (
+            "a name that is nowhere",
+            instead("LIN XP_CORNER"),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a loop",
+            instead(&format!("FOR I=1 TO 3\n{PASS}ENDFOR")),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a jump",
+            instead(&format!("GOTO AWAY\n{PASS}")),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a motion with words of its own",
+            instead("SLIN {X 30.560,Y -3.000,Z 45.600} WITH $VEL.CP=0.1"),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "no motion before the first",
+            "DEF a( )\nLIN {Y 5}\nEND\n".to_owned(),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a routine that calls itself",
+            "DEF a( )\na( )\nEND\n".to_owned(),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        ("no text", String::new(), WORDS, Code::NothingToConvert),
+        (
+            "nothing in it",
+            "DEF a( )\nEND\n".to_owned(),
+            WORDS,
+            Code::NothingToConvert,
+        ),
+        (
+            "passes above the blank",
+            program(),
+            Words {
+                stock: "85x50x10",
+                ..WORDS
+            },
+            Code::NothingToConvert,
+        ),
+        (
+            "a zero that is nowhere",
+            program().replace("X ", "X 3"),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "a zero far above",
+            program().replace("Z 4", "Z -9").replace("Z 3", "Z -8"),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "no speed",
+            program()
+                .replace("$VEL.CP=0.2\n", "")
+                .replace("$VEL.CP=1.0\n", ""),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "two speeds",
+            instead(&format!("$VEL.CP=0.1\n{PASS}")),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "a speed of an unknown unit",
+            program().replace("CP=0.2", "CP=200"),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "a speed that is worked out",
+            instead(&format!("$VEL.CP=CUTTING\n{PASS}")),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "no safe plane",
+            program().replace("Z 60.000", "Z 50.000"),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "text that is no program",
+            instead("LIN {X 30.560,Y"),
+            WORDS,
+            Code::UnreadableStatement,
+        ),
+        (
+            "outputs and waits",
+            instead(&format!(
+                "$OUT[3]=TRUE\nWAIT SEC 1\n{PASS}$ANOUT[1]=0.5\nHALT\nTOOL_OFF( )\n$OUT[4]=FALSE"
+            )),
+            WORDS,
+            Code::LeftOut,
+        ),
+        (
+            "passes beside the blank",
+            program()
+                .replace("X 84.290", "X 85.900")
+                .replace("X 0.710", "X -0.800"),
+            WORDS,
+            Code::BesideBlank,
+        ),
+    ]
+}
+
+#[test]
+fn what_is_no_raster_is_told_at_its_line() {
+    let mut shown = String::new();
+    for (what, text, words, code) in cases() {
+        let (diagnostics, sources) = told(&text, words);
+        let codes: Vec<Code> = diagnostics.iter().map(|diagnostic| diagnostic.code).collect();
+        assert!(codes.contains(&code), "{what}: {diagnostics:#?}");
+        assert!(codes.iter().all(|&found| found == code), "{what}: {codes:?}");
+        for diagnostic in &diagnostics {
+            assert!(!diagnostic.help.is_empty(), "{what}");
+        }
+        shown += &format!("# {what}\n\n");
+        shown += &render::render(&diagnostics, &sources, render::ColorChoice::Plain);
+        shown += "\n";
+    }
+    insta::assert_snapshot!("refusals", shown);
+}
+
+#[test]
+fn options_that_cannot_be_understood_say_what_would_be() {
+    let bad = [
+        Words { rake: "60", ..WORDS },
+        Words {
+            rake: "60mm",
+            ..WORDS
+        },
+        Words {
+            rake: "91deg",
+            ..WORDS
+        },
+        Words {
+            swing: "90deg",
+            ..WORDS
+        },
+        Words {
+            swing: "-3deg",
+            ..WORDS
+        },
+        Words {
+            extension: "far",
+            ..WORDS
+        },
+        Words {
+            stock: "85x50",
+            ..WORDS
+        },
+        Words {
+            stock: "85x50x0",
+            ..WORDS
+        },
+        Words {
+            stock: "85x50xNaN",
+            ..WORDS
+        },
+        Words {
+            origin: Some("1,2"),
+            ..WORDS
+        },
+        Words {
+            along: Some("w"),
+            ..WORDS
+        },
+        Words {
+            along: Some("z"),
+            ..WORDS
+        },
+        Words {
+            up: Some("+z"),
+            ..WORDS
+        },
+        Words {
+            feed_unit: Some("m/min"),
+            ..WORDS
+        },
+        Words {
+            feed: Some("200"),
+            ..WORDS
+        },
+        Words {
+            reorient: Some("90mm/s"),
+            ..WORDS
+        },
+        Words {
+            half_apex: Some("60deg"),
+            ..WORDS
+        },
+        Words {
+            thickness: Some("-1"),
+            ..WORDS
+        },
+    ];
+    let shown: String = bad
+        .iter()
+        .map(|words| format!("{}\n", words.asked().unwrap_err()))
+        .collect();
+    insta::assert_snapshot!("options", shown);
+}
+
+#[test]
+fn lengths_are_in_mm_unless_a_unit_follows() {
+    let words = Words {
+        stock: "8.5x5x5cm",
+        extension: "0.8 cm",
+        ..WORDS
+    };
+    let asked = words.asked().unwrap();
+    assert_eq!(asked.stock, [85.0, 50.0, 50.0]);
+    assert!((asked.extension.to_mm() - 8.0).abs() < 1e-12);
+    assert_eq!(WORDS.asked().unwrap().stock, [85.0, 50.0, 50.0]);
+}
