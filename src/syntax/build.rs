@@ -45,8 +45,11 @@ impl Place {
     }
 }
 
+/// Makes a piece of a profile of a path and options.
+type OfAFile = fn(Spanned<String>, Vec<Entry>) -> Curve;
+
 /// What a piece of a profile that is a file becomes, by its rule or by its word.
-fn of_a_file(rule: Rule) -> Option<fn(Spanned<String>, Vec<Entry>) -> Curve> {
+fn of_a_file(rule: Rule) -> Option<OfAFile> {
     match rule {
         Rule::points | Rule::points_word => Some(|path, options| Curve::Points { path, options }),
         Rule::airfoil | Rule::airfoil_word => Some(|path, options| Curve::Airfoil { path, options }),

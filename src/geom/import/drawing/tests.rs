@@ -179,7 +179,7 @@ proptest! {
         let map = Affine::new([a, b, c, d, 5.0, -3.0]);
         let (from, to) = (Point2::new(0.0, 0.0), Point2::new(end.0, end.1));
         let arc = Stroke { shapes: vec![Shape::Arc { from, to, sweep }], ..stroke(&[]) };
-        let plain = outline(&[arc.clone()], Affine::IDENTITY, Length::mm(1e-5), Length::mm(0.01)).unwrap();
+        let plain = outline(core::slice::from_ref(&arc), Affine::IDENTITY, Length::mm(1e-5), Length::mm(0.01)).unwrap();
         let mapped = outline(&[arc], map, Length::mm(1e-5), Length::mm(0.01)).unwrap();
         for point in &plain.points {
             prop_assert!(distance_to(map.point(*point), &mapped.points) < 1e-4);

@@ -3,7 +3,7 @@
 //! An insertion puts the base point of a block to its own place, stretches the block, turns it, and may repeat it in
 //! columns and rows. Entities of a block on layer `0` take the layer of the insertion.
 
-use super::super::drawing::{Affine, Drawing, MOST_STROKES, Place, Remark, Stroke, UnreadList, Why};
+use super::super::drawing::{Affine, Drawing, MOST_STROKES, Place, Remark, Shape, Stroke, UnreadList, Why};
 use super::super::{DataError, shortened};
 use super::entity::{Content, Entity, Facing};
 use super::fields::Fields;
@@ -135,25 +135,14 @@ impl<'f, 't> Unfolding<'f, 't> {
     fn entity(&mut self, entity: &'f Entity<'t>, map: Affine, layer: &'t str) -> Result<(), DataError> {
         match &entity.content {
             Content::Stroke(kind, shapes) => {
-                let stroke = Stroke {
-                    kind,
-                    place: entity.place,
-                    shapes: shapes.iter().map(|shape| shape.clone().mapped(map)).collect(),
-                };
-                self.stroke(stroke, layer)?;
+                self.stroke(drawn(kind, shapes, entity.place, map), layer)?;
             }
             Content::Fitted(kind, shapes) => {
-                let stroke = Stroke {
-                    kind,
-                    place: entity.place,
-                    shapes: shapes.iter().map(|shape| shape.clone().mapped(map)).collect(),
-                };
-                if self.stroke(stroke, layer)? == Taken::Yes {
+                let taken = self.stroke(drawn(kind, shapes, entity.place, map), layer)?;
+                if taken == Taken::Yes {
                     self.remarks.push(Remark {
                         place: entity.place,
-                        message: "this SPLINE has no control points; a natural cubic spline over the length of its \
-                                  chords is laid through its fit points, where another program may draw another curve"
-                            .to_owned(),
+                        message: FITTED.to_owned(),
                     });
                 }
             }
@@ -229,6 +218,19 @@ impl<'f, 't> Unfolding<'f, 't> {
         }
         self.path.pop();
         Ok(())
+    }
+}
+
+/// What is told of a spline that the file gives no control points of.
+const FITTED: &str = "this SPLINE has no control points; a natural cubic spline over the length of its chords is laid \
+                      through its fit points, where another program may draw another curve";
+
+/// A stroke after a map.
+fn drawn(kind: &'static str, shapes: &[Shape], place: Place, map: Affine) -> Stroke {
+    Stroke {
+        kind,
+        place,
+        shapes: shapes.iter().map(|shape| shape.clone().mapped(map)).collect(),
     }
 }
 

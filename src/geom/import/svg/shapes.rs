@@ -10,8 +10,11 @@ use crate::geom::point::Point2;
 use core::f64::consts::{FRAC_PI_2, TAU};
 use roxmltree::Node;
 
-/// The strokes of an element, by its name; none when it is no shape.
-pub(super) fn strokes(node: Node<'_, '_>) -> Result<Option<(&'static str, Vec<Vec<Shape>>)>, DataError> {
+/// What an element draws: its name, and its strokes.
+pub(super) type Drawn = (&'static str, Vec<Vec<Shape>>);
+
+/// The strokes of an element; none when it is no shape.
+pub(super) fn strokes(node: Node<'_, '_>) -> Result<Option<Drawn>, DataError> {
     Ok(Some(match node.tag_name().name() {
         "path" => (
             "path",
