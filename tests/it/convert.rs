@@ -108,7 +108,7 @@ fn the_panel_of_the_documentation_is_a_raster() {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(
             &path,
-            &files[0].text.replace("\r\n", "\n").replace("raster", "panel"),
+            files[0].text.replace("\r\n", "\n").replace("raster", "panel"),
         )
         .unwrap();
     }
