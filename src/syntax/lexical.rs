@@ -6,7 +6,7 @@
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum TokenKind {
+pub(crate) enum TokenKind {
     /// A name or keyword.
     Word,
     /// A number without its unit.
@@ -29,7 +29,7 @@ pub(super) enum TokenKind {
 
 /// A kind of bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Bracket {
+pub(crate) enum Bracket {
     /// `( )`
     Round,
     /// `{ }`
@@ -38,7 +38,7 @@ pub(super) enum Bracket {
 
 impl Bracket {
     /// The opening bracket.
-    pub(super) const fn opening(self) -> char {
+    pub(crate) const fn opening(self) -> char {
         match self {
             Self::Round => '(',
             Self::Curly => '{',
@@ -46,7 +46,7 @@ impl Bracket {
     }
 
     /// The closing bracket.
-    pub(super) const fn closing(self) -> char {
+    pub(crate) const fn closing(self) -> char {
         match self {
             Self::Round => ')',
             Self::Curly => '}',
@@ -56,24 +56,24 @@ impl Bracket {
 
 /// One token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Token {
+pub(crate) struct Token {
     /// What it is.
-    pub(super) kind: TokenKind,
+    pub(crate) kind: TokenKind,
     /// Its first byte.
-    pub(super) start: usize,
+    pub(crate) start: usize,
     /// One past its last byte.
-    pub(super) end: usize,
+    pub(crate) end: usize,
     /// How far the first token of its line is indented, in characters.
-    pub(super) indent: usize,
+    pub(crate) indent: usize,
     /// Number of its line, from 0.
-    pub(super) line: usize,
+    pub(crate) line: usize,
     /// Whether it is the first of its line.
-    pub(super) leads: bool,
+    pub(crate) leads: bool,
 }
 
 /// The tokens of a text, comments included.
 #[derive(Clone, Debug)]
-pub(super) struct Tokens<'t> {
+pub(crate) struct Tokens<'t> {
     text: &'t str,
     at: usize,
     line: usize,
@@ -83,7 +83,7 @@ pub(super) struct Tokens<'t> {
 }
 
 /// The tokens of `text`.
-pub(super) const fn tokens(text: &str) -> Tokens<'_> {
+pub(crate) const fn tokens(text: &str) -> Tokens<'_> {
     Tokens {
         text,
         at: 0,
@@ -94,7 +94,7 @@ pub(super) const fn tokens(text: &str) -> Tokens<'_> {
 }
 
 /// Whether a name can go on with this character.
-pub(super) fn continues_name(c: char) -> bool {
+pub(crate) fn continues_name(c: char) -> bool {
     c == '_' || c.is_alphanumeric()
 }
 

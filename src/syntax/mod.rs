@@ -15,7 +15,7 @@ mod brackets;
 mod build;
 mod expression;
 mod grammar;
-mod lexical;
+pub(crate) mod lexical;
 mod mistakes;
 mod reports;
 mod slips;
