@@ -29,6 +29,9 @@ pub(super) fn hover(
     offset: usize,
     targets: &[&'static dyn Backend],
 ) -> Option<Told> {
+    if let Some(told) = keyword(analysis, path, offset) {
+        return Some(told);
+    }
     let sites = sites_at(analysis, path, offset);
     let inner = sites
         .iter()
@@ -57,6 +60,29 @@ pub(super) fn hover(
         span: inner.span,
         text,
     })
+}
+
+/// A word of the language that is no site of the tree: `let`, `use`, `job`, and what pieces of a profile are called.
+fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Told> {
+    let (file, ast) = analysis.file(path)?;
+    let text = analysis.sources.get(file)?.text.as_str();
+    let holds = |span: &Span| (span.start as usize..=span.end as usize).contains(&offset);
+    let whole = ast.items.iter().find_map(|item| match item {
+        Item::Job { span, .. } | Item::Use { span, .. } | Item::Let { span, .. } => Some(*span).filter(holds),
+        Item::Block(block) => block.entries.iter().find_map(|entry| match entry {
+            Entry::Curve { span, .. } => Some(*span).filter(holds),
+            Entry::Field { .. } | Entry::Limit { .. } | Entry::Formula { .. } | Entry::Block(_) => None,
+        }),
+    })?;
+    let rest = text.get(whole.bytes())?;
+    let length = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
+    let word = rest.get(..length)?;
+    let start = whole.start as usize;
+    let span = Span::of_bytes(file, start..start + length);
+    let text = manual::row(Table::Pieces, word)
+        .map(|row| format!("`{word}`: {}", row.text()))
+        .or_else(|| manual::about(word))?;
+    Some(Told { span, text }).filter(|told| holds(&told.span))
 }
 
 /// The words of an expression and what it comes to.

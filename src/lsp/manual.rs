@@ -115,6 +115,12 @@ fn behind(text: &str, head: &str) -> Option<usize> {
 
 /// The first paragraph about a block that is not an example.
 pub(super) fn about(block: &str) -> Option<String> {
+    // What `use` does stands in the section about files.
+    if block == "use" {
+        let start = REFERENCE.find("\nThe path is relative to the file")?;
+        let paragraph = REFERENCE.get(start..)?.trim_start().split("\n\n").next()?;
+        return Some(without_links(paragraph));
+    }
     let heading = format!("\n### `{block}`\n");
     let start = REFERENCE.find(&heading)? + heading.len();
     let section = REFERENCE.get(start..)?;
@@ -232,6 +238,7 @@ mod tests {
             "cell",
             "let",
             "auto",
+            "use",
         ] {
             assert!(
                 about(block).is_some_and(|text| text.len() > 20),
