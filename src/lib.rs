@@ -8,6 +8,7 @@ pub mod comparison;
 pub mod diag;
 pub mod document;
 pub mod driver;
+pub mod format;
 pub mod geom;
 pub mod job;
 pub mod kinematics;

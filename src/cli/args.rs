@@ -21,6 +21,7 @@ Examples:
   vcutc explain VC0203                    Read what an error means and how to mend it
   vcutc machines                          See the machines of the catalogue
   vcutc machines kuka/kr210_r3100_ultra   Read all numbers of one, and where they come from
+  vcutc fmt                               Bring all job files here into the one layout
   vcutc fk kuka/kr210_r3100_ultra --joints 0,-90,90,0,45,0
                                           Where these axis values bring the flange
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
@@ -29,6 +30,8 @@ Examples:
                                           See what the cuts leave on the part
   vcutc optimize rib.vcut                 See what limits cost, and what a finer surface would take
   vcutc targets                           See what programs can be written, and with which options
+  vcutc watch rib.vcut --target krl --serve
+                                          The same after every change, with the report in a browser
   vcutc verify rib.vcut out/rib.src out/rib.dat
                                           See whether a program still is what its job says
 
@@ -130,6 +133,11 @@ pub(super) enum Command {
         /// The code, such as VC0203 (203 will do); without it, the list of all codes
         code: Option<String>,
     },
+    /// Bring job files into the one layout that all job files have
+    ///
+    /// Comments stay where they are, and what a job says does not change; a file with mistakes is left as it is. Files are
+    /// replaced whole or not at all. docs/fmt.md says what the layout is.
+    Fmt(FmtArgs),
     /// Search the base frame that leaves the machine the most room
     ///
     /// Looks for the place of the work (and its turn about z) where the smallest margin of the whole job is largest, proves
@@ -203,6 +211,11 @@ pub(super) enum Command {
     /// One HTML file that needs nothing else: cross-section, deviations, axes, times, parameters with where each came from, and
     /// the cuts played back. A job with errors writes nothing.
     Report(ReportArgs),
+    /// Compile a job again whenever one of its files changes
+    ///
+    /// Writes programs as `vcutc JOB --target` does. With --serve the report is shown in a browser on this machine, and follows.
+    /// Ctrl-C ends it.
+    Watch(WatchArgs),
     /// Hold a program against the job that it was made from
     ///
     /// Compiles the job, reads the program as its controller would, and tells every operation that is not the job's: at its
@@ -311,6 +324,30 @@ impl CompileArgs {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct WatchArgs {
+    /// The job file (.vcut)
+    pub(super) job: String,
+
+    /// Write a program for this kind of machine (see `vcutc targets`)
+    #[arg(short, long, value_name = "TARGET")]
+    pub(super) target: Option<String>,
+
+    /// The folder that programs go into [default: the current folder]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<String>,
+
+    /// Show the report at http://127.0.0.1:PORT/, for browsers on this machine only [default port: 8228]
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8228")]
+    pub(super) serve: Option<u16>,
+
+    #[command(flatten)]
+    pub(super) options: TargetOptions,
+
+    #[command(flatten)]
+    pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct CheckArgs {
     /// The job files (.vcut), or - to read one from standard input
     #[arg(required = true, value_name = "JOB")]
@@ -318,6 +355,19 @@ pub(super) struct CheckArgs {
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct FmtArgs {
+    /// Job files (.vcut), folders to search for them, or - to format standard input to standard output
+    #[arg(value_name = "FILE|DIR|-", default_value = ".")]
+    pub(super) paths: Vec<String>,
+
+    /// Show what would change, and write nothing
+    ///
+    /// Fails with a diff for each file that is not in the layout.
+    #[arg(long)]
+    pub(super) check: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,6 @@
-//! `vcutc JOB` and `vcutc check JOB...`: jobs through the pipeline.
+//! `vcutc JOB`, `vcutc check JOB...`, and each run of `vcutc watch JOB`: jobs through the pipeline.
 
-use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
+use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides, WatchArgs};
 use super::batch::{self, Unit};
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
@@ -12,6 +12,7 @@ use super::targets;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
 use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
+use crate::source::Loader;
 use std::path::PathBuf;
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
@@ -107,13 +108,65 @@ fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
             options: args.options.option.clone(),
         })),
         (None, Some(form)) => Ok(Product::Inner(form, inner_destination(output))),
-        (None, None) => Ok(Product::Verdict {
-            remark: Some(format!(
-                "no --target was given (targets: {}), so nothing was written",
-                targets::names(targets)
-            )),
-        }),
+        (None, None) => Ok(nothing(targets)),
     }
+}
+
+fn nothing(targets: &Targets) -> Product {
+    Product::Verdict {
+        remark: Some(format!(
+            "no --target was given (targets: {}), so nothing was written",
+            targets::names(targets)
+        )),
+    }
+}
+
+/// A job that is compiled again and again.
+pub(super) struct Watched<'a> {
+    args: &'a WatchArgs,
+    targets: &'a Targets,
+    product: Product,
+}
+
+impl<'a> Watched<'a> {
+    /// What the command line asks for.
+    pub(super) fn new(args: &'a WatchArgs, targets: &'a Targets) -> Result<Self, Failure> {
+        let product = match &args.target {
+            Some(target) => Product::Program(Program {
+                backend: targets::find(targets, target)?,
+                to: program_destination(args.output.as_deref()),
+                fate: Fate::Write,
+                options: args.options.option.clone(),
+            }),
+            None if args.serve.is_some() => Product::Verdict { remark: None },
+            None => nothing(targets),
+        };
+        Ok(Self {
+            args,
+            targets,
+            product,
+        })
+    }
+
+    /// The job's path as given.
+    pub(super) fn job(&self) -> &'a str {
+        &self.args.job
+    }
+}
+
+/// Compiles a job once more, with files by `loader`. `see` gets to see what came of it before it is told.
+pub(super) fn judge_again(
+    watched: &Watched<'_>,
+    loader: &dyn Loader,
+    console: &Console,
+    see: &mut dyn FnMut(&Outcome),
+) -> Exit {
+    let disk = Disk::around(watched.job());
+    let request = Request {
+        loader,
+        ..watched.args.overrides.request(&disk, watched.targets)
+    };
+    judge_request(request, &watched.product, console, see)
 }
 
 fn fate(check: bool, output: Option<&str>) -> Result<Fate, Failure> {
@@ -143,11 +196,22 @@ fn inner_destination(output: Option<&str>) -> Destination {
 /// Takes one job through the pipeline and tells what came of it.
 fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product, console: &Console) -> Exit {
     let disk = Disk::around(job);
-    let mut progress = Progress::start(console.shows_progress());
+    let request = overrides.request(&disk, targets);
+    judge_request(request, product, console, &mut |_| {})
+}
+
+fn judge_request(
+    request: Request<'_>,
+    product: &Product,
+    console: &Console,
+    see: &mut dyn FnMut(&Outcome),
+) -> Exit {
+    let job = request.path;
     let request = Request {
         options: product.typed(),
-        ..overrides.request(&disk, targets)
+        ..request
     };
+    let mut progress = Progress::start(console.shows_progress());
     let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
@@ -155,11 +219,12 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
             return console.failure(&unreadable(job, &reason));
         }
     };
-    let made = make(product, &outcome, disk.job(), &mut progress);
+    let made = make(product, &outcome, job, &mut progress);
+    see(&outcome);
     let timings = progress.finish();
 
     match made {
-        Ok(made) => tell(disk.job(), outcome, &made, &timings, product, console),
+        Ok(made) => tell(job, outcome, &made, &timings, product, console),
         Err(failure) => {
             console.diagnostics(&outcome.diagnostics, &outcome.sources);
             console.failure(&failure)

@@ -15,7 +15,7 @@ use crate::source::SourceMap;
 use crate::summary::times::{self, TimeFigures};
 use anstream::AutoStream;
 use serde::Serialize;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::time::Duration;
 
 /// Version of the JSON objects this module writes.
@@ -192,10 +192,26 @@ impl Console {
 
     /// Prints what came of several programs: a line for people, an object for programs.
     pub(super) fn total<T: Serialize>(&self, text: &str, body: T) {
+        self.note("total", text, body);
+    }
+
+    /// Prints how a run goes on: a line for people, an object for programs.
+    pub(super) fn note<T: Serialize>(&self, kind: &'static str, text: &str, body: T) {
         match self.format {
-            MessageFormat::Json => self.json_line("total", body),
+            MessageFormat::Json => self.json_line(kind, body),
             MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
             MessageFormat::Human | MessageFormat::Github => self.stderr(text),
+        }
+    }
+
+    /// Clears what a person sees on a terminal; what was printed before can still be scrolled to.
+    pub(super) fn clear_screen(&self) {
+        let is_for_people = match self.format {
+            MessageFormat::Human | MessageFormat::Github => true,
+            MessageFormat::Json => false,
+        };
+        if is_for_people && io::stderr().is_terminal() {
+            self.stderr("\u{1b}[2J\u{1b}[H");
         }
     }
 

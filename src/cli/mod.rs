@@ -41,6 +41,7 @@ mod differences;
 mod explain;
 mod external;
 mod files;
+mod fmt;
 mod inner;
 mod joints;
 mod kinematics;
@@ -56,6 +57,7 @@ mod report;
 mod snapshot;
 mod targets;
 mod verify;
+mod watch;
 
 use args::{Arguments, Command};
 use console::Console;
@@ -101,6 +103,7 @@ pub fn run(linked: &Targets) -> ExitCode {
         Some(Command::Build(args)) => build::build(args, targets, &console),
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
+        Some(Command::Fmt(args)) => fmt::fmt(args, &console),
         Some(Command::Optimize(optimize)) => optimize::optimize(optimize, targets, &console),
         Some(Command::Place(place)) => place::place(place, targets, &console),
         Some(Command::Fk { cell, joints }) => kinematics::forward(cell, joints, &console),
@@ -117,6 +120,7 @@ pub fn run(linked: &Targets) -> ExitCode {
         Some(Command::Targets { target: None }) => targets::list(linked, &outside, &console),
         Some(Command::Targets { target: Some(target) }) => targets::describe(targets, target, &console),
         Some(Command::Verify(verify)) => verify::verify(verify, linked, targets, &console),
+        Some(Command::Watch(args)) => watch::watch(args, targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),
     };
     exit.into()

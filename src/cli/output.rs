@@ -101,6 +101,23 @@ pub(super) fn one_file(path: &Path, bytes: &[u8]) -> Result<Vec<Placed>, String>
     output.publish()
 }
 
+/// Replaces the text of a file that is there, whole or not at all. It keeps its permissions, and a link to it stays a link.
+pub(super) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let told = |error: io::Error| error.to_string();
+    let path = fs::canonicalize(path).map_err(told)?;
+    let permissions = fs::metadata(&path).map_err(told)?.permissions();
+    if permissions.readonly() {
+        return Err("it is write-protected".to_owned());
+    }
+    let folder = path.parent().ok_or("it has no folder")?;
+    let mut file = passing_file(folder).map_err(told)?;
+    file.write_all(bytes).map_err(told)?;
+    file.as_file().set_permissions(permissions).map_err(told)?;
+    file.as_file().sync_all().map_err(told)?;
+    file.persist(&path).map_err(|error| told(error.error))?;
+    Ok(())
+}
+
 impl Sink for Output {
     fn file(&mut self, name: &str) -> Result<(), SinkError> {
         match self {

@@ -9,6 +9,7 @@ mod cross_section;
 mod deviation;
 mod figure;
 mod html;
+mod live;
 mod machine;
 mod parameters;
 mod policy;
@@ -21,6 +22,8 @@ use crate::diag::Diagnostic;
 use crate::driver::Outcome;
 use crate::source::SourceMap;
 use html::escaped;
+pub use live::Served;
+use policy::Requests;
 
 /// What a page is made from.
 #[derive(Clone, Copy)]
@@ -49,6 +52,28 @@ const SCRIPT: &str = include_str!("assets/page.js");
 /// The page of an outcome; none while its job has errors.
 #[must_use]
 pub fn page(outcome: &Outcome) -> Option<String> {
+    made(outcome, None)
+}
+
+/// The page of an outcome for a browser that watches it; none while its job has errors.
+#[must_use]
+pub fn served_page(outcome: &Outcome, served: &Served) -> Option<String> {
+    made(outcome, Some(served))
+}
+
+/// What stands in place of the page while a job has errors: the messages, as they are printed.
+#[must_use]
+pub fn served_errors(job: &str, messages: &str, served: &Served) -> String {
+    let body = format!(
+        "<main id=\"content\">\n<h1>{}</h1>\n<p>This job has errors.</p>\n<pre>{}</pre>\n</main>\n",
+        escaped(job),
+        escaped(messages)
+    );
+    let head = head(&format!("{} - errors", escaped(job)), &[], Some(served));
+    format!("{head}{body}{}</body>\n</html>\n", live::element())
+}
+
+fn made(outcome: &Outcome, served: Option<&Served>) -> Option<String> {
     let subject = Subject {
         material: Material::of(outcome)?,
         sources: &outcome.sources,
@@ -65,7 +90,7 @@ pub fn page(outcome: &Outcome) -> Option<String> {
         Some(listing.section()),
     ];
     let sections: Vec<Section> = sections.into_iter().flatten().collect();
-    Some(document(subject, &sections))
+    Some(document(subject, &sections, served))
 }
 
 /// The cuts played back in space.
@@ -78,18 +103,30 @@ fn played(subject: Subject<'_>) -> Section {
     }
 }
 
-/// The document around the sections.
-fn document(subject: Subject<'_>, sections: &[Section]) -> String {
-    let name = escaped(&subject.material.job.name);
-    let mut page = format!(
+/// The beginning of a document: all before what it shows.
+fn head(title: &str, scripts: &[&str], served: Option<&Served>) -> String {
+    let (requests, version) = match served {
+        Some(served) => (Requests::OwnServer, served.meta()),
+        None => (Requests::None, String::new()),
+    };
+    let live = served.map(|_| live::SCRIPT);
+    let scripts: Vec<&str> = scripts.iter().copied().chain(live).collect();
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n\
-         <title>{name} - vcutc report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
-         <a class=\"skip\" href=\"#content\">Skip to the content</a>\n",
-        policy::policy(&[SCRIPT, playback::SCRIPT]),
-    );
+         <meta name=\"color-scheme\" content=\"light dark\">\n{version}\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n",
+        policy::policy(&scripts, requests),
+    )
+}
+
+/// The document around the sections.
+fn document(subject: Subject<'_>, sections: &[Section], served: Option<&Served>) -> String {
+    let name = escaped(&subject.material.job.name);
+    let title = format!("{name} - vcutc report");
+    let mut page = head(&title, &[SCRIPT, playback::SCRIPT], served);
+    page += "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n";
     page += &top::header(subject);
     page += &contents(sections);
     page += "<main id=\"content\">\n";
@@ -103,7 +140,9 @@ fn document(subject: Subject<'_>, sections: &[Section]) -> String {
     page += env!("CARGO_PKG_VERSION");
     page += ". The file is complete in itself: it loads nothing.</footer>\n<script>";
     page += SCRIPT;
-    page += "</script>\n</body>\n</html>\n";
+    page += "</script>\n";
+    page += &served.map(|_| live::element()).unwrap_or_default();
+    page += "</body>\n</html>\n";
     page
 }
 

@@ -25,6 +25,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("reach", &["kinematics", "machine"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),
+    ("format", &["diag", "source", "syntax"]),
     (
         "sema",
         &["diag", "document", "geom", "job", "machine", "source", "syntax"],
@@ -125,6 +126,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "diag",
             "document",
             "driver",
+            "format",
             "job",
             "kinematics",
             "machine",
@@ -141,6 +143,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "report",
             "source",
             "summary",
+            "syntax",
         ],
     ),
 ];

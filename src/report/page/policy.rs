@@ -5,15 +5,28 @@
 use crate::report::base64::base64;
 use hmac_sha256::Hash;
 
+/// What a page may ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Requests {
+    /// Nothing: it is complete in itself.
+    None,
+    /// The server that it came from, for changes.
+    OwnServer,
+}
+
 /// The policy, as the content of a `meta` element, for a page with these scripts. A script is what stands between its tags, to
 /// the byte.
-pub(super) fn policy(scripts: &[&str]) -> String {
+pub(super) fn policy(scripts: &[&str], requests: Requests) -> String {
     let hashes: Vec<String> = scripts
         .iter()
         .map(|script| format!("'sha256-{}'", base64(&Hash::hash(script.as_bytes()))))
         .collect();
+    let requests = match requests {
+        Requests::None => "",
+        Requests::OwnServer => " connect-src 'self';",
+    };
     format!(
-        "default-src 'none'; script-src {}; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'",
+        "default-src 'none';{requests} script-src {}; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'",
         hashes.join(" ")
     )
 }
@@ -25,10 +38,11 @@ mod tests {
     /// The example of the standard (CSP level 3, section 2.3.1): `alert('Hello, world.');`.
     #[test]
     fn scripts_are_known_by_their_hash() {
-        let policy = policy(&["alert('Hello, world.');"]);
+        let policy = policy(&["alert('Hello, world.');"], Requests::None);
         assert!(
             policy.contains("'sha256-qznLcsROx4GACP2dm0UCKCzCG+HiZ1guq6ZZDob/Tng='"),
             "{policy}"
         );
+        assert!(!policy.contains("connect-src"), "{policy}");
     }
 }

@@ -1,0 +1,173 @@
+//! Which files a run asked for, and whether they are still as they were.
+//!
+//! Stamps are looked at again and again, instead of being told of changes by the system: that also works on shares of a
+//! network, where systems tell nothing; it does not matter whether an editor writes a file, renames another one over it or
+//! makes a new one; and a file that is not there yet has a stamp as well. A job has a handful of files, so that looking costs
+//! next to nothing; where it is slow it is done less often ([`Pause`]).
+
+use crate::source::{LoadError, Loader};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fs::{self, Metadata};
+use std::time::{Duration, Instant, SystemTime};
+
+/// What tells one version of a file from another; none for a file that is not there.
+type Stamp = Option<Version>;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Version {
+    modified: Option<SystemTime>,
+    length: u64,
+    /// Which file of the disk it is, and when anything about it changed last.
+    identity: Identity,
+}
+
+#[cfg(unix)]
+type Identity = (u64, i64, i64);
+#[cfg(not(unix))]
+type Identity = Option<SystemTime>;
+
+#[cfg(unix)]
+fn identity(metadata: &Metadata) -> Identity {
+    use std::os::unix::fs::MetadataExt;
+    (metadata.ino(), metadata.ctime(), metadata.ctime_nsec())
+}
+
+#[cfg(not(unix))]
+fn identity(metadata: &Metadata) -> Identity {
+    metadata.created().ok()
+}
+
+fn stamp(path: &str) -> Stamp {
+    let metadata = fs::metadata(path).ok()?;
+    Some(Version {
+        modified: metadata.modified().ok(),
+        length: metadata.len(),
+        identity: identity(&metadata),
+    })
+}
+
+/// Hands files on and keeps in mind which were asked for, and as which version.
+pub(super) struct Recorder<'d> {
+    disk: &'d dyn Loader,
+    stamps: RefCell<BTreeMap<String, Stamp>>,
+}
+
+impl<'d> Recorder<'d> {
+    pub(super) fn new(disk: &'d dyn Loader) -> Self {
+        Self {
+            disk,
+            stamps: RefCell::default(),
+        }
+    }
+
+    /// The files that were asked for.
+    pub(super) fn stamps(self) -> Stamps {
+        Stamps(self.stamps.into_inner())
+    }
+}
+
+impl Loader for Recorder<'_> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        // Taken before the file is read, so that a change in between is seen afterwards. Of a file that is read twice the first
+        // stamp counts, for the same reason.
+        let stamp = stamp(path);
+        self.stamps.borrow_mut().entry(path.to_owned()).or_insert(stamp);
+        self.disk.load(path)
+    }
+}
+
+/// Files with their versions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Stamps(BTreeMap<String, Stamp>);
+
+impl Stamps {
+    /// The same files as they are now.
+    pub(super) fn now(&self) -> Self {
+        Self(self.0.keys().map(|path| (path.clone(), stamp(path))).collect())
+    }
+
+    /// Whether a file that `earlier` has is gone.
+    pub(super) fn lacks_a_file_of(&self, earlier: &Self) -> bool {
+        let is_there = |stamps: &Self, path| stamps.0.get(path).is_some_and(Option::is_some);
+        self.0
+            .keys()
+            .any(|path| !is_there(self, path) && is_there(earlier, path))
+    }
+
+    /// How many files there are.
+    pub(super) fn count(&self) -> usize {
+        self.0.len()
+    }
+}
+
+/// Shortest time between two looks at the files.
+const SHORTEST: Duration = Duration::from_millis(15);
+/// Longest.
+const LONGEST: Duration = Duration::from_secs(2);
+/// How many times as long as a look the pause behind it is.
+const IDLE: u32 = 20;
+
+/// How long to wait before the next look: at most a twentieth of the time goes into looking.
+pub(super) struct Pause {
+    length: Duration,
+}
+
+impl Pause {
+    pub(super) const fn new() -> Self {
+        Self { length: SHORTEST }
+    }
+
+    pub(super) const fn length(&self) -> Duration {
+        self.length
+    }
+
+    /// Looks, and sets the pause by how long that took.
+    pub(super) fn look(&mut self, stamps: &Stamps) -> Stamps {
+        let start = Instant::now();
+        let now = stamps.now();
+        self.length = start.elapsed().saturating_mul(IDLE).clamp(SHORTEST, LONGEST);
+        now
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::files::Disk;
+    use super::*;
+
+    #[test]
+    fn every_way_to_change_a_file_is_seen() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        let (job, missing) = (path("rib.vcut"), path("none.vcut"));
+        fs::write(&job, "one").unwrap();
+        let disk = Disk::around(&job);
+        let recorder = Recorder::new(&disk);
+        assert_eq!(recorder.load(&job), Ok(b"one".to_vec()));
+        assert_eq!(recorder.load(&missing), Err(LoadError::NotFound));
+        let first = recorder.stamps();
+        assert_eq!((first.count(), &first.now()), (2, &first));
+
+        fs::write(&job, "three").unwrap();
+        let longer = first.now();
+        assert_ne!(longer, first);
+
+        // A version of the same length and age in its place.
+        let age = fs::metadata(&job).unwrap().modified().unwrap();
+        fs::write(path("new"), "seven").unwrap();
+        let file = fs::File::options().write(true).open(path("new")).unwrap();
+        file.set_modified(age).unwrap();
+        fs::rename(path("new"), &job).unwrap();
+        let renamed = first.now();
+        assert_ne!(renamed, longer);
+
+        fs::write(&missing, "").unwrap();
+        let appeared = first.now();
+        assert_ne!(appeared, renamed);
+        assert!(!appeared.lacks_a_file_of(&renamed));
+
+        fs::remove_file(&job).unwrap();
+        assert!(first.now().lacks_a_file_of(&appeared));
+    }
+}

@@ -1,0 +1,311 @@
+//! The words of one statement as a [`Doc`]: where a value may be broken, and where its comments go.
+//!
+//! A value that is too long is broken before its operators, a piece of a profile before its points, a list of values in
+//! brackets at its commas, all of them: then a value that is added later is one line of a diff. A comment stays behind
+//! the word that it is behind; in a list it stays with the value on its line.
+
+use super::doc::Doc;
+use super::read::{Comment, Gap, Kind, Word};
+use super::spacing::{Role, Spacing, between};
+
+/// A statement's words in two parts: those up to where neighbours share a column, and the rest.
+pub(super) struct Parts<'w, 't> {
+    pub(super) name: &'w [Word<'t>],
+    pub(super) rest: &'w [Word<'t>],
+}
+
+/// Where a statement's words are cut for the column that it shares with its neighbours.
+pub(super) fn cut<'w, 't>(kind: Kind, words: &'w [Word<'t>]) -> Parts<'w, 't> {
+    let at = match kind {
+        Kind::Plain | Kind::Block => words.len(),
+        Kind::Let | Kind::Value => words
+            .iter()
+            .position(|word| word.role == Role::Relation)
+            .unwrap_or(words.len()),
+        Kind::Curve => words.len().min(1),
+    };
+    let (name, rest) = words.split_at(at);
+    Parts { name, rest }
+}
+
+/// The words before the shared column.
+pub(super) fn name(words: &[Word<'_>]) -> Vec<Doc> {
+    row(words, None)
+}
+
+/// All words of a statement; a name is filled up to `column` characters.
+pub(super) fn statement(kind: Kind, words: &[Word<'_>], column: usize) -> Vec<Doc> {
+    let Parts { name, rest } = cut(kind, words);
+    let mut docs = row(name, None);
+    let mut before = name.last();
+    if rest.is_empty() {
+        return docs;
+    }
+    let width: usize = super::doc::on_one_line(&docs).map_or(0, |name| name.chars().count());
+    docs.push(Doc::text(" ".repeat(column.saturating_sub(width))));
+    let mut value = Vec::new();
+    let rest = match rest {
+        [relation, value_words @ ..] if relation.role == Role::Relation => {
+            comments_in_a_row(&relation.comments, &mut value);
+            separate(&relation.comments, Spacing::Blank, &mut value);
+            value.push(Doc::text(relation.text));
+            before = Some(relation);
+            value_words
+        }
+        _ => rest,
+    };
+    if let Some(first) = rest.first() {
+        comments_in_a_row(&first.comments, &mut value);
+        separate(&first.comments, Spacing::Blank, &mut value);
+    }
+    docs.push(Doc::Indent(value));
+    let rest = row(rest, before);
+    // A list alone closes below the name that it belongs to.
+    let is_one_piece = !rest.iter().any(|doc| matches!(doc, Doc::Line | Doc::Hard));
+    let rest = Doc::group(rest);
+    docs.push(if is_one_piece {
+        rest
+    } else {
+        Doc::Indent(vec![rest])
+    });
+    docs
+}
+
+/// Words one after the other, behind the word `before`. What stands before the first of them is left to the caller.
+fn row(words: &[Word<'_>], before: Option<&Word<'_>>) -> Vec<Doc> {
+    let mut docs = Vec::new();
+    let mut previous = before;
+    let mut at = 0;
+    while let Some(word) = words.get(at) {
+        if let Some(previous) = previous.filter(|_| at > 0) {
+            comments_in_a_row(&word.comments, &mut docs);
+            separate(&word.comments, between(previous, word), &mut docs);
+        }
+        if matches!(word.role, Role::Open | Role::CallOpen) {
+            let length = list_length(words.get(at..).unwrap_or_default());
+            let list = words.get(at..at + length).unwrap_or_default();
+            docs.push(bracketed(list, previous));
+            at += length;
+        } else {
+            docs.push(Doc::text(word.text));
+            at += 1;
+        }
+        previous = words.get(at.saturating_sub(1));
+    }
+    docs
+}
+
+/// Comments behind a word, on its line.
+fn comments_in_a_row(comments: &[Comment], docs: &mut Vec<Doc>) {
+    let mut after_line_end = false;
+    for comment in comments {
+        if !after_line_end {
+            docs.push(Doc::blank());
+        }
+        docs.push(Doc::text(comment.text.clone()));
+        after_line_end = comment.ends_its_line();
+        if after_line_end {
+            docs.push(Doc::Hard);
+        }
+    }
+}
+
+/// What stands before a word: its spacing, or a blank behind its last comment.
+fn separate(comments: &[Comment], spacing: Spacing, docs: &mut Vec<Doc>) {
+    match (comments.last(), spacing) {
+        (Some(comment), _) if comment.ends_its_line() => {}
+        (Some(_), _) | (None, Spacing::Blank) => docs.push(Doc::blank()),
+        (None, Spacing::Breakable) => docs.push(Doc::Line),
+        (None, Spacing::None) => {}
+    }
+}
+
+/// How many words a bracket at their beginning takes, to its partner.
+fn list_length(words: &[Word<'_>]) -> usize {
+    let mut depth: usize = 0;
+    for (at, word) in words.iter().enumerate() {
+        match word.role {
+            Role::Open | Role::CallOpen => depth += 1,
+            Role::Close => depth = depth.saturating_sub(1),
+            Role::Plain
+            | Role::Lead
+            | Role::Unit
+            | Role::UnitRest
+            | Role::Operator
+            | Role::Power
+            | Role::Sign
+            | Role::Relation
+            | Role::Comma
+            | Role::Odd => {}
+        }
+        if depth == 0 {
+            return at + 1;
+        }
+    }
+    words.len()
+}
+
+/// Comments on the line of what is before them, if that line ends behind them, and the others.
+fn split_at_line_end(comments: &[Comment], gap: Gap) -> (&[Comment], &[Comment]) {
+    let count = comments
+        .iter()
+        .take_while(|comment| comment.gap == Gap::SameLine)
+        .count();
+    let line_ends = count < comments.len() || gap != Gap::SameLine;
+    comments.split_at(if line_ends { count } else { 0 })
+}
+
+/// The values of a list, each with its words, and what ends it: a comma, or the closing bracket.
+fn values<'w, 't>(inside: &'w [Word<'t>]) -> Vec<(&'w [Word<'t>], Option<&'w Word<'t>>)> {
+    let mut values = Vec::new();
+    let (mut start, mut at) = (0, 0);
+    while let Some(word) = inside.get(at) {
+        match word.role {
+            Role::Comma => {
+                values.push((inside.get(start..at).unwrap_or_default(), Some(word)));
+                at += 1;
+                start = at;
+            }
+            Role::Open | Role::CallOpen => at += list_length(inside.get(at..).unwrap_or_default()),
+            Role::Plain
+            | Role::Lead
+            | Role::Unit
+            | Role::UnitRest
+            | Role::Operator
+            | Role::Power
+            | Role::Sign
+            | Role::Relation
+            | Role::Close
+            | Role::Odd => at += 1,
+        }
+    }
+    if start < inside.len() {
+        values.push((inside.get(start..).unwrap_or_default(), None));
+    }
+    values
+}
+
+/// A bracket, its values, and its partner.
+fn bracketed(words: &[Word<'_>], before: Option<&Word<'_>>) -> Doc {
+    let [open, inside @ .., close] = words else {
+        return Doc::group(words.iter().map(|word| Doc::text(word.text)).collect());
+    };
+    let values = values(inside);
+    let is_point = before.is_some_and(|word| matches!(word.role, Role::Lead | Role::Close));
+    let last_comma = match (open.role, values.len(), is_point) {
+        (Role::CallOpen, 1.., _) | (_, 2.., false) => ",",
+        _ => "",
+    };
+    let first = inside.first().unwrap_or(close);
+    let (opening, _) = split_at_line_end(&first.comments, first.gap);
+    let mut docs = Vec::new();
+    trailing(opening, &mut docs);
+    if !opening.is_empty() {
+        docs.push(Doc::Breaks);
+    }
+    docs.push(Doc::Soft);
+    let mut done = opening.len();
+    for (at, &(value, end)) in values.iter().enumerate() {
+        let next = values
+            .get(at + 1)
+            .and_then(|(value, _)| value.first())
+            .unwrap_or(close);
+        let ending = Ending {
+            end,
+            next,
+            last_comma,
+        };
+        let is_last = at + 1 == values.len();
+        done = one_value(value, done, &ending, &mut docs);
+        if !is_last {
+            docs.push(Doc::Line);
+        }
+    }
+    let rest = close.comments.get(done..).unwrap_or_default();
+    dangling(rest, !values.is_empty(), &mut docs);
+    Doc::group(vec![
+        Doc::text(open.text),
+        Doc::Indent(docs),
+        Doc::Soft,
+        Doc::text(close.text),
+    ])
+}
+
+/// What is behind a value of a list.
+struct Ending<'w, 't> {
+    /// The comma.
+    end: Option<&'w Word<'t>>,
+    /// The first word of the next value, or the closing bracket.
+    next: &'w Word<'t>,
+    /// What is behind the last value of a broken list.
+    last_comma: &'static str,
+}
+
+/// One value with the comments that belong to it. `done` comments before it have been written. Returns how many of those before
+/// the next word have.
+fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mut Vec<Doc>) -> usize {
+    if let Some(first) = value.first() {
+        leading(first.comments.get(done..).unwrap_or_default(), first.gap, docs);
+    }
+    docs.push(Doc::group(row(value, None)));
+    let before_comma = ending.end.map_or(&[][..], |comma| &comma.comments);
+    let kept = before_comma
+        .iter()
+        .take_while(|comment| !comment.ends_its_line())
+        .count();
+    let (kept, moved) = before_comma.split_at(kept);
+    trailing(kept, docs);
+    let is_last = ending.next.role == Role::Close;
+    docs.push(match is_last {
+        true => Doc::OnlyBroken(ending.last_comma),
+        false => Doc::text(","),
+    });
+    let (behind, _) = split_at_line_end(&ending.next.comments, ending.next.gap);
+    trailing(moved, docs);
+    if moved.last().is_some_and(Comment::ends_its_line) && !behind.is_empty() {
+        docs.push(Doc::Hard);
+    }
+    trailing(behind, docs);
+    behind.len()
+}
+
+/// Comments behind a value of a list. The line of one that needs it ends with the next place where it can.
+fn trailing(comments: &[Comment], docs: &mut Vec<Doc>) {
+    let mut after_line_end = false;
+    for comment in comments {
+        docs.push(if after_line_end { Doc::Hard } else { Doc::blank() });
+        docs.push(Doc::text(comment.text.clone()));
+        after_line_end = comment.ends_its_line();
+    }
+    if after_line_end {
+        docs.push(Doc::Breaks);
+    }
+}
+
+/// Comments before a value of a list, and what stands between them and the value.
+fn leading(comments: &[Comment], gap: Gap, docs: &mut Vec<Doc>) {
+    for (at, comment) in comments.iter().enumerate() {
+        let next = comments.get(at + 1).map_or(gap, |next| next.gap);
+        docs.push(Doc::text(comment.text.clone()));
+        docs.push(match next {
+            Gap::SameLine => Doc::blank(),
+            Gap::NewLine | Gap::EmptyLine => Doc::Hard,
+        });
+    }
+}
+
+/// Comments before a closing bracket that no value has taken.
+fn dangling(comments: &[Comment], has_values: bool, docs: &mut Vec<Doc>) {
+    let mut after_line_end = false;
+    for (at, comment) in comments.iter().enumerate() {
+        let is_on_the_line = comment.gap == Gap::SameLine && !after_line_end;
+        if has_values || at > 0 {
+            docs.push(if is_on_the_line { Doc::blank() } else { Doc::Hard });
+        }
+        docs.push(Doc::text(comment.text.clone()));
+        after_line_end = comment.ends_its_line();
+    }
+    if after_line_end {
+        docs.push(Doc::Breaks);
+    }
+}
