@@ -99,21 +99,12 @@ pub(super) fn part_of(ast: &Ast) -> Part {
 impl Analysis {
     /// Looks at text and meaning. None when the root file cannot be read.
     pub(super) fn of(root: &str, stamp: u64, loader: &dyn Loader) -> Option<Self> {
-        let text = String::from_utf8(loader.load(root).ok()?).unwrap_or_default();
-        let mut sources = SourceMap::default();
-        let file = sources.add(root, text.as_str());
-        let part = part_of(&crate::syntax::parse(file, &text, &mut Vec::new()));
-        let mut sources = SourceMap::default();
-        let mut diagnostics = Vec::new();
-        let study = study(
-            root,
-            part,
-            loader,
-            Choices::default(),
-            &mut sources,
-            &mut diagnostics,
-        )
-        .ok()?;
+        let (sources, diagnostics, study) = studied(root, Part::Job, loader)?;
+        let part = study.files.first().map_or(Part::Job, |file| part_of(&file.ast));
+        let (sources, diagnostics, study) = match part {
+            Part::Job => (sources, diagnostics, study),
+            Part::Library => studied(root, part, loader)?,
+        };
         let planning = match &study.job {
             Some(_) => Planning::Due,
             None => Planning::Needless,
@@ -156,6 +147,14 @@ impl Analysis {
             Planning::Needless | Planning::Due | Planning::UnderWay => None,
         }
     }
+}
+
+/// What a file and all that it uses say as a job or a library. None when it cannot be read.
+fn studied(root: &str, part: Part, loader: &dyn Loader) -> Option<(SourceMap, Vec<Diagnostic>, Study)> {
+    let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
+    let choices = Choices::default();
+    let study = study(root, part, loader, choices, &mut sources, &mut diagnostics).ok()?;
+    Some((sources, diagnostics, study))
 }
 
 /// A job to be planned: a piece of work that needs nothing of the server, so that another thread can do it.

@@ -78,7 +78,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> {
         Table::Pieces => headed("| Piece |"),
         Table::Calls => headed("| Value | Meaning |"),
         Table::Functions => headed("| Function |"),
-        Table::Residuals => headed("| `residual` |"),
+        Table::Residuals => headed("| `residual` | Such a cut is |"),
         Table::Auto => headed("| Field | Comes out as |"),
         Table::Formulas => headed("| Value | Enters |"),
     };

@@ -4,6 +4,7 @@ use super::Workspace;
 use super::analysis::Analysis;
 use super::completion::{Offer, completion};
 use super::diagnostics::{Lines, edits_of, in_protocol, workspace_edit};
+use super::formatting::formatting;
 use super::hints::hints;
 use super::hover::hover;
 use super::names::{
@@ -20,10 +21,10 @@ use crate::machine::Origin;
 use crate::source::Span;
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
-    DocumentSymbolParams, Documentation, GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint,
-    InlayHintKind, InlayHintLabel, InlayHintParams, InlayHintTooltip, InsertTextFormat, Location,
-    MarkupContent, MarkupKind, Position, Range, ReferenceParams, RenameParams, SemanticTokens,
-    SemanticTokensParams, TextDocumentIdentifier, TextDocumentPositionParams, TextEdit,
+    DocumentFormattingParams, DocumentSymbolParams, Documentation, GotoDefinitionParams, Hover,
+    HoverContents, HoverParams, InlayHint, InlayHintKind, InlayHintLabel, InlayHintParams, InlayHintTooltip,
+    InsertTextFormat, Location, MarkupContent, MarkupKind, Position, Range, ReferenceParams, RenameParams,
+    SemanticTokens, SemanticTokensParams, TextDocumentIdentifier, TextDocumentPositionParams, TextEdit,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -46,12 +47,29 @@ pub(super) fn introduction() -> Value {
             "codeActionProvider": { "codeActionKinds": ["quickfix"] },
             "renameProvider": { "prepareProvider": true },
             "inlayHintProvider": true,
+            "documentFormattingProvider": true,
             "semanticTokensProvider": {
                 "legend": { "tokenTypes": legend(), "tokenModifiers": modifiers() },
                 "full": true
             }
         },
         "serverInfo": { "name": "vcutc", "version": env!("CARGO_PKG_VERSION") }
+    })
+}
+
+/// Asks the client to tell when files that jobs name change on the disk.
+pub(super) fn watch_files() -> Value {
+    let watchers = json!([{ "globPattern": "**/*.{vcut,toml,urdf,csv,dat}" }]);
+    let registration = json!({
+        "id": "files",
+        "method": "workspace/didChangeWatchedFiles",
+        "registerOptions": { "watchers": watchers },
+    });
+    json!({
+        "jsonrpc": "2.0",
+        "id": "watch-files",
+        "method": "client/registerCapability",
+        "params": { "registrations": [registration] },
     })
 }
 
@@ -67,6 +85,7 @@ pub(super) fn meet(server: &mut Server, method: &str, params: Value, files: &dyn
         "textDocument/codeAction" => mended(server, parsed(params)?),
         "textDocument/prepareRename" => renamable(server, parsed(params)?),
         "textDocument/rename" => renamed(server, parsed(params)?, files),
+        "textDocument/formatting" => formatted(server, parsed(params)?),
         "textDocument/inlayHint" => hinted(server, parsed(params)?),
         "textDocument/semanticTokens/full" => coloured(server, parsed(params)?),
         _ => Err((Fault::MethodNotFound, format!("there is no method `{method}`"))),
@@ -354,6 +373,12 @@ fn renamed(server: &mut Server, params: RenameParams, files: &dyn Workspace) -> 
         changes.insert(uri.as_str().to_owned(), edits.collect());
     }
     Ok(workspace_edit(changes))
+}
+
+fn formatted(server: &Server, params: DocumentFormattingParams) -> Answer {
+    let path = path_of(&params.text_document.uri);
+    let edits = server.documents.texts.get(&path).and_then(formatting);
+    Ok(json!(edits))
 }
 
 fn hinted(server: &Server, params: InlayHintParams) -> Answer {

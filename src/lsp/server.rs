@@ -58,6 +58,15 @@ enum PlanningWish {
     Never,
 }
 
+/// Who tells that files on the disk have changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Watching {
+    /// The client, if it does so by itself.
+    Unasked,
+    /// The client, when it is asked to.
+    OnRequest,
+}
+
 /// What was last published about a file.
 type Published = (Option<i32>, Vec<lsp_types::Diagnostic>);
 
@@ -69,6 +78,7 @@ pub struct Server {
     pub(super) targets: Vec<&'static dyn Backend>,
     pub(super) insertion: Insertion,
     planning: PlanningWish,
+    watching: Watching,
 }
 
 impl Server {
@@ -82,6 +92,7 @@ impl Server {
             targets: targets.to_vec(),
             insertion: Insertion::default(),
             planning: PlanningWish::default(),
+            watching: Watching::Unasked,
         }
     }
 
@@ -109,10 +120,7 @@ impl Server {
                 });
                 messages
             }
-            Incoming::Notification { method, params } => {
-                self.notification(&method, params);
-                Vec::new()
-            }
+            Incoming::Notification { method, params } => self.notification(&method, params),
             Incoming::Response => Vec::new(),
             Incoming::Malformed(refusal) => vec![refusal],
         }
@@ -152,6 +160,14 @@ impl Server {
         if completion.and_then(|item| item.snippet_support) == Some(true) {
             self.insertion = Insertion::Snippets;
         }
+        let watched = params
+            .capabilities
+            .workspace
+            .as_ref()
+            .and_then(|workspace| workspace.did_change_watched_files.as_ref());
+        if watched.and_then(|watched| watched.dynamic_registration) == Some(true) {
+            self.watching = Watching::OnRequest;
+        }
         let folders = params.workspace_folders.iter().flatten();
         self.documents.folders = folders.map(|folder| path_of(&folder.uri)).collect();
         #[expect(deprecated, reason = "clients without folders still send their root so")]
@@ -169,8 +185,11 @@ impl Server {
         }
     }
 
-    fn notification(&mut self, method: &str, params: Value) {
+    fn notification(&mut self, method: &str, params: Value) -> Vec<Value> {
         match (self.stage, method) {
+            (Stage::Running, "initialized") if self.watching == Watching::OnRequest => {
+                return vec![requests::watch_files()];
+            }
             (Stage::Stopping, "exit") => self.stage = Stage::Over(Ending::Agreed),
             (_, "exit") => self.stage = Stage::Over(Ending::Abrupt),
             (Stage::Running, "textDocument/didOpen") => {
@@ -194,6 +213,7 @@ impl Server {
             // Others are none of ours.
             _ => {}
         }
+        Vec::new()
     }
 
     fn opened(&mut self, params: DidOpenTextDocumentParams) {

@@ -365,3 +365,140 @@ fn bare_word<'a>(word: &'a str, field: Option<&'static FieldSpec>) -> Kind<'a> {
         | None => Kind::Reference(word),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sema::vocabulary::{Form, Need};
+    use crate::sema::{Choices, check};
+    use crate::source::{LoadError, Loader, SourceMap};
+    use std::collections::{BTreeMap, BTreeSet};
+
+    /// Files in memory.
+    struct Shop(BTreeMap<&'static str, String>);
+
+    impl Loader for Shop {
+        fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+            let text = self.0.get(path).ok_or(LoadError::NotFound)?;
+            Ok(text.clone().into_bytes())
+        }
+    }
+
+    const ROOT: &str = "everything.vcut";
+
+    fn shop() -> Shop {
+        let file = |text: &str| text.to_owned();
+        Shop(BTreeMap::from([
+            (ROOT, file(include_str!("../../tests/check/ok/everything.vcut"))),
+            (
+                "shop/blades.vcut",
+                file(include_str!("../../tests/check/ok/shop/blades.vcut")),
+            ),
+            (
+                "shop/cells.vcut",
+                file(include_str!("../../tests/check/ok/shop/cells.vcut")),
+            ),
+        ]))
+    }
+
+    /// Codes and helps of a check.
+    fn told(shop: &Shop) -> Vec<(&'static str, Vec<String>)> {
+        let (mut sources, mut found) = (SourceMap::default(), Vec::new());
+        check(ROOT, shop, Choices::default(), &mut sources, &mut found).unwrap();
+        let told = found.into_iter();
+        told.map(|diagnostic| (diagnostic.code.number(), diagnostic.help))
+            .collect()
+    }
+
+    fn with(file: &'static str, span: Span, new: &str) -> Vec<(&'static str, Vec<String>)> {
+        let mut shop = shop();
+        if let Some(text) = shop.0.get_mut(file) {
+            text.replace_range(span.bytes(), new);
+        }
+        told(&shop)
+    }
+
+    fn has(told: &[(&'static str, Vec<String>)], code: &str) -> bool {
+        told.iter().any(|(found, _)| *found == code)
+    }
+
+    /// What the tables say of a field is what the checks do with it.
+    #[test]
+    fn fields_take_what_their_tables_say() {
+        assert!(told(&shop()).is_empty());
+        let mut seen = BTreeSet::new();
+        for (file, text) in shop().0 {
+            let mut sources = SourceMap::default();
+            let id = sources.add(file, text.as_str());
+            let ast = crate::syntax::parse(id, &text, &mut Vec::new());
+            let mut name = None;
+            for site in sites(&ast) {
+                if let Kind::Field(_) = site.kind {
+                    name = Some(site.span);
+                }
+                let (Kind::Value(_), Some(field)) = (site.kind, site.place.field) else {
+                    continue;
+                };
+                seen.insert((site.place.block.to_owned(), field.name));
+                holds(file, field, site.span);
+                if let Some(name) = name.filter(|_| field.form == Form::Value) {
+                    let missing = has(&with(file, name.to(site.span), ""), "VC0206");
+                    assert_eq!(missing, field.need == Need::Required, "{} without", field.name);
+                }
+            }
+        }
+        assert!(seen.len() > 38, "{} fields: {seen:?}", seen.len());
+    }
+
+    fn holds(file: &'static str, field: &FieldSpec, span: Span) {
+        let name = field.name;
+        let as_auto = with(file, span, "auto");
+        assert_eq!(
+            as_auto.is_empty(),
+            field.leaving == Leaving::Open,
+            "{name} = auto: {as_auto:?}"
+        );
+        match field.takes {
+            Takes::Quantity(range) => {
+                let other = if vocabulary::units_for(range).contains(&"kg".to_owned()) {
+                    "3 mm"
+                } else {
+                    "3 kg"
+                };
+                if name != "size" {
+                    assert!(has(&with(file, span, other), "VC0203"), "{name} = {other}");
+                }
+                for unit in vocabulary::units_for(range) {
+                    let fits = with(file, span, &format!("3 {unit}"));
+                    assert!(!has(&fits, "VC0203"), "{name} = 3 {unit}: {fits:?}");
+                }
+            }
+            Takes::Words(words) => {
+                let mut all = words();
+                if field.leaving == Leaving::Open {
+                    all.push("auto");
+                }
+                let help = format!("`{name}` takes one of {}", all.join(", "));
+                let told = with(file, span, "zzzzzzzz");
+                assert!(
+                    told.iter().any(|(_, helps)| helps.contains(&help)),
+                    "{name}: {told:?}"
+                );
+            }
+            Takes::Blade | Takes::Machine => {
+                assert!(has(&with(file, span, "zzzzzzzz"), "VC0201"), "{name}");
+                assert!(!with(file, span, "reach").is_empty(), "{name}: a value is none");
+            }
+            Takes::Calls(calls) => {
+                let told = with(file, span, "zzzzzzzz(1)");
+                let forms = calls.iter().map(|(_, example)| format!("`{name} = {example}`"));
+                let help = format!("write it like {}", forms.collect::<Vec<_>>().join(" or "));
+                assert!(
+                    told.iter().any(|(_, helps)| helps.contains(&help)),
+                    "{name}: {told:?}"
+                );
+            }
+            Takes::Anything | Takes::Fields(_) => panic!("{name}: what does it take?"),
+        }
+    }
+}

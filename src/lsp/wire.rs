@@ -31,7 +31,7 @@ pub enum Incoming {
         /// To what.
         params: Value,
     },
-    /// The answer to a request of the server, which makes none that needs one.
+    /// The answer to a request of the server, which makes none that waits for one.
     Response,
     /// Something else, with the answer to it.
     Malformed(Value),

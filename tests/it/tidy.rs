@@ -120,6 +120,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "lsp",
+        &[
+            "diag", "driver", "format", "machine", "plan", "sema", "source", "summary", "syntax",
+        ],
+    ),
+    (
         "cli",
         &[
             "comparison",
@@ -129,6 +135,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "format",
             "job",
             "kinematics",
+            "lsp",
             "machine",
             "manifest",
             "numbers",
@@ -166,6 +173,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),
+    ("lsp_types::", &["src/lsp/"]),
     ("tempfile::", &["src/cli/"]),
     ("toml::", &["src/document/"]),
     ("std::fs", &["src/cli/"]),

@@ -135,7 +135,7 @@ fn units_words_names_and_machines_that_fit_are_offered() {
     let layer = labels(&mut editor, "layer = |5 mm");
     assert_eq!(&layer[..3], ["auto", "half", "width"]);
     assert!(layer.contains(&"sqrt".to_owned()));
-    assert_eq!(labels(&mut editor, "// half| of it"), [""; 0]);
+    assert_eq!(labels(&mut editor, "𝒳 half| of it"), [""; 0]);
     let end = RIB.len();
     editor.type_in(
         PATH,

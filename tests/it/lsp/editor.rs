@@ -41,12 +41,18 @@ pub(super) fn uri(path: &str) -> String {
     format!("file://{path}")
 }
 
-/// Line and UTF-16 units of a byte, counted from the front.
+/// Line and UTF-16 units of a byte, counted from the front. A line ends with `\n`, `\r\n` or `\r`.
 pub(super) fn position(text: &str, offset: usize) -> Value {
-    let before = &text[..offset];
-    let line = before.matches('\n').count();
-    let start = before.rfind('\n').map_or(0, |at| at + 1);
-    json!({ "line": line, "character": before[start..].encode_utf16().count() })
+    let (mut line, mut units) = (0, 0);
+    for (at, c) in text.char_indices().take_while(|(at, _)| *at < offset) {
+        let is_end = c == '\n' || c == '\r' && !text[at + 1..].starts_with('\n');
+        (line, units) = if is_end {
+            (line + 1, 0)
+        } else {
+            (line, units + c.len_utf16())
+        };
+    }
+    json!({ "line": line, "character": units })
 }
 
 impl Editor {

@@ -50,14 +50,15 @@ fn auto_shows_what_it_became() {
 #[test]
 fn what_planning_finds_is_told_and_taken_back() {
     let deep = RIB
-        .replace("layer = 5 mm", "layer = 25 mm")
-        .replace("swing = auto", "swing = 45 deg");
+        .replace("layer = 5 mm", "layer = 8 mm")
+        .replace("swing = auto", "swing = 45 deg")
+        .replace("step  = auto", "step  = 16 mm");
     let mut editor = Editor::with(&[("rib.vcut", &deep), ("blades.vcut", BLADES)]);
     editor.open(PATH);
     assert_eq!(editor.codes(PATH), [""; 0]);
     plan(&mut editor);
     assert_eq!(editor.codes(PATH), ["VC0401"]);
-    editor.replace(PATH, "layer = 25 mm", "layer = 26 mm");
+    editor.replace(PATH, "layer = 8 mm", "layer = 8.2 mm");
     assert_eq!(editor.codes(PATH), [""; 0], "nothing is known of this text yet");
     plan(&mut editor);
     assert_eq!(editor.codes(PATH), ["VC0401"]);
@@ -74,7 +75,12 @@ fn stale_plans_are_not_shown() {
     assert_eq!(editor.server.finish(done), [Value::Null; 0]);
     assert_eq!(hints(&mut editor), [""; 0]);
     plan(&mut editor);
-    assert_eq!(hints(&mut editor)[0], "= 30 deg");
+    let narrow = RIB.replace("swing <= 45 deg", "swing <= 30 deg");
+    let mut fresh = Editor::with(&[("rib.vcut", &narrow), ("blades.vcut", BLADES)]);
+    fresh.open(PATH);
+    plan(&mut fresh);
+    assert_eq!(hints(&mut editor), hints(&mut fresh));
+    assert_eq!(hints(&mut editor).len(), 2);
 }
 
 #[test]
