@@ -175,7 +175,7 @@ impl Run<'_> {
             ),
         }
         text += &self.tally.in_words(self.fate);
-        self.console.total(&text, &self.tally);
+        self.console.note("formatted", &text, &self.tally);
         exit
     }
 }

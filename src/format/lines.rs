@@ -148,7 +148,8 @@ fn one_line(found: &Statement<'_>, depth: usize, column: usize) -> Option<String
 
 fn block_on_one_line(found: &Statement<'_>, body: &Body<'_>, column: usize) -> Option<String> {
     let is_empty = body.statements.is_empty() && body.opening.is_empty() && body.closing.is_empty();
-    if body.extent == Extent::ManyLines && !is_empty {
+    let breaks = |comment: &Comment| comment.ends_its_line() || comment.text.contains('\n');
+    if (body.extent == Extent::ManyLines && !is_empty) || body.before.iter().any(breaks) {
         return None;
     }
     let mut line = on_one_line(&statement(found.kind, &found.words, column))?;

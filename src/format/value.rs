@@ -155,8 +155,11 @@ fn split_at_line_end(comments: &[Comment], gap: Gap) -> (&[Comment], &[Comment])
     comments.split_at(if line_ends { count } else { 0 })
 }
 
-/// The values of a list, each with its words, and what ends it: a comma, or the closing bracket.
-fn values<'w, 't>(inside: &'w [Word<'t>]) -> Vec<(&'w [Word<'t>], Option<&'w Word<'t>>)> {
+/// A value of a list: its words, and the comma behind it.
+type Value<'w, 't> = (&'w [Word<'t>], Option<&'w Word<'t>>);
+
+/// The values of a list.
+fn values<'w, 't>(inside: &'w [Word<'t>]) -> Vec<Value<'w, 't>> {
     let mut values = Vec::new();
     let (mut start, mut at) = (0, 0);
     while let Some(word) = inside.get(at) {
@@ -199,12 +202,15 @@ fn bracketed(words: &[Word<'_>], before: Option<&Word<'_>>) -> Doc {
     let first = inside.first().unwrap_or(close);
     let (opening, _) = split_at_line_end(&first.comments, first.gap);
     let mut docs = Vec::new();
-    trailing(opening, &mut docs);
+    trailing(opening.iter(), &mut docs);
     if !opening.is_empty() {
         docs.push(Doc::Breaks);
     }
     docs.push(Doc::Soft);
-    let mut done = opening.len();
+    let mut done = Done {
+        comments: opening.len(),
+        tail: tail(opening.last()),
+    };
     for (at, &(value, end)) in values.iter().enumerate() {
         let next = values
             .get(at + 1)
@@ -216,13 +222,13 @@ fn bracketed(words: &[Word<'_>], before: Option<&Word<'_>>) -> Doc {
             last_comma,
         };
         let is_last = at + 1 == values.len();
-        done = one_value(value, done, &ending, &mut docs);
+        done = one_value(value, done.comments, &ending, &mut docs);
         if !is_last {
             docs.push(Doc::Line);
         }
     }
-    let rest = close.comments.get(done..).unwrap_or_default();
-    dangling(rest, !values.is_empty(), &mut docs);
+    let rest = close.comments.get(done.comments..).unwrap_or_default();
+    dangling(rest, &values, done.tail, &mut docs);
     Doc::group(vec![
         Doc::text(open.text),
         Doc::Indent(docs),
@@ -241,9 +247,32 @@ struct Ending<'w, 't> {
     last_comma: &'static str,
 }
 
-/// One value with the comments that belong to it. `done` comments before it have been written. Returns how many of those before
-/// the next word have.
-fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mut Vec<Doc>) -> usize {
+/// How far a list has been written.
+struct Done {
+    /// How many of the comments before the next word.
+    comments: usize,
+    tail: Tail,
+}
+
+/// What the last line ends with so far.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Tail {
+    /// Something that more can follow.
+    Open,
+    /// A comment that needs the rest of the line.
+    LineComment,
+}
+
+fn tail(last: Option<&Comment>) -> Tail {
+    match last {
+        Some(comment) if comment.ends_its_line() => Tail::LineComment,
+        Some(_) | None => Tail::Open,
+    }
+}
+
+/// One value with the comments that belong to it. `done` comments before it have been written. Returns what has been
+/// written of those before the next word.
+fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mut Vec<Doc>) -> Done {
     if let Some(first) = value.first() {
         leading(first.comments.get(done..).unwrap_or_default(), first.gap, docs);
     }
@@ -254,23 +283,22 @@ fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mu
         .take_while(|comment| !comment.ends_its_line())
         .count();
     let (kept, moved) = before_comma.split_at(kept);
-    trailing(kept, docs);
+    trailing(kept.iter(), docs);
     let is_last = ending.next.role == Role::Close;
     docs.push(match is_last {
         true => Doc::OnlyBroken(ending.last_comma),
         false => Doc::text(","),
     });
     let (behind, _) = split_at_line_end(&ending.next.comments, ending.next.gap);
-    trailing(moved, docs);
-    if moved.last().is_some_and(Comment::ends_its_line) && !behind.is_empty() {
-        docs.push(Doc::Hard);
+    trailing(moved.iter().chain(behind), docs);
+    Done {
+        comments: behind.len(),
+        tail: tail(moved.iter().chain(behind).last()),
     }
-    trailing(behind, docs);
-    behind.len()
 }
 
 /// Comments behind a value of a list. The line of one that needs it ends with the next place where it can.
-fn trailing(comments: &[Comment], docs: &mut Vec<Doc>) {
+fn trailing<'c>(comments: impl Iterator<Item = &'c Comment>, docs: &mut Vec<Doc>) {
     let mut after_line_end = false;
     for comment in comments {
         docs.push(if after_line_end { Doc::Hard } else { Doc::blank() });
@@ -295,11 +323,11 @@ fn leading(comments: &[Comment], gap: Gap, docs: &mut Vec<Doc>) {
 }
 
 /// Comments before a closing bracket that no value has taken.
-fn dangling(comments: &[Comment], has_values: bool, docs: &mut Vec<Doc>) {
-    let mut after_line_end = false;
+fn dangling(comments: &[Comment], values: &[Value<'_, '_>], tail: Tail, docs: &mut Vec<Doc>) {
+    let mut after_line_end = tail == Tail::LineComment;
     for (at, comment) in comments.iter().enumerate() {
         let is_on_the_line = comment.gap == Gap::SameLine && !after_line_end;
-        if has_values || at > 0 {
+        if !values.is_empty() || at > 0 {
             docs.push(if is_on_the_line { Doc::blank() } else { Doc::Hard });
         }
         docs.push(Doc::text(comment.text.clone()));

@@ -5,6 +5,7 @@ mod build;
 mod ci;
 #[cfg(feature = "gcode")]
 mod dialects;
+mod fmt;
 mod gallery;
 mod jobs;
 mod kinematics;
@@ -19,6 +20,8 @@ mod refusals;
 pub(crate) mod report;
 mod snapshot;
 mod verify;
+#[cfg(unix)]
+mod watch;
 
 use std::fs;
 use std::io::Write;

@@ -19,6 +19,7 @@ mod codes;
 mod examples;
 #[cfg(feature = "krl")]
 mod five_axis;
+mod fmt;
 #[cfg(all(feature = "gcode", feature = "krl"))]
 mod gcode;
 #[cfg(feature = "krl")]

@@ -9,7 +9,7 @@
 use super::request::{Asked, Extent, LONGEST_HEAD, Refused, Request, head, read};
 use crate::report::page::Served;
 use std::io::{self, Read, Write};
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -19,6 +19,8 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 const MOST_AT_ONCE: usize = 24;
 /// How long a request may take to arrive, and a piece of an answer to be taken.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// Most pieces of a KiB that are read of what nobody asked for.
+const MOST_DRAINED: usize = 64;
 /// How often a page that waits for changes is told that nothing has changed, which shows whether it is still there.
 const SIGN_OF_LIFE: Duration = Duration::from_secs(10);
 
@@ -120,7 +122,7 @@ fn listen(listener: &TcpListener, shared: &Arc<Shared>) {
     for stream in listener.incoming() {
         // A connection that failed before it began is the other side's affair; without a pause a lack of handles would be asked
         // about again and again.
-        let Ok(stream) = stream else {
+        let Ok(mut stream) = stream else {
             thread::sleep(Duration::from_millis(50));
             continue;
         };
@@ -129,7 +131,7 @@ fn listen(listener: &TcpListener, shared: &Arc<Shared>) {
         if is_full {
             let _place = Place(&shared.answering);
             let _ = stream.set_write_timeout(Some(Duration::from_millis(50)));
-            let _ = refuse(stream, Refused::Busy);
+            let _ = refuse(&mut stream, Refused::Busy);
             continue;
         }
         thread::spawn(move || {
@@ -147,16 +149,30 @@ fn answer(mut stream: TcpStream, shared: &Shared) -> io::Result<()> {
         Err(refused) => Err(refused),
     };
     match request {
-        Err(refused) => refuse(stream, refused),
+        Err(refused) => refuse(&mut stream, refused)?,
         Ok(Request {
             asked: Asked::Page,
             extent,
-        }) => page(stream, extent, shared),
+        }) => page(&mut stream, extent, shared)?,
         Ok(Request {
             asked: Asked::Changes { version },
             extent,
-        }) => changes(stream, extent, &version, shared),
+        }) => changes(&mut stream, extent, &version, shared)?,
     }
+    drain(&mut stream)
+}
+
+/// Lets the other side read its answer: a connection that is closed with bytes unread is reset, and the answer with it.
+fn drain(stream: &mut TcpStream) -> io::Result<()> {
+    stream.shutdown(Shutdown::Write)?;
+    stream.set_read_timeout(Some(Duration::from_millis(200)))?;
+    let mut rest = [0; 1024];
+    for _ in 0..MOST_DRAINED {
+        if stream.read(&mut rest)? == 0 {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// The head of a request, as far as it comes in time.
@@ -182,13 +198,13 @@ fn request(stream: &mut TcpStream) -> io::Result<Result<String, Refused>> {
     }
 }
 
-fn refuse(mut stream: TcpStream, refused: Refused) -> io::Result<()> {
+fn refuse(stream: &mut TcpStream, refused: Refused) -> io::Result<()> {
     let body = format!("{}\n", refused.status());
     let head = head(refused.status(), "text/plain; charset=utf-8", Some(body.len()));
     stream.write_all((head + &body).as_bytes())
 }
 
-fn page(mut stream: TcpStream, extent: Extent, shared: &Shared) -> io::Result<()> {
+fn page(stream: &mut TcpStream, extent: Extent, shared: &Shared) -> io::Result<()> {
     let page = Arc::clone(&shared.shown().page);
     stream.write_all(head("200 OK", "text/html; charset=utf-8", Some(page.len())).as_bytes())?;
     match extent {
@@ -197,7 +213,7 @@ fn page(mut stream: TcpStream, extent: Extent, shared: &Shared) -> io::Result<()
     }
 }
 
-fn changes(mut stream: TcpStream, extent: Extent, version: &str, shared: &Shared) -> io::Result<()> {
+fn changes(stream: &mut TcpStream, extent: Extent, version: &str, shared: &Shared) -> io::Result<()> {
     stream.write_all(head("200 OK", "text/event-stream", None).as_bytes())?;
     match extent {
         Extent::Head => return Ok(()),

@@ -117,7 +117,7 @@ fn hooks_are_those_of_the_page() {
     fs::write(folder.path().join("vcut.toml"), list).unwrap();
     assert_eq!(vcutc(folder.path(), &["build"]).code, Some(0));
     let entries: Vec<_> = commands(&hooks).collect();
-    assert_eq!(entries.len(), 2);
+    assert_eq!(entries.len(), 3);
     for mut entry in entries {
         if entry == ["check"] {
             entry.push("rib.vcut");

@@ -1,0 +1,139 @@
+//! `vcutc fmt`: what is written, what is told, and what stays as it was.
+
+use super::{folder, json_lines, names, vcutc, vcutc_reading};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+const LOOSE: &str = "let  a=1mm // one\r\n";
+const TIDY: &str = "let a = 1 mm                                  // one\n";
+
+/// A shop with a job that is in the layout, one that is not, and one with a mistake.
+fn shop() -> TempDir {
+    let folder = folder();
+    let path = folder.path();
+    for inside in ["jobs/more", ".hidden"] {
+        fs::create_dir_all(path.join(inside)).unwrap();
+    }
+    fs::write(path.join("rib.vcut"), TIDY).unwrap();
+    fs::write(path.join("jobs/more/loose.vcut"), LOOSE).unwrap();
+    fs::write(path.join("jobs/broken.vcut"), "let a = \n").unwrap();
+    fs::write(path.join(".hidden/loose.vcut"), LOOSE).unwrap();
+    fs::write(path.join("jobs/notes.txt"), LOOSE).unwrap();
+    folder
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap()
+}
+
+#[test]
+fn a_folder_is_formatted_and_files_with_mistakes_are_left() {
+    let shop = shop();
+    let path = shop.path();
+    let run = vcutc(path, &["fmt"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
+    assert!(run.stderr.contains("VC0101"), "{}", run.stderr);
+    assert!(
+        run.stderr
+            .ends_with("1 file formatted, 1 in order, 1 file left as it is because of errors\n"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(read(path, "jobs/more/loose.vcut"), TIDY);
+    assert_eq!(read(path, "jobs/broken.vcut"), "let a = \n");
+    assert_eq!(read(path, ".hidden/loose.vcut"), LOOSE);
+    assert_eq!(read(path, "jobs/notes.txt"), LOOSE);
+    assert_eq!(read(path, "rib.vcut"), TIDY);
+    assert_eq!(names(&path.join("jobs/more")), ["loose.vcut"]);
+
+    fs::remove_file(path.join("jobs/broken.vcut")).unwrap();
+    let run = vcutc(path, &["fmt", "rib.vcut", "jobs", "--message-format", "json"]);
+    let [tally] = json_lines(&run.stderr).try_into().unwrap();
+    assert_eq!((run.code, &tally["kind"]), (Some(0), &"formatted".into()));
+    assert_eq!((&tally["unchanged"], &tally["refused"]), (&2.into(), &0.into()));
+}
+
+#[test]
+fn check_shows_a_diff_and_writes_nothing() {
+    let shop = shop();
+    let path = shop.path();
+    let run = vcutc(path, &["fmt", "--check", "jobs/more", "rib.vcut"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
+    assert!(
+        run.stderr.contains("\n-let  a=1mm // one\n+let a = 1 mm  "),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr
+            .contains("+++ jobs/more/loose.vcut as vcutc fmt gives it"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(read(path, "jobs/more/loose.vcut"), LOOSE);
+    let run = vcutc(path, &["fmt", "--check", "rib.vcut"]);
+    assert_eq!(
+        (run.code, run.stderr.as_str()),
+        (
+            Some(0),
+            "0 files to format (run again without --check), 1 in order\n"
+        )
+    );
+}
+
+#[test]
+fn standard_input_goes_to_standard_output() {
+    let folder = folder();
+    let run = vcutc_reading(folder.path(), &["fmt", "-"], LOOSE);
+    assert_eq!(
+        (run.code, run.stdout.as_str(), run.stderr.as_str()),
+        (Some(0), TIDY, "")
+    );
+    let run = vcutc_reading(folder.path(), &["fmt", "-"], "let a = ");
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
+    assert!(run.stderr.contains("<stdin>"), "{}", run.stderr);
+    let run = vcutc_reading(folder.path(), &["fmt", "--check", "-"], LOOSE);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
+    assert!(run.stderr.contains("+++ <stdin>"), "{}", run.stderr);
+    let run = vcutc_reading(folder.path(), &["fmt", "--check", "-"], TIDY);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+}
+
+#[test]
+fn what_cannot_be_formatted_is_told() {
+    let shop = shop();
+    let path = shop.path();
+    fs::create_dir(path.join("empty")).unwrap();
+    fs::write(path.join("bytes.vcut"), b"job \"\xff\"\n").unwrap();
+    for (arguments, told, code) in [
+        (["fmt", "none.vcut"], "cannot format none.vcut", 2),
+        (["fmt", "empty"], "it holds no job files (.vcut)", 2),
+        (["fmt", "bytes.vcut"], "VC0107", 1),
+    ] {
+        let run = vcutc(path, &arguments);
+        assert_eq!(run.code, Some(code), "{}", run.stderr);
+        assert!(run.stderr.contains(told), "{}", run.stderr);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_stay_links_and_permissions_stay() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let shop = shop();
+    let path = shop.path();
+    let real = path.join("jobs/more/loose.vcut");
+    fs::set_permissions(&real, fs::Permissions::from_mode(0o640)).unwrap();
+    symlink(&real, path.join("link.vcut")).unwrap();
+    let run = vcutc(path, &["fmt", "link.vcut"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(read(path, "jobs/more/loose.vcut"), TIDY);
+    assert!(path.join("link.vcut").is_symlink());
+    assert_eq!(fs::metadata(&real).unwrap().permissions().mode() & 0o777, 0o640);
+    fs::write(&real, LOOSE).unwrap();
+    fs::set_permissions(&real, fs::Permissions::from_mode(0o440)).unwrap();
+    let run = vcutc(path, &["fmt", "link.vcut"]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert_eq!(read(path, "link.vcut"), LOOSE);
+}
