@@ -7,8 +7,7 @@ use super::hover::explained;
 use super::manual::{self, Table};
 use crate::machine::catalogue;
 use crate::sema::study::{Definition, Meaning};
-use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
-use core::ops::Range;
+use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Range, Takes};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::{Backend, OptionKind};
 
@@ -44,7 +43,7 @@ pub(super) enum Rank {
 #[derive(Debug, PartialEq)]
 pub(super) struct Offers {
     /// What is replaced.
-    pub(super) replaces: Range<usize>,
+    pub(super) replaces: core::ops::Range<usize>,
     /// What is offered.
     pub(super) offers: Vec<Offer>,
 }
@@ -316,10 +315,8 @@ impl Desk<'_> {
         let Meaning::Value(value) = definition.meaning else {
             return None;
         };
-        let fits = match (field.map(|field| field.takes), value) {
-            (Some(Takes::Quantity(range)), Some(value)) => value.is_of(range),
-            _ => false,
-        };
+        let range = field.and_then(range_of);
+        let fits = range.zip(value).is_some_and(|(range, value)| value.is_of(range));
         let rank = if fits { Rank::Fitting } else { Rank::Possible };
         Some(Offer {
             detail: value.map_or(String::new(), |value| value.text()),
@@ -329,10 +326,8 @@ impl Desk<'_> {
 
     /// Units that fit the field, or all of them.
     fn units(&self, field: &str) -> Vec<Offer> {
-        let fitting = match self.takes(field).map(|spec| spec.takes) {
-            Some(Takes::Quantity(range)) => vocabulary::units_for(range),
-            _ => Vec::new(),
-        };
+        let range = self.takes(field).and_then(range_of);
+        let fitting = range.map(vocabulary::units_for).unwrap_or_default();
         let all = vocabulary::units().map(|(name, _, _)| name.to_owned());
         let units: Vec<String> = if fitting.is_empty() {
             all.collect()
@@ -372,6 +367,19 @@ impl Desk<'_> {
         } else {
             labels
         }
+    }
+}
+
+/// The range of the values that a field takes.
+const fn range_of(field: &FieldSpec) -> Option<Range> {
+    match field.takes {
+        Takes::Quantity(range) => Some(range),
+        Takes::Anything
+        | Takes::Words(_)
+        | Takes::Blade
+        | Takes::Machine
+        | Takes::Calls(_)
+        | Takes::Fields(_) => None,
     }
 }
 

@@ -137,9 +137,10 @@ impl Reader<'_> {
     }
 
     fn in_text(&self, number: usize, token: Token, offset: usize) -> Context {
-        let end = match token.kind {
-            TokenKind::Text => token.end.saturating_sub(1),
-            _ => offset,
+        let end = if token.kind == TokenKind::Text {
+            token.end.saturating_sub(1)
+        } else {
+            offset
         };
         Context {
             word: token.start + 1..end.max(token.start + 1),
@@ -160,7 +161,13 @@ impl Reader<'_> {
                         open.truncate(partner);
                     }
                 }
-                _ => {}
+                TokenKind::Word
+                | TokenKind::Number
+                | TokenKind::Text
+                | TokenKind::UnclosedText
+                | TokenKind::Comment
+                | TokenKind::UnclosedComment
+                | TokenKind::Symbol => {}
             }
         }
         open
@@ -205,10 +212,10 @@ impl Reader<'_> {
             .iter()
             .rposition(|token| matches!(token.kind, TokenKind::Close(_) | TokenKind::Number) || token.leads)
             .unwrap_or(0);
-        let from = match tokens.get(start).map(|token| token.kind) {
-            Some(TokenKind::Close(_) | TokenKind::Number) => start + 1,
-            _ => start,
-        };
+        let is_before = tokens
+            .get(start)
+            .is_some_and(|token| matches!(token.kind, TokenKind::Close(_) | TokenKind::Number));
+        let from = start + usize::from(is_before);
         let words = tokens.get(from..).unwrap_or_default();
         words
             .iter()
@@ -233,7 +240,13 @@ impl Reader<'_> {
                         words.push(self.slice(*token).to_owned());
                     }
                 }
-                _ => {}
+                TokenKind::Word
+                | TokenKind::Number
+                | TokenKind::Text
+                | TokenKind::UnclosedText
+                | TokenKind::Comment
+                | TokenKind::UnclosedComment
+                | TokenKind::Symbol => {}
             }
         }
         words
@@ -289,7 +302,13 @@ impl Reader<'_> {
                 TokenKind::Word if depth == 0 && self.is_symbol(number + 1, &["="]) => {
                     labels.push(self.slice(*token).to_owned());
                 }
-                _ => {}
+                TokenKind::Word
+                | TokenKind::Number
+                | TokenKind::Text
+                | TokenKind::UnclosedText
+                | TokenKind::Comment
+                | TokenKind::UnclosedComment
+                | TokenKind::Symbol => {}
             }
         }
         labels
@@ -308,7 +327,13 @@ impl Reader<'_> {
                     let word = number.checked_sub(1).and_then(|number| self.word(number));
                     return word.unwrap_or_default().to_owned();
                 }
-                _ => {}
+                TokenKind::Word
+                | TokenKind::Number
+                | TokenKind::Text
+                | TokenKind::UnclosedText
+                | TokenKind::Comment
+                | TokenKind::UnclosedComment
+                | TokenKind::Symbol => {}
             }
         }
         String::new()
@@ -334,10 +359,12 @@ impl Reader<'_> {
         if self.is_symbol(last, &["+", "-", "*", "/", "^"]) {
             return Wanted::Value(self.field_before(before));
         }
-        match token.kind {
-            TokenKind::Number if !is_next_line => Wanted::Unit(self.field_before(before)),
-            TokenKind::Word if !is_next_line && depth == 0 => Wanted::Head(self.words_before(before)),
-            _ => Wanted::Entry,
+        if token.kind == TokenKind::Number && !is_next_line {
+            Wanted::Unit(self.field_before(before))
+        } else if token.kind == TokenKind::Word && !is_next_line && depth == 0 {
+            Wanted::Head(self.words_before(before))
+        } else {
+            Wanted::Entry
         }
     }
 }

@@ -37,10 +37,10 @@ pub(super) fn hints(analysis: &Analysis, path: &str, within: Range<usize>) -> Ve
         if span.end < within.start || span.start > within.end {
             continue;
         }
-        match site.kind {
-            Kind::Auto => found.extend(of_auto(analysis, path, &site)),
-            Kind::Value(value) => of_value(value, &site, &evaluator, &mut found),
-            _ => {}
+        if let Kind::Auto = site.kind {
+            found.extend(of_auto(analysis, path, &site));
+        } else if let Kind::Value(value) = site.kind {
+            of_value(value, &site, &evaluator, &mut found);
         }
     }
     found

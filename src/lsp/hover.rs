@@ -92,12 +92,14 @@ fn values(analysis: &Analysis, expr: &Spanned<Expr>) -> Option<String> {
 }
 
 fn whole_value(analysis: &Analysis, sites: &[Site<'_>]) -> Option<Told> {
-    let value = sites.iter().rev().find_map(|site| match site.kind {
-        Kind::Value(value) => Some((site.span, value)),
-        _ => None,
+    let (span, value) = sites.iter().rev().find_map(|site| {
+        let Kind::Value(value) = site.kind else {
+            return None;
+        };
+        Some((site.span, value))
     })?;
-    let text = values(analysis, value.1)?;
-    Some(Told { span: value.0, text })
+    let text = values(analysis, value)?;
+    Some(Told { span, text })
 }
 
 /// A name with what it stands for.

@@ -148,10 +148,9 @@ fn clash(analysis: &Analysis, new: &str) -> Option<String> {
         return Some(format!("`{new}` is {what} already, in {file}"));
     }
     analysis.study.files.iter().find_map(|file| {
-        let is_it = |site: &Site<'_>| match site.kind {
-            Kind::Reference(name) => name == new,
-            Kind::Variable => analysis.sources.slice(site.span) == new,
-            _ => false,
+        let is_it = |site: &Site<'_>| {
+            matches!(site.kind, Kind::Reference(_) | Kind::Variable)
+                && analysis.sources.slice(site.span) == new
         };
         let taken = sites(&file.ast).into_iter().any(|site| is_it(&site));
         taken.then(|| {

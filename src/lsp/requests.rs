@@ -213,10 +213,12 @@ fn defined(server: &Server, params: GotoDefinitionParams) -> Answer {
 /// The file that the text under the cursor names.
 fn named_file(server: &Server, asked: &Asked<'_>, offset: usize) -> Option<Location> {
     let sites = sites_at(asked.analysis, &asked.path, offset);
-    let meant = sites.iter().find_map(|site| match site.kind {
-        Kind::Path(Path::Model, name) if Origin::of(name) == Origin::Catalogue => None,
-        Kind::Path(_, written) => Some(file_meant(asked.analysis, site.span.file, written)),
-        _ => None,
+    let meant = sites.iter().find_map(|site| {
+        let Kind::Path(path, written) = site.kind else {
+            return None;
+        };
+        let is_file = path != Path::Model || Origin::of(written) != Origin::Catalogue;
+        is_file.then(|| file_meant(asked.analysis, site.span.file, written))
     })?;
     let start = Position::default();
     Some(Location {

@@ -188,11 +188,11 @@ impl<'a> Row<'a> {
                     let field = spec.and_then(|spec| spec.field(&name.node));
                     let place = Place { field, ..place };
                     self.push(name.span, Kind::Field(&name.node), place);
-                    match (&value.node, place.words, name.node.as_str()) {
-                        (Expr::Text(path), Words::OfTarget, "profile") => {
-                            self.push(value.span, Kind::Path(Path::Profile, path), place);
-                        }
-                        _ => self.value(value, place, None),
+                    let is_profile = place.words == Words::OfTarget && name.node == "profile";
+                    if let (Expr::Text(path), true) = (&value.node, is_profile) {
+                        self.push(value.span, Kind::Path(Path::Profile, path), place);
+                    } else {
+                        self.value(value, place, None);
                     }
                 }
                 Entry::Formula { .. } | Entry::Curve { .. } => self.profile_entry(entry, place),
@@ -215,23 +215,20 @@ impl<'a> Row<'a> {
             field,
             ..place
         };
-        match field.map(|field| field.takes) {
-            Some(Takes::Fields(spec)) => {
-                self.push(*span, Kind::Block, within(place.block));
-                self.entries(&inner.entries, Some(spec), within(word));
-            }
-            _ if outer.is_some_and(|spec| spec.inner == Inner::TargetOptions) => {
-                let place = Place {
-                    words: Words::OfTarget,
-                    ..within(word)
-                };
-                self.push(*span, Kind::Block, place);
-                self.entries(&inner.entries, None, place);
-            }
-            _ => {
-                self.push(*span, Kind::Block, within(place.block));
-                self.entries(&inner.entries, None, within(word));
-            }
+        let is_target = outer.is_some_and(|spec| spec.inner == Inner::TargetOptions);
+        if let Some(Takes::Fields(spec)) = field.map(|field| field.takes) {
+            self.push(*span, Kind::Block, within(place.block));
+            self.entries(&inner.entries, Some(spec), within(word));
+        } else if is_target && field.is_none() {
+            let place = Place {
+                words: Words::OfTarget,
+                ..within(word)
+            };
+            self.push(*span, Kind::Block, place);
+            self.entries(&inner.entries, None, place);
+        } else {
+            self.push(*span, Kind::Block, within(place.block));
+            self.entries(&inner.entries, None, within(word));
         }
     }
 
@@ -330,9 +327,10 @@ impl<'a> Row<'a> {
                 }
             }
             Expr::Name(name) => {
-                let kind = match variable {
-                    Some(variable) if variable == name => Kind::Variable,
-                    _ => bare_word(name, place.field),
+                let kind = if variable == Some(name.as_str()) {
+                    Kind::Variable
+                } else {
+                    bare_word(name, place.field)
                 };
                 self.push(part.span, kind, place);
             }
