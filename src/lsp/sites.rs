@@ -440,7 +440,11 @@ mod tests {
                 seen.insert((site.place.block.to_owned(), field.name));
                 holds(file, field, site.span);
                 if let Some(name) = name.filter(|_| field.form == Form::Value) {
-                    let missing = has(&with(file, name.to(site.span), ""), "VC0206");
+                    // With the comma behind it, which would belong to nothing.
+                    let rest = text[site.span.end as usize..].trim_start_matches(' ');
+                    let end = text.len() - rest.trim_start_matches(',').len();
+                    let whole = Span::of_bytes(id, name.start as usize..end);
+                    let missing = has(&with(file, whole, ""), "VC0206");
                     assert_eq!(missing, field.need == Need::Required, "{} without", field.name);
                 }
             }
