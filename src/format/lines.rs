@@ -44,7 +44,7 @@ impl Writer {
         if !self.text.is_empty() {
             self.text.push('\n');
         }
-        if gap == Gap::EmptyLine && !is_first {
+        if gap == Gap::Apart && !is_first {
             self.text.push('\n');
         }
         self.text.extend(std::iter::repeat_n(' ', self.depth * STEP));
@@ -67,7 +67,7 @@ impl Writer {
             self.statement(statement, column);
             self.comments_behind(&statement.trailing);
         }
-        self.comments_before(closing, Gap::NewLine, statements.is_empty());
+        self.comments_before(closing, Gap::Below, statements.is_empty());
     }
 
     /// Comments before a statement. Returns whether the statement goes on their last line.
@@ -79,7 +79,7 @@ impl Writer {
             }
             self.text.push_str(&comment.text);
             let next = comments.get(at + 1).map_or(gap, |next| next.gap);
-            is_begun = next == Gap::SameLine;
+            is_begun = next == Gap::Beside;
             if is_begun {
                 self.text.push(' ');
             }
@@ -119,7 +119,7 @@ impl Writer {
             self.text.push_str(&comment.text);
             is_begun = comment.ends_its_line();
             if is_begun {
-                self.begin_line(Gap::NewLine, false);
+                self.begin_line(Gap::Below, false);
             }
         }
         self.text.push_str(if is_begun { "{" } else { " {" });
@@ -127,7 +127,7 @@ impl Writer {
         self.depth += 1;
         self.statements(&body.statements, &body.closing);
         self.depth -= 1;
-        self.begin_line(Gap::NewLine, false);
+        self.begin_line(Gap::Below, false);
         self.text.push('}');
     }
 }
@@ -214,7 +214,7 @@ fn columns(statements: &[Statement<'_>], depth: usize) -> Vec<usize> {
         let mut count = 1;
         while let Some((_, Some((_, next)))) = members.next_if(|(statement, next)| {
             let is_of_the_family = next.is_some_and(|(next, _)| next == family);
-            is_of_the_family && statement.gap != Gap::EmptyLine && statement.leading.is_empty()
+            is_of_the_family && statement.gap != Gap::Apart && statement.leading.is_empty()
         }) {
             width = width.max(next);
             count += 1;
@@ -233,7 +233,7 @@ fn member(found: &Statement<'_>, depth: usize) -> Option<(Family, usize)> {
         (Kind::Block, Some(_)) if depth > 0 && one_line(found, depth, 0).is_some() => Family::Fields,
         (Kind::Block | Kind::Plain, _) => return None,
     };
-    let begins_its_line = found.leading.last().is_none_or(|_| found.gap != Gap::SameLine);
+    let begins_its_line = found.leading.last().is_none_or(|_| found.gap != Gap::Beside);
     let name = cut(found.kind, &found.words).name;
     let has_comments = name.iter().any(|word| !word.comments.is_empty());
     let docs: Vec<Doc> = super::value::name(name);

@@ -12,11 +12,11 @@ use crate::syntax::lexical::{Bracket, Token, TokenKind, tokens};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Gap {
     /// They are on one line.
-    SameLine,
+    Beside,
     /// A line ends between them.
-    NewLine,
+    Below,
     /// There are empty lines between them.
-    EmptyLine,
+    Apart,
 }
 
 /// A comment, with line ends of one kind and without blanks behind it.
@@ -198,13 +198,13 @@ impl Between {
     /// Those that belong to what is before them, and those of what follows. Without a line end in between, those behind a comma
     /// (and behind a brace all) belong to what follows.
     fn split(mut self, is_ours: impl Fn(bool) -> bool) -> (Vec<Comment>, Following) {
-        let on_the_line = |(comment, _): &(Comment, bool)| comment.gap == Gap::SameLine;
+        let on_the_line = |(comment, _): &(Comment, bool)| comment.gap == Gap::Beside;
         let count = self
             .comments
             .iter()
             .take_while(|found| on_the_line(found))
             .count();
-        let line_ends = count < self.comments.len() || self.gap != Gap::SameLine;
+        let line_ends = count < self.comments.len() || self.gap != Gap::Beside;
         let ours = if line_ends {
             count
         } else {
@@ -305,7 +305,7 @@ impl<'t> Reader<'t> {
         }
         let gap = match self.peek() {
             Some(next) => gap(self.slice(end, next.start)),
-            None => Gap::NewLine,
+            None => Gap::Below,
         };
         Between { comments, gap }
     }
@@ -401,7 +401,7 @@ impl<'t> Reader<'t> {
         Statement {
             kind,
             leading: Vec::new(),
-            gap: Gap::SameLine,
+            gap: Gap::Beside,
             words,
             body,
             trailing: Vec::new(),
@@ -434,9 +434,9 @@ impl<'t> Reader<'t> {
 
 fn gap(between: &str) -> Gap {
     match gap_lines(between) {
-        0 => Gap::SameLine,
-        1 => Gap::NewLine,
-        _ => Gap::EmptyLine,
+        0 => Gap::Beside,
+        1 => Gap::Below,
+        _ => Gap::Apart,
     }
 }
 

@@ -180,12 +180,12 @@ fn comments(text: &str) -> Vec<String> {
             let length = rest.find('\n').unwrap_or(rest.len());
             found.push(rest[..length].trim_end().to_owned());
             length
-        } else if rest.starts_with("/*") {
-            let length = rest[2..].find("*/").unwrap() + 4;
+        } else if let Some(inside) = rest.strip_prefix("/*") {
+            let length = inside.find("*/").unwrap() + 4;
             found.push(rest[..length].to_owned());
             length
-        } else if rest.starts_with('"') {
-            rest[1..].find('"').unwrap() + 2
+        } else if let Some(inside) = rest.strip_prefix('"') {
+            inside.find('"').unwrap() + 2
         } else {
             1
         };

@@ -149,9 +149,9 @@ fn list_length(words: &[Word<'_>]) -> usize {
 fn split_at_line_end(comments: &[Comment], gap: Gap) -> (&[Comment], &[Comment]) {
     let count = comments
         .iter()
-        .take_while(|comment| comment.gap == Gap::SameLine)
+        .take_while(|comment| comment.gap == Gap::Beside)
         .count();
-    let line_ends = count < comments.len() || gap != Gap::SameLine;
+    let line_ends = count < comments.len() || gap != Gap::Beside;
     comments.split_at(if line_ends { count } else { 0 })
 }
 
@@ -316,8 +316,8 @@ fn leading(comments: &[Comment], gap: Gap, docs: &mut Vec<Doc>) {
         let next = comments.get(at + 1).map_or(gap, |next| next.gap);
         docs.push(Doc::text(comment.text.clone()));
         docs.push(match next {
-            Gap::SameLine => Doc::blank(),
-            Gap::NewLine | Gap::EmptyLine => Doc::Hard,
+            Gap::Beside => Doc::blank(),
+            Gap::Below | Gap::Apart => Doc::Hard,
         });
     }
 }
@@ -326,7 +326,7 @@ fn leading(comments: &[Comment], gap: Gap, docs: &mut Vec<Doc>) {
 fn dangling(comments: &[Comment], values: &[Value<'_, '_>], tail: Tail, docs: &mut Vec<Doc>) {
     let mut after_line_end = tail == Tail::LineComment;
     for (at, comment) in comments.iter().enumerate() {
-        let is_on_the_line = comment.gap == Gap::SameLine && !after_line_end;
+        let is_on_the_line = comment.gap == Gap::Beside && !after_line_end;
         if !values.is_empty() || at > 0 {
             docs.push(if is_on_the_line { Doc::blank() } else { Doc::Hard });
         }
