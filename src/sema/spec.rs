@@ -55,6 +55,7 @@ pub(crate) enum Need {
 /// What the value of a field is. The blocks' own checks read it; this is for those who help to write it, and tests hold the
 /// two against each other.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
 pub(crate) enum Takes {
     /// Nothing that can be said in advance.
     Anything,
@@ -91,13 +92,13 @@ pub(crate) struct FieldSpec {
     /// A typical value; for a block with its braces.
     pub(crate) typical: &'static str,
     /// Whether it must be there.
-    #[cfg_attr(not(feature = "lsp"), expect(dead_code, reason = "for editors"))]
+    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
     pub(crate) need: Need,
     /// What its value is.
-    #[cfg_attr(not(feature = "lsp"), expect(dead_code, reason = "for editors"))]
+    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
     pub(crate) takes: Takes,
     /// Whether it takes `auto`.
-    #[cfg_attr(not(feature = "lsp"), expect(dead_code, reason = "for editors"))]
+    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
     pub(crate) leaving: Leaving,
 }
 
