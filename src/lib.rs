@@ -15,6 +15,8 @@ pub mod geom;
 pub mod job;
 pub mod kinematics;
 pub mod lower;
+#[cfg(feature = "lsp")]
+pub mod lsp;
 pub mod machine;
 pub mod manifest;
 pub mod numbers;

@@ -199,6 +199,16 @@ pub(super) enum Command {
         #[arg(long, value_name = "W,X,Y,Z", allow_hyphen_values = true)]
         quaternion: Option<String>,
     },
+    /// Answer an editor's questions about job files, over standard input and output
+    ///
+    /// Speaks the Language Server Protocol: diagnostics while typing, fixes, explanations, completion, definitions, renaming.
+    /// Editors start it; docs/editors.md says how.
+    #[cfg(feature = "lsp")]
+    Lsp {
+        /// Over standard input and output, which is the only way; some editors say so
+        #[arg(long)]
+        stdio: bool,
+    },
     /// Draw a picture of a job as SVG
     ///
     /// Compiles the job and draws one aspect of what comes of it. docs/pictures.md shows each of them.

@@ -102,7 +102,7 @@ fn load_error(error: &io::Error) -> LoadError {
 }
 
 /// The compiler joins paths with `/`, which Windows takes too; elsewhere `\` is a letter like any other.
-fn with_forward_slashes(path: &str) -> String {
+pub(super) fn with_forward_slashes(path: &str) -> String {
     if cfg!(windows) {
         path.replace('\\', "/")
     } else {

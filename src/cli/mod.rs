@@ -8,6 +8,7 @@
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
 //! | the picture of `plot` | standard output, or the file of `-o` |
 //! | the page of `report` | the file of `-o`, or standard output with `-o -` |
+//! | messages of `lsp` | standard output |
 //! | pages of `explain`, `machines`, answers of `fk` and `ik`, list of `targets`, help | standard output |
 //! | diagnostics, summary, timings, progress, what `verify` finds | standard error |
 //!
@@ -46,6 +47,8 @@ mod fmt;
 mod inner;
 mod joints;
 mod kinematics;
+#[cfg(feature = "lsp")]
+mod lsp;
 mod machines;
 mod optimize;
 mod output;
@@ -113,6 +116,8 @@ pub fn run(linked: &Targets) -> ExitCode {
             pose,
             quaternion,
         }) => kinematics::inverse(cell, pose, quaternion.as_deref(), &console),
+        #[cfg(feature = "lsp")]
+        Some(Command::Lsp { stdio: _ }) => return lsp::serve(targets),
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
         Some(Command::Plot(plot)) => plot::plot(plot, targets, &console),
         Some(Command::Report(report)) => report::report(report, targets, &console),

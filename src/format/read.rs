@@ -347,9 +347,10 @@ impl<'t> Reader<'t> {
                 self.statement(Kind::Value, span.bytes().end)
             }
             Entry::Curve { curve, span } => match curve {
-                Curve::Points { options, .. } | Curve::Airfoil { options, .. } => {
-                    self.block(Kind::Curve, options, span.bytes().end)
-                }
+                Curve::Points { options, .. }
+                | Curve::Airfoil { options, .. }
+                | Curve::Dxf { options, .. }
+                | Curve::Svg { options, .. } => self.block(Kind::Curve, options, span.bytes().end),
                 Curve::Start(_)
                 | Curve::Line { .. }
                 | Curve::Arc { .. }
@@ -357,6 +358,7 @@ impl<'t> Reader<'t> {
                 | Curve::Spline { .. }
                 | Curve::Polyline { .. } => self.statement(Kind::Curve, span.bytes().end),
             },
+            Entry::Tips { span, .. } => self.statement(Kind::Curve, span.bytes().end),
             Entry::Block(block) => self.block(Kind::Block, &block.entries, block.span.bytes().end),
         }
     }

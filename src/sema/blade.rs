@@ -1,9 +1,9 @@
 //! `blade NAME { ... }`.
 
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, value};
+use super::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
 use super::range::{DISTANCE, HALF_APEX, SIZE};
-use super::read::Reader;
+use super::read::{Reader, words_of};
 use super::report::Checked;
 use super::session::Session;
 use crate::job::Blade;
@@ -11,13 +11,15 @@ use crate::source::Spanned;
 use crate::syntax::ast::Block;
 use vcutc_backend_api::ir::Edges;
 
-const SPEC: BlockSpec = BlockSpec {
+pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`blade`",
     fields: &[
-        value("cutting_length", "10 mm"),
-        value("half_apex", "7.13 deg"),
-        value("thickness", "1.5 mm"),
-        value("edges", "double"),
+        value("cutting_length", "10 mm").required().within(SIZE),
+        value("half_apex", "7.13 deg").required().within(HALF_APEX),
+        value("thickness", "1.5 mm").required().within(DISTANCE),
+        value("edges", "double")
+            .required()
+            .takes(Takes::Words(|| words_of(EDGES))),
     ],
     inner: Inner::Refused,
 };

@@ -4,7 +4,7 @@
 //! machine in the job's own file is meant, or the only one there is.
 
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, value};
+use super::fields::{BlockSpec, Fields, Inner, Takes, value};
 use super::gather::{MachineBlock, Placed, Standing};
 use super::names::{Definition, Thing, did_you_mean};
 use super::read::looks_like;
@@ -16,9 +16,9 @@ use crate::job::Machine;
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::Expr;
 
-const SPEC: BlockSpec = BlockSpec {
+pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`cell`",
-    fields: &[value("machine", "gantry")],
+    fields: &[value("machine", "gantry").required().takes(Takes::Machine)],
     inner: Inner::Refused,
 };
 

@@ -1,6 +1,6 @@
 //! The fields of a block, sorted by name.
 //!
-//! Which fields a block has is a table ([`BlockSpec`]). Sorting the entries into it finds everything that does not
+//! Which fields a block has is a table ([`BlockSpec`], in `spec`). Sorting the entries into it finds everything that does not
 //! depend on values: unknown names, fields given twice, things that belong elsewhere. Reading a field then finds the
 //! rest. A field whose fault has been reported is remembered as such, and reading it stays quiet.
 
@@ -13,134 +13,8 @@ use crate::source::{SourceMap, Span, Spanned};
 use crate::syntax::ast::{Block, Curve, Entry, Expr, HeadPart, Point, Relation};
 use std::collections::BTreeMap;
 
-/// What kind of entry a field is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
-    /// `name = value`.
-    Value,
-    /// `name { ... }`.
-    Block,
-    /// `name <= value`.
-    Limit,
-    /// `name <= value`, `name >= value`, or both.
-    Bounds,
-    /// `name (x, z) (x, z) ...`.
-    Points,
-}
-
-/// How an entry is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Written {
-    /// `name = value`.
-    Value,
-    /// `name { ... }`.
-    Block,
-    /// `name <= value` or `name >= value`.
-    Limit(Relation),
-    /// `name (x, z) (x, z) ...`.
-    Points,
-}
-
-impl Form {
-    /// Whether a field of this form is written so.
-    const fn takes(self, written: Written) -> bool {
-        match (self, written) {
-            (Self::Value, Written::Value)
-            | (Self::Block, Written::Block)
-            | (Self::Limit, Written::Limit(Relation::AtMost))
-            | (Self::Bounds, Written::Limit(Relation::AtMost | Relation::AtLeast))
-            | (Self::Points, Written::Points) => true,
-            (Self::Value | Self::Block | Self::Limit | Self::Bounds | Self::Points, _) => false,
-        }
-    }
-}
-
-/// A field that a block can have.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FieldSpec {
-    /// Its name.
-    pub(crate) name: &'static str,
-    /// What kind of entry it is.
-    pub(crate) form: Form,
-    /// A typical value; for a block with its braces.
-    pub(crate) typical: &'static str,
-}
-
-impl FieldSpec {
-    /// The whole field with its typical value.
-    fn sample(&self) -> String {
-        match self.form {
-            Form::Value => format!("{} = {}", self.name, self.typical),
-            Form::Block | Form::Points => format!("{} {}", self.name, self.typical),
-            Form::Limit | Form::Bounds => format!("{} <= {}", self.name, self.typical),
-        }
-    }
-}
-
-/// A field of the form `name = value`.
-pub(crate) const fn value(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec {
-        name,
-        form: Form::Value,
-        typical,
-    }
-}
-
-/// A field of the form `name { ... }`.
-pub(crate) const fn block(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec {
-        name,
-        form: Form::Block,
-        typical,
-    }
-}
-
-/// A field of the form `name (x, z) (x, z) ...`.
-pub(crate) const fn points(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec {
-        name,
-        form: Form::Points,
-        typical,
-    }
-}
-
-/// A field of the form `name <= value`.
-pub(crate) const fn limit(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec {
-        name,
-        form: Form::Limit,
-        typical,
-    }
-}
-
-/// A field of the forms `name <= value` and `name >= value`.
-pub(crate) const fn bounds(name: &'static str, typical: &'static str) -> FieldSpec {
-    FieldSpec {
-        name,
-        form: Form::Bounds,
-        typical,
-    }
-}
-
-/// A kind of block.
-#[derive(Debug)]
-pub(crate) struct BlockSpec {
-    /// What it is called in a sentence, such as `` `rough vcut` ``.
-    pub(crate) title: &'static str,
-    /// Its fields, in the order in which people write them.
-    pub(crate) fields: &'static [FieldSpec],
-    /// What becomes of inner blocks that are no fields.
-    pub(crate) inner: Inner,
-}
-
-/// What becomes of inner blocks that are no fields.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Inner {
-    /// They are unknown.
-    Refused,
-    /// They are options for a target.
-    TargetOptions,
-}
+use super::spec::Written;
+pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Takes, block, bounds, limit, points, value};
 
 /// Where a block stands, as far as its fields need to know.
 #[derive(Clone, Copy, Debug)]
@@ -233,7 +107,7 @@ impl<'a> Fields<'a> {
         match &head.node {
             HeadPart::Word(word) => {
                 let name = Spanned::new(word.clone(), head.span);
-                let is_field = self.spec.fields.iter().any(|field| field.name == *word);
+                let is_field = self.spec.field(word).is_some();
                 if !is_field && self.spec.inner == Inner::TargetOptions {
                     self.targets.push(inner);
                 } else if is_field {
@@ -254,7 +128,7 @@ impl<'a> Fields<'a> {
     /// Puts an entry to its field.
     fn put(&mut self, given: Given<'_, 'a>, reports: &mut Reports) {
         let name = given.name;
-        let Some(spec) = self.spec.fields.iter().find(|spec| spec.name == name.node) else {
+        let Some(spec) = self.spec.field(&name.node) else {
             reports.push(self.unknown_field(name));
             return;
         };
@@ -329,8 +203,7 @@ impl<'a> Fields<'a> {
 
     /// A typical value of a field.
     pub(crate) fn typical(&self, name: &str) -> Option<&'static str> {
-        let spec = self.spec.fields.iter().find(|spec| spec.name == name);
-        spec.map(|spec| spec.typical)
+        self.spec.field(name).map(|spec| spec.typical)
     }
 
     /// Reports a field that must be given and is not.
@@ -338,7 +211,7 @@ impl<'a> Fields<'a> {
         if let Some(reported) = self.damage {
             return reported;
         }
-        let spec = self.spec.fields.iter().find(|spec| spec.name == name);
+        let spec = self.spec.field(name);
         let sample = spec.map_or_else(|| name.to_owned(), FieldSpec::sample);
         let diagnostic = Diagnostic::new(
             Code::MissingField,

@@ -18,6 +18,9 @@ use vcutc_backend_api::units::Angle;
 pub(crate) const FRAME: &str = "frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)";
 const KEPT: &str = "number(3, frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg))";
 
+/// The calls that a field of a frame takes.
+pub(crate) const CALLS: &[(&str, &str)] = &[("frame", FRAME), ("number", KEPT)];
+
 /// A coordinate of a frame's origin or a load's centre.
 pub(crate) const fn coordinate(name: &str) -> Parameter<'_> {
     Parameter {
@@ -47,7 +50,6 @@ const WITH_ANGLES: &[Parameter<'_>; 6] = &[
 
 /// The field of a frame.
 pub(crate) fn read(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<PlacedFrame> {
-    const CALLS: &[(&str, &str)] = &[("frame", FRAME), ("number", KEPT)];
     let call = calls(field, expr, CALLS, reader.reports)?;
     if call.function == "number" {
         return kept(field, &call, reader);

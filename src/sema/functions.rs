@@ -72,6 +72,12 @@ const FUNCTIONS: &[Function] = &[
     ),
 ];
 
+/// The names of all functions, each with a call of it.
+#[cfg(feature = "lsp")]
+pub(super) fn examples() -> impl Iterator<Item = (&'static str, &'static str)> {
+    FUNCTIONS.iter().map(|function| (function.name, function.example))
+}
+
 /// Calls that are values only of certain fields, and where they belong.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("frame", "behind `tool` and `base` of a machine"),

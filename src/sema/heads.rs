@@ -27,7 +27,7 @@ pub(crate) enum Kind<'a> {
 }
 
 /// First words of heads, and how a whole head looks.
-const FORMS: &[(&str, &str)] = &[
+pub(crate) const FORMS: &[(&str, &str)] = &[
     ("stock", "stock { ... }"),
     ("profile", "profile { ... }"),
     ("blade", "blade NAME { ... }"),
@@ -40,7 +40,7 @@ const FORMS: &[(&str, &str)] = &[
 ];
 
 /// What may follow `rough`.
-const ROUGHINGS: &[&str] = &["vcut"];
+pub(crate) const ROUGHINGS: &[&str] = &["vcut"];
 
 /// Kinds of machine.
 pub(crate) const MACHINES: &[(&str, MachineKind)] = &[

@@ -15,6 +15,9 @@ use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MOST_AXES, MachineKind};
 /// How the home of a robot is written.
 pub(crate) const JOINTS: &str = "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)";
 
+/// The calls that the home of a robot takes.
+pub(crate) const CALLS: &[(&str, &str)] = &[("joints", JOINTS)];
+
 /// Where an axis is at home.
 struct Place {
     value: f64,
@@ -44,7 +47,7 @@ pub(crate) fn read(
 
 /// `joints(a1, a2, a3, a4, a5, a6)`.
 fn joints(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Vec<Place>> {
-    let call = calls("home", expr, &[("joints", JOINTS)], reader.reports)?;
+    let call = calls("home", expr, CALLS, reader.reports)?;
     let angles: [f64; 6] = call.listed(AXIS_ANGLE, "the angle of an axis", reader)?;
     let spans = call.all().iter().map(|argument| argument.value.span);
     Ok(angles

@@ -13,16 +13,16 @@ use crate::job::{Bounds, Limits, Sourced};
 use crate::source::Span;
 use crate::syntax::ast::Block;
 
-const LIMITS: BlockSpec = BlockSpec {
+pub(super) const LIMITS: BlockSpec = BlockSpec {
     title: "`limits`",
     fields: &[
-        bounds("swing", "50 deg"),
-        bounds("layer", "6 mm"),
-        bounds("step", "8 mm"),
-        limit("scallop", "10 mm"),
-        limit("edge", "10 mm"),
-        limit("time", "10 min"),
-        limit("cuts", "200"),
+        bounds("swing", "50 deg").within(SWING),
+        bounds("layer", "6 mm").within(SIZE),
+        bounds("step", "8 mm").within(SIZE),
+        limit("scallop", "10 mm").within(SIZE),
+        limit("edge", "10 mm").within(SIZE),
+        limit("time", "10 min").within(LONGEST_TIME),
+        limit("cuts", "200").within(MOST_CUTS),
     ],
     inner: Inner::Refused,
 };

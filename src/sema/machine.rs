@@ -2,7 +2,7 @@
 
 use super::arguments::{Parameter, calls};
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, value};
+use super::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
 use super::frame::{self, FRAME, coordinate};
 use super::home::{self, JOINTS};
 use super::range::{MASS, SIGNAL, TABLE_NUMBER, WAIT};
@@ -17,20 +17,25 @@ use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Load, MachineKind, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::units::{Duration, Mass};
 
+const LOADS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
+const OUTPUTS: &[(&str, &str)] = &[("output", "output(12)")];
+const READY: &[(&str, &str)] = &[("input", "input(7)"), ("after", "after(0.5 s)")];
 const LOAD: &str = "load(mass = 8 kg, x = 0 mm, y = 0 mm, z = 120 mm)";
 
-const SPEC: BlockSpec = BlockSpec {
+pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`machine`",
     fields: &[
-        value("tool", FRAME),
+        value("tool", FRAME).required().takes(Takes::Calls(frame::CALLS)),
         value(
             "base",
             "frame(x = 1800 mm, y = 0 mm, z = 700 mm, a = 0 deg, b = 0 deg, c = 0 deg)",
-        ),
-        value("load", LOAD),
-        value("home", JOINTS),
-        value("ultrasonic", "output(12)"),
-        value("ready", "after(0.5 s)"),
+        )
+        .required()
+        .takes(Takes::Calls(frame::CALLS)),
+        value("load", LOAD).takes(Takes::Calls(LOADS)),
+        value("home", JOINTS).takes(Takes::Calls(home::CALLS)),
+        value("ultrasonic", "output(12)").takes(Takes::Calls(OUTPUTS)),
+        value("ready", "after(0.5 s)").takes(Takes::Calls(READY)),
     ],
     inner: Inner::TargetOptions,
 };
@@ -126,8 +131,7 @@ pub(crate) fn table_number(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Che
 }
 
 fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Load>> {
-    const CALLS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
-    let call = calls(field, expr, CALLS, reader.reports)?;
+    let call = calls(field, expr, LOADS, reader.reports)?;
     if call.function == "number" {
         let number = call.single(reader.reports)?;
         return table_number(number, reader).map(Registered::Number);
@@ -140,14 +144,13 @@ fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<R
 }
 
 fn ultrasonic(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {
-    let call = calls(field, expr, &[("output", "output(12)")], reader.reports)?;
+    let call = calls(field, expr, OUTPUTS, reader.reports)?;
     let number = call.single(reader.reports)?;
     reader.whole(number, SIGNAL, "the number of an output")
 }
 
 fn ready(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Ready> {
-    const CALLS: &[(&str, &str)] = &[("input", "input(7)"), ("after", "after(0.5 s)")];
-    let call = calls(field, expr, CALLS, reader.reports)?;
+    let call = calls(field, expr, READY, reader.reports)?;
     let value = call.single(reader.reports)?;
     if call.function == "input" {
         return reader

@@ -35,21 +35,26 @@ mod read;
 mod report;
 mod rough_vcut;
 mod session;
+mod spec;
 mod stock;
+pub mod study;
 mod tips;
 pub(crate) mod units;
+#[cfg(feature = "lsp")]
+pub(crate) mod vocabulary;
 
 #[cfg(test)]
 mod tests;
 
-use crate::diag::{Diagnostic, has_errors};
-use crate::job::{CheckedJob, Operation};
+use crate::diag::Diagnostic;
+use crate::job::{Blade, CheckedJob, Machine, Operation};
 use crate::source::{LoadError, Loader, SourceMap, Spanned};
 use crate::syntax::ast::Ast;
 use eval::Scope;
 use files::{File, Files};
+use gather::Definitions;
 use missing::Missing;
-use overrides::{Overrides, keep_fixes_to_files};
+use overrides::Overrides;
 use report::Checked;
 use session::Session;
 
@@ -89,34 +94,17 @@ pub fn check(
     sources: &mut SourceMap,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(Option<Ast>, Option<CheckedJob>), LoadError> {
-    let mut session = Session::new(loader, sources);
-    let files = files::load(root, &mut session)?;
-    let overrides = overrides::read(choices.overrides, choices.options.given, &mut session);
-    let wanted = cell::wanted(choices.machine, &mut session);
-    let job = files.first().map(|root| {
-        let said = Said {
-            overrides: &overrides,
-            machine: wanted.as_ref(),
-            options: options::Said {
-                typed: choices.options,
-                read: &overrides.options,
-            },
-        };
-        understand(root, &files, said, &mut session)
-    });
-    let mut found = session.reports.into_vec();
-    found.sort_by_key(|diagnostic| (diagnostic.primary.span.file, diagnostic.primary.span.start));
-    let job = job.and_then(Result::ok).filter(|_| !has_errors(&found));
-    cut_short(&mut found);
-    for diagnostic in &mut found {
-        overrides.keep_fixes_to_files(diagnostic);
-        if let Some(wanted) = &wanted {
-            keep_fixes_to_files(diagnostic, |file| file == wanted.span.file);
-        }
-    }
-    diagnostics.append(&mut found);
-    let tree = files.into_iter().next().map(|file| file.ast);
-    Ok((tree, job))
+    let study = study::study(root, Part::Job, loader, choices, sources, diagnostics)?;
+    Ok((study.files.into_iter().next().map(|file| file.ast), study.job))
+}
+
+/// What a root file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A job, of which nothing may be missing.
+    Job,
+    /// A file that jobs use: names only.
+    Library,
 }
 
 /// Most diagnostics of one run. Nobody reads more, and a file gone wrong may have a million.
@@ -141,8 +129,14 @@ struct Said<'a> {
     options: options::Said<'a>,
 }
 
-/// What the files mean.
-fn understand(root: &File, files: &Files, said: Said<'_>, session: &mut Session<'_>) -> Checked<CheckedJob> {
+/// What the files define, and what it is worth.
+fn understand(
+    root: &File,
+    files: &Files,
+    part: Part,
+    said: Said<'_>,
+    session: &mut Session<'_>,
+) -> (Option<CheckedJob>, Vec<study::Definition>) {
     let all = gather::gather(files, said.overrides, session);
     let values = lets::evaluate(&all.lets, &all.names, &mut session.reports);
     let scope = Scope {
@@ -151,12 +145,28 @@ fn understand(root: &File, files: &Files, said: Said<'_>, session: &mut Session<
         values: &values,
         variable: None,
     };
-    let blades: Vec<_> = all
+    let job = match part {
+        Part::Job => whole(root, &all, said, scope, session).ok(),
+        Part::Library => {
+            named_things(&all, scope, session);
+            None
+        }
+    };
+    (job, study::definitions(&all, &values))
+}
+
+/// The blades and the machines, which a job and a library have alike.
+fn named_things(
+    all: &Definitions<'_>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> (Vec<Checked<Blade>>, Vec<Checked<Machine>>) {
+    let blades = all
         .blades
         .iter()
         .map(|(name, placed)| blade::check(*name, placed.block, placed.place, scope, session))
         .collect();
-    let machines: Vec<_> = all
+    let machines = all
         .machines
         .iter()
         .map(|machine| {
@@ -169,7 +179,19 @@ fn understand(root: &File, files: &Files, said: Said<'_>, session: &mut Session<
             )
         })
         .collect();
-    let missing = Missing::of(root, &all, session);
+    (blades, machines)
+}
+
+/// The whole job.
+fn whole(
+    root: &File,
+    all: &Definitions<'_>,
+    said: Said<'_>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<CheckedJob> {
+    let (blades, machines) = named_things(all, scope, session);
+    let missing = Missing::of(root, all, session);
     let name = match all.job {
         Some(name) => Ok(name),
         None => Err(missing.job(session)),

@@ -53,7 +53,7 @@ pub(crate) struct Names<'a> {
 const MOST_COMPARED: usize = 20_000;
 
 /// Words with a meaning of their own in values.
-const RESERVED: &[&str] = &["auto", "pi"];
+pub(crate) const RESERVED: &[&str] = &["auto", "pi"];
 
 impl<'a> Names<'a> {
     /// Defines a name, or reports why it cannot be defined.

@@ -198,7 +198,7 @@ impl Reader<'_> {
         words: &[(&'static str, T)],
     ) -> Checked<Sourced<T>> {
         let find = |given: &str| words.iter().find(|(word, _)| *word == given);
-        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let known = words_of(words);
         let list = format!("`{name}` takes one of {}", known.join(", "));
         let diagnostic = match &expr.node {
             Expr::Name(word) => match find(word) {
@@ -292,6 +292,11 @@ impl Reader<'_> {
             .reports
             .push(diagnostic.help(format!("write `{whole}`, or another whole number"))))
     }
+}
+
+/// The words of a choice.
+pub(crate) fn words_of<T>(choice: &[(&'static str, T)]) -> Vec<&'static str> {
+    choice.iter().map(|(word, _)| *word).collect()
 }
 
 /// What an expression is called in a sentence, by its looks.

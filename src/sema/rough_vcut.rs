@@ -1,11 +1,11 @@
 //! `rough vcut { ... }`: V-shaped roughing.
 
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, block, head_span, points, value};
+use super::fields::{BlockSpec, Fields, Inner, Place, Takes, block, head_span, points, value};
 use super::limits;
 use super::names::Thing;
 use super::range::{DISTANCE, OVERLAP, RAKE, SIZE, SPEED, SWING, TURNING_RATE};
-use super::read::{Reader, default, looks_like};
+use super::read::{Reader, default, looks_like, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::tips;
@@ -18,33 +18,43 @@ use crate::syntax::ast::{Block, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
 
-const SPEC: BlockSpec = BlockSpec {
+pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`rough vcut`",
     fields: &[
-        value("blade", "dagger"),
+        value("blade", "dagger").required().takes(Takes::Blade),
         points("tips", "(10 mm, 40 mm) (16 mm, 40 mm)"),
-        value("lattice", "auto"),
-        value("rake", "60 deg"),
-        value("swing", "auto"),
-        value("layer", "auto"),
-        value("step", "auto"),
-        value("overlap", "auto"),
-        value("objective", "time"),
-        value("model", "exact"),
-        block("limits", "{ swing <= 50 deg, scallop <= 10 mm }"),
-        value("allowance", "0.5 mm"),
-        value("residual", "auto"),
-        value("order", "auto"),
-        value("sequence", "auto"),
-        value("direction", "alternate"),
+        value("lattice", "auto")
+            .takes(Takes::Words(|| words_of(Lattice::WORDS)))
+            .or_auto(),
+        value("rake", "60 deg").required().within(RAKE),
+        value("swing", "auto").within(SWING).or_auto(),
+        value("layer", "auto").within(SIZE).or_auto(),
+        value("step", "auto").within(SIZE).or_auto(),
+        value("overlap", "auto").within(OVERLAP).or_auto(),
+        value("objective", "time").takes(Takes::Words(|| words_of(Objective::WORDS))),
+        value("model", "exact").takes(Takes::Words(|| words_of(Formulas::WORDS))),
+        block("limits", "{ swing <= 50 deg, scallop <= 10 mm }").takes(Takes::Fields(&limits::LIMITS)),
+        value("allowance", "0.5 mm").within(DISTANCE),
+        value("residual", "auto")
+            .takes(Takes::Words(|| words_of(Residual::WORDS)))
+            .or_auto(),
+        value("order", "auto")
+            .takes(Takes::Words(|| words_of(Order::WORDS)))
+            .or_auto(),
+        value("sequence", "auto")
+            .takes(Takes::Words(|| words_of(Sequence::WORDS)))
+            .or_auto(),
+        value("direction", "alternate").takes(Takes::Words(|| words_of(Direction::WORDS))),
         block(
             "feed",
             "{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
-        ),
-        value("clearance", "10 mm"),
-        value("extension", "auto"),
-        value("run_out", "2 mm"),
-        value("standoff", "auto"),
+        )
+        .required()
+        .takes(Takes::Fields(&FEED)),
+        value("clearance", "10 mm").required().within(SIZE),
+        value("extension", "auto").within(DISTANCE).or_auto(),
+        value("run_out", "2 mm").within(DISTANCE),
+        value("standoff", "auto").within(DISTANCE).or_auto(),
     ],
     inner: Inner::Refused,
 };
@@ -52,9 +62,9 @@ const SPEC: BlockSpec = BlockSpec {
 const FEED: BlockSpec = BlockSpec {
     title: "`feed`",
     fields: &[
-        value("cut", "200 mm/s"),
-        value("travel", "200 mm/s"),
-        value("reorient", "90 deg/s"),
+        value("cut", "200 mm/s").required().within(SPEED),
+        value("travel", "200 mm/s").required().within(SPEED),
+        value("reorient", "90 deg/s").required().within(TURNING_RATE),
     ],
     inner: Inner::Refused,
 };

@@ -12,9 +12,9 @@ use crate::syntax::ast::{Block, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 
-const SPEC: BlockSpec = BlockSpec {
+pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`stock`",
-    fields: &[value("size", "(85 mm, 50 mm, 50 mm)")],
+    fields: &[value("size", "(85 mm, 50 mm, 50 mm)").required().within(SIZE)],
     inner: Inner::Refused,
 };
 

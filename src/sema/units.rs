@@ -5,11 +5,11 @@ use super::quantity::Quantity;
 use core::f64::consts::PI;
 
 /// A unit.
-struct Unit {
-    name: &'static str,
+pub(super) struct Unit {
+    pub(super) name: &'static str,
     /// One of it in mm, rad, s, kg.
-    size: f64,
-    dimension: Dimension,
+    pub(super) size: f64,
+    pub(super) dimension: Dimension,
 }
 
 const fn unit(name: &'static str, size: f64, dimension: Dimension) -> Unit {
@@ -21,7 +21,7 @@ const fn unit(name: &'static str, size: f64, dimension: Dimension) -> Unit {
 }
 
 /// All simple units. The inch is 25.4 mm exactly (international yard and pound agreement, 1959).
-const UNITS: &[Unit] = &[
+pub(super) const UNITS: &[Unit] = &[
     unit("um", 0.001, Dimension::LENGTH),
     unit("mm", 1.0, Dimension::LENGTH),
     unit("cm", 10.0, Dimension::LENGTH),
@@ -101,6 +101,18 @@ pub(crate) fn quantity(number: f64, name: &str) -> Option<Quantity> {
     let (above, below) = (find(above)?, find(below)?);
     let dimension = above.dimension.over(below.dimension)?;
     Some(Quantity::new(number * above.size / below.size, dimension))
+}
+
+/// The units of a dimension: simple ones, and the quotients that people write.
+#[cfg(feature = "lsp")]
+pub(super) fn fitting(dimension: Dimension) -> Vec<String> {
+    let simple = UNITS.iter().map(|unit| unit.name);
+    let quotients = COMPOUND_ALIASES.iter().map(|(_, unit)| *unit).chain(["rad/s"]);
+    simple
+        .chain(quotients)
+        .filter(|unit| quantity(1.0, unit).is_some_and(|one| one.dimension == dimension))
+        .map(str::to_owned)
+        .collect()
 }
 
 /// The two sides of a quotient of units.

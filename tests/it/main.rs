@@ -31,6 +31,8 @@ mod jobs;
 mod kinematics;
 #[cfg(feature = "krl")]
 mod krl_text;
+#[cfg(all(feature = "krl", feature = "lsp"))]
+mod lsp;
 #[cfg(feature = "krl")]
 mod mutations;
 mod optimum_table;

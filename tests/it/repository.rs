@@ -67,7 +67,7 @@ fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap();
-        if name == "target" || name.starts_with('.') {
+        if ["target", "node_modules"].contains(&name) || name.starts_with('.') {
             continue;
         }
         if path.is_dir() {

@@ -122,6 +122,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "lsp",
+        &[
+            "diag", "driver", "format", "machine", "plan", "sema", "source", "summary", "syntax",
+        ],
+    ),
+    (
         "cli",
         &[
             "comparison",
@@ -132,6 +138,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "format",
             "job",
             "kinematics",
+            "lsp",
             "machine",
             "manifest",
             "numbers",
@@ -169,6 +176,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),
+    ("lsp_types::", &["src/lsp/"]),
     ("tempfile::", &["src/cli/"]),
     ("toml::", &["src/document/"]),
     ("std::fs", &["src/cli/"]),

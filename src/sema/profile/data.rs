@@ -7,35 +7,37 @@ use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::{LARGEST_COORDINATE, Point2};
 use crate::geom::import::{self, DataError};
 use crate::sema::eval::Scope;
-use crate::sema::fields::{BlockSpec, Fields, Inner, Place, value};
+use crate::sema::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
 use crate::sema::files::{not_loaded, text_of};
 use crate::sema::range::{COORDINATE, SCALE, SIZE};
-use crate::sema::read::Reader;
+use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
 use crate::source::{FileId, Span, Spanned, join_path};
 use crate::syntax::ast::Entry;
 use vcutc_backend_api::units::Length;
 
-const POINTS: BlockSpec = BlockSpec {
+pub(crate) const POINTS: BlockSpec = BlockSpec {
     title: "`points`",
     fields: &[
-        value("unit", "mm"),
-        value("x", "0 mm"),
-        value("z", "0 mm"),
-        value("scale", "1"),
+        value("unit", "mm").takes(Takes::Words(|| words_of(FILE_UNITS))),
+        value("x", "0 mm").within(COORDINATE),
+        value("z", "0 mm").within(COORDINATE),
+        value("scale", "1").within(SCALE),
     ],
     inner: Inner::Refused,
 };
 
-const AIRFOIL: BlockSpec = BlockSpec {
+pub(crate) const AIRFOIL: BlockSpec = BlockSpec {
     title: "`airfoil`",
     fields: &[
-        value("side", "upper"),
-        value("chord", "300 mm"),
-        value("x", "0 mm"),
-        value("z", "10 mm"),
-        value("flip", "none"),
+        value("side", "upper")
+            .required()
+            .takes(Takes::Words(|| words_of(SIDES))),
+        value("chord", "300 mm").required().within(SIZE),
+        value("x", "0 mm").within(COORDINATE),
+        value("z", "10 mm").within(COORDINATE),
+        value("flip", "none").takes(Takes::Words(|| words_of(FLIPS))),
     ],
     inner: Inner::Refused,
 };

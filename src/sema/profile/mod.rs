@@ -5,7 +5,7 @@
 //! that causes it.
 
 mod curves;
-mod data;
+pub(crate) mod data;
 mod drawing;
 mod formula;
 mod shape;

@@ -1,0 +1,49 @@
+// The client: starts `vcutc lsp` for job files, and starts it anew when it is asked to.
+
+const vscode = require("vscode");
+const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
+
+/** @type {LanguageClient | undefined} */
+let client;
+
+async function start() {
+  const settings = vscode.workspace.getConfiguration("vcut");
+  const command = settings.get("server.path", "vcutc");
+  const server = { command, args: ["lsp"], transport: TransportKind.stdio };
+  const options = {
+    documentSelector: [{ language: "vcut" }],
+    initializationOptions: { planning: settings.get("planning", "whileTyping") },
+    // Files that jobs name: a change on the disk may make a job right or wrong.
+    synchronize: {
+      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{vcut,toml,urdf,csv,dat}"),
+    },
+  };
+  client = new LanguageClient("vcut", "vcut", server, options);
+  try {
+    await client.start();
+  } catch (error) {
+    const why = error instanceof Error ? error.message : String(error);
+    vscode.window.showErrorMessage(
+      `The language server \`${command} lsp\` does not start: ${why}. Set \`vcut.server.path\`.`,
+    );
+  }
+}
+
+async function stop() {
+  const running = client;
+  client = undefined;
+  if (running?.isRunning()) {
+    await running.stop();
+  }
+}
+
+async function activate(context) {
+  const restart = vscode.commands.registerCommand("vcut.restart", async () => {
+    await stop();
+    await start();
+  });
+  context.subscriptions.push(restart);
+  await start();
+}
+
+module.exports = { activate, deactivate: stop };

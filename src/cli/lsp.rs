@@ -1,0 +1,192 @@
+//! `vcutc lsp`: messages between standard input, the language server, and a thread that plans.
+//!
+//! Messages are taken in the order in which they come. When none waits, what has changed is looked at and told; when none
+//! comes for a moment, a job that is right so far goes to the thread that plans, one at a time.
+
+use super::Targets;
+use super::files::{load_file, with_forward_slashes};
+use crate::lsp::wire::{self, Broken, Incoming};
+use crate::lsp::{Done, Ending, Server, Task, Workspace};
+use crate::source::{LoadError, Loader};
+use serde_json::Value;
+use std::io::{self, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
+use std::thread;
+use std::time::Duration;
+use vcutc_backend_api::backend::Backend;
+
+/// How long nobody must have typed before a job is planned.
+const PAUSE: Duration = Duration::from_millis(250);
+
+/// Something that the server has to look at.
+enum Event {
+    Message(Incoming),
+    Broken(Broken),
+    Planned(Box<Done>),
+}
+
+/// Whether a job is being planned.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Planner {
+    Idle,
+    Busy,
+}
+
+/// Serves an editor until it says good-bye. By the protocol the end is 0 if it did so as agreed, and else 1.
+pub(super) fn serve(targets: &Targets) -> ExitCode {
+    let (sender, events) = channel();
+    let tasks = planner(targets.to_vec(), sender.clone());
+    thread::spawn(move || read_all(&sender));
+    let mut conversation = Conversation {
+        server: Server::new(targets),
+        tasks,
+        planner: Planner::Idle,
+    };
+    match conversation.hold(&events) {
+        Ok(Ending::Agreed) => ExitCode::SUCCESS,
+        Ok(Ending::Abrupt) | Err(_) => ExitCode::from(1),
+    }
+}
+
+/// Reads messages for as long as there are any.
+fn read_all(events: &Sender<Event>) {
+    let mut stream = BufReader::new(io::stdin());
+    loop {
+        let event = match wire::read(&mut stream) {
+            Ok(message) => Event::Message(message),
+            Err(broken) => Event::Broken(broken),
+        };
+        let is_last = matches!(event, Event::Broken(_));
+        if events.send(event).is_err() || is_last {
+            return;
+        }
+    }
+}
+
+/// A thread that plans what it is given.
+fn planner(targets: Vec<&'static dyn Backend>, events: Sender<Event>) -> Sender<Task> {
+    let (tasks, given) = channel::<Task>();
+    thread::spawn(move || {
+        for task in given {
+            let done = task.run(&Disk, &targets);
+            if events.send(Event::Planned(Box::new(done))).is_err() {
+                return;
+            }
+        }
+    });
+    tasks
+}
+
+struct Conversation {
+    server: Server,
+    tasks: Sender<Task>,
+    planner: Planner,
+}
+
+impl Conversation {
+    /// Holds it to its end.
+    fn hold(&mut self, events: &Receiver<Event>) -> io::Result<Ending> {
+        loop {
+            let event = match events.try_recv() {
+                Ok(event) => event,
+                Err(TryRecvError::Disconnected) => return Ok(Ending::Abrupt),
+                Err(TryRecvError::Empty) => {
+                    send(&self.server.settle(&Disk))?;
+                    match self.wait(events) {
+                        Some(event) => event,
+                        None => return Ok(Ending::Abrupt),
+                    }
+                }
+            };
+            match event {
+                Event::Message(message) => send(&self.server.handle(message, &Disk))?,
+                Event::Planned(done) => {
+                    self.planner = Planner::Idle;
+                    send(&self.server.finish(*done))?;
+                }
+                Event::Broken(Broken::Ended) => return Ok(Ending::Abrupt),
+                Event::Broken(Broken::Astray(why)) => return Err(io::Error::other(why)),
+            }
+            if let Some(ending) = self.server.ending() {
+                return Ok(ending);
+            }
+        }
+    }
+
+    /// Waits for the next event; a job is planned meanwhile if none comes soon.
+    fn wait(&mut self, events: &Receiver<Event>) -> Option<Event> {
+        if self.planner == Planner::Idle {
+            match events.recv_timeout(PAUSE) {
+                Ok(event) => return Some(event),
+                Err(RecvTimeoutError::Disconnected) => return None,
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Some(task) = self.server.task() {
+                        self.planner = Planner::Busy;
+                        self.tasks.send(task).ok()?;
+                    }
+                }
+            }
+        }
+        events.recv().ok()
+    }
+}
+
+fn send(messages: &[Value]) -> io::Result<()> {
+    let mut stream = io::stdout().lock();
+    for message in messages {
+        wire::write(&mut stream, message)?;
+    }
+    stream.flush()
+}
+
+/// The files of this machine.
+struct Disk;
+
+impl Loader for Disk {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        load_file(Path::new(path))
+    }
+}
+
+/// Most job files that are looked through for the uses of a name.
+const MOST_FILES: usize = 2000;
+
+/// Most entries of folders that are looked at on the way.
+const MOST_ENTRIES: usize = 50_000;
+
+impl Workspace for Disk {
+    fn job_files(&self, folders: &[String]) -> Vec<String> {
+        let mut open: Vec<PathBuf> = folders.iter().rev().map(PathBuf::from).collect();
+        let mut found = Vec::new();
+        let mut looked_at = 0;
+        while let Some(folder) = open.pop() {
+            let Ok(entries) = std::fs::read_dir(&folder) else {
+                continue;
+            };
+            for entry in entries.flatten() {
+                looked_at += 1;
+                if looked_at > MOST_ENTRIES || found.len() >= MOST_FILES {
+                    break;
+                }
+                let (path, name) = (entry.path(), entry.file_name());
+                let name = name.to_string_lossy();
+                // A link may lead round in a circle; hidden and built folders hold no jobs.
+                match entry.file_type() {
+                    Ok(kind) if kind.is_dir() && !is_passed_over(&name) => open.push(path),
+                    Ok(kind) if kind.is_file() && name.ends_with(".vcut") => {
+                        found.extend(path.to_str().map(with_forward_slashes));
+                    }
+                    Ok(_) | Err(_) => {}
+                }
+            }
+        }
+        found.sort();
+        found
+    }
+}
+
+fn is_passed_over(folder: &str) -> bool {
+    folder.starts_with('.') || matches!(folder, "target" | "node_modules")
+}

@@ -1,0 +1,208 @@
+//! What is known of a root file: a job, or a library that no open job uses.
+//!
+//! Text and meaning are looked at as soon as a text changes. What `auto` becomes and whether the machine follows takes
+//! longer, so it is a [`Task`] that is done beside and handed back; an answer for a text that has changed since is thrown
+//! away, because the analysis it belongs to is no longer there.
+
+use super::text::Text;
+use crate::diag::Diagnostic;
+use crate::driver::{self, Request, Typed};
+use crate::plan::PlannedJob;
+use crate::sema::study::{Study, study};
+use crate::sema::{Choices, Part};
+use crate::source::{FileId, LoadError, Loader, SourceMap};
+use crate::syntax::ast::{Ast, Item};
+use std::collections::BTreeMap;
+use vcutc_backend_api::backend::Backend;
+
+/// The texts of open documents, by their paths. They stand for the files.
+pub(super) type OpenTexts = BTreeMap<String, Text>;
+
+/// Open documents over files.
+pub(super) struct Overlay<'a> {
+    pub(super) open: &'a OpenTexts,
+    pub(super) below: &'a dyn Loader,
+}
+
+impl Loader for Overlay<'_> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        match self.open.get(path) {
+            Some(text) => Ok(text.as_str().as_bytes().to_vec()),
+            None => self.below.load(path),
+        }
+    }
+}
+
+/// What is known of a root file.
+#[derive(Debug)]
+pub(super) struct Analysis {
+    /// The path of the root file.
+    pub(super) root: String,
+    /// What it was looked at as.
+    pub(super) part: Part,
+    /// The number of this analysis; no other one has it.
+    pub(super) stamp: u64,
+    /// All texts, as they were looked at.
+    pub(super) sources: SourceMap,
+    /// What there is to tell about text and meaning.
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// Trees, names and the job.
+    pub(super) study: Study,
+    /// What came of planning.
+    pub(super) planning: Planning,
+}
+
+/// How far planning is.
+#[derive(Debug)]
+pub(super) enum Planning {
+    /// There is nothing to plan: a library, or a job with errors.
+    Needless,
+    /// To be done.
+    Due,
+    /// Being done.
+    UnderWay,
+    /// Done.
+    Done(Box<Planned>),
+}
+
+/// What came of planning and proving.
+#[derive(Debug)]
+pub(super) struct Planned {
+    /// All texts, as they were planned.
+    pub(super) sources: SourceMap,
+    /// Everything there is to tell about the job.
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// The plan, when one could be made.
+    pub(super) plan: Option<PlannedJob>,
+    /// The figures of the program, when the job is right.
+    pub(super) summary: Vec<String>,
+}
+
+/// Whether a file is a job or a library: a library defines names and holds nothing that belongs to one job only. A file
+/// without anything is a job that has not begun.
+pub(super) fn part_of(ast: &Ast) -> Part {
+    let mut defines = false;
+    for item in &ast.items {
+        match item {
+            Item::Job { .. } => return Part::Job,
+            Item::Use { .. } | Item::Let { .. } => defines = true,
+            Item::Block(block) => match crate::sema::vocabulary::standing(block) {
+                Some(Part::Job) => return Part::Job,
+                Some(Part::Library) => defines = true,
+                None => {}
+            },
+        }
+    }
+    if defines { Part::Library } else { Part::Job }
+}
+
+impl Analysis {
+    /// Looks at text and meaning. None when the root file cannot be read.
+    pub(super) fn of(root: &str, stamp: u64, loader: &dyn Loader) -> Option<Self> {
+        let (sources, diagnostics, study) = studied(root, Part::Job, loader)?;
+        let part = study.files.first().map_or(Part::Job, |file| part_of(&file.ast));
+        let (sources, diagnostics, study) = match part {
+            Part::Job => (sources, diagnostics, study),
+            Part::Library => studied(root, part, loader)?,
+        };
+        let planning = match &study.job {
+            Some(_) => Planning::Due,
+            None => Planning::Needless,
+        };
+        Some(Self {
+            root: root.to_owned(),
+            part,
+            stamp,
+            sources,
+            diagnostics,
+            study,
+            planning,
+        })
+    }
+
+    /// Whether a file of that path was looked at, or looked for.
+    pub(super) fn concerns(&self, path: &str) -> bool {
+        self.sources.iter().any(|(_, file)| file.name == path)
+    }
+
+    /// The number and the tree of a file of the language.
+    pub(super) fn file(&self, path: &str) -> Option<(FileId, &Ast)> {
+        let mut files = self.study.files.iter();
+        let file = files.find(|file| self.sources.name(file.id) == path)?;
+        Some((file.id, &file.ast))
+    }
+
+    /// The latest there is to tell, with the texts that it is about.
+    pub(super) fn told(&self) -> (&SourceMap, &[Diagnostic]) {
+        match &self.planning {
+            Planning::Done(planned) => (&planned.sources, &planned.diagnostics),
+            Planning::Needless | Planning::Due | Planning::UnderWay => (&self.sources, &self.diagnostics),
+        }
+    }
+
+    /// The plan, if it is there.
+    pub(super) fn planned(&self) -> Option<&Planned> {
+        match &self.planning {
+            Planning::Done(planned) => Some(planned),
+            Planning::Needless | Planning::Due | Planning::UnderWay => None,
+        }
+    }
+}
+
+/// What a file and all that it uses say as a job or a library. None when it cannot be read.
+fn studied(root: &str, part: Part, loader: &dyn Loader) -> Option<(SourceMap, Vec<Diagnostic>, Study)> {
+    let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
+    let choices = Choices::default();
+    let study = study(root, part, loader, choices, &mut sources, &mut diagnostics).ok()?;
+    Some((sources, diagnostics, study))
+}
+
+/// A job to be planned: a piece of work that needs nothing of the server, so that another thread can do it.
+#[derive(Debug)]
+pub struct Task {
+    pub(super) root: String,
+    pub(super) stamp: u64,
+    pub(super) open: OpenTexts,
+}
+
+/// A job that was planned.
+#[derive(Debug)]
+pub struct Done {
+    pub(super) root: String,
+    pub(super) stamp: u64,
+    pub(super) planned: Option<Planned>,
+}
+
+impl Task {
+    /// Plans the job and proves the plan.
+    #[must_use]
+    pub fn run(self, files: &dyn Loader, targets: &[&'static dyn Backend]) -> Done {
+        let overlay = Overlay {
+            open: &self.open,
+            below: files,
+        };
+        let request = Request {
+            path: &self.root,
+            loader: &overlay,
+            overrides: &[],
+            machine: None,
+            options: Typed::default(),
+            targets,
+        };
+        let outcome = driver::compile(request, &mut |_| ()).ok();
+        let planned = outcome.map(|outcome| Planned {
+            sources: outcome.sources,
+            diagnostics: outcome.diagnostics,
+            plan: outcome.plan,
+            summary: outcome
+                .compiled
+                .map(|compiled| compiled.summary)
+                .unwrap_or_default(),
+        });
+        Done {
+            root: self.root,
+            stamp: self.stamp,
+            planned,
+        }
+    }
+}

@@ -1,0 +1,518 @@
+//! What can be written at the cursor: fields that a block still lacks, units that fit, words and names that a field takes,
+//! machines of the catalogue.
+
+use super::analysis::Analysis;
+use super::context::{BlockAround, Context, Wanted, context};
+use super::hover::explained;
+use super::manual::{self, Table};
+use crate::machine::catalogue;
+use crate::sema::study::{Definition, Meaning};
+use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Range, Takes};
+use lsp_types::CompletionItemKind;
+use vcutc_backend_api::backend::{Backend, OptionKind};
+
+/// Something that can be written.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Offer {
+    /// What it is called in the list.
+    pub(super) label: String,
+    /// What kind of thing it is.
+    pub(super) kind: CompletionItemKind,
+    /// What is written. `$1` and `${1:...}` are places to go on at, as in the protocol's snippets.
+    pub(super) snippet: String,
+    /// A few words beside the label.
+    pub(super) detail: String,
+    /// Markdown.
+    pub(super) documentation: Option<String>,
+    /// Which offers come first.
+    pub(super) rank: Rank,
+}
+
+/// Which offers come first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Rank {
+    /// What must be there.
+    Needed,
+    /// What fits best.
+    Fitting,
+    /// Everything else.
+    Possible,
+}
+
+/// What is offered, and the bytes that it replaces.
+#[derive(Debug, PartialEq)]
+pub(super) struct Offers {
+    /// What is replaced.
+    pub(super) replaces: core::ops::Range<usize>,
+    /// What is offered.
+    pub(super) offers: Vec<Offer>,
+}
+
+/// What can be written at a byte of a text.
+pub(super) fn completion(
+    text: &str,
+    offset: usize,
+    analysis: &Analysis,
+    targets: &[&'static dyn Backend],
+) -> Offers {
+    let context = context(text, offset);
+    let desk = Desk {
+        analysis,
+        targets,
+        context: &context,
+    };
+    let offers = match &context.wanted {
+        Wanted::Nothing => Vec::new(),
+        Wanted::Entry => desk.entries(text),
+        Wanted::Head(words) => head(words),
+        Wanted::Value(field) => desk.values(field),
+        Wanted::Unit(field) => desk.units(field),
+        Wanted::Label { function, given } => desk.labels(function, given),
+        Wanted::Text(words) => texts(words),
+    };
+    Offers {
+        replaces: context.word.clone(),
+        offers,
+    }
+}
+
+/// A text in which `$`, `}` and `\` mean themselves.
+fn verbatim(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
+}
+
+fn offer(label: &str, kind: CompletionItemKind, rank: Rank) -> Offer {
+    Offer {
+        label: label.to_owned(),
+        kind,
+        snippet: verbatim(label),
+        detail: String::new(),
+        documentation: None,
+        rank,
+    }
+}
+
+struct Desk<'a> {
+    analysis: &'a Analysis,
+    targets: &'a [&'static dyn Backend],
+    context: &'a Context,
+}
+
+impl Desk<'_> {
+    /// The fields of the innermost block, if it is one with a table.
+    fn spec(&self) -> Option<&'static BlockSpec> {
+        let mut blocks = self.context.blocks.iter();
+        let first = blocks.next()?.name();
+        let mut spec = vocabulary::block(first);
+        for inner in blocks {
+            spec = match spec.and_then(|spec| spec.field(inner.name()))?.takes {
+                Takes::Fields(spec) => Some(spec),
+                Takes::Anything
+                | Takes::Quantity(_)
+                | Takes::Words(_)
+                | Takes::Blade
+                | Takes::Machine
+                | Takes::Calls(_) => None,
+            };
+        }
+        spec
+    }
+
+    fn innermost(&self) -> Option<&BlockAround> {
+        self.context.blocks.last()
+    }
+
+    /// The fields behind a file of a profile.
+    fn data_spec(&self) -> Option<&'static BlockSpec> {
+        let [outer, inner] = self.context.blocks.as_slice() else {
+            return None;
+        };
+        vocabulary::data_file(inner.name()).filter(|_| outer.name() == "profile")
+    }
+
+    /// The target whose options the innermost block holds.
+    fn target(&self) -> Option<&'static dyn Backend> {
+        let [outer, inner] = self.context.blocks.as_slice() else {
+            return None;
+        };
+        let is_it = |target: &&&'static dyn Backend| target.id() == inner.name();
+        self.targets
+            .iter()
+            .find(is_it)
+            .copied()
+            .filter(|_| outer.name() == "machine")
+    }
+
+    /// The block as the reference calls it.
+    fn title(&self) -> String {
+        match self.innermost().map(BlockAround::name) {
+            Some("rough") => "rough vcut".to_owned(),
+            Some(name) => name.to_owned(),
+            None => String::new(),
+        }
+    }
+
+    fn entries(&self, text: &str) -> Vec<Offer> {
+        let Some(innermost) = self.innermost() else {
+            return items(text);
+        };
+        if let Some(target) = self.target() {
+            return options(target, &innermost.entries);
+        }
+        if self.context.blocks.len() == 1 && innermost.name() == "profile" {
+            return curves();
+        }
+        let Some(spec) = self.data_spec().or_else(|| self.spec()) else {
+            return Vec::new();
+        };
+        let mut offers = self.fields(spec, innermost);
+        if spec.inner == Inner::TargetOptions {
+            let missing = self
+                .targets
+                .iter()
+                .filter(|target| !innermost.entries.iter().any(|entry| entry == target.id()));
+            offers.extend(missing.map(|target| Offer {
+                snippet: format!("{} {{\n  $1\n\\}}", target.id()),
+                detail: "options of a target".to_owned(),
+                documentation: Some(target.summary().to_owned()),
+                ..offer(target.id(), CompletionItemKind::MODULE, Rank::Possible)
+            }));
+        }
+        offers
+    }
+
+    /// The fields that a block has not got yet.
+    fn fields(&self, spec: &'static BlockSpec, block: &BlockAround) -> Vec<Offer> {
+        let title = self.title();
+        let word = block.name();
+        let is_missing = |field: &&FieldSpec| {
+            let count = block.entries.iter().filter(|entry| *entry == field.name).count();
+            count < if field.form == Form::Bounds { 2 } else { 1 }
+        };
+        let missing: Vec<&FieldSpec> = spec.fields.iter().filter(is_missing).collect();
+        let needed: Vec<&&FieldSpec> = missing
+            .iter()
+            .filter(|field| field.need == Need::Required)
+            .collect();
+        let mut offers: Vec<Offer> = missing.iter().map(|field| self.field(field, &title)).collect();
+        if needed.len() > 1 {
+            let lines: Vec<String> = (1..)
+                .zip(&needed)
+                .map(|(number, field)| field_snippet(field, number))
+                .collect();
+            offers.push(Offer {
+                snippet: lines.join("\n"),
+                detail: needed
+                    .iter()
+                    .map(|field| field.name)
+                    .collect::<Vec<_>>()
+                    .join(", "),
+                ..offer(
+                    &format!("all fields that {word} still needs"),
+                    CompletionItemKind::SNIPPET,
+                    Rank::Needed,
+                )
+            });
+        }
+        offers
+    }
+
+    fn field(&self, field: &FieldSpec, title: &str) -> Offer {
+        let (detail, rank) = match field.need {
+            Need::Required => ("required", Rank::Needed),
+            Need::Optional => ("", Rank::Possible),
+        };
+        Offer {
+            snippet: field_snippet(field, 1),
+            detail: detail.to_owned(),
+            documentation: explained(title, field.name),
+            ..offer(field.name, CompletionItemKind::FIELD, rank)
+        }
+    }
+
+    /// What a field of the innermost block is said to take.
+    fn takes(&self, field: &str) -> Option<&'static FieldSpec> {
+        let spec = self.data_spec().or_else(|| self.spec())?;
+        spec.field(field)
+    }
+
+    fn values(&self, field: &str) -> Vec<Offer> {
+        if let Some(target) = self.target() {
+            return option_values(target, field);
+        }
+        let Some(spec) = self.takes(field) else {
+            return self.calculation(None);
+        };
+        let mut offers = Vec::new();
+        if spec.leaving == Leaving::Open {
+            offers.push(Offer {
+                detail: "left to the compiler".to_owned(),
+                documentation: manual::row(Table::Auto, field).map(manual::Row::text),
+                ..offer("auto", CompletionItemKind::KEYWORD, Rank::Fitting)
+            });
+        }
+        match spec.takes {
+            Takes::Words(words) => offers.extend(words().iter().map(|word| self.word(field, word))),
+            Takes::Blade => offers.extend(self.named(Meaning::Blade)),
+            Takes::Machine => offers.extend(self.named(Meaning::Machine)),
+            Takes::Calls(calls) => offers.extend(calls.iter().map(|(name, example)| Offer {
+                snippet: verbatim(example),
+                detail: (*example).to_owned(),
+                documentation: manual::row(Table::Calls, name).map(manual::Row::text),
+                ..offer(name, CompletionItemKind::FUNCTION, Rank::Fitting)
+            })),
+            Takes::Quantity(_) => {
+                if spec.typical != "auto" && self.context.word.is_empty() {
+                    offers.push(Offer {
+                        detail: "a typical value".to_owned(),
+                        ..offer(spec.typical, CompletionItemKind::VALUE, Rank::Fitting)
+                    });
+                }
+                offers.extend(self.calculation(Some(spec)));
+            }
+            Takes::Anything | Takes::Fields(_) => offers.extend(self.calculation(None)),
+        }
+        offers
+    }
+
+    fn word(&self, field: &str, word: &str) -> Offer {
+        let documentation = match field {
+            "residual" => manual::row(Table::Residuals, word).map(manual::Row::text),
+            _ => explained(&self.title(), field),
+        };
+        Offer {
+            documentation,
+            ..offer(word, CompletionItemKind::ENUM_MEMBER, Rank::Fitting)
+        }
+    }
+
+    /// Names of a kind.
+    fn named(&self, meaning: Meaning) -> Vec<Offer> {
+        let names = self.analysis.study.definitions.iter();
+        names
+            .filter(|definition| definition.meaning == meaning)
+            .map(|definition| offer(&definition.name.node, CompletionItemKind::CLASS, Rank::Fitting))
+            .collect()
+    }
+
+    /// Names of values and functions.
+    fn calculation(&self, field: Option<&FieldSpec>) -> Vec<Offer> {
+        let names = self.analysis.study.definitions.iter();
+        let mut offers: Vec<Offer> = names
+            .filter_map(|definition| self.value(definition, field))
+            .collect();
+        offers.extend(vocabulary::functions().map(|(name, example)| Offer {
+            snippet: format!("{name}($1)"),
+            detail: example.to_owned(),
+            documentation: manual::row(Table::Functions, name).map(|row| format!("takes {}", row.text())),
+            ..offer(name, CompletionItemKind::FUNCTION, Rank::Possible)
+        }));
+        offers.push(offer("pi", CompletionItemKind::CONSTANT, Rank::Possible));
+        offers
+    }
+
+    fn value(&self, definition: &Definition, field: Option<&FieldSpec>) -> Option<Offer> {
+        let Meaning::Value(value) = definition.meaning else {
+            return None;
+        };
+        let range = field.and_then(range_of);
+        let fits = range.zip(value).is_some_and(|(range, value)| value.is_of(range));
+        let rank = if fits { Rank::Fitting } else { Rank::Possible };
+        Some(Offer {
+            detail: value.map_or(String::new(), |value| value.text()),
+            ..offer(&definition.name.node, CompletionItemKind::VARIABLE, rank)
+        })
+    }
+
+    /// Units that fit the field, or all of them.
+    fn units(&self, field: &str) -> Vec<Offer> {
+        let range = self.takes(field).and_then(range_of);
+        let fitting = range.map(vocabulary::units_for).unwrap_or_default();
+        let all = vocabulary::units().map(|(name, _, _)| name.to_owned());
+        let units: Vec<String> = if fitting.is_empty() {
+            all.collect()
+        } else {
+            fitting
+        };
+        let unit = |unit: &String| Offer {
+            detail: vocabulary::unit_in_words(unit)
+                .map_or(String::new(), |(kind, one)| format!("{kind}; 1 {unit} = {one}")),
+            ..offer(unit, CompletionItemKind::UNIT, Rank::Fitting)
+        };
+        units.iter().map(unit).collect()
+    }
+
+    /// The labels that a call has not got yet, or what a function calculates with.
+    fn labels(&self, function: &str, given: &[String]) -> Vec<Offer> {
+        let Some(example) = example_of(function) else {
+            return self.calculation(None);
+        };
+        let inner = example.split_once('(').map_or("", |(_, inner)| inner);
+        // A call within a call is written by itself.
+        let inner = if inner.contains('(') { "" } else { inner };
+        let labels: Vec<Offer> = inner
+            .trim_end_matches(')')
+            .split(',')
+            .filter_map(|part| part.split_once(" = "))
+            .map(|(label, value)| (label.trim(), value.trim()))
+            .filter(|(label, _)| vocabulary::is_name(label) && !given.iter().any(|known| known == label))
+            .map(|(label, value)| Offer {
+                snippet: format!("{label} = ${{1:{}}}", verbatim(value)),
+                detail: "required".to_owned(),
+                ..offer(label, CompletionItemKind::FIELD, Rank::Needed)
+            })
+            .collect();
+        if labels.is_empty() && given.is_empty() {
+            self.calculation(None)
+        } else {
+            labels
+        }
+    }
+}
+
+/// The range of the values that a field takes.
+const fn range_of(field: &FieldSpec) -> Option<Range> {
+    match field.takes {
+        Takes::Quantity(range) => Some(range),
+        Takes::Anything
+        | Takes::Words(_)
+        | Takes::Blade
+        | Takes::Machine
+        | Takes::Calls(_)
+        | Takes::Fields(_) => None,
+    }
+}
+
+/// How a call of a machine's field looks.
+fn example_of(function: &str) -> Option<&'static str> {
+    let machine = vocabulary::block("machine")?;
+    machine.fields.iter().find_map(|field| match field.takes {
+        Takes::Calls(calls) => calls
+            .iter()
+            .find(|(name, _)| *name == function)
+            .map(|(_, example)| *example),
+        Takes::Anything
+        | Takes::Quantity(_)
+        | Takes::Words(_)
+        | Takes::Blade
+        | Takes::Machine
+        | Takes::Fields(_) => None,
+    })
+}
+
+/// A field with its typical value as a place to go on at.
+fn field_snippet(field: &FieldSpec, number: usize) -> String {
+    let joint = match field.form {
+        Form::Value => " = ",
+        Form::Block | Form::Points => " ",
+        Form::Limit | Form::Bounds => " <= ",
+    };
+    format!("{}{joint}${{{number}:{}}}", field.name, verbatim(field.typical))
+}
+
+/// What can stand at the top of a file. What a job has once only is not offered again.
+fn items(text: &str) -> Vec<Offer> {
+    const ONCE: &[&str] = &["job", "stock", "profile", "cell"];
+    let is_there = |word: &str| {
+        let mut lines = text.lines();
+        lines.any(|line| line.split_whitespace().next() == Some(word))
+    };
+    vocabulary::items()
+        .filter(|(word, _)| !(ONCE.contains(word) && is_there(word)))
+        .map(|(word, form)| Offer {
+            snippet: item_snippet(form),
+            detail: form.to_owned(),
+            documentation: manual::about(if word == "rough" { "rough vcut" } else { word }),
+            ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
+        })
+        .collect()
+}
+
+/// A form such as `blade NAME { ... }` with places for what is to be filled in.
+fn item_snippet(form: &str) -> String {
+    verbatim(form)
+        .replace("{ ... \\}", "{\n  $0\n\\}")
+        .replace("NAME", "${1:name}")
+        .replace("PATH", "${1:shop/blades.vcut}")
+        .replace("VALUE", "${2:85 mm}")
+}
+
+/// The next word of a head.
+fn head(words: &[String]) -> Vec<Offer> {
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let next = match words.as_slice() {
+        ["rough"] => vocabulary::head_words("rough"),
+        ["machine", _, "="] => vocabulary::head_words("machine"),
+        _ => Vec::new(),
+    };
+    next.iter()
+        .map(|word| offer(word, CompletionItemKind::KEYWORD, Rank::Fitting))
+        .collect()
+}
+
+fn curves() -> Vec<Offer> {
+    let pieces = vocabulary::CURVES.iter().map(|(word, form)| Offer {
+        snippet: verbatim(form),
+        detail: (*form).to_owned(),
+        documentation: manual::row(Table::Pieces, word).map(manual::Row::text),
+        ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
+    });
+    let formula = Offer {
+        snippet: "z(x) = $1".to_owned(),
+        detail: "a formula for the height over x".to_owned(),
+        ..offer("z(x)", CompletionItemKind::FUNCTION, Rank::Possible)
+    };
+    pieces.chain([formula]).collect()
+}
+
+/// Texts in quotes: the machines of the catalogue.
+fn texts(words: &[String]) -> Vec<Offer> {
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let ["machine", _, "=", kind] = words.as_slice() else {
+        return Vec::new();
+    };
+    let wanted = vocabulary::machine_kind(kind);
+    catalogue::summaries()
+        .into_iter()
+        .filter(|summary| wanted.is_none_or(|wanted| summary.kind == wanted))
+        .map(|summary| {
+            let payload = summary.payload.map_or(String::new(), |kg| format!(", {kg} kg"));
+            Offer {
+                detail: format!("{}{payload}", summary.model),
+                ..offer(summary.name, CompletionItemKind::CONSTANT, Rank::Fitting)
+            }
+        })
+        .collect()
+}
+
+/// The options of a target that are not given yet.
+fn options(target: &'static dyn Backend, given: &[String]) -> Vec<Offer> {
+    let missing = target
+        .options()
+        .iter()
+        .filter(|option| !given.iter().any(|key| key == option.key));
+    missing
+        .map(|option| Offer {
+            snippet: format!("{} = $1", option.key),
+            documentation: Some(option.help.to_owned()),
+            ..offer(option.key, CompletionItemKind::FIELD, Rank::Fitting)
+        })
+        .collect()
+}
+
+fn option_values(target: &'static dyn Backend, key: &str) -> Vec<Offer> {
+    let option = target.options().iter().find(|option| option.key == key);
+    let words: Vec<String> = match option.map(|option| option.kind) {
+        Some(OptionKind::Choice { of }) => of.iter().map(|word| (*word).to_owned()).collect(),
+        Some(OptionKind::Integer { default, .. }) => vec![default.to_string()],
+        Some(OptionKind::Length { default, .. }) => vec![format!("{} mm", default.to_mm())],
+        Some(OptionKind::Lines | OptionKind::Text) => vec!["\"\"".to_owned()],
+        None => Vec::new(),
+    };
+    let taken_back = option.map(|_| "default".to_owned());
+    words
+        .into_iter()
+        .chain(taken_back)
+        .map(|word| offer(&word, CompletionItemKind::ENUM_MEMBER, Rank::Fitting))
+        .collect()
+}

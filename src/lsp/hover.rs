@@ -1,0 +1,355 @@
+//! What is shown beside the word under the cursor: what it is worth, what `auto` came out as, and what the language reference
+//! says about it, with the formula it enters.
+
+use super::analysis::Analysis;
+use super::chosen::{Chosen, chosen};
+use super::manual::{self, Table};
+use super::names::{definition_at, sites_at};
+use super::sites::{Kind, Path, Place, Site};
+use crate::machine::catalogue;
+use crate::sema::study::{Definition, Meaning};
+use crate::sema::vocabulary;
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Block, Entry, Expr, HeadPart, Item};
+use vcutc_backend_api::backend::{Backend, OptionKind};
+
+/// What there is to say about a place.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Told {
+    /// The place.
+    pub(super) span: Span,
+    /// Markdown.
+    pub(super) text: String,
+}
+
+/// What there is to say about a byte of a file.
+pub(super) fn hover(
+    analysis: &Analysis,
+    path: &str,
+    offset: usize,
+    targets: &[&'static dyn Backend],
+) -> Option<Told> {
+    if let Some(told) = keyword(analysis, path, offset) {
+        return Some(told);
+    }
+    let sites = sites_at(analysis, path, offset);
+    let inner = sites
+        .iter()
+        .rev()
+        .find(|site| !matches!(site.kind, Kind::Value(_)))?;
+    let text = match inner.kind {
+        Kind::Definition(..) | Kind::Reference(_) => match definition_at(analysis, path, offset) {
+            Some(definition) => name(analysis, definition),
+            None => word_of_target(inner, analysis, targets)?,
+        },
+        Kind::Auto => auto(analysis, path, inner)?,
+        Kind::Field(field) => self::field(analysis, field, inner, targets)?,
+        Kind::Word => word(analysis, inner)?,
+        Kind::Number(number) => values(analysis, number)?,
+        Kind::Unit(unit) => self::unit(unit)?,
+        Kind::Function(function) => call(analysis, function, &sites)?,
+        Kind::Label => return whole_value(analysis, &sites),
+        Kind::Block => block(inner.place, analysis.sources.slice(inner.span), targets)?,
+        Kind::HeadWord => manual::about(inner.place.block)?,
+        Kind::JobName => figures(analysis, path)?,
+        Kind::Path(kind, written) => file(analysis, kind, written, inner),
+        Kind::Formula | Kind::Variable => manual_of_formula()?,
+        Kind::Value(_) => return None,
+    };
+    Some(Told {
+        span: inner.span,
+        text,
+    })
+}
+
+/// A word of the language that is no site of the tree: `let`, `use`, `job`, and what pieces of a profile are called.
+fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Told> {
+    let (file, ast) = analysis.file(path)?;
+    let text = analysis.sources.get(file)?.text.as_str();
+    let holds = |span: &Span| (span.start as usize..=span.end as usize).contains(&offset);
+    let whole = ast.items.iter().find_map(|item| match item {
+        Item::Job { span, .. } | Item::Use { span, .. } | Item::Let { span, .. } => Some(*span).filter(holds),
+        Item::Block(block) => block.entries.iter().find_map(|entry| match entry {
+            Entry::Curve { span, .. } | Entry::Tips { span, .. } => Some(*span).filter(holds),
+            Entry::Field { .. } | Entry::Limit { .. } | Entry::Formula { .. } | Entry::Block(_) => None,
+        }),
+    })?;
+    let rest = text.get(whole.bytes())?;
+    let length = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
+    let word = rest.get(..length)?;
+    let start = whole.start as usize;
+    let span = Span::of_bytes(file, start..start + length);
+    let text = manual::row(Table::Pieces, word)
+        .map(|row| format!("`{word}`: {}", row.text()))
+        .or_else(|| manual::about(word))?;
+    Some(Told { span, text }).filter(|told| holds(&told.span))
+}
+
+/// The words of an expression and what it comes to.
+fn values(analysis: &Analysis, expr: &Spanned<Expr>) -> Option<String> {
+    let value = analysis.study.evaluator().value(expr)?;
+    Some(format!("`{}`, {}", value.texts(expr).join("` = `"), value.kind()))
+}
+
+fn whole_value(analysis: &Analysis, sites: &[Site<'_>]) -> Option<Told> {
+    let (span, value) = sites.iter().rev().find_map(|site| {
+        let Kind::Value(value) = site.kind else {
+            return None;
+        };
+        Some((site.span, value))
+    })?;
+    let text = values(analysis, value)?;
+    Some(Told { span, text })
+}
+
+/// A name with what it stands for.
+fn name(analysis: &Analysis, definition: &Definition) -> String {
+    let name = &definition.name.node;
+    let file = analysis.sources.name(definition.name.span.file);
+    let whole = whole_definition(analysis, definition.name.span);
+    let shown = whole.map_or("", |span| analysis.sources.slice(span));
+    let what = match definition.meaning {
+        Meaning::Value(Some(value)) => {
+            let expr = let_value(analysis, definition.name.span);
+            let texts = expr.map_or_else(|| vec![value.text()], |expr| value.texts(expr));
+            format!("`{name}` = `{}`, {}", texts.join("` = `"), value.kind())
+        }
+        Meaning::Value(None) => format!("`{name}`, a value that could not be worked out"),
+        Meaning::Blade => format!("`{name}`, a blade"),
+        Meaning::Machine => format!("`{name}`, a machine"),
+    };
+    format!("{what}\n\n```vcut\n{shown}\n```\n\nDefined in {file}")
+}
+
+/// The item or block in which a name is defined.
+fn whole_definition(analysis: &Analysis, name: Span) -> Option<Span> {
+    let file = analysis.study.files.iter().find(|file| file.id == name.file)?;
+    file.ast.items.iter().find_map(|item| match item {
+        Item::Let { name: own, span, .. } if own.span == name => Some(*span),
+        Item::Block(Block { head, span, .. }) if head.iter().any(|part| part.span == name) => Some(*span),
+        Item::Let { .. } | Item::Block(_) | Item::Job { .. } | Item::Use { .. } => None,
+    })
+}
+
+fn let_value(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
+    let file = analysis.study.files.iter().find(|file| file.id == name.file)?;
+    file.ast.items.iter().find_map(|item| match item {
+        Item::Let { name: own, value, .. } if own.span == name => Some(value),
+        Item::Let { .. } | Item::Block(_) | Item::Job { .. } | Item::Use { .. } => None,
+    })
+}
+
+/// What `auto` came out as, or that it is not known yet.
+fn auto(analysis: &Analysis, path: &str, site: &Site<'_>) -> Option<String> {
+    let rule = site
+        .place
+        .field
+        .and_then(|field| manual::row(Table::Auto, field.name))
+        .map(manual::Row::text);
+    let found = match chosen(analysis, path, site) {
+        Chosen::As { value, why } => {
+            let why = if why.is_empty() {
+                String::new()
+            } else {
+                format!("\n\n{why}")
+            };
+            format!("`auto` came out as `{value}`{why}")
+        }
+        Chosen::Unknown => {
+            "`auto`: what it comes out as is known when the job has no errors and has been planned".to_owned()
+        }
+    };
+    let rule = rule.map_or(String::new(), |rule| format!("\n\nComes out as: {rule}"));
+    Some(found + &rule)
+}
+
+/// What a field is for, the formula it enters, and what it is worth here.
+fn field(
+    analysis: &Analysis,
+    field: &str,
+    site: &Site<'_>,
+    targets: &[&'static dyn Backend],
+) -> Option<String> {
+    let block = site.place.block;
+    if let Some(target) = targets.iter().find(|target| target.id() == block) {
+        return option(*target, field);
+    }
+    let text = explained(block, field)?;
+    let worth = field_value(analysis, site.span).and_then(|value| values(analysis, value));
+    let worth = worth.map_or(String::new(), |worth| format!("\n\nHere {worth}"));
+    Some(format!("**{field}** of `{block}`\n\n{text}{worth}"))
+}
+
+/// What the reference says about a field, and the formula that it enters.
+pub(super) fn explained(block: &str, field: &str) -> Option<String> {
+    let text = manual::row(Table::Fields(block), field)
+        .map(manual::Row::text)
+        .or_else(|| manual::about(block))?;
+    let formula = manual::row(Table::Formulas, field).filter(|_| enters_formulas(block));
+    let formula = formula.map_or(String::new(), |row| format!("\n\nEnters {}", row.text()));
+    Some(text + &formula)
+}
+
+fn enters_formulas(block: &str) -> bool {
+    matches!(block, "stock" | "blade" | "rough vcut" | "limits" | "feed")
+}
+
+/// The value behind the name of a field at that place.
+fn field_value(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
+    let file = analysis.study.files.iter().find(|file| file.id == name.file)?;
+    let mut open: Vec<&Entry> = file
+        .ast
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Block(block) => Some(block.entries.iter()),
+            Item::Let { .. } | Item::Job { .. } | Item::Use { .. } => None,
+        })
+        .flatten()
+        .collect();
+    while let Some(entry) = open.pop() {
+        match entry {
+            Entry::Field { name: own, value, .. } | Entry::Limit { name: own, value, .. } => {
+                if own.span == name {
+                    return Some(value);
+                }
+            }
+            Entry::Block(inner) => open.extend(&inner.entries),
+            Entry::Formula { .. } | Entry::Curve { .. } | Entry::Tips { .. } => {}
+        }
+    }
+    None
+}
+
+/// A word that a field takes.
+fn word(analysis: &Analysis, site: &Site<'_>) -> Option<String> {
+    let word = analysis.sources.slice(site.span);
+    if word == "pi" {
+        return Some("`pi` = `3.14159`, a pure number".to_owned());
+    }
+    let field = site.place.field?;
+    if field.name == "residual"
+        && let Some(row) = manual::row(Table::Residuals, word)
+    {
+        return Some(format!("`{word}`: such a cut is {}", row.text()));
+    }
+    let text = explained(site.place.block, field.name)?;
+    Some(format!("`{word}` of **{}**\n\n{text}", field.name))
+}
+
+fn unit(unit: &str) -> Option<String> {
+    let (kind, one) = vocabulary::unit_in_words(unit)?;
+    Some(format!("1 {unit} = `{one}`, {kind}"))
+}
+
+/// A function with its rule, or a call that a field of a machine takes.
+fn call(analysis: &Analysis, function: &str, sites: &[Site<'_>]) -> Option<String> {
+    let row = manual::row(Table::Functions, function).or_else(|| manual::row(Table::Calls, function))?;
+    let form = vocabulary::functions().find(|(name, _)| *name == function);
+    let form = form.map_or(String::new(), |(_, example)| format!(", such as `{example}`"));
+    let worth = whole_value(analysis, sites).map_or(String::new(), |told| format!("\n\nHere {}", told.text));
+    let takes = manual::row(Table::Functions, function).map_or("", |_| "takes ");
+    Some(format!("`{function}`{form}: {takes}{}{worth}", row.text()))
+}
+
+fn block(place: Place<'_>, word: &str, targets: &[&'static dyn Backend]) -> Option<String> {
+    if let Some(target) = targets.iter().find(|target| target.id() == word) {
+        return Some(format!("Options of the target **{word}**: {}", target.summary()));
+    }
+    match place.field {
+        Some(field) => explained(place.block, field.name).or_else(|| Some(format!("`{}`", field.sample()))),
+        None => manual::about(place.block),
+    }
+}
+
+fn option(target: &'static dyn Backend, key: &str) -> Option<String> {
+    let spec = target.options().iter().find(|option| option.key == key)?;
+    let takes = match spec.kind {
+        OptionKind::Integer { min, max, default } => {
+            format!("A whole number from {min} to {max}. Default: {default}")
+        }
+        OptionKind::Length { min, max, default } => format!(
+            "A length from {} mm to {} mm. Default: {} mm",
+            min.to_mm(),
+            max.to_mm(),
+            default.to_mm()
+        ),
+        OptionKind::Lines => "Lines of text in quotes".to_owned(),
+        OptionKind::Text => "A text in quotes".to_owned(),
+        OptionKind::Choice { of } => format!("One of {}; the first is the default", of.join(", ")),
+    };
+    Some(format!(
+        "**{key}** of `{}`\n\n{}\n\n{takes}",
+        target.id(),
+        spec.help
+    ))
+}
+
+/// A word that is an option's value.
+fn word_of_target(site: &Site<'_>, analysis: &Analysis, targets: &[&'static dyn Backend]) -> Option<String> {
+    let target = targets.iter().find(|target| target.id() == site.place.block)?;
+    let word = analysis.sources.slice(site.span);
+    let takes = |kind: OptionKind| match kind {
+        OptionKind::Choice { of } => of.contains(&word),
+        OptionKind::Integer { .. } | OptionKind::Length { .. } | OptionKind::Lines | OptionKind::Text => {
+            false
+        }
+    };
+    let spec = target.options().iter().find(|option| takes(option.kind))?;
+    option(*target, spec.key)
+}
+
+/// The figures of the program, behind the job's name.
+fn figures(analysis: &Analysis, path: &str) -> Option<String> {
+    if analysis.root != path {
+        return manual::about("job");
+    }
+    let summary = analysis.planned().map(|planned| planned.summary.join("\n"));
+    match summary.filter(|lines| !lines.is_empty()) {
+        Some(lines) => Some(format!("```text\n{lines}\n```")),
+        None => manual::about("job"),
+    }
+}
+
+fn file(analysis: &Analysis, kind: Path, written: &str, site: &Site<'_>) -> String {
+    if kind == Path::Model
+        && let Some(text) = model(written)
+    {
+        return text;
+    }
+    let meant = super::names::file_meant(analysis, site.span.file, written);
+    format!("The file `{meant}`")
+}
+
+/// A machine of the catalogue.
+fn model(name: &str) -> Option<String> {
+    let found = catalogue::summaries()
+        .into_iter()
+        .find(|summary| summary.name == name)?;
+    let payload = found.payload.map(|kg| format!("payload {kg} kg"));
+    let reach = found.reach.map(|mm| format!("reach of the wrist {mm:.0} mm"));
+    let facts: Vec<String> = payload.into_iter().chain(reach).collect();
+    let facts = if facts.is_empty() {
+        String::new()
+    } else {
+        format!(": {}", facts.join(", "))
+    };
+    Some(format!(
+        "**{}**{facts}\n\n`vcutc machines {name}` shows all of it",
+        found.model
+    ))
+}
+
+fn manual_of_formula() -> Option<String> {
+    manual::about("profile")
+}
+
+/// The words of a head, for symbols.
+pub(super) fn head_text(block: &Block) -> String {
+    let words = block.head.iter().map(|part| match &part.node {
+        HeadPart::Word(word) => word.clone(),
+        HeadPart::Text(text) => format!("\"{text}\""),
+        HeadPart::Equals => "=".to_owned(),
+    });
+    words.collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,302 @@
+//! What the language reference says about each word: the one place where the words are explained.
+//!
+//! `docs/language.md` is compiled in, and its tables are read when they are asked for. A row explains the words in backquotes
+//! of its first cell. Tests hold the tables against those of the checks: no field without a row, and none marked as required
+//! that is not.
+
+const REFERENCE: &str = include_str!("../../docs/language.md");
+
+/// A table of the reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Table<'a> {
+    /// The fields of a block: `rough vcut`, `limits`.
+    Fields(&'a str),
+    /// The pieces of a profile.
+    Pieces,
+    /// The calls that fields of a machine take.
+    Calls,
+    /// The functions of calculations.
+    Functions,
+    /// What each strategy for cuts at the part does.
+    Residuals,
+    /// How each field that is left open is chosen.
+    Auto,
+    /// In which formulas each value enters.
+    Formulas,
+}
+
+/// A row of a table.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    line: &'static str,
+}
+
+impl Row {
+    fn cells(self) -> Vec<&'static str> {
+        let inner = self.line.trim().trim_start_matches('|').trim_end_matches('|');
+        inner.split(" | ").map(str::trim).collect()
+    }
+
+    /// What the row says: all cells but the first, joined. The last one of three is a default.
+    pub(super) fn text(self) -> String {
+        match self.cells().as_slice() {
+            [_, text, default] if !default.is_empty() => {
+                format!("{}\n\nDefault: {}", without_links(text), without_links(default))
+            }
+            [_, text, ..] => without_links(text),
+            _ => String::new(),
+        }
+    }
+
+    /// Whether the first cell says that the field must be there.
+    #[cfg(test)]
+    pub(super) fn is_required(self) -> bool {
+        self.cells()
+            .first()
+            .is_some_and(|cell| cell.contains("(required)"))
+    }
+
+    /// The words that it explains.
+    fn words(self) -> impl Iterator<Item = &'static str> {
+        let first = self.cells().first().copied().unwrap_or_default();
+        first.split('`').skip(1).step_by(2).map(|quoted| {
+            let end = quoted.find(['(', ' ', ',']).unwrap_or(quoted.len());
+            quoted.get(..end).unwrap_or_default()
+        })
+    }
+}
+
+/// The row of a table that explains a word.
+pub(super) fn row(table: Table<'_>, word: &str) -> Option<Row> {
+    rows(table).find(|row| row.words().any(|known| known == word))
+}
+
+/// The rows of a table.
+pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> {
+    let start = match table {
+        Table::Fields(block) => fields_table(block),
+        Table::Pieces => headed("| Piece |"),
+        Table::Calls => headed("| Value | Meaning |"),
+        Table::Functions => headed("| Function |"),
+        Table::Residuals => headed("| `residual` | Such a cut is |"),
+        Table::Auto => headed("| Field | Comes out as |"),
+        Table::Formulas => headed("| Value | Enters |"),
+    };
+    let body = start.map_or("", |at| REFERENCE.get(at..).unwrap_or_default());
+    // The head and the line under it.
+    body.lines()
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| Row { line })
+}
+
+/// Where the table of a block's fields begins.
+fn fields_table(block: &str) -> Option<usize> {
+    match block {
+        "limits" => headed("| Limit |"),
+        "feed" => behind("`feed { ... }`", "| Field |"),
+        "points" => headed("| Field of `points` |"),
+        "airfoil" => headed("| Field of `airfoil` |"),
+        _ => behind(&format!("\n### `{block}`\n"), "| Field |"),
+    }
+}
+
+fn headed(head: &str) -> Option<usize> {
+    REFERENCE.find(&format!("\n{head}")).map(|at| at + 1)
+}
+
+/// The first table of that head behind a text.
+fn behind(text: &str, head: &str) -> Option<usize> {
+    let start = REFERENCE.find(text)?;
+    let tail = REFERENCE.get(start..)?;
+    let at = tail.find(&format!("\n{head}"))?;
+    Some(start + at + 1)
+}
+
+/// The first paragraph about a block that is not an example.
+pub(super) fn about(block: &str) -> Option<String> {
+    // What `use` does stands in the section about files.
+    if block == "use" {
+        let start = REFERENCE.find("\nThe path is relative to the file")?;
+        let paragraph = REFERENCE.get(start..)?.trim_start().split("\n\n").next()?;
+        return Some(without_links(paragraph));
+    }
+    let heading = format!("\n### `{block}`\n");
+    let start = REFERENCE.find(&heading)? + heading.len();
+    let section = REFERENCE.get(start..)?;
+    let section = section.split("\n#").next()?;
+    let mut is_example = false;
+    let paragraphs = section.split("\n\n").filter(|paragraph| {
+        let begins = paragraph.trim_start().starts_with("```");
+        let fences = paragraph.matches("```").count();
+        let inside = is_example;
+        if fences % 2 == 1 {
+            is_example = !is_example;
+        }
+        !inside && !begins && !paragraph.trim().is_empty() && !paragraph.trim_start().starts_with('|')
+    });
+    let first = paragraphs.into_iter().next()?;
+    Some(without_links(first.trim()))
+}
+
+/// Markdown without links between pages, which lead nowhere in an editor: their words stay.
+fn without_links(text: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find("](") {
+        let before = rest.get(..at).unwrap_or_default();
+        let open = before.rfind('[').unwrap_or(at);
+        plain.push_str(before.get(..open).unwrap_or_default());
+        plain.push_str(before.get(open + 1..).unwrap_or_default());
+        let tail = rest.get(at..).unwrap_or_default();
+        let end = tail.find(')').map_or(tail.len(), |end| end + 1);
+        rest = tail.get(end..).unwrap_or_default();
+    }
+    plain + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sema::vocabulary::{self, BlockSpec, Form, Need, Takes};
+
+    fn blocks() -> Vec<(&'static str, &'static BlockSpec)> {
+        let tops = ["stock", "blade", "rough", "machine", "cell"];
+        let mut all: Vec<_> = tops
+            .into_iter()
+            .map(|first| {
+                (
+                    if first == "rough" { "rough vcut" } else { first },
+                    vocabulary::block(first).unwrap(),
+                )
+            })
+            .collect();
+        for word in ["points", "airfoil"] {
+            all.push((word, vocabulary::data_file(word).unwrap()));
+        }
+        let inner: Vec<_> = all
+            .iter()
+            .flat_map(|(_, spec)| spec.fields)
+            .filter_map(|field| match field.takes {
+                Takes::Fields(spec) => Some((field.name, spec)),
+                _ => None,
+            })
+            .collect();
+        all.extend(inner);
+        all
+    }
+
+    #[test]
+    fn every_field_is_explained_and_marked_as_the_checks_take_it() {
+        let all = blocks();
+        assert!(all.len() >= 9, "{all:?}");
+        for (block, spec) in all {
+            // Of these the reference says in a sentence that all fields are required.
+            let all_required = matches!(block, "blade" | "feed" | "cell");
+            for field in spec.fields {
+                if field.form == Form::Block {
+                    assert!(
+                        rows(Table::Fields(field.name)).count() > 2,
+                        "{block} {}",
+                        field.name
+                    );
+                }
+                if block == "cell" {
+                    assert!(about("cell").unwrap().contains("machine"));
+                    continue;
+                }
+                let row = row(Table::Fields(block), field.name);
+                let row = row.unwrap_or_else(|| panic!("no row for {block} {}", field.name));
+                assert!(row.text().len() > 8, "{block} {}: {}", field.name, row.text());
+                let is_required = row.is_required() || all_required;
+                assert_eq!(
+                    is_required,
+                    field.need == Need::Required,
+                    "{block} {}",
+                    field.name
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn every_other_word_is_explained() {
+        for (name, _) in vocabulary::functions() {
+            assert!(row(Table::Functions, name).is_some(), "{name}");
+        }
+        for (word, _) in vocabulary::CURVES {
+            let by_fields = vocabulary::data_file(word).is_some();
+            assert!(by_fields || row(Table::Pieces, word).is_some(), "{word}");
+        }
+        for block in [
+            "job",
+            "stock",
+            "profile",
+            "blade",
+            "rough vcut",
+            "machine",
+            "cell",
+            "let",
+            "auto",
+            "use",
+        ] {
+            assert!(
+                about(block).is_some_and(|text| text.len() > 20),
+                "{block}: {:?}",
+                about(block)
+            );
+        }
+        for (block, spec) in blocks() {
+            for field in spec.fields {
+                if let Takes::Calls(calls) = field.takes {
+                    for (call, _) in calls {
+                        assert!(
+                            row(Table::Calls, call).is_some(),
+                            "{block} {}: {call}",
+                            field.name
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// What enters a formula says so.
+    #[test]
+    fn values_of_an_operation_name_their_formulas() {
+        for word in [
+            "cutting_length",
+            "half_apex",
+            "thickness",
+            "rake",
+            "swing",
+            "layer",
+            "step",
+            "overlap",
+            "cut",
+            "travel",
+            "reorient",
+            "clearance",
+            "extension",
+            "run_out",
+            "standoff",
+            "allowance",
+            "scallop",
+            "edge",
+            "time",
+            "cuts",
+            "size",
+        ] {
+            let row = row(Table::Formulas, word).unwrap_or_else(|| panic!("{word} enters nothing"));
+            assert!(row.text().contains('`'), "{word}: {}", row.text());
+        }
+    }
+
+    #[test]
+    fn links_become_words() {
+        assert_eq!(
+            without_links("see [x](a.md#b) and [Cui 4] or [y](c)."),
+            "see x and [Cui 4] or y."
+        );
+    }
+}

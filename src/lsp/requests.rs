@@ -1,0 +1,416 @@
+//! The requests of a running conversation, and their answers in the protocol's terms.
+
+use super::Workspace;
+use super::analysis::Analysis;
+use super::completion::{Offer, completion};
+use super::diagnostics::{Lines, edits_of, in_protocol, workspace_edit};
+use super::formatting::formatting;
+use super::hints::hints;
+use super::hover::hover;
+use super::names::{
+    definition_at, file_meant, keeps_meaning, name_at, occurrences, places, refused, sites_at,
+};
+use super::server::{Insertion, Server, parsed};
+use super::sites::{Kind, Path};
+use super::symbols::symbols;
+use super::text::Text;
+use super::tokens::{legend, modifiers, semantic_tokens};
+use super::uri::{path_of, uri_of};
+use super::wire::Fault;
+use crate::machine::Origin;
+use crate::source::Span;
+use lsp_types::{
+    CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
+    DocumentFormattingParams, DocumentSymbolParams, Documentation, GotoDefinitionParams, Hover,
+    HoverContents, HoverParams, InlayHint, InlayHintKind, InlayHintLabel, InlayHintParams, InlayHintTooltip,
+    InsertTextFormat, Location, MarkupContent, MarkupKind, Position, Range, ReferenceParams, RenameParams,
+    SemanticTokens, SemanticTokensParams, TextDocumentIdentifier, TextDocumentPositionParams, TextEdit,
+};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// A result, or why there is none.
+pub(super) type Answer = Result<Value, (Fault, String)>;
+
+/// What the server can do.
+pub(super) fn introduction() -> Value {
+    json!({
+        "capabilities": {
+            "positionEncoding": "utf-16",
+            "textDocumentSync": { "openClose": true, "change": 2, "save": { "includeText": false } },
+            "hoverProvider": true,
+            "completionProvider": { "triggerCharacters": ["=", "\"", "/", " ", "("] },
+            "definitionProvider": true,
+            "referencesProvider": true,
+            "documentHighlightProvider": true,
+            "documentSymbolProvider": true,
+            "codeActionProvider": { "codeActionKinds": ["quickfix"] },
+            "renameProvider": { "prepareProvider": true },
+            "inlayHintProvider": true,
+            "documentFormattingProvider": true,
+            "semanticTokensProvider": {
+                "legend": { "tokenTypes": legend(), "tokenModifiers": modifiers() },
+                "full": true
+            }
+        },
+        "serverInfo": { "name": "vcutc", "version": env!("CARGO_PKG_VERSION") }
+    })
+}
+
+/// Asks the client to tell when files that jobs name change on the disk.
+pub(super) fn watch_files() -> Value {
+    let watchers = json!([{ "globPattern": "**/*.{vcut,toml,urdf,csv,dat}" }]);
+    let registration = json!({
+        "id": "files",
+        "method": "workspace/didChangeWatchedFiles",
+        "registerOptions": { "watchers": watchers },
+    });
+    json!({
+        "jsonrpc": "2.0",
+        "id": "watch-files",
+        "method": "client/registerCapability",
+        "params": { "registrations": [registration] },
+    })
+}
+
+/// Meets a request.
+pub(super) fn meet(server: &mut Server, method: &str, params: Value, files: &dyn Workspace) -> Answer {
+    match method {
+        "textDocument/hover" => hovered(server, parsed(params)?),
+        "textDocument/completion" => completed(server, parsed(params)?),
+        "textDocument/definition" => defined(server, parsed(params)?),
+        "textDocument/references" => referred(server, parsed(params)?, files),
+        "textDocument/documentHighlight" => highlighted(server, parsed(params)?),
+        "textDocument/documentSymbol" => outlined(server, parsed(params)?),
+        "textDocument/codeAction" => mended(server, parsed(params)?),
+        "textDocument/prepareRename" => renamable(server, parsed(params)?),
+        "textDocument/rename" => renamed(server, parsed(params)?, files),
+        "textDocument/formatting" => formatted(server, parsed(params)?),
+        "textDocument/inlayHint" => hinted(server, parsed(params)?),
+        "textDocument/semanticTokens/full" => coloured(server, parsed(params)?),
+        _ => Err((Fault::MethodNotFound, format!("there is no method `{method}`"))),
+    }
+}
+
+/// An open document with what is known of it.
+struct Asked<'s> {
+    path: String,
+    text: &'s Text,
+    analysis: &'s Analysis,
+}
+
+/// The document of a request; none for one that is not open, or not of the language.
+fn asked<'s>(server: &'s Server, document: &TextDocumentIdentifier) -> Option<Asked<'s>> {
+    let path = path_of(&document.uri);
+    let text = server.documents.texts.get(&path)?;
+    let analysis = server.documents.about(&path)?;
+    Some(Asked { path, text, analysis })
+}
+
+fn markdown(value: String) -> MarkupContent {
+    MarkupContent {
+        kind: MarkupKind::Markdown,
+        value,
+    }
+}
+
+fn hovered(server: &Server, params: HoverParams) -> Answer {
+    let at = params.text_document_position_params;
+    let told = asked(server, &at.text_document).and_then(|asked| {
+        let offset = asked.text.offset(at.position);
+        let told = hover(asked.analysis, &asked.path, offset, &server.targets)?;
+        Some(Hover {
+            contents: HoverContents::Markup(markdown(told.text)),
+            range: Some(asked.text.range(told.span.bytes())),
+        })
+    });
+    Ok(json!(told))
+}
+
+fn completed(server: &Server, params: CompletionParams) -> Answer {
+    let at = params.text_document_position;
+    let Some(asked) = asked(server, &at.text_document) else {
+        return Ok(Value::Null);
+    };
+    let offset = asked.text.offset(at.position);
+    let found = completion(asked.text.as_str(), offset, asked.analysis, &server.targets);
+    let range = asked.text.range(found.replaces);
+    let items: Vec<CompletionItem> = found
+        .offers
+        .into_iter()
+        .map(|offer| item(offer, range, server.insertion))
+        .collect();
+    Ok(json!(items))
+}
+
+fn item(offer: Offer, range: Range, insertion: Insertion) -> CompletionItem {
+    let (format, text) = match insertion {
+        Insertion::Snippets => (InsertTextFormat::SNIPPET, offer.snippet),
+        Insertion::Plain => (InsertTextFormat::PLAIN_TEXT, plain(&offer.snippet)),
+    };
+    CompletionItem {
+        sort_text: Some(format!("{}{}", offer.rank as u8, offer.label)),
+        filter_text: Some(offer.label.clone()),
+        label: offer.label,
+        kind: Some(offer.kind),
+        detail: (!offer.detail.is_empty()).then_some(offer.detail),
+        documentation: offer
+            .documentation
+            .map(|text| Documentation::MarkupContent(markdown(text))),
+        insert_text_format: Some(format),
+        text_edit: Some(CompletionTextEdit::Edit(TextEdit {
+            range,
+            new_text: text,
+        })),
+        ..CompletionItem::default()
+    }
+}
+
+/// A snippet without its places: `$1` is nothing, `${1:4 mm}` is `4 mm`, `\}` is `}`.
+pub(super) fn plain(snippet: &str) -> String {
+    let mut text = String::new();
+    let mut letters = snippet.chars().peekable();
+    let mut open = 0_usize;
+    while let Some(letter) = letters.next() {
+        match letter {
+            '\\' => text.extend(letters.next()),
+            '}' if open > 0 => open -= 1,
+            '$' if letters.peek() == Some(&'{') => {
+                open += 1;
+                let skipped = letters.by_ref().find(|letter| *letter == ':' || *letter == '}');
+                if skipped == Some('}') {
+                    open -= 1;
+                }
+            }
+            '$' => while letters.next_if(char::is_ascii_digit).is_some() {},
+            letter => text.push(letter),
+        }
+    }
+    text
+}
+
+/// The place of a span of an analysis, as the client calls its file.
+fn location(server: &Server, analysis: &Analysis, span: Span) -> Option<Location> {
+    let source = analysis.sources.get(span.file)?;
+    Some(Location {
+        uri: server.documents.uri(&source.name)?,
+        range: Text::new(&source.text).range(span.bytes()),
+    })
+}
+
+fn defined(server: &Server, params: GotoDefinitionParams) -> Answer {
+    let at = params.text_document_position_params;
+    let Some(asked) = asked(server, &at.text_document) else {
+        return Ok(Value::Null);
+    };
+    let offset = asked.text.offset(at.position);
+    if let Some(definition) = definition_at(asked.analysis, &asked.path, offset) {
+        return Ok(json!(location(server, asked.analysis, definition.name.span)));
+    }
+    Ok(json!(named_file(server, &asked, offset)))
+}
+
+/// The file that the text under the cursor names.
+fn named_file(server: &Server, asked: &Asked<'_>, offset: usize) -> Option<Location> {
+    let sites = sites_at(asked.analysis, &asked.path, offset);
+    let meant = sites.iter().find_map(|site| {
+        let Kind::Path(path, written) = site.kind else {
+            return None;
+        };
+        let is_file = path != Path::Model || Origin::of(written) != Origin::Catalogue;
+        is_file.then(|| file_meant(asked.analysis, site.span.file, written))
+    })?;
+    let start = Position::default();
+    Some(Location {
+        uri: server.documents.uri(&meant).or_else(|| uri_of(&meant))?,
+        range: Range { start, end: start },
+    })
+}
+
+/// All analyses in which a name of an open document may be used, and the name.
+fn users_of_name(
+    server: &mut Server,
+    at: &TextDocumentPositionParams,
+    files: &dyn Workspace,
+) -> Option<(String, Vec<Analysis>)> {
+    let asked = asked(server, &at.text_document)?;
+    let offset = asked.text.offset(at.position);
+    let name = name_at(asked.analysis, &asked.path, offset)?.text;
+    let known = asked.analysis.study.definition(&name)?;
+    let home = asked.analysis.sources.name(known.name.span.file).to_owned();
+    let users = server.documents.users(&home, files);
+    Some((name, users))
+}
+
+fn referred(server: &mut Server, params: ReferenceParams, files: &dyn Workspace) -> Answer {
+    let Some((name, users)) = users_of_name(server, &params.text_document_position, files) else {
+        return Ok(Value::Null);
+    };
+    let users: Vec<&Analysis> = users.iter().collect();
+    let mut found: Vec<Location> = Vec::new();
+    for (path, (text, spans)) in places(&users, &name) {
+        let Some(uri) = server.documents.uri(&path) else {
+            continue;
+        };
+        found.extend(spans.iter().map(|&(start, end)| Location {
+            uri: uri.clone(),
+            range: text.range(start as usize..end as usize),
+        }));
+    }
+    if !params.context.include_declaration {
+        let definition = users.iter().find_map(|user| {
+            let known = user.study.definition(&name)?;
+            location(server, user, known.name.span)
+        });
+        found.retain(|place| Some(place) != definition.as_ref());
+    }
+    Ok(json!(found))
+}
+
+fn highlighted(server: &Server, params: lsp_types::DocumentHighlightParams) -> Answer {
+    let at = params.text_document_position_params;
+    let Some(asked) = asked(server, &at.text_document) else {
+        return Ok(Value::Null);
+    };
+    let offset = asked.text.offset(at.position);
+    let Some(name) = name_at(asked.analysis, &asked.path, offset) else {
+        return Ok(Value::Null);
+    };
+    let places: Vec<Value> = occurrences(asked.analysis, &name.text)
+        .into_iter()
+        .filter(|span| span.file == name.span.file)
+        .map(|span| json!({ "range": asked.text.range(span.bytes()) }))
+        .collect();
+    Ok(json!(places))
+}
+
+fn outlined(server: &Server, params: DocumentSymbolParams) -> Answer {
+    let outline = asked(server, &params.text_document).and_then(|asked| {
+        let (_, ast) = asked.analysis.file(&asked.path)?;
+        Some(symbols(ast, asked.text))
+    });
+    Ok(json!(outline))
+}
+
+/// The fixes of the diagnostics that touch a range.
+fn mended(server: &Server, params: CodeActionParams) -> Answer {
+    let path = path_of(&params.text_document.uri);
+    let mut actions: Vec<Value> = Vec::new();
+    for known in server.documents.speaking() {
+        let (sources, diagnostics) = known.told();
+        let mut lines = Lines::of(sources);
+        for diagnostic in diagnostics {
+            let (of_file, told) = in_protocol(diagnostic, &mut lines);
+            if of_file != path || !touches(told.range, params.range) {
+                continue;
+            }
+            for fix in &diagnostic.fixes {
+                let Some(edit) = edits_of(fix, &mut lines) else {
+                    continue;
+                };
+                let action = json!({
+                    "title": capitalised(&fix.title),
+                    "kind": CodeActionKind::QUICKFIX,
+                    "diagnostics": [told],
+                    "isPreferred": diagnostic.fixes.len() == 1,
+                    "edit": edit,
+                });
+                if !actions.contains(&action) {
+                    actions.push(action);
+                }
+            }
+        }
+    }
+    Ok(json!(actions))
+}
+
+fn touches(a: Range, b: Range) -> bool {
+    a.start <= b.end && b.start <= a.end
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
+fn renamable(server: &Server, at: TextDocumentPositionParams) -> Answer {
+    let name = asked(server, &at.text_document).and_then(|asked| {
+        let offset = asked.text.offset(at.position);
+        let name = name_at(asked.analysis, &asked.path, offset)?;
+        Some(json!({ "range": asked.text.range(name.span.bytes()), "placeholder": name.text }))
+    });
+    name.ok_or_else(nothing_to_rename)
+}
+
+fn nothing_to_rename() -> (Fault, String) {
+    let why =
+        "only names of values, blades and machines can be renamed, and only where they are defined somewhere";
+    (Fault::RequestFailed, why.to_owned())
+}
+
+fn renamed(server: &mut Server, params: RenameParams, files: &dyn Workspace) -> Answer {
+    let found = users_of_name(server, &params.text_document_position, files);
+    let (name, users) = found.ok_or_else(nothing_to_rename)?;
+    let users: Vec<&Analysis> = users.iter().collect();
+    let new = params.new_name.as_str();
+    if let Some(why) = refused(&users, &name, new) {
+        return Err((Fault::RequestFailed, why));
+    }
+    let places = places(&users, &name);
+    if !keeps_meaning(&users, &places, new, &server.documents.texts, files) {
+        let why = format!("with `{new}` for `{name}` the files would not mean the same any more");
+        return Err((Fault::RequestFailed, why));
+    }
+    let mut changes: BTreeMap<String, Vec<TextEdit>> = BTreeMap::new();
+    for (path, (text, spans)) in places {
+        let uri = server.documents.uri(&path).ok_or_else(|| {
+            let why = format!("`{path}` cannot be said as a URI");
+            (Fault::RequestFailed, why)
+        })?;
+        let edits = spans.iter().map(|&(start, end)| TextEdit {
+            range: text.range(start as usize..end as usize),
+            new_text: new.to_owned(),
+        });
+        changes.insert(uri.as_str().to_owned(), edits.collect());
+    }
+    Ok(workspace_edit(changes))
+}
+
+fn formatted(server: &Server, params: DocumentFormattingParams) -> Answer {
+    let path = path_of(&params.text_document.uri);
+    let edits = server.documents.texts.get(&path).and_then(formatting);
+    Ok(json!(edits))
+}
+
+fn hinted(server: &Server, params: InlayHintParams) -> Answer {
+    let Some(asked) = asked(server, &params.text_document) else {
+        return Ok(Value::Null);
+    };
+    let within = asked.text.offset(params.range.start)..asked.text.offset(params.range.end);
+    let found: Vec<InlayHint> = hints(asked.analysis, &asked.path, within)
+        .into_iter()
+        .map(|hint| InlayHint {
+            position: asked.text.position(hint.at),
+            label: InlayHintLabel::String(format!("= {}", hint.value)),
+            kind: Some(InlayHintKind::TYPE),
+            text_edits: None,
+            tooltip: (!hint.why.is_empty()).then_some(InlayHintTooltip::String(hint.why)),
+            padding_left: Some(true),
+            padding_right: None,
+            data: None,
+        })
+        .collect();
+    Ok(json!(found))
+}
+
+fn coloured(server: &Server, params: SemanticTokensParams) -> Answer {
+    let tokens = asked(server, &params.text_document).and_then(|asked| {
+        let (_, ast) = asked.analysis.file(&asked.path)?;
+        Some(SemanticTokens {
+            result_id: None,
+            data: semantic_tokens(ast, asked.text),
+        })
+    });
+    Ok(json!(tokens))
+}

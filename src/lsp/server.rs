@@ -1,0 +1,342 @@
+//! The server as a machine of states: from a message to messages.
+
+use super::Workspace;
+use super::analysis::{Analysis, Done, Planning, Task};
+use super::diagnostics::{Lines, in_protocol};
+use super::documents::{Called, Documents, Language};
+use super::requests;
+use super::uri::path_of;
+use super::wire::{Fault, Incoming, answer, notification, refusal};
+use lsp_types::{
+    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, InitializeParams,
+    PublishDiagnosticsParams,
+};
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use vcutc_backend_api::backend::Backend;
+
+/// How far the conversation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// The client has not introduced itself.
+    Fresh,
+    /// In full swing.
+    Running,
+    /// The client has asked to stop.
+    Stopping,
+    /// It has said good-bye.
+    Over(Ending),
+}
+
+/// How a conversation ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// As agreed: first `shutdown`, then `exit`.
+    Agreed,
+    /// Without `shutdown`.
+    Abrupt,
+}
+
+/// What the client can take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Insertion {
+    /// Texts only.
+    #[default]
+    Plain,
+    /// Texts with places to go on at.
+    Snippets,
+}
+
+/// When jobs are planned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum PlanningWish {
+    /// Whenever a job has no errors.
+    #[default]
+    WhileTyping,
+    /// Never: `vcutc check` does it.
+    Never,
+}
+
+/// Who tells that files on the disk have changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Watching {
+    /// The client, if it does so by itself.
+    Unasked,
+    /// The client, when it is asked to.
+    OnRequest,
+}
+
+/// What was last published about a file.
+type Published = (Option<i32>, Vec<lsp_types::Diagnostic>);
+
+/// A language server.
+pub struct Server {
+    stage: Stage,
+    pub(super) documents: Documents,
+    published: BTreeMap<String, Published>,
+    pub(super) targets: Vec<&'static dyn Backend>,
+    pub(super) insertion: Insertion,
+    planning: PlanningWish,
+    watching: Watching,
+}
+
+impl Server {
+    /// A server that knows these targets.
+    #[must_use]
+    pub fn new(targets: &[&'static dyn Backend]) -> Self {
+        Self {
+            stage: Stage::Fresh,
+            documents: Documents::default(),
+            published: BTreeMap::new(),
+            targets: targets.to_vec(),
+            insertion: Insertion::default(),
+            planning: PlanningWish::default(),
+            watching: Watching::Unasked,
+        }
+    }
+
+    /// How the conversation ended, once it has.
+    #[must_use]
+    pub const fn ending(&self) -> Option<Ending> {
+        match self.stage {
+            Stage::Over(ending) => Some(ending),
+            Stage::Fresh | Stage::Running | Stage::Stopping => None,
+        }
+    }
+
+    /// Takes a message and gives those that answer it.
+    pub fn handle(&mut self, message: Incoming, files: &dyn Workspace) -> Vec<Value> {
+        match message {
+            Incoming::Request { id, method, params } => {
+                let mut messages = Vec::new();
+                // Questions are about the text as it is now.
+                if self.stage == Stage::Running {
+                    messages = self.settle(files);
+                }
+                messages.push(match self.request(&method, params, files) {
+                    Ok(result) => answer(&id, &result),
+                    Err((fault, why)) => refusal(&id, fault, &why),
+                });
+                messages
+            }
+            Incoming::Notification { method, params } => self.notification(&method, params),
+            Incoming::Response => Vec::new(),
+            Incoming::Malformed(refusal) => vec![refusal],
+        }
+    }
+
+    fn request(&mut self, method: &str, params: Value, files: &dyn Workspace) -> requests::Answer {
+        match (self.stage, method) {
+            (Stage::Fresh, "initialize") => {
+                let params = parsed::<InitializeParams>(params)?;
+                self.introduced(&params);
+                self.stage = Stage::Running;
+                Ok(requests::introduction())
+            }
+            (Stage::Fresh, _) => Err((Fault::NotInitialized, "`initialize` comes first".to_owned())),
+            (Stage::Running, "initialize") => Err((
+                Fault::InvalidRequest,
+                "the server is initialized already".to_owned(),
+            )),
+            (Stage::Running, "shutdown") => {
+                self.stage = Stage::Stopping;
+                Ok(Value::Null)
+            }
+            (Stage::Running, _) => requests::meet(self, method, params, files),
+            (Stage::Stopping | Stage::Over(_), _) => {
+                Err((Fault::InvalidRequest, "the server has been shut down".to_owned()))
+            }
+        }
+    }
+
+    fn introduced(&mut self, params: &InitializeParams) {
+        let completion = params
+            .capabilities
+            .text_document
+            .as_ref()
+            .and_then(|document| document.completion.as_ref())
+            .and_then(|completion| completion.completion_item.as_ref());
+        if completion.and_then(|item| item.snippet_support) == Some(true) {
+            self.insertion = Insertion::Snippets;
+        }
+        let watched = params
+            .capabilities
+            .workspace
+            .as_ref()
+            .and_then(|workspace| workspace.did_change_watched_files.as_ref());
+        if watched.and_then(|watched| watched.dynamic_registration) == Some(true) {
+            self.watching = Watching::OnRequest;
+        }
+        let folders = params.workspace_folders.iter().flatten();
+        self.documents.folders = folders.map(|folder| path_of(&folder.uri)).collect();
+        #[expect(deprecated, reason = "clients without folders still send their root so")]
+        if self.documents.folders.is_empty()
+            && let Some(root) = &params.root_uri
+        {
+            self.documents.folders = vec![path_of(root)];
+        }
+        let wish = params
+            .initialization_options
+            .as_ref()
+            .and_then(|options| options.get("planning"));
+        if wish.and_then(Value::as_str) == Some("never") {
+            self.planning = PlanningWish::Never;
+        }
+    }
+
+    fn notification(&mut self, method: &str, params: Value) -> Vec<Value> {
+        match (self.stage, method) {
+            (Stage::Running, "initialized") if self.watching == Watching::OnRequest => {
+                return vec![requests::watch_files()];
+            }
+            (Stage::Stopping, "exit") => self.stage = Stage::Over(Ending::Agreed),
+            (_, "exit") => self.stage = Stage::Over(Ending::Abrupt),
+            (Stage::Running, "textDocument/didOpen") => {
+                if let Ok(params) = parsed::<DidOpenTextDocumentParams>(params) {
+                    self.opened(params);
+                }
+            }
+            (Stage::Running, "textDocument/didChange") => {
+                if let Ok(params) = parsed::<DidChangeTextDocumentParams>(params) {
+                    self.changed(&params);
+                }
+            }
+            (Stage::Running, "textDocument/didClose") => {
+                if let Ok(params) = parsed::<DidCloseTextDocumentParams>(params) {
+                    self.documents.close(&path_of(&params.text_document.uri));
+                }
+            }
+            (Stage::Running, "textDocument/didSave" | "workspace/didChangeWatchedFiles") => {
+                self.documents.forget_all();
+            }
+            // Others are none of ours.
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn opened(&mut self, params: DidOpenTextDocumentParams) {
+        let document = params.text_document;
+        let path = path_of(&document.uri);
+        let language = if document.language_id == "vcut" || path.ends_with(".vcut") {
+            Language::Vcut
+        } else {
+            Language::Other
+        };
+        let called = Called {
+            uri: document.uri,
+            version: document.version,
+            language,
+        };
+        self.documents.open(path, called, &document.text);
+    }
+
+    fn changed(&mut self, params: &DidChangeTextDocumentParams) {
+        let path = path_of(&params.text_document.uri);
+        let Some(text) = self.documents.texts.get(&path) else {
+            return;
+        };
+        let text = text.changed(&params.content_changes);
+        self.documents.change(&path, params.text_document.version, text);
+    }
+
+    /// Looks at what has changed, and tells what is to be told anew. To be called when no more messages wait.
+    pub fn settle(&mut self, files: &dyn Workspace) -> Vec<Value> {
+        if self.stage != Stage::Running {
+            return Vec::new();
+        }
+        self.documents.look(files);
+        self.publish()
+    }
+
+    /// Tells what is known of every file, where that has changed.
+    fn publish(&mut self) -> Vec<Value> {
+        let mut told = self.told();
+        let mut messages = Vec::new();
+        let paths: BTreeSet<String> = told.keys().chain(self.published.keys()).cloned().collect();
+        for path in paths {
+            let version = self.documents.called.get(&path).map(|called| called.version);
+            let now = (version, told.remove(&path).unwrap_or_default());
+            let is_gone = now.1.is_empty() && version.is_none();
+            let before = self.published.get(&path);
+            if before == Some(&now) || before.is_none() && is_gone {
+                continue;
+            }
+            let Some(uri) = self.documents.uri(&path) else {
+                continue;
+            };
+            let params = PublishDiagnosticsParams {
+                uri,
+                diagnostics: now.1.clone(),
+                version,
+            };
+            messages.push(notification("textDocument/publishDiagnostics", &json!(params)));
+            if is_gone {
+                self.published.remove(&path);
+            } else {
+                self.published.insert(path, now);
+            }
+        }
+        messages
+    }
+
+    /// What is to be told, by file; open documents are there even when there is nothing to tell.
+    fn told(&self) -> BTreeMap<String, Vec<lsp_types::Diagnostic>> {
+        let open = self.documents.called.iter();
+        let mut told: BTreeMap<String, Vec<lsp_types::Diagnostic>> = open
+            .filter(|(_, called)| called.language == Language::Vcut)
+            .map(|(path, _)| (path.clone(), Vec::new()))
+            .collect();
+        for known in self.documents.speaking() {
+            let is_open = self.documents.called.contains_key(&known.root);
+            let (sources, diagnostics) = known.told();
+            let mut lines = Lines::of(sources);
+            for diagnostic in diagnostics {
+                let (path, diagnostic) = in_protocol(diagnostic, &mut lines);
+                // A job that was looked for to understand a library is not complained about itself.
+                if !is_open && !self.documents.called.contains_key(&path) {
+                    continue;
+                }
+                let of_file = told.entry(path).or_default();
+                if !of_file.contains(&diagnostic) {
+                    of_file.push(diagnostic);
+                }
+            }
+        }
+        told
+    }
+
+    /// A job to be planned, if there is one. The caller lets it run when and where it likes, and hands back what it gives.
+    pub fn task(&mut self) -> Option<Task> {
+        if self.stage != Stage::Running || self.planning == PlanningWish::Never {
+            return None;
+        }
+        let is_due = |known: &&mut Analysis| matches!(known.planning, Planning::Due);
+        let known = self.documents.analyses.values_mut().find(is_due)?;
+        known.planning = Planning::UnderWay;
+        Some(Task {
+            root: known.root.clone(),
+            stamp: known.stamp,
+            open: self.documents.texts.clone(),
+        })
+    }
+
+    /// Takes back what came of a task, and tells it if it is about the text as it is now.
+    pub fn finish(&mut self, done: Done) -> Vec<Value> {
+        let known = self.documents.analyses.get_mut(&done.root);
+        let Some(known) = known.filter(|known| known.stamp == done.stamp) else {
+            return Vec::new();
+        };
+        known.planning = match done.planned {
+            Some(planned) => Planning::Done(Box::new(planned)),
+            None => Planning::Needless,
+        };
+        self.publish()
+    }
+}
+
+/// The parameters of a message.
+pub(super) fn parsed<T: DeserializeOwned>(params: Value) -> Result<T, (Fault, String)> {
+    serde_json::from_value(params).map_err(|error| (Fault::InvalidParams, error.to_string()))
+}

@@ -1,0 +1,515 @@
+//! What stands where in a file: its tree as a row of places, each with what it is.
+//!
+//! Every question about a place in a text is answered from this row: what is under the cursor, where a name is used, which
+//! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
+
+use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
+
+/// A place and what stands there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Site<'a> {
+    /// Where.
+    pub(super) span: Span,
+    /// What.
+    pub(super) kind: Kind<'a>,
+    /// In which field of which block.
+    pub(super) place: Place<'a>,
+}
+
+/// What stands at a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Kind<'a> {
+    /// The first word of a block's head, or the head of a block within another.
+    Block,
+    /// The word behind `rough`, or the kind of a machine.
+    HeadWord,
+    /// The name of the job.
+    JobName,
+    /// A name that is defined here.
+    Definition(Named, &'a str),
+    /// A name that is used here, unless it is a word of a target.
+    Reference(&'a str),
+    /// The name of a field, a limit or an option.
+    Field(&'a str),
+    /// A word that the field takes.
+    Word,
+    /// `auto`.
+    Auto,
+    /// A number with what belongs to it.
+    Number(&'a Spanned<Expr>),
+    /// A unit.
+    Unit(&'a str),
+    /// A function, or another call.
+    Function(&'a str),
+    /// The name of a value in a call.
+    Label,
+    /// The name of a formula.
+    Formula,
+    /// The variable of a formula.
+    Variable,
+    /// A text that names a file, or a machine of the catalogue.
+    Path(Path, &'a str),
+    /// The whole value of a field or a `let`, or a coordinate of a point.
+    Value(&'a Spanned<Expr>),
+}
+
+/// What a name is defined as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    /// A value.
+    Value,
+    /// A blade.
+    Blade,
+    /// A machine.
+    Machine,
+}
+
+/// What a text in quotes names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Path {
+    /// A file of definitions.
+    Use,
+    /// A file of points or an airfoil.
+    Data,
+    /// A model of the catalogue, or a file that describes one.
+    Model,
+    /// A file with a machine's habits.
+    Profile,
+}
+
+/// In which field of which block something stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<'a> {
+    /// The block as the reference calls it: `rough vcut`, `limits`; empty outside of blocks.
+    pub(super) block: &'a str,
+    /// Which of the operations of the file it is, or belongs to.
+    pub(super) operation: Option<usize>,
+    /// The field.
+    pub(super) field: Option<&'static FieldSpec>,
+    /// Whether bare words may be words of a target.
+    pub(super) words: Words,
+}
+
+/// What a bare word is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Words {
+    /// A name.
+    Names,
+    /// A name if a `let` has it, else a word of a target.
+    OfTarget,
+}
+
+const NOWHERE: Place<'static> = Place {
+    block: "",
+    operation: None,
+    field: None,
+    words: Words::Names,
+};
+
+/// The places of a file, in the order of the text; a place within another comes after it.
+pub(super) fn sites(ast: &Ast) -> Vec<Site<'_>> {
+    let mut row = Row::default();
+    for item in &ast.items {
+        row.item(item);
+    }
+    row.sites
+}
+
+#[derive(Default)]
+struct Row<'a> {
+    sites: Vec<Site<'a>>,
+    operations: usize,
+}
+
+impl<'a> Row<'a> {
+    fn push(&mut self, span: Span, kind: Kind<'a>, place: Place<'a>) {
+        self.sites.push(Site { span, kind, place });
+    }
+
+    fn item(&mut self, item: &'a Item) {
+        match item {
+            Item::Job { name, .. } => self.push(name.span, Kind::JobName, NOWHERE),
+            Item::Use { path, .. } => self.push(path.span, Kind::Path(Path::Use, &path.node), NOWHERE),
+            Item::Let { name, value, .. } => {
+                self.push(name.span, Kind::Definition(Named::Value, &name.node), NOWHERE);
+                self.value(value, NOWHERE, None);
+            }
+            Item::Block(block) => self.block(block),
+        }
+    }
+
+    fn block(&mut self, block: &'a Block) {
+        let Some(Spanned {
+            node: HeadPart::Word(first),
+            span,
+        }) = block.head.first()
+        else {
+            return;
+        };
+        let mut place = Place {
+            block: if first == "rough" { "rough vcut" } else { first },
+            ..NOWHERE
+        };
+        if first == "rough" {
+            place.operation = Some(self.operations);
+            self.operations += 1;
+        }
+        self.push(*span, Kind::Block, place);
+        self.head(first, block, place);
+        if first == "profile" {
+            for entry in &block.entries {
+                self.profile_entry(entry, place);
+            }
+        } else {
+            self.entries(&block.entries, vocabulary::block(first), place);
+        }
+    }
+
+    /// The words behind the first one.
+    fn head(&mut self, first: &str, block: &'a Block, place: Place<'a>) {
+        for (number, part) in block.head.iter().enumerate().skip(1) {
+            let kind = match (&part.node, first, number) {
+                (HeadPart::Word(name), "blade", 1) => Kind::Definition(Named::Blade, name),
+                (HeadPart::Word(name), "machine", 1) => Kind::Definition(Named::Machine, name),
+                (HeadPart::Word(_), _, _) => Kind::HeadWord,
+                (HeadPart::Text(model), "machine", _) => Kind::Path(Path::Model, model),
+                (HeadPart::Text(_) | HeadPart::Equals, _, _) => continue,
+            };
+            self.push(part.span, kind, place);
+        }
+    }
+
+    fn entries(&mut self, entries: &'a [Entry], spec: Option<&'static BlockSpec>, place: Place<'a>) {
+        for entry in entries {
+            match entry {
+                Entry::Field { name, value, .. } | Entry::Limit { name, value, .. } => {
+                    let field = spec.and_then(|spec| spec.field(&name.node));
+                    let place = Place { field, ..place };
+                    self.push(name.span, Kind::Field(&name.node), place);
+                    let is_profile = place.words == Words::OfTarget && name.node == "profile";
+                    if let (Expr::Text(path), true) = (&value.node, is_profile) {
+                        self.push(value.span, Kind::Path(Path::Profile, path), place);
+                    } else {
+                        self.value(value, place, None);
+                    }
+                }
+                Entry::Formula { .. } | Entry::Curve { .. } => self.profile_entry(entry, place),
+                Entry::Tips { points, .. } => self.points(points, place),
+                Entry::Block(inner) => self.inner_block(inner, spec, place),
+            }
+        }
+    }
+
+    fn inner_block(&mut self, inner: &'a Block, outer: Option<&'static BlockSpec>, place: Place<'a>) {
+        let Some(Spanned {
+            node: HeadPart::Word(word),
+            span,
+        }) = inner.head.first()
+        else {
+            return;
+        };
+        let field = outer.and_then(|spec| spec.field(word));
+        let within = |block| Place {
+            block,
+            field,
+            ..place
+        };
+        let is_target = outer.is_some_and(|spec| spec.inner == Inner::TargetOptions);
+        if let Some(Takes::Fields(spec)) = field.map(|field| field.takes) {
+            self.push(*span, Kind::Block, within(place.block));
+            self.entries(&inner.entries, Some(spec), within(word));
+        } else if is_target && field.is_none() {
+            let place = Place {
+                words: Words::OfTarget,
+                ..within(word)
+            };
+            self.push(*span, Kind::Block, place);
+            self.entries(&inner.entries, None, place);
+        } else {
+            self.push(*span, Kind::Block, within(place.block));
+            self.entries(&inner.entries, None, within(word));
+        }
+    }
+
+    fn profile_entry(&mut self, entry: &'a Entry, place: Place<'a>) {
+        match entry {
+            Entry::Formula {
+                name,
+                variable,
+                value,
+                ..
+            } => {
+                self.push(name.span, Kind::Formula, place);
+                self.push(variable.span, Kind::Variable, place);
+                self.value(value, place, Some(&variable.node));
+            }
+            Entry::Curve { curve, .. } => self.curve(curve, place),
+            Entry::Field { name, value, .. } | Entry::Limit { name, value, .. } => {
+                self.push(name.span, Kind::Field(&name.node), place);
+                self.value(value, place, None);
+            }
+            Entry::Tips { points, .. } => self.points(points, place),
+            Entry::Block(inner) => self.inner_block(inner, None, place),
+        }
+    }
+
+    fn curve(&mut self, curve: &'a Curve, place: Place<'a>) {
+        match curve {
+            Curve::Start(point) | Curve::Line { to: point } => self.point(point, place),
+            Curve::Arc { to, by } => {
+                self.point(to, place);
+                match by {
+                    ArcBy::Radius(radius) => self.value(radius, place, None),
+                    ArcBy::Center(point) | ArcBy::Through(point) => self.point(point, place),
+                }
+            }
+            Curve::Bezier { control: inner, to }
+            | Curve::Spline { through: inner, to }
+            | Curve::Polyline { through: inner, to } => {
+                self.points(inner, place);
+                self.point(to, place);
+            }
+            Curve::Points { path, options } => self.data("points", path, options, place),
+            Curve::Airfoil { path, options } => self.data("airfoil", path, options, place),
+            Curve::Dxf { path, options } => self.data("dxf", path, options, place),
+            Curve::Svg { path, options } => self.data("svg", path, options, place),
+        }
+    }
+
+    fn data(
+        &mut self,
+        word: &'static str,
+        path: &'a Spanned<String>,
+        options: &'a [Entry],
+        place: Place<'a>,
+    ) {
+        self.push(path.span, Kind::Path(Path::Data, &path.node), place);
+        let place = Place { block: word, ..place };
+        self.entries(options, vocabulary::data_file(word), place);
+    }
+
+    fn points(&mut self, points: &'a [Point], place: Place<'a>) {
+        for point in points {
+            self.point(point, place);
+        }
+    }
+
+    fn point(&mut self, point: &'a Point, place: Place<'a>) {
+        self.value(&point.x, place, None);
+        self.value(&point.z, place, None);
+    }
+
+    /// A whole value, and what stands in it.
+    fn value(&mut self, value: &'a Spanned<Expr>, place: Place<'a>, variable: Option<&str>) {
+        self.push(value.span, Kind::Value(value), place);
+        // A stack of its own: values may be long.
+        let mut open = vec![value];
+        while let Some(next) = open.pop() {
+            self.part(next, place, variable);
+            match &next.node {
+                Expr::Number { .. } | Expr::Text(_) | Expr::Name(_) => {}
+                Expr::Call { arguments, .. } => {
+                    self.labels(arguments, place);
+                    open.extend(arguments.iter().map(|argument| &argument.value).rev());
+                }
+                Expr::Negate(inner) => open.push(inner),
+                Expr::Binary { left, right, .. } => open.extend([right.as_ref(), left.as_ref()]),
+                Expr::Tuple(values) => open.extend(values.iter().rev()),
+            }
+        }
+    }
+
+    fn labels(&mut self, arguments: &'a [Argument], place: Place<'a>) {
+        for label in arguments.iter().filter_map(|argument| argument.name.as_ref()) {
+            self.push(label.span, Kind::Label, place);
+        }
+    }
+
+    fn part(&mut self, part: &'a Spanned<Expr>, place: Place<'a>, variable: Option<&str>) {
+        match &part.node {
+            Expr::Number { unit, .. } => {
+                self.push(part.span, Kind::Number(part), place);
+                if let Some(unit) = unit {
+                    self.push(unit.span, Kind::Unit(&unit.node), place);
+                }
+            }
+            Expr::Name(name) => {
+                let kind = if variable == Some(name.as_str()) {
+                    Kind::Variable
+                } else {
+                    bare_word(name, place.field)
+                };
+                self.push(part.span, kind, place);
+            }
+            Expr::Call { function, .. } => {
+                self.push(function.span, Kind::Function(&function.node), place);
+            }
+            Expr::Text(_) | Expr::Negate(_) | Expr::Binary { .. } | Expr::Tuple(_) => {}
+        }
+    }
+}
+
+/// What a bare word in the value of a field is.
+fn bare_word<'a>(word: &'a str, field: Option<&'static FieldSpec>) -> Kind<'a> {
+    if word == "auto" && field.is_none_or(|field| field.leaving == Leaving::Open) {
+        return Kind::Auto;
+    }
+    if RESERVED.contains(&word) {
+        return Kind::Word;
+    }
+    match field.map(|field| field.takes) {
+        Some(Takes::Words(_)) => Kind::Word,
+        Some(
+            Takes::Anything
+            | Takes::Quantity(_)
+            | Takes::Blade
+            | Takes::Machine
+            | Takes::Calls(_)
+            | Takes::Fields(_),
+        )
+        | None => Kind::Reference(word),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sema::vocabulary::{Form, Need};
+    use crate::sema::{Choices, check};
+    use crate::source::{LoadError, Loader, SourceMap};
+    use std::collections::{BTreeMap, BTreeSet};
+
+    /// Files in memory.
+    struct Shop(BTreeMap<&'static str, String>);
+
+    impl Loader for Shop {
+        fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+            let text = self.0.get(path).ok_or(LoadError::NotFound)?;
+            Ok(text.clone().into_bytes())
+        }
+    }
+
+    const ROOT: &str = "everything.vcut";
+
+    fn shop() -> Shop {
+        let file = |text: &str| text.to_owned();
+        Shop(BTreeMap::from([
+            (ROOT, file(include_str!("../../tests/check/ok/everything.vcut"))),
+            (
+                "shop/blades.vcut",
+                file(include_str!("../../tests/check/ok/shop/blades.vcut")),
+            ),
+            (
+                "shop/cells.vcut",
+                file(include_str!("../../tests/check/ok/shop/cells.vcut")),
+            ),
+        ]))
+    }
+
+    /// Codes and helps of a check.
+    fn told(shop: &Shop) -> Vec<(&'static str, Vec<String>)> {
+        let (mut sources, mut found) = (SourceMap::default(), Vec::new());
+        check(ROOT, shop, Choices::default(), &mut sources, &mut found).unwrap();
+        let told = found.into_iter();
+        told.map(|diagnostic| (diagnostic.code.number(), diagnostic.help))
+            .collect()
+    }
+
+    fn with(file: &'static str, span: Span, new: &str) -> Vec<(&'static str, Vec<String>)> {
+        let mut shop = shop();
+        if let Some(text) = shop.0.get_mut(file) {
+            text.replace_range(span.bytes(), new);
+        }
+        told(&shop)
+    }
+
+    fn has(told: &[(&'static str, Vec<String>)], code: &str) -> bool {
+        told.iter().any(|(found, _)| *found == code)
+    }
+
+    /// What the tables say of a field is what the checks do with it.
+    #[test]
+    fn fields_take_what_their_tables_say() {
+        assert!(told(&shop()).is_empty());
+        let mut seen = BTreeSet::new();
+        for (file, text) in shop().0 {
+            let mut sources = SourceMap::default();
+            let id = sources.add(file, text.as_str());
+            let ast = crate::syntax::parse(id, &text, &mut Vec::new());
+            let mut name = None;
+            for site in sites(&ast) {
+                if let Kind::Field(_) = site.kind {
+                    name = Some(site.span);
+                }
+                let (Kind::Value(_), Some(field)) = (site.kind, site.place.field) else {
+                    continue;
+                };
+                seen.insert((site.place.block.to_owned(), field.name));
+                holds(file, field, site.span);
+                if let Some(name) = name.filter(|_| field.form == Form::Value) {
+                    // With the comma behind it, which would belong to nothing.
+                    let rest = text[site.span.end as usize..].trim_start_matches(' ');
+                    let end = text.len() - rest.trim_start_matches(',').len();
+                    let whole = Span::of_bytes(id, name.start as usize..end);
+                    let missing = has(&with(file, whole, ""), "VC0206");
+                    assert_eq!(missing, field.need == Need::Required, "{} without", field.name);
+                }
+            }
+        }
+        assert!(seen.len() > 38, "{} fields: {seen:?}", seen.len());
+    }
+
+    fn holds(file: &'static str, field: &FieldSpec, span: Span) {
+        let name = field.name;
+        let as_auto = with(file, span, "auto");
+        assert_eq!(
+            as_auto.is_empty(),
+            field.leaving == Leaving::Open,
+            "{name} = auto: {as_auto:?}"
+        );
+        match field.takes {
+            Takes::Quantity(range) => {
+                let other = if vocabulary::units_for(range).contains(&"kg".to_owned()) {
+                    "3 mm"
+                } else {
+                    "3 kg"
+                };
+                if name != "size" {
+                    assert!(has(&with(file, span, other), "VC0203"), "{name} = {other}");
+                }
+                for unit in vocabulary::units_for(range) {
+                    let fits = with(file, span, &format!("3 {unit}"));
+                    assert!(!has(&fits, "VC0203"), "{name} = 3 {unit}: {fits:?}");
+                }
+            }
+            Takes::Words(words) => {
+                let mut all = words();
+                if field.leaving == Leaving::Open {
+                    all.push("auto");
+                }
+                let help = format!("`{name}` takes one of {}", all.join(", "));
+                let told = with(file, span, "zzzzzzzz");
+                assert!(
+                    told.iter().any(|(_, helps)| helps.contains(&help)),
+                    "{name}: {told:?}"
+                );
+            }
+            Takes::Blade | Takes::Machine => {
+                assert!(has(&with(file, span, "zzzzzzzz"), "VC0201"), "{name}");
+                assert!(!with(file, span, "reach").is_empty(), "{name}: a value is none");
+            }
+            Takes::Calls(calls) => {
+                let told = with(file, span, "zzzzzzzz(1)");
+                let forms = calls.iter().map(|(_, example)| format!("`{name} = {example}`"));
+                let help = format!("write it like {}", forms.collect::<Vec<_>>().join(" or "));
+                assert!(
+                    told.iter().any(|(_, helps)| helps.contains(&help)),
+                    "{name}: {told:?}"
+                );
+            }
+            Takes::Anything | Takes::Fields(_) => panic!("{name}: what does it take?"),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The outline of a file: its items, and the fields of its blocks.
+
+use super::hover::head_text;
+use super::text::Text;
+use crate::source::Span;
+use crate::syntax::ast::{Ast, Block, Entry, HeadPart, Item};
+use lsp_types::{DocumentSymbol, SymbolKind};
+
+/// The outline.
+pub(super) fn symbols(ast: &Ast, text: &Text) -> Vec<DocumentSymbol> {
+    ast.items.iter().map(|item| of_item(item, text)).collect()
+}
+
+fn of_item(item: &Item, text: &Text) -> DocumentSymbol {
+    match item {
+        Item::Job { name, span } => symbol(&name.node, "job", SymbolKind::MODULE, *span, name.span, text),
+        Item::Use { path, span } => symbol(&path.node, "use", SymbolKind::FILE, *span, path.span, text),
+        Item::Let { name, value, span } => {
+            let value = text.as_str().get(value.span.bytes()).unwrap_or_default();
+            symbol(&name.node, value, SymbolKind::CONSTANT, *span, name.span, text)
+        }
+        Item::Block(block) => of_block(block, text),
+    }
+}
+
+fn of_block(block: &Block, text: &Text) -> DocumentSymbol {
+    let word = |number: usize| match block.head.get(number).map(|part| &part.node) {
+        Some(HeadPart::Word(word)) => word.as_str(),
+        Some(HeadPart::Text(_) | HeadPart::Equals) | None => "",
+    };
+    let (kind, name) = match word(0) {
+        "blade" => (SymbolKind::CLASS, word(1).to_owned()),
+        "machine" => (SymbolKind::OBJECT, word(1).to_owned()),
+        "rough" => (SymbolKind::FUNCTION, head_text(block)),
+        _ => (SymbolKind::STRUCT, head_text(block)),
+    };
+    let detail = head_text(block);
+    let head = block.head.iter().map(|part| part.span);
+    let head = head.reduce(Span::to).unwrap_or(block.span);
+    let name = if name.is_empty() { detail.clone() } else { name };
+    let mut whole = symbol(&name, &detail, kind, block.span, head, text);
+    let children: Vec<DocumentSymbol> = block
+        .entries
+        .iter()
+        .filter_map(|entry| of_entry(entry, text))
+        .collect();
+    whole.children = Some(children);
+    whole
+}
+
+fn of_entry(entry: &Entry, text: &Text) -> Option<DocumentSymbol> {
+    match entry {
+        Entry::Field { name, value, span }
+        | Entry::Limit {
+            name, value, span, ..
+        } => {
+            let value = text.as_str().get(value.span.bytes()).unwrap_or_default();
+            let kind = SymbolKind::FIELD;
+            Some(symbol(&name.node, value, kind, *span, name.span, text))
+        }
+        Entry::Block(inner) => Some(of_block(inner, text)),
+        Entry::Formula {
+            name, value, span, ..
+        } => {
+            let value = text.as_str().get(value.span.bytes()).unwrap_or_default();
+            let kind = SymbolKind::FUNCTION;
+            Some(symbol(&name.node, value, kind, *span, name.span, text))
+        }
+        Entry::Curve { .. } | Entry::Tips { .. } => None,
+    }
+}
+
+#[expect(
+    deprecated,
+    reason = "the protocol's type has a field that nobody sets any more"
+)]
+fn symbol(
+    name: &str,
+    detail: &str,
+    kind: SymbolKind,
+    whole: Span,
+    selection: Span,
+    text: &Text,
+) -> DocumentSymbol {
+    // The protocol knows no symbol without a name.
+    let name = if name.trim().is_empty() {
+        "(without a name)"
+    } else {
+        name
+    };
+    DocumentSymbol {
+        name: name.to_owned(),
+        detail: Some(first_line(detail)),
+        kind,
+        tags: None,
+        deprecated: None,
+        range: text.range(whole.bytes()),
+        selection_range: text.range(selection.bytes()),
+        children: None,
+    }
+}
+
+fn first_line(text: &str) -> String {
+    text.lines().next().unwrap_or_default().chars().take(80).collect()
+}

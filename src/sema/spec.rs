@@ -1,0 +1,208 @@
+//! The table of a kind of block: its fields, how they are written, and what they take.
+//!
+//! [`super::fields`] sorts what stands in a block by it. Need and value are for those who help people to write
+//! ([`super::vocabulary`]): the checks read values by themselves, and tests hold the two against each other.
+
+use super::range::Range;
+use crate::syntax::ast::Relation;
+
+/// What kind of entry a field is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// `name = value`.
+    Value,
+    /// `name { ... }`.
+    Block,
+    /// `name <= value`.
+    Limit,
+    /// `name <= value`, `name >= value`, or both.
+    Bounds,
+    /// `name (x, z) (x, z) ...`.
+    Points,
+}
+
+/// How an entry is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Written {
+    /// `name = value`.
+    Value,
+    /// `name { ... }`.
+    Block,
+    /// `name <= value` or `name >= value`.
+    Limit(Relation),
+    /// `name (x, z) (x, z) ...`.
+    Points,
+}
+
+impl Form {
+    /// Whether a field of this form is written so.
+    pub(super) const fn takes(self, written: Written) -> bool {
+        match (self, written) {
+            (Self::Value, Written::Value)
+            | (Self::Block, Written::Block)
+            | (Self::Limit, Written::Limit(Relation::AtMost))
+            | (Self::Bounds, Written::Limit(Relation::AtMost | Relation::AtLeast))
+            | (Self::Points, Written::Points) => true,
+            (Self::Value | Self::Block | Self::Limit | Self::Bounds | Self::Points, _) => false,
+        }
+    }
+}
+
+/// Whether a block must have a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Need {
+    /// It must.
+    Required,
+    /// It has a default, or means nothing when it is not there.
+    Optional,
+}
+
+/// What the value of a field is. The blocks' own checks read it; this is for those who help to write it, and tests hold the
+/// two against each other.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
+pub(crate) enum Takes {
+    /// Nothing that can be said in advance.
+    Anything,
+    /// A value of a range.
+    Quantity(Range),
+    /// One of a few words.
+    Words(fn() -> Vec<&'static str>),
+    /// The name of a blade.
+    Blade,
+    /// The name of a machine.
+    Machine,
+    /// One of a few calls, each with an example.
+    Calls(&'static [(&'static str, &'static str)]),
+    /// The fields of a block.
+    Fields(&'static BlockSpec),
+}
+
+/// Whether a field can be left to the compiler.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Leaving {
+    /// It takes `auto`.
+    Open,
+    /// It does not.
+    Closed,
+}
+
+/// A field that a block can have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FieldSpec {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// What kind of entry it is.
+    pub(crate) form: Form,
+    /// A typical value; for a block with its braces.
+    pub(crate) typical: &'static str,
+    /// Whether it must be there.
+    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
+    pub(crate) need: Need,
+    /// What its value is.
+    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
+    pub(crate) takes: Takes,
+    /// Whether it takes `auto`.
+    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
+    pub(crate) leaving: Leaving,
+}
+
+impl FieldSpec {
+    const fn new(name: &'static str, form: Form, typical: &'static str) -> Self {
+        Self {
+            name,
+            form,
+            typical,
+            need: Need::Optional,
+            takes: Takes::Anything,
+            leaving: Leaving::Closed,
+        }
+    }
+
+    /// The same, but it must be there.
+    pub(crate) const fn required(self) -> Self {
+        Self {
+            need: Need::Required,
+            ..self
+        }
+    }
+
+    /// The same, with what its value is.
+    pub(crate) const fn takes(self, takes: Takes) -> Self {
+        Self { takes, ..self }
+    }
+
+    /// The same, with a value of a range.
+    pub(crate) const fn within(self, range: Range) -> Self {
+        self.takes(Takes::Quantity(range))
+    }
+
+    /// The same, but it can be left to the compiler.
+    pub(crate) const fn or_auto(self) -> Self {
+        Self {
+            leaving: Leaving::Open,
+            ..self
+        }
+    }
+
+    /// The whole field with its typical value.
+    pub(crate) fn sample(&self) -> String {
+        match self.form {
+            Form::Value => format!("{} = {}", self.name, self.typical),
+            Form::Block | Form::Points => format!("{} {}", self.name, self.typical),
+            Form::Limit | Form::Bounds => format!("{} <= {}", self.name, self.typical),
+        }
+    }
+}
+
+/// A field of the form `name = value`.
+pub(crate) const fn value(name: &'static str, typical: &'static str) -> FieldSpec {
+    FieldSpec::new(name, Form::Value, typical)
+}
+
+/// A field of the form `name { ... }`.
+pub(crate) const fn block(name: &'static str, typical: &'static str) -> FieldSpec {
+    FieldSpec::new(name, Form::Block, typical)
+}
+
+/// A field of the form `name (x, z) (x, z) ...`.
+pub(crate) const fn points(name: &'static str, typical: &'static str) -> FieldSpec {
+    FieldSpec::new(name, Form::Points, typical)
+}
+
+/// A field of the form `name <= value`.
+pub(crate) const fn limit(name: &'static str, typical: &'static str) -> FieldSpec {
+    FieldSpec::new(name, Form::Limit, typical)
+}
+
+/// A field of the forms `name <= value` and `name >= value`.
+pub(crate) const fn bounds(name: &'static str, typical: &'static str) -> FieldSpec {
+    FieldSpec::new(name, Form::Bounds, typical)
+}
+
+/// A kind of block.
+#[derive(Debug)]
+pub(crate) struct BlockSpec {
+    /// What it is called in a sentence, such as `` `rough vcut` ``.
+    pub(crate) title: &'static str,
+    /// Its fields, in the order in which people write them.
+    pub(crate) fields: &'static [FieldSpec],
+    /// What becomes of inner blocks that are no fields.
+    pub(crate) inner: Inner,
+}
+
+impl BlockSpec {
+    /// The field of that name.
+    pub(crate) fn field(&self, name: &str) -> Option<&'static FieldSpec> {
+        self.fields.iter().find(|field| field.name == name)
+    }
+}
+
+/// What becomes of inner blocks that are no fields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Inner {
+    /// They are unknown.
+    Refused,
+    /// They are options for a target.
+    TargetOptions,
+}

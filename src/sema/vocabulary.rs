@@ -1,0 +1,135 @@
+//! The words of the language, for those who help people to write it: what can stand where.
+//!
+//! Everything here is taken from the tables that the checks read by, so that nothing is offered that they refuse.
+
+use super::dimension::Dimension;
+use super::heads::{self, Kind};
+use super::profile::data;
+pub(crate) use super::range::Range;
+pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
+use super::{Part, blade, cell, functions, machine, names, rough_vcut, stock, units};
+use crate::syntax::ast::Block;
+use vcutc_backend_api::ir::MachineKind;
+
+/// What can stand at the top of a file: its first word, and how all of it looks.
+pub(crate) fn items() -> impl Iterator<Item = (&'static str, &'static str)> {
+    const PLAIN: &[(&str, &str)] = &[
+        ("job", "job \"NAME\""),
+        ("use", "use \"PATH\""),
+        ("let", "let NAME = VALUE"),
+    ];
+    PLAIN.iter().chain(heads::FORMS).copied()
+}
+
+/// Words that can follow the first word of a block's head.
+pub(crate) fn head_words(first: &str) -> Vec<&'static str> {
+    match first {
+        "rough" => heads::ROUGHINGS.to_vec(),
+        "machine" => heads::MACHINES.iter().map(|(word, _)| *word).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The fields of the block whose head begins with this word.
+pub(crate) fn block(first: &str) -> Option<&'static BlockSpec> {
+    match first {
+        "stock" => Some(&stock::SPEC),
+        "blade" => Some(&blade::SPEC),
+        "rough" => Some(&rough_vcut::SPEC),
+        "machine" => Some(&machine::SPEC),
+        "cell" => Some(&cell::SPEC),
+        _ => None,
+    }
+}
+
+/// The fields behind a file of a profile: `points` and `airfoil`.
+pub(crate) fn data_file(word: &str) -> Option<&'static BlockSpec> {
+    match word {
+        "points" => Some(&data::POINTS),
+        "airfoil" => Some(&data::AIRFOIL),
+        _ => None,
+    }
+}
+
+/// The pieces of a profile: the first word, and how all of it looks.
+pub(crate) const CURVES: &[(&str, &str)] = &[
+    ("start", "start (0 mm, 18 mm)"),
+    ("line", "line to (10 mm, 10 mm)"),
+    ("arc", "arc to (30 mm, 12 mm) radius 20 mm"),
+    ("bezier", "bezier (20 mm, 30 mm) (60 mm, 34 mm) to (85 mm, 14 mm)"),
+    (
+        "spline",
+        "spline (90 mm, 16 mm) (95 mm, 13 mm) to (100 mm, 14 mm)",
+    ),
+    (
+        "polyline",
+        "polyline (105 mm, 13 mm) (110 mm, 15 mm) to (120 mm, 12 mm)",
+    ),
+    ("points", "points \"heights.csv\""),
+    (
+        "airfoil",
+        "airfoil \"clarky.dat\" { side = upper, chord = 300 mm }",
+    ),
+];
+
+/// Words within a piece of a profile.
+pub(crate) const JOINTS_OF_CURVES: &[&str] = &["to", "radius", "center", "through"];
+
+/// Functions, each with a call of it.
+pub(crate) fn functions() -> impl Iterator<Item = (&'static str, &'static str)> {
+    functions::examples()
+}
+
+/// Words with a meaning of their own in values.
+pub(crate) const RESERVED: &[&str] = names::RESERVED;
+
+/// Whether a text can be a name.
+pub(crate) fn is_name(text: &str) -> bool {
+    let mut letters = text.chars();
+    letters
+        .next()
+        .is_some_and(|first| first == '_' || first.is_alphabetic())
+        && letters.all(|letter| letter == '_' || letter.is_alphanumeric())
+}
+
+/// The units of values of a range, the usual one first.
+pub(crate) fn units_for(range: Range) -> Vec<String> {
+    fitting(range.dimension)
+}
+
+fn fitting(dimension: Dimension) -> Vec<String> {
+    let usual = dimension.unit();
+    let rest = units::fitting(dimension)
+        .into_iter()
+        .filter(|unit| *unit != usual);
+    let first = (!usual.is_empty()).then(|| usual.clone());
+    first.into_iter().chain(rest).collect()
+}
+
+/// All simple units, each with what it is and what it comes to: `("in", "a length", "25.4 mm")`.
+pub(crate) fn units() -> impl Iterator<Item = (&'static str, String, String)> {
+    units::UNITS.iter().map(|unit| {
+        let one = super::quantity::Quantity::new(unit.size, unit.dimension);
+        (unit.name, unit.dimension.words(), one.text())
+    })
+}
+
+/// What a unit as written comes to: `25.4 mm`; none if there is no such unit.
+pub(crate) fn unit_in_words(unit: &str) -> Option<(String, String)> {
+    let one = units::quantity(1.0, unit)?;
+    Some((one.dimension.words(), one.text()))
+}
+
+/// Where a block may stand: in a job only, or in a library as well; none if its head is not right.
+pub(crate) fn standing(block: &Block) -> Option<Part> {
+    Some(match heads::classify(block).ok()? {
+        Kind::Stock | Kind::Profile | Kind::Cell | Kind::RoughVcut => Part::Job,
+        Kind::Blade(_) | Kind::Machine(_) => Part::Library,
+    })
+}
+
+/// The kind of machine that a word of a head means.
+pub(crate) fn machine_kind(word: &str) -> Option<MachineKind> {
+    let found = heads::MACHINES.iter().find(|(known, _)| *known == word);
+    found.map(|(_, kind)| *kind)
+}

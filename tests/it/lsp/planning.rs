@@ -1,0 +1,95 @@
+//! What is known of a job only when it has been planned, and only as long as its text stays.
+
+use super::editor::{BLADES, Editor, RIB, uri};
+use serde_json::{Value, json};
+use vcutc::registry;
+
+const PATH: &str = "/shop/rib.vcut";
+
+fn plan(editor: &mut Editor) {
+    let task = editor.server.task().expect("a job to plan");
+    let done = task.run(&editor.files, &registry::backends());
+    let messages = editor.server.finish(done);
+    editor.take(&messages);
+}
+
+fn hints(editor: &mut Editor) -> Vec<String> {
+    let whole = json!({ "start": { "line": 9, "character": 0 }, "end": { "line": 13, "character": 0 } });
+    let params = json!({ "textDocument": { "uri": uri(PATH) }, "range": whole });
+    let hints = editor.ask("textDocument/inlayHint", params).unwrap();
+    let hints = hints.as_array().unwrap().iter();
+    hints
+        .map(|hint| hint["label"].as_str().unwrap().to_owned())
+        .collect()
+}
+
+#[test]
+fn auto_shows_what_it_became() {
+    let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
+    editor.open(PATH);
+    assert_eq!(hints(&mut editor), [""; 0]);
+    plan(&mut editor);
+    assert!(editor.server.task().is_none(), "it is planned once");
+    // The widest swing within the limit, and by [Cui 6, 7] the step that lets Vs just meet: 2 * 5 mm * tan(45 deg).
+    assert_eq!(hints(&mut editor), ["= 45 deg", "= 10 mm"]);
+    let at = editor.at(PATH, "step  = au|to");
+    let told = editor.ask("textDocument/hover", at).unwrap();
+    let text = told["contents"]["value"].as_str().unwrap();
+    assert!(
+        text.starts_with("`auto` came out as `10 mm`\n\nbound by "),
+        "{text}"
+    );
+    let at = editor.at(PATH, "job \"r|ib\"");
+    let told = editor.ask("textDocument/hover", at).unwrap();
+    assert!(
+        told["contents"]["value"].as_str().unwrap().contains("rib: "),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_planning_finds_is_told_and_taken_back() {
+    let deep = RIB
+        .replace("layer = 5 mm", "layer = 8 mm")
+        .replace("swing = auto", "swing = 45 deg")
+        .replace("step  = auto", "step  = 16 mm");
+    let mut editor = Editor::with(&[("rib.vcut", &deep), ("blades.vcut", BLADES)]);
+    editor.open(PATH);
+    assert_eq!(editor.codes(PATH), [""; 0]);
+    plan(&mut editor);
+    assert_eq!(editor.codes(PATH), ["VC0401"]);
+    editor.replace(PATH, "layer = 8 mm", "layer = 8.2 mm");
+    assert_eq!(editor.codes(PATH), [""; 0], "nothing is known of this text yet");
+    plan(&mut editor);
+    assert_eq!(editor.codes(PATH), ["VC0401"]);
+}
+
+/// An answer for a text that has changed meanwhile is nobody's answer.
+#[test]
+fn stale_plans_are_not_shown() {
+    let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
+    editor.open(PATH);
+    let task = editor.server.task().unwrap();
+    editor.replace(PATH, "swing <= 45 deg", "swing <= 30 deg");
+    let done = task.run(&editor.files, &registry::backends());
+    assert_eq!(editor.server.finish(done), [Value::Null; 0]);
+    assert_eq!(hints(&mut editor), [""; 0]);
+    plan(&mut editor);
+    let narrow = RIB.replace("swing <= 45 deg", "swing <= 30 deg");
+    let mut fresh = Editor::with(&[("rib.vcut", &narrow), ("blades.vcut", BLADES)]);
+    fresh.open(PATH);
+    plan(&mut fresh);
+    assert_eq!(hints(&mut editor), hints(&mut fresh));
+    assert_eq!(hints(&mut editor).len(), 2);
+}
+
+#[test]
+fn planning_can_be_left_to_the_command_line() {
+    let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
+    editor.server = vcutc::lsp::Server::new(&registry::backends());
+    let params =
+        json!({ "processId": null, "capabilities": {}, "initializationOptions": { "planning": "never" } });
+    editor.ask("initialize", params).unwrap();
+    editor.open(PATH);
+    assert!(editor.server.task().is_none());
+}
