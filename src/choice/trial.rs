@@ -425,7 +425,14 @@ impl<'t> Trials<'t> {
             && found.lattice_fits()
     }
 
-    /// The parameters with swing and layer changed by a factor.
+    /// Whether the overlap is open, and more of it may help: without a limit on scallop the formulas choose it.
+    fn has_open_overlap(&self) -> bool {
+        self.asked.step.value == Auto::Auto
+            && self.asked.overlap.value == Auto::Auto
+            && self.asked.limits.scallop.is_some()
+    }
+
+    /// The parameters with swing, layer and overlap changed by a factor.
     fn beside(
         &self,
         from: &VcutParameters,
@@ -464,16 +471,14 @@ impl<'t> Trials<'t> {
             Auto::Given(_) if layer != 0 => return None,
             Auto::Given(_) => {}
         }
-        match (self.asked.step.value, self.asked.overlap.value) {
-            (Auto::Auto, Auto::Auto) => {
-                let changed = from.overlap + (factor - 1.0) / 2.0 * f64::from(overlap);
-                if overlap < 0 && from.overlap <= 0.0 {
-                    return None;
-                }
-                give_overlap(&mut assumed, changed);
+        if self.has_open_overlap() {
+            if overlap < 0 && from.overlap <= 0.0 {
+                return None;
             }
-            (Auto::Given(_), _) | (Auto::Auto, Auto::Given(_)) if overlap != 0 => return None,
-            (Auto::Given(_), _) | (Auto::Auto, Auto::Given(_)) => {}
+            let by = (factor - 1.0) / 2.0 * f64::from(overlap);
+            give_overlap(&mut assumed, from.overlap + by);
+        } else if overlap != 0 {
+            return None;
         }
         parameters::resolve_on(self.bench.job, &assumed, vec![from.lattice], &mut Vec::new())
             .filter(|found| self.is_within(found))

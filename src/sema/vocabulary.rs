@@ -4,7 +4,7 @@
 
 use super::dimension::Dimension;
 use super::heads::{self, Kind};
-use super::profile::data;
+use super::profile::{data, drawing};
 pub(crate) use super::range::Range;
 pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use super::{Part, blade, cell, functions, machine, names, rough_vcut, stock, units};
@@ -42,11 +42,13 @@ pub(crate) fn block(first: &str) -> Option<&'static BlockSpec> {
     }
 }
 
-/// The fields behind a file of a profile: `points` and `airfoil`.
+/// The fields behind a file of a profile: points, airfoils and drawings.
 pub(crate) fn data_file(word: &str) -> Option<&'static BlockSpec> {
     match word {
         "points" => Some(&data::POINTS),
         "airfoil" => Some(&data::AIRFOIL),
+        "dxf" => Some(&drawing::DXF.spec),
+        "svg" => Some(&drawing::SVG.spec),
         _ => None,
     }
 }
@@ -70,6 +72,8 @@ pub(crate) const CURVES: &[(&str, &str)] = &[
         "airfoil",
         "airfoil \"clarky.dat\" { side = upper, chord = 300 mm }",
     ),
+    ("dxf", "dxf \"rib.dxf\" { layer = \"SKIN\" }"),
+    ("svg", "svg \"rib.svg\" { side = upper }"),
 ];
 
 /// Words within a piece of a profile.

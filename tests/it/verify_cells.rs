@@ -37,8 +37,19 @@ impl Cell {
         let cells = cells.replace(&block, &format!("{block}\n{option}"));
         // The cuts that the edits are made to, whatever `auto` would make of them.
         let job = fs::read_to_string(folder.join(JOB)).unwrap();
-        let fixed = "rough vcut {\n  layer = 3.488 mm\n  overlap = 0 %\n  order = point\n  sequence = rows";
-        let job = job.replace("rough vcut {", fixed);
+        let fixed = [
+            ("lattice   = auto", "lattice = orthogonal"),
+            ("swing     = auto", "swing = 35 deg"),
+            ("layer     = auto", "layer = 3.488 mm"),
+            ("step      = auto", "overlap = 0 %"),
+            (
+                "residual  = auto",
+                "residual = lift\n  order = point\n  sequence = rows",
+            ),
+        ];
+        let job = fixed
+            .into_iter()
+            .fold(job, |job, (open, given)| job.replace(open, given));
         let outcome = compile_on(
             Some(machine),
             JOB,

@@ -64,12 +64,12 @@ impl Trials<'_> {
 
     /// Overlaps, as far as they are open and help: with a limit on scallop.
     fn overlaps(&self) -> impl Iterator<Item = f64> + use<> {
-        let is_open = self.asked.step.value == Auto::Auto
-            && self.asked.overlap.value == Auto::Auto
-            && self.asked.limits.scallop.is_some();
-        OVERLAPS
-            .into_iter()
-            .take(if is_open { OVERLAPS.len() } else { 1 })
+        let count = if self.has_open_overlap() {
+            OVERLAPS.len()
+        } else {
+            1
+        };
+        OVERLAPS.into_iter().take(count)
     }
 
     /// The largest layer at a swing with an overlap, and smaller ones.

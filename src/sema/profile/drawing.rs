@@ -13,9 +13,9 @@ use crate::geom::curve::Point2;
 use crate::geom::import::drawing::{Affine, Drawing, Outline, Side, Unit, outline, side};
 use crate::geom::import::{self, DataError, NoText};
 use crate::sema::eval::Scope;
-use crate::sema::fields::{BlockSpec, FieldSpec, Fields, Inner, value};
+use crate::sema::fields::{BlockSpec, FieldSpec, Fields, Inner, Takes, value};
 use crate::sema::range::{COORDINATE, JOINING, SCALE};
-use crate::sema::read::Reader;
+use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
 use crate::source::{FileId, Span, Spanned};
@@ -25,8 +25,9 @@ use vcutc_backend_api::units::Length;
 
 /// A format of drawings.
 #[derive(Debug)]
-pub(super) struct Format {
-    spec: BlockSpec,
+pub(crate) struct Format {
+    /// The fields behind the file.
+    pub(crate) spec: BlockSpec,
     /// Units that the job may give, in mm.
     units: &'static [(&'static str, f64)],
     read: fn(&str, Option<&str>) -> Result<Drawing, DataError>,
@@ -34,48 +35,57 @@ pub(super) struct Format {
 }
 
 /// DXF.
-pub(super) static DXF: Format = Format {
-    spec: spec("`dxf`"),
-    units: &[
-        ("mm", 1.0),
-        ("cm", 10.0),
-        ("m", 1000.0),
-        ("in", 25.4),
-        ("ft", 304.8),
-    ],
+pub(crate) static DXF: Format = Format {
+    spec: spec("`dxf`", DXF_FIELDS),
+    units: DXF_UNITS,
     read: import::dxf,
     load: load_dxf,
 };
 
 /// SVG.
-pub(super) static SVG: Format = Format {
-    spec: spec("`svg`"),
-    units: &[
-        ("mm", 1.0),
-        ("cm", 10.0),
-        ("m", 1000.0),
-        ("in", 25.4),
-        ("px", 25.4 / 96.0),
-        ("pt", 25.4 / 72.0),
-    ],
+pub(crate) static SVG: Format = Format {
+    spec: spec("`svg`", SVG_FIELDS),
+    units: SVG_UNITS,
     read: import::svg,
     load: load_svg,
 };
 
-const FIELDS: &[FieldSpec] = &[
-    value("layer", "\"SKIN\""),
-    value("side", "upper"),
-    value("tolerance", "0.01 mm"),
-    value("unit", "mm"),
-    value("scale", "1"),
-    value("x", "0 mm"),
-    value("z", "0 mm"),
+const DXF_UNITS: &[(&str, f64)] = &[
+    ("mm", 1.0),
+    ("cm", 10.0),
+    ("m", 1000.0),
+    ("in", 25.4),
+    ("ft", 304.8),
 ];
 
-const fn spec(title: &'static str) -> BlockSpec {
+const SVG_UNITS: &[(&str, f64)] = &[
+    ("mm", 1.0),
+    ("cm", 10.0),
+    ("m", 1000.0),
+    ("in", 25.4),
+    ("px", 25.4 / 96.0),
+    ("pt", 25.4 / 72.0),
+];
+
+const DXF_FIELDS: &[FieldSpec] = &fields(|| words_of(DXF_UNITS));
+const SVG_FIELDS: &[FieldSpec] = &fields(|| words_of(SVG_UNITS));
+
+const fn fields(units: fn() -> Vec<&'static str>) -> [FieldSpec; 7] {
+    [
+        value("layer", "\"SKIN\""),
+        value("side", "upper").takes(Takes::Words(|| words_of(SIDES))),
+        value("tolerance", "0.01 mm").within(JOINING),
+        value("unit", "mm").takes(Takes::Words(units)),
+        value("scale", "1").within(SCALE),
+        value("x", "0 mm").within(COORDINATE),
+        value("z", "0 mm").within(COORDINATE),
+    ]
+}
+
+const fn spec(title: &'static str, fields: &'static [FieldSpec]) -> BlockSpec {
     BlockSpec {
         title,
-        fields: FIELDS,
+        fields,
         inner: Inner::Refused,
     }
 }

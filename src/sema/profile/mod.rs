@@ -6,7 +6,7 @@
 
 mod curves;
 pub(crate) mod data;
-mod drawing;
+pub(crate) mod drawing;
 mod formula;
 mod shape;
 
