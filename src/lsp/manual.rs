@@ -97,6 +97,7 @@ fn fields_table(block: &str) -> Option<usize> {
         "feed" => behind("`feed { ... }`", "| Field |"),
         "points" => headed("| Field of `points` |"),
         "airfoil" => headed("| Field of `airfoil` |"),
+        "dxf" | "svg" => headed("| Field of `dxf` and `svg` |"),
         _ => behind(&format!("\n### `{block}`\n"), "| Field |"),
     }
 }
@@ -171,7 +172,7 @@ mod tests {
                 )
             })
             .collect();
-        for word in ["points", "airfoil"] {
+        for word in ["points", "airfoil", "dxf", "svg"] {
             all.push((word, vocabulary::data_file(word).unwrap()));
         }
         let inner: Vec<_> = all
