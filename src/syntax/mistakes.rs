@@ -116,6 +116,16 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
             let gap = bad.span(first.end..value.start);
             is_plain_name(word).then(|| missing_equals(word, bad.span(value.start..value.end), gap))
         }
+        ("profile", Some((TokenKind::Symbol, "="))) if !is_entry => Some(
+            Diagnostic::new(
+                Code::UnexpectedText,
+                "a profile after `=` is one file",
+                here,
+                "no file in the form that is read here",
+            )
+            .note("kinds of files: points, airfoil, dxf, svg")
+            .help("write `profile = dxf(\"rib.dxf\", layer = \"SKIN\")`, or a block `profile { ... }`"),
+        ),
         (_, Some((TokenKind::Symbol, "="))) if !is_entry && is_value_line(bad) => Some(
             Diagnostic::new(
                 Code::UnexpectedText,

@@ -239,6 +239,11 @@ fn statements_that_are_read_and_statements_that_are_not() {
         entry("bezier to (0, 1) spline (0, 1) to (0, 2) polyline (0, 1) (0, 2) to (0, 3)"),
         entry("points \"f\" airfoil \"g\" { side = upper }"),
         entry("points \"f\" { x = { } }").replace("{ }", "1"),
+        entry("dxf \"f\" { layer = \"SKIN\" } svg \"g\""),
+        entry("dxf = 1 svg = 2"),
+        item("profile = dxf(\"f\")"),
+        item("profile = svg(\"f\", layer = \"a\", side = upper,)\nlet b = 1"),
+        item("profile =\n  points (\"f\" unit = in x = 3 mm)"),
     ];
     for text in right {
         assert_eq!(codes(&text), [], "{text}");
@@ -253,6 +258,10 @@ fn statements_that_are_read_and_statements_that_are_not() {
         item("let a = 1, let b = 2").replace(", let b = 2", ","),
         item("stock [ ]"),
         item("5 { }"),
+        item("profile = step(\"f\")"),
+        item("profile = dxf"),
+        item("profile = dxf()"),
+        item("profile = dxf(\"f\", layer)"),
         entry("a = "),
         entry("a = 1 2"),
         entry("a = b = c"),

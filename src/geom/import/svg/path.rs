@@ -81,6 +81,22 @@ enum Handle {
     None,
 }
 
+impl Handle {
+    const fn of_cubic(self) -> Option<Point2> {
+        match self {
+            Self::Cubic(last) => Some(last),
+            Self::Quadratic(_) | Self::None => None,
+        }
+    }
+
+    const fn of_quadratic(self) -> Option<Point2> {
+        match self {
+            Self::Quadratic(last) => Some(last),
+            Self::Cubic(_) | Self::None => None,
+        }
+    }
+}
+
 struct Drawing {
     subpaths: Vec<Vec<Shape>>,
     shapes: Vec<Shape>,
@@ -122,15 +138,10 @@ impl Drawing {
             let (x, y) = (scan.number()?, scan.number()?);
             Ok(Point2::new(origin.x + x, origin.z + y))
         };
-        let mirrored = |about: Point2| Point2::new(2.0 * self.here.x - about.x, 2.0 * self.here.z - about.z);
         match command {
             Command::Move => {
                 let to = point(scan)?;
-                self.finish_subpath();
-                self.has_begun = true;
-                self.start = to;
-                self.here = to;
-                self.handle = Handle::None;
+                self.begin(to);
             }
             Command::Line => {
                 let to = point(scan)?;
@@ -149,10 +160,7 @@ impl Drawing {
                 self.curve(vec![first, second, to], Handle::Cubic(second));
             }
             Command::SmoothCubic => {
-                let first = match self.handle {
-                    Handle::Cubic(last) => mirrored(last),
-                    Handle::Quadratic(_) | Handle::None => self.here,
-                };
+                let first = self.smooth(self.handle.of_cubic());
                 let (second, to) = (point(scan)?, point(scan)?);
                 self.curve(vec![first, second, to], Handle::Cubic(second));
             }
@@ -161,10 +169,7 @@ impl Drawing {
                 self.curve(vec![middle, to], Handle::Quadratic(middle));
             }
             Command::SmoothQuadratic => {
-                let middle = match self.handle {
-                    Handle::Quadratic(last) => mirrored(last),
-                    Handle::Cubic(_) | Handle::None => self.here,
-                };
+                let middle = self.smooth(self.handle.of_quadratic());
                 let to = point(scan)?;
                 self.curve(vec![middle, to], Handle::Quadratic(middle));
             }
@@ -184,6 +189,22 @@ impl Drawing {
             }
         }
         Ok(())
+    }
+
+    /// Begins a subpath.
+    fn begin(&mut self, at: Point2) {
+        self.finish_subpath();
+        self.has_begun = true;
+        self.start = at;
+        self.here = at;
+        self.handle = Handle::None;
+    }
+
+    /// The control point with which a curve goes on smoothly: the last one mirrored about the pen, or the pen.
+    fn smooth(&self, last: Option<Point2>) -> Point2 {
+        last.map_or(self.here, |last| {
+            Point2::new(2.0 * self.here.x - last.x, 2.0 * self.here.z - last.z)
+        })
     }
 
     fn line(&mut self, to: Point2) {
