@@ -3,11 +3,13 @@
 use super::feeds::Feeds;
 use super::milling::Milling;
 use super::place::Blank;
-use super::raster::Raster;
+use super::raster::{Pass, Raster};
+use crate::format::format;
 use crate::geom::curve::Point2;
 use crate::plan::parameters::show;
 use crate::source::{FileId, SourceMap, Span};
-use core::fmt::Write;
+use crate::syntax::ast::{Entry, Item, Point};
+use crate::syntax::parse;
 use core::ops::Range;
 use vcutc_backend_api::units::{Angle, Length};
 
@@ -71,21 +73,46 @@ pub(super) struct Material<'a> {
     pub(super) sources: &'a SourceMap,
 }
 
-/// The text of the job.
+/// The text of the job, in the layout of all job files.
 pub(super) fn job(material: &Material<'_>) -> JobText {
     let mut writer = Writer {
         sources: material.sources,
         lines: Numbered::of(material.sources),
         text: String::new(),
-        origins: Vec::with_capacity(material.raster.passes.len()),
     };
     writer.head(material);
     writer.scene(material);
     writer.operation(material);
-    JobText {
-        text: writer.text,
-        origins: writer.origins,
-    }
+    let mut scratch = SourceMap::default();
+    let file = scratch.add(String::new(), String::new());
+    // What cannot be laid out is as it was written, and its mistakes are told when it is compiled.
+    let text = format(file, &writer.text).unwrap_or(writer.text);
+    let origins = origins(file, &text, &material.raster.passes);
+    JobText { text, origins }
+}
+
+/// Where the tips of a job stand, which are those of the passes, in their order.
+fn origins(file: FileId, text: &str, passes: &[Pass]) -> Vec<Origin> {
+    let ast = parse(file, text, &mut Vec::new());
+    let blocks = ast.items.iter().filter_map(|item| match item {
+        Item::Block(block) => Some(block),
+        Item::Job { .. } | Item::Use { .. } | Item::Let { .. } => None,
+    });
+    let rows = blocks
+        .flat_map(|block| &block.entries)
+        .filter_map(|entry| match entry {
+            Entry::Tips { points, .. } => Some(points),
+            Entry::Field { .. }
+            | Entry::Limit { .. }
+            | Entry::Formula { .. }
+            | Entry::Curve { .. }
+            | Entry::Block(_) => None,
+        });
+    let origin = |(point, pass): (&Point, &Pass)| Origin {
+        at: point.span.bytes(),
+        said: pass.places[0],
+    };
+    rows.flatten().zip(passes).map(origin).collect()
 }
 
 /// A value in degrees, to a millionth: what was typed in degrees comes out as that.
@@ -111,7 +138,6 @@ struct Writer<'a> {
     sources: &'a SourceMap,
     lines: Numbered,
     text: String,
-    origins: Vec<Origin>,
 }
 
 impl Writer<'_> {
@@ -222,15 +248,8 @@ impl Writer<'_> {
                 let [first, _] = pass.places;
                 self.line(&format!("    // from {}", self.named(first)));
             }
-            self.text.push_str("    ");
-            let start = self.text.len();
-            // Writing into a text never fails.
-            let _ = write!(self.text, "({}, {})", mm(pass.x), mm(pass.z));
-            self.origins.push(Origin {
-                at: start..self.text.len(),
-                said: pass.places[0],
-            });
-            self.text.push('\n');
+            let tip = Point2 { x: pass.x, z: pass.z };
+            self.line(&format!("    {}", point(tip)));
         }
     }
 }

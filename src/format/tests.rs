@@ -103,7 +103,12 @@ fn long_values_are_wrapped() {
     );
     assert_layout(
         &format!("p {{ spline ({a}, {b}) (1, 2) to (1, {c}) }}"),
-        &format!("p {{\n  spline ({a}, {b})\n    (1, 2)\n    to (1, {c})\n}}\n"),
+        &format!("p {{\n  spline\n    ({a}, {b})\n    (1, 2)\n    to (1, {c})\n}}\n"),
+    );
+    // A comment on its own line among points keeps it.
+    assert_layout(
+        "p { tips // of these\n (1, 2) // behind\n // below\n (3, 4) }",
+        "p {\n  tips // of these\n    (1, 2) // behind\n    // below\n    (3, 4)\n}\n",
     );
     // A point has no comma behind its second value.
     assert_layout(

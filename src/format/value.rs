@@ -54,12 +54,19 @@ pub(super) fn statement(kind: Kind, words: &[Word<'_>], column: usize) -> Vec<Do
         }
         _ => rest,
     };
+    let mut words = row(rest, before);
     if let Some(first) = rest.first() {
         comments_in_a_row(&first.comments, &mut value);
-        separate(&first.comments, Spacing::Blank, &mut value);
+        let is_point = kind == Kind::Curve && first.role == Role::Open;
+        if is_point && first.comments.is_empty() && words.iter().any(|doc| matches!(doc, Doc::Line)) {
+            // Broken before one point, a piece is broken before all.
+            words.insert(0, Doc::Line);
+        } else {
+            separate(&first.comments, Spacing::Blank, &mut value);
+        }
     }
     docs.push(Doc::Indent(value));
-    let rest = row(rest, before);
+    let rest = words;
     // A list alone closes below the name that it belongs to.
     let is_one_piece = !rest.iter().any(|doc| matches!(doc, Doc::Line | Doc::Hard));
     let rest = Doc::group(rest);
@@ -95,12 +102,15 @@ fn row(words: &[Word<'_>], before: Option<&Word<'_>>) -> Vec<Doc> {
     docs
 }
 
-/// Comments behind a word, on its line.
+/// Comments behind a word: on its line, or on lines of their own as they were.
 fn comments_in_a_row(comments: &[Comment], docs: &mut Vec<Doc>) {
     let mut after_line_end = false;
     for comment in comments {
         if !after_line_end {
-            docs.push(Doc::blank());
+            docs.push(match comment.gap {
+                Gap::Beside => Doc::blank(),
+                Gap::Below | Gap::Apart => Doc::Hard,
+            });
         }
         docs.push(Doc::text(comment.text.clone()));
         after_line_end = comment.ends_its_line();

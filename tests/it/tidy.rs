@@ -74,7 +74,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "optimisation",
         &["diag", "driver", "job", "picture", "plan", "source"],
     ),
-    ("convert", &["diag", "geom", "plan", "sema", "sim", "source"]),
+    (
+        "convert",
+        &[
+            "diag", "format", "geom", "plan", "sema", "sim", "source", "syntax",
+        ],
+    ),
     (
         "report",
         &[
