@@ -9,6 +9,7 @@ use vcutc::job::CheckedJob;
 use vcutc::plan::{PlannedJob, PlannedOperation};
 use vcutc::sema;
 use vcutc::sim::prove::{self, Bound, Findings, Replay};
+use vcutc::sim::timing::Times;
 use vcutc::source::{LoadError, Loader, SourceMap};
 use vcutc::syntax::{self, ast::Ast};
 use vcutc::{lower, sim};
@@ -147,10 +148,24 @@ pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
 #[must_use]
 #[inline(never)]
 pub fn report(plan: &PlannedJob, program: &VerifiedProgram, replay: Replay) -> f64 {
-    let timing = sim::timing::timing(program);
-    sim::report::report(replay, plan.stock, &plan.profile, timing)
+    sim::report::report(replay, plan.stock, &plan.profile, times(program))
         .removed
         .to_mm2()
+}
+
+/// The times of a program.
+#[must_use]
+pub fn times(program: &VerifiedProgram) -> Times {
+    sim::timing::timing(program)
+}
+
+/// Machined contour to how far it and the part's deviate from each other, in mm; the other figures come with it.
+#[must_use]
+#[inline(never)]
+pub fn deviation(plan: &PlannedJob, replay: Replay, times: Times) -> f64 {
+    sim::report::report(replay, plan.stock, &plan.profile, times)
+        .largest_deviation()
+        .to_mm()
 }
 
 /// Options of the KRL backend: all in one file, so that what is measured is writing, not how a file system makes and

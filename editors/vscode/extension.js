@@ -15,7 +15,7 @@ async function start() {
     initializationOptions: { planning: settings.get("planning", "whileTyping") },
     // Files that jobs name: a change on the disk may make a job right or wrong.
     synchronize: {
-      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{vcut,toml,urdf,csv,dat}"),
+      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{vcut,toml,urdf,csv,dat,dxf,svg}"),
     },
   };
   client = new LanguageClient("vcut", "vcut", server, options);

@@ -99,6 +99,7 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
 }
 
 /// The program of a job that has no file of its own.
+#[cfg(feature = "krl")]
 pub(super) fn program_of(
     target: &str,
     output: Option<&str>,

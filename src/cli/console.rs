@@ -216,6 +216,7 @@ impl Console {
     }
 
     /// Prints what was taken from somewhere because the user did not say it: lines for people, an object each for programs.
+    #[cfg(feature = "krl")]
     pub(super) fn inferences<T: Serialize>(&self, text: &str, bodies: &[T]) {
         match self.format {
             MessageFormat::Json => {
@@ -229,6 +230,7 @@ impl Console {
     }
 
     /// Prints which files were written beside what a summary tells.
+    #[cfg(feature = "krl")]
     pub(super) fn placed(&self, files: &[Placed]) {
         match (self.format, self.detail) {
             (MessageFormat::Json, _) | (_, Detail::DiagnosticsOnly) => {}

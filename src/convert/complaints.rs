@@ -52,6 +52,26 @@ pub(super) fn unknown_end(place: Span, why: &str) -> Diagnostic {
     .help("give the `.dat` file with the positions too, or write X, Y and Z into the motion")
 }
 
+pub(super) fn frame_changes(place: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotFollowed,
+        "the tool or the base changes between motions, and what that does to the motions behind it is not followed",
+        place,
+        "another frame from here on",
+    )
+    .help("let the post processor write the whole program in one base with one tool, or convert its parts one by one")
+}
+
+pub(super) fn arguments(place: Span, name: &str) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotFollowed,
+        format!("`{name}` is called with arguments, and what its motions do with them is not followed"),
+        place,
+        "this call",
+    )
+    .help("write the motions of the routine with numbers, or convert it by itself")
+}
+
 pub(super) fn unknown_motion(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,

@@ -8,6 +8,7 @@ use super::complaints;
 use super::milling::{Milling, Move, Way, Written};
 use crate::diag::Diagnostic;
 use crate::source::{FileId, SourceMap, Span};
+use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Orientation, Zyx};
 use vcutc_backend_api::readback::ProgramFile;
 use vcutc_backend_api::units::Angle;
@@ -52,6 +53,13 @@ impl<'t> Files<'t> {
         Some(Span::of_bytes(id, bytes.start..bytes.end))
     }
 
+    /// What stands at a place.
+    fn said(&self, place: Span) -> &'t str {
+        let at = self.ids.iter().position(|&id| id == place.file);
+        let text = at.map_or("", |file| self.text(file));
+        text.get(place.bytes()).unwrap_or_default().trim()
+    }
+
     fn text(&self, file: usize) -> &'t str {
         self.files.get(file).map_or("", |file| &file.text)
     }
@@ -71,6 +79,8 @@ pub(super) fn read(files: &Files<'_>) -> Result<Milling, Vec<Diagnostic>> {
         last: Coordinates::default(),
         speed: None,
         forks: Vec::new(),
+        frames: BTreeMap::new(),
+        reframed: None,
         complaints: Vec::new(),
         statements: 0,
     };
@@ -102,6 +112,10 @@ struct Reader<'t, 'i> {
     speed: Option<Written>,
     /// Statements that decide what is made, and are open.
     forks: Vec<Span>,
+    /// What sets the tool and the base, by its name in capitals: how it was said last.
+    frames: BTreeMap<String, &'t str>,
+    /// Where one of them was said that was not so before, if no straight motion has followed yet.
+    reframed: Option<Span>,
     complaints: Vec<Diagnostic>,
     statements: usize,
 }
@@ -224,6 +238,9 @@ impl<'t> Reader<'t, '_> {
                 if let (true, Some(value)) = (is_same_name(command, "VEL_CP"), *value) {
                     self.speed = Some(Written { value, place });
                 }
+                if is_frame(command) {
+                    self.frame(&command.to_ascii_uppercase(), place);
+                }
                 self.milling.settings.push(place);
             }
             Phrase::Call { name, arguments } => return self.enter(call.file, name, arguments, place),
@@ -240,7 +257,11 @@ impl<'t> Reader<'t, '_> {
     fn enter(&mut self, file: usize, name: &str, arguments: &str, place: Span) -> Next {
         match self.index.find(file, name) {
             Some(routine) if arguments.is_empty() => Next::Enter(routine),
-            Some(_) | None => {
+            Some(_) => {
+                self.push(complaints::arguments(place, name));
+                Next::GoOn
+            }
+            None => {
                 self.milling.left_out.push(place);
                 Next::GoOn
             }
@@ -303,10 +324,25 @@ impl<'t> Reader<'t, '_> {
         } else if to.is_field("$VEL", "ORI1") {
             self.milling.turning = number.or(self.milling.turning);
         }
-        if is_setting(to) || self.variables.assign(asker, to, value) == Outcome::Known {
+        if is_frame(to.name) {
+            self.frame(&to.name.to_ascii_uppercase(), place);
+        }
+        let is_followed = is_setting(to)
+            || self.forks.is_empty() && self.variables.assign(asker, to, value) == Outcome::Known;
+        if is_followed {
             self.milling.settings.push(place);
         } else {
+            // Whoever moves there now goes to a place that is not known.
+            self.variables.forget(asker, to.name);
             self.milling.left_out.push(place);
+        }
+    }
+
+    /// Takes what sets the tool or the base. One for all passes is the job's own frame; a change between them is not followed.
+    fn frame(&mut self, what: &str, place: Span) {
+        let said = self.files.said(place);
+        if self.frames.insert(what.to_owned(), said) != Some(said) {
+            self.reframed = Some(place);
         }
     }
 
@@ -321,6 +357,12 @@ impl<'t> Reader<'t, '_> {
             MotionWord::LinRel | MotionWord::SlinRel => (Way::Straight, true),
             MotionWord::PtpRel | MotionWord::SptpRel => (Way::Joint, true),
         };
+        if let (Some(changed), Way::Straight) = (self.reframed, way) {
+            self.reframed = None;
+            if self.milling.moves.iter().any(|made| made.way == Way::Straight) {
+                self.push(complaints::frame_changes(changed));
+            }
+        }
         let target = match motion.target {
             Target::Literal(coordinates) => Some(coordinates),
             Target::Variable(variable) => self.variables.get(asker, &variable),
@@ -381,6 +423,13 @@ impl<'t> Reader<'t, '_> {
             ));
         }
     }
+}
+
+/// What sets the frames that targets are told in: variables, and commands of `BAS`.
+fn is_frame(name: &str) -> bool {
+    ["$TOOL", "$BASE", "TOOL", "BASE"]
+        .iter()
+        .any(|frame| is_same_name(frame, name))
 }
 
 /// Variables that set up motions, and those that inline forms of the pendant leave behind.

@@ -59,7 +59,7 @@ pub(super) fn introduction() -> Value {
 
 /// Asks the client to tell when files that jobs name change on the disk.
 pub(super) fn watch_files() -> Value {
-    let watchers = json!([{ "globPattern": "**/*.{vcut,toml,urdf,csv,dat}" }]);
+    let watchers = json!([{ "globPattern": "**/*.{vcut,toml,urdf,csv,dat,dxf,svg}" }]);
     let registration = json!({
         "id": "files",
         "method": "workspace/didChangeWatchedFiles",

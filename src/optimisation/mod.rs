@@ -16,7 +16,7 @@ use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut};
 use crate::picture::pareto::{self, Curve, Pareto};
 use crate::plan::optimum::{self, Infeasible, Optimum, Problem};
-use crate::plan::parameters;
+use crate::plan::parameters::{self, VcutParameters};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::source::SourceMap;
 use vcutc_backend_api::ir::{OperationId, Site};
@@ -83,8 +83,10 @@ pub enum Role {
 }
 
 /// What the plan of an operation comes to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
+    /// What it is cut with, on the grid: the formulas' choice, or what simulation found better.
+    pub parameters: VcutParameters,
     /// Time of its moves.
     pub time: Duration,
     /// Time by the model, of the parameters on the grid.
@@ -253,6 +255,7 @@ fn planned(vcut: &PlannedVcut, compiled: &Compiled, operation: OperationId) -> P
         });
     let layers = compiled.report.layers.iter();
     Planned {
+        parameters: vcut.parameters.clone(),
         time: own.map(|(_, &time)| time).sum(),
         model: vcut.estimate,
         cuts: vcut.cuts.len(),

@@ -4,6 +4,7 @@ use super::bounds::{Relaxed, name, value};
 use super::{OperationOptimum, Optimisation, Planned, Role, Row};
 use crate::job::Objective;
 use crate::plan::optimum::{Bound, Infeasible, Optimum};
+use crate::plan::parameters::VcutParameters;
 use crate::plan::parameters::show;
 use serde::Serialize;
 use std::fmt::Write;
@@ -56,7 +57,8 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
     }
     let _ = write!(
         text,
-        "\n  planned    {}\n",
+        "\n  cut with   {}\n  planned    {}\n",
+        cut_words(&operation.planned.parameters),
         planned_words(&operation.planned, scallop)
     );
     text += &proven_text(operation);
@@ -72,6 +74,18 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
             .collect::<Vec<_>>(),
     );
     text
+}
+
+/// `interlaced, swing 40 deg, layer 4.519 mm, step 7.584 mm`: what the job is cut with, which simulation may have found better
+/// than the line with the mark.
+fn cut_words(cut: &VcutParameters) -> String {
+    format!(
+        "{}, swing {:.3} deg, layer {:.3} mm, step {:.3} mm",
+        cut.lattice.word(),
+        cut.swing.to_deg(),
+        cut.layer.to_mm(),
+        cut.step.to_mm()
+    )
 }
 
 /// `280.9 s for 95 cuts in 5 layers; the model says 4.2 % less; scallop 9.31 mm`.
@@ -308,6 +322,10 @@ struct ParametersBody {
 
 #[derive(Debug, Serialize)]
 struct PlannedBody {
+    lattice: &'static str,
+    swing: f64,
+    layer: f64,
+    step: f64,
     /// In s.
     time: f64,
     /// In s, by the model.
@@ -352,6 +370,10 @@ fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
         lattice_given: operation.lattice_given.as_deref(),
         best: operation.rows.iter().map(row_body).collect(),
         planned: PlannedBody {
+            lattice: planned.parameters.lattice.word(),
+            swing: planned.parameters.swing.to_deg(),
+            layer: planned.parameters.layer.to_mm(),
+            step: planned.parameters.step.to_mm(),
             time: planned.time.to_s(),
             model: planned.model.to_s(),
             model_above: planned.model_above(),

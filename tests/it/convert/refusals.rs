@@ -101,6 +101,34 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
             Code::NotFollowed,
         ),
         (
+            "another base between passes",
+            instead(&format!("$BASE={{X 0,Y 0,Z -10,A 0,B 0,C 0}}\n{PASS}")),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "another tool between passes",
+            instead(&format!("BAS(#TOOL,2)\n{PASS}")),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a point that was changed where it may not have been",
+            instead("IF $IN[1] THEN\nXP1.Z=42.0\nENDIF\nLIN XP1").replacen(
+                "\nLIN {X 6",
+                "\nDECL E6POS XP1={X 30.560,Y -3.000,Z 45.600,A 0.0,B 90.0,C 0.0}\nLIN {X 6",
+                1,
+            ),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a routine with arguments",
+            instead(&format!("ROW(3.0)\n{PASS}")) + "\nDEF ROW(Q:IN)\nLIN {Z 20.0}\nEND\n",
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
             "a jump",
             instead(&format!("GOTO AWAY\n{PASS}")),
             WORDS,

@@ -128,6 +128,16 @@ impl Variables {
         Outcome::Known
     }
 
+    /// Takes from a variable that was declared what is known of it: it has been changed in a way that is not followed.
+    pub fn forget(&mut self, asker: Asker<'_>, name: &str) {
+        let name = name.to_ascii_uppercase();
+        let mut places = asker.places();
+        let place = places.find(|place| self.values.contains_key(&(place.clone(), name.clone())));
+        if let Some(place) = place {
+            self.values.remove(&(place, name));
+        }
+    }
+
     /// The coordinates that a value stands for.
     #[must_use]
     pub fn value(&self, asker: Asker<'_>, value: &Value<'_>) -> Option<Coordinates> {

@@ -176,7 +176,9 @@ fn contour(text: &str) -> Vec<(&'static str, f64)> {
         })
     });
     let times = medians(|| {
-        let (replay, _) = time(|| stages::contour(&planned, &program));
+        let (replay, replayed) = time(|| stages::contour(&planned, &program));
+        let op_times = stages::times(&program);
+        let (figures, _) = time(|| stages::deviation(&planned, replayed, op_times));
         let (clipper_reach, a) = time(|| contour::clipper(&clipper[0]));
         let (clipper_chip, b) = time(|| contour::clipper(&clipper[1]));
         let (i_overlay_reach, c) = time(|| contour::i_overlay(&i_overlay[0]));
@@ -191,6 +193,7 @@ fn contour(text: &str) -> Vec<(&'static str, f64)> {
         }
         [
             replay,
+            replay + figures,
             clipper_reach,
             clipper_chip,
             i_overlay_reach,
@@ -199,6 +202,7 @@ fn contour(text: &str) -> Vec<(&'static str, f64)> {
     });
     let names = [
         "replay",
+        "deviation",
         "clipper_reach",
         "clipper_chip",
         "i_overlay_reach",

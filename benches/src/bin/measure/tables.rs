@@ -88,6 +88,7 @@ fn goals(
         met: got >= wanted,
     };
     let peer = |name: &str| contour[1][name] / contour[1]["replay"];
+    let peer_without = |name: &str| contour[1][name] / contour[1]["deviation"];
     let worst_memory = memory[1..]
         .iter()
         .map(|figures| per_cut(figures, "emit"))
@@ -141,6 +142,26 @@ fn goals(
             "the same with triangles as high as a chip",
             20.0,
             peer("i_overlay_chip"),
+        ),
+        at_least(
+            "contour and deviation of 10^5 cuts faster than Clipper2's contour alone, blade's reach",
+            4.0,
+            peer_without("clipper_reach"),
+        ),
+        at_least(
+            "the same with triangles as high as a chip",
+            4.0,
+            peer_without("clipper_chip"),
+        ),
+        at_least(
+            "contour and deviation of 10^5 cuts faster than i_overlay's contour alone, blade's reach",
+            20.0,
+            peer_without("i_overlay_reach"),
+        ),
+        at_least(
+            "the same with triangles as high as a chip",
+            20.0,
+            peer_without("i_overlay_chip"),
         ),
         at_most(
             "peak memory per cut of the whole run, 10^5 cuts and more",
@@ -304,6 +325,7 @@ fn print_contour(contour: &[Figures; 2]) {
     print_head("way", contour);
     let ways = [
         ("replay", "replay, with its proof"),
+        ("deviation", "the same, and how far both contours deviate"),
         (
             "clipper_reach",
             "Clipper2, triangles as high as the blade reaches",

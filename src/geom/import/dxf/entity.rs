@@ -48,6 +48,8 @@ pub(super) fn take<'t>(name: Group, groups: &mut Groups<'t>) -> Result<Option<En
     };
     let content = if fields.whole(67)? == 1 {
         Content::Unread(Why::Paper)
+    } else if fields.whole(60)? == 1 {
+        Content::Unread(Why::Hidden)
     } else {
         content(&fields, &corners)?
     };
