@@ -8,7 +8,7 @@
 //! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate.
 //! 2. [`place`] finds out along which axis it cuts and where the blank lies, [`raster`] which motions are passes.
 //! 3. `feeds` and `part` take speeds, the part and the least edge from the passes where the user gives none.
-//! 4. [`write`] writes the job, and knows for every tip the line of the program that it stands for.
+//! 4. [`mod@write`] writes the job, and knows for every tip the line of the program that it stands for.
 //!
 //! What is not said by the user is taken from the program only where that leaves one possibility, and told
 //! ([`Inference`]).

@@ -419,7 +419,7 @@ impl<'t> Reader<'t, '_> {
         } else {
             self.push(complaints::unknown_end(
                 place,
-                "no position of this name is declared in the files given",
+                "no position of this name is declared in the files given, or it was changed in a way that is not followed",
             ));
         }
     }

@@ -1,6 +1,6 @@
 //! The one layout of job files: what `vcutc fmt` writes.
 //!
-//! `docs/fmt.md` says what the layout is. It is made in three steps: [`read`] cuts the text into statements, each with its words
+//! `docs/fmt.md` says what the layout is. It is made in three steps: [`mod@read`] cuts the text into statements, each with its words
 //! and the comments around them; [`lines`] decides which statements share a column and which blocks stay on one line; and
 //! [`value`] puts the words of one statement into a [`doc`], which wraps where lines would be too long. [`spacing`] says what
 //! stands between two words.

@@ -1,7 +1,7 @@
 //! Drawings in DXF, from R12 to today's, as text.
 //!
 //! A DXF file is a row of groups, each a code on one line and a value on the next ([`groups`]). Groups form entities,
-//! entities stand in blocks or in the model ([`read`] walks over the sections), and an `INSERT` draws a block once more
+//! entities stand in blocks or in the model (`read` walks over the sections), and an `INSERT` draws a block once more
 //! ([`insert`]). The group codes are those of the DXF Reference of AutoCAD 2018.
 //!
 //! What is read: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE and POLYLINE with bulges, SPLINE, INSERT. Everything else that
