@@ -305,18 +305,8 @@ fn compare_lattices(
 /// Whether a time by the model is far behind a plan: behind its own time, and behind what the model says of it, for on small
 /// parts the model is far from what is planned.
 fn is_far_behind(model: Duration, best: &Contender) -> bool {
-    match best.standing {
-        Standing::Takes(time) => model > time.max(best.laid.vcut.estimate) * FAR_BEHIND,
-        Standing::Leaves { .. }
-        | Standing::Fails(_)
-        | Standing::Impossible
-        | Standing::ByModel(_)
-        | Standing::NotCompared
-        | Standing::Last
-        | Standing::Narrowed
-        | Standing::NotFollowed
-        | Standing::LeftOut => false,
-    }
+    let time = best.standing.time();
+    time.is_some_and(|time| model > time.max(best.laid.vcut.estimate) * FAR_BEHIND)
 }
 
 /// The operation with the best residual strategy, or with the one that it asks for, along the best route.

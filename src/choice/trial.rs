@@ -289,23 +289,15 @@ impl<'t> Trials<'t> {
         let limit = self.asked.limits.scallop.map(|limit| limit.value);
         let Contender { standing, merit, .. } =
             self.bench.weigh(route::usual(self.bench, laid)).held_to(limit);
-        match standing {
-            Standing::Takes(_) => self.keep(Sound {
+        if standing.time().is_some() {
+            self.keep(Sound {
                 parameters: found.clone(),
                 merit,
                 cuts,
                 model,
-            }),
-            Standing::Leaves { .. } => self.leaves_too_much = true,
-            Standing::Fails(_)
-            | Standing::Impossible
-            | Standing::ByModel(_)
-            | Standing::NotCompared
-            | Standing::Last
-            | Standing::Narrowed
-            | Standing::NotFollowed
-            | Standing::LeftOut => {}
+            });
         }
+        self.leaves_too_much |= matches!(standing, Standing::Leaves { .. });
         Some(self.note(found, standing))
     }
 
@@ -382,7 +374,8 @@ impl<'t> Trials<'t> {
     }
 
     fn is_sound(&mut self, found: VcutParameters) -> bool {
-        matches!(self.weigh(found), Some(Standing::Takes(_)))
+        self.weigh(found)
+            .is_some_and(|standing| standing.time().is_some())
     }
 
     /// From the best on, changes swing and layer for as long as something better comes of it.

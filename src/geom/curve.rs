@@ -17,6 +17,7 @@
 mod arc;
 mod bezier;
 mod ellipse;
+mod halving;
 mod nurbs;
 mod rational;
 mod sample;

@@ -226,19 +226,23 @@ impl Reader<'_> {
 
     /// The first words of the entries between a brace and its partner.
     fn entries(&self, brace: usize) -> Vec<String> {
+        let is_entry = |number: usize| {
+            self.is_symbol(number + 1, &["=", "<=", ">="]) || self.opens(number + 1, Bracket::Curly)
+        };
+        self.words_in(brace, is_entry)
+    }
+
+    /// The words directly between a bracket and its partner of which something holds.
+    fn words_in(&self, bracket: usize, is_wanted: impl Fn(usize) -> bool) -> Vec<String> {
         let mut depth = 0_usize;
         let mut words = Vec::new();
-        for (number, token) in self.all.iter().enumerate().skip(brace + 1) {
+        for (number, token) in self.all.iter().enumerate().skip(bracket + 1) {
             match token.kind {
                 TokenKind::Open(_) => depth += 1,
                 TokenKind::Close(_) if depth == 0 => break,
                 TokenKind::Close(_) => depth -= 1,
-                TokenKind::Word if depth == 0 => {
-                    let is_entry = self.is_symbol(number + 1, &["=", "<=", ">="])
-                        || self.opens(number + 1, Bracket::Curly);
-                    if is_entry {
-                        words.push(self.slice(*token).to_owned());
-                    }
+                TokenKind::Word if depth == 0 && is_wanted(number) => {
+                    words.push(self.slice(*token).to_owned());
                 }
                 TokenKind::Word
                 | TokenKind::Number
@@ -292,26 +296,7 @@ impl Reader<'_> {
 
     /// The labels of a call.
     fn labels(&self, bracket: usize) -> Vec<String> {
-        let mut depth = 0_usize;
-        let mut labels = Vec::new();
-        for (number, token) in self.all.iter().enumerate().skip(bracket + 1) {
-            match token.kind {
-                TokenKind::Open(_) => depth += 1,
-                TokenKind::Close(_) if depth == 0 => break,
-                TokenKind::Close(_) => depth -= 1,
-                TokenKind::Word if depth == 0 && self.is_symbol(number + 1, &["="]) => {
-                    labels.push(self.slice(*token).to_owned());
-                }
-                TokenKind::Word
-                | TokenKind::Number
-                | TokenKind::Text
-                | TokenKind::UnclosedText
-                | TokenKind::Comment
-                | TokenKind::UnclosedComment
-                | TokenKind::Symbol => {}
-            }
-        }
-        labels
+        self.words_in(bracket, |number| self.is_symbol(number + 1, &["="]))
     }
 
     /// The field whose value a token is part of: the word before the nearest sign that gives a value.

@@ -54,6 +54,23 @@ pub enum Standing {
 }
 
 impl Standing {
+    /// How long it takes, if nothing is wrong with it.
+    #[must_use]
+    pub const fn time(&self) -> Option<Duration> {
+        match self {
+            Self::Takes(time) => Some(*time),
+            Self::Leaves { .. }
+            | Self::Fails(_)
+            | Self::Impossible
+            | Self::ByModel(_)
+            | Self::NotCompared
+            | Self::Last
+            | Self::Narrowed
+            | Self::NotFollowed
+            | Self::LeftOut => None,
+        }
+    }
+
     /// The better one first. Ways that fail are all alike: none of them can be taken as it is.
     #[must_use]
     pub fn compare(&self, other: &Self) -> Ordering {

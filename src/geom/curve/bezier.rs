@@ -2,12 +2,11 @@
 //!
 //! A piece is accepted as a chord when its second differences prove it flat (see [`super`]); otherwise it is cut in
 //! half by de Casteljau's construction. Halving divides second differences by four or more, so that the number of
-//! halvings is bounded by the logarithm of their size over the tolerance.
+//! halvings is bounded by the logarithm of their size over the tolerance: within the range of coordinates
+//! `log4(63*62/8 * 4e9 / 1e-9)`, which is below 36.
 
+use super::halving::flatten;
 use super::{CurveError, Point2};
-
-/// More halvings than any curve within the range of coordinates needs: `log4(63*62/8 * 4e9 / 1e-9)` is below 36.
-const MOST_HALVINGS: usize = 40;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bezier {
@@ -29,34 +28,14 @@ impl Bezier {
         self.control.first().copied().unwrap_or(Point2::new(0.0, 0.0))
     }
 
-    /// As [`super::Curve::flatten`], with at most `most` points for a line and fewer by the degree for curves: a
-    /// halving costs its square.
+    /// As [`flatten`](super::halving::flatten).
     pub(super) fn flatten(
         &self,
         tolerance: f64,
         most: usize,
         out: &mut Vec<Point2>,
     ) -> Result<(), CurveError> {
-        let degree = self.control.len().saturating_sub(1).max(1);
-        let full = out.len().saturating_add(most / degree);
-        // Pieces still to do, the next one last, each with how often it may still be halved.
-        let mut pieces = vec![(self.control.clone(), MOST_HALVINGS)];
-        while let Some((piece, halvings)) = pieces.pop() {
-            let Some(end) = piece.last().copied() else {
-                continue;
-            };
-            if halvings == 0 || deviation_bound(&piece) <= tolerance {
-                if out.len() >= full {
-                    return Err(CurveError::TooManyPoints);
-                }
-                out.push(end);
-            } else {
-                let (first, second) = halve(piece);
-                pieces.push((second, halvings - 1));
-                pieces.push((first, halvings - 1));
-            }
-        }
-        Ok(())
+        flatten(&self.control, deviation_bound, tolerance, most, out)
     }
 }
 
@@ -68,22 +47,6 @@ fn deviation_bound(control: &[Point2]) -> f64 {
         .map(|p| libm::hypot(p[0].x - 2.0 * p[1].x + p[2].x, p[0].z - 2.0 * p[1].z + p[2].z))
         .fold(0.0, f64::max);
     degree * (degree - 1.0) / 8.0 * bend
-}
-
-/// De Casteljau at one half: the control points of both halves.
-fn halve(mut control: Vec<Point2>) -> (Vec<Point2>, Vec<Point2>) {
-    let mut first = Vec::with_capacity(control.len());
-    let mut second = Vec::with_capacity(control.len());
-    while let (Some(&start), Some(&end)) = (control.first(), control.last()) {
-        first.push(start);
-        second.push(end);
-        for i in 1..control.len() {
-            control[i - 1] = control[i - 1].lerp(control[i], 0.5);
-        }
-        control.pop();
-    }
-    second.reverse();
-    (first, second)
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 //! coordinates.
 
 use super::bezier::Bezier;
+use super::halving::Control;
 use super::rational::{Rational, Weighted};
 use super::{CurveError, MOST_CONTROL_POINTS, Point2, check_points};
 
