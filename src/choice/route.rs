@@ -4,7 +4,7 @@ use super::bench::Bench;
 use super::{Latitude, MOST_CUTS_COMPARED, not_compared};
 use crate::job::{Auto, Order, RoughVcut, Sequence};
 use crate::plan::decision::{Candidate, Decision, Standing};
-use crate::plan::{LaidOut, PlannedVcut, route};
+use crate::plan::{LaidOut, PlannedVcut};
 use vcutc_backend_api::units::Duration;
 
 const ORDERS: [Order; 2] = [Order::Point, Order::Layer];
@@ -165,18 +165,11 @@ impl Open {
     }
 }
 
-/// The routes that the operation leaves open, without those that cannot differ from another.
+/// The routes that the operation leaves open. Those that come out as another are found by their runs.
 fn routes(vcut: &PlannedVcut) -> Vec<Route> {
     let sequences: Vec<Sequence> = match vcut.asked.sequence.value {
         Auto::Given(sequence) => vec![sequence],
-        Auto::Auto => SEQUENCES
-            .into_iter()
-            .filter(|&sequence| match sequence {
-                Sequence::Rows | Sequence::Boustrophedon => true,
-                // Where no layer falls apart there is one stretch to go on with, and its nearer end.
-                Sequence::Nearest => route::falls_apart(&vcut.cuts),
-            })
-            .collect(),
+        Auto::Auto => SEQUENCES.to_vec(),
     };
     let orders: Vec<Order> = match vcut.asked.order.value {
         Auto::Given(order) => vec![order],

@@ -101,13 +101,6 @@ fn runs_between(
     })
 }
 
-/// Whether layers fall apart into stretches, so that `nearest` has something to choose.
-#[must_use]
-pub fn falls_apart(cuts: &[PlannedCut]) -> bool {
-    cuts.windows(2)
-        .any(|pair| matches!(pair, [a, b] if a.layer == b.layer && b.way == Way::Over))
-}
-
 fn rows(cuts: &[PlannedCut]) -> Vec<Run> {
     let run = |cuts| Run {
         cuts,

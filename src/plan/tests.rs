@@ -228,7 +228,11 @@ proptest! {
         prop_assert!(limits.layer.hold(chosen.layer), "{chosen:?}");
         prop_assert!(limits.step.hold(chosen.step), "{chosen:?}");
         // The lattice's own bound, without the optimiser.
-        let bound = super::blade_reach::scallop_bound(chosen.lattice, chosen.layer, chosen.step, chosen.flanks.slope);
+        let bound = match (vcut.asked.formulas.value, chosen.lattice) {
+            // As printed: sigma is 1 + rho, whatever the swing.
+            (Formulas::Paper, Lattice::Interlaced) => chosen.layer + chosen.step * (chosen.flanks.slope / 2.0),
+            (Formulas::Paper | Formulas::Exact, _) => super::blade_reach::scallop_bound(chosen.lattice, chosen.layer, chosen.step, chosen.flanks.slope),
+        };
         let stays = match chosen.scallop_by {
             ScallopBy::Bound => bound + vcut.asked.allowance.value + chosen.drop,
             ScallopBy::Simulation => proven.report.scallop.height,
