@@ -28,7 +28,7 @@ impl Bezier {
         self.control.first().copied().unwrap_or(Point2::new(0.0, 0.0))
     }
 
-    /// As [`flatten`](super::halving::flatten).
+    /// As [`flatten`].
     pub(super) fn flatten(
         &self,
         tolerance: f64,

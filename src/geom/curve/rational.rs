@@ -46,7 +46,7 @@ impl Rational {
             .map_or(Point2::new(0.0, 0.0), |point| point.point())
     }
 
-    /// As [`flatten`](super::halving::flatten).
+    /// As [`flatten`].
     pub(super) fn flatten(
         &self,
         tolerance: f64,
