@@ -123,6 +123,8 @@ codes! {
     UnknownScale = "VC0228", Error, "a drawing without a unit";
     /// A drawing, or a layer, without lines.
     NothingDrawn = "VC0229", Error, "a drawing with no line to read";
+    /// Lines of a drawing lie on each other in part.
+    DrawnOver = "VC0230", Error, "lines of a drawing that lie on each other";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "a job that leaves nothing to cut";

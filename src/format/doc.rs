@@ -8,6 +8,8 @@
 pub(super) enum Doc {
     /// Text as it is. One with line ends in it (a long comment) breaks the groups around it.
     Text(String),
+    /// A comment that needs the rest of its line, in the column of such comments. It breaks the groups around it.
+    Trailing(String),
     /// A blank, or a line end in a broken group.
     Line,
     /// Nothing, or a line end in a broken group.
@@ -30,6 +32,14 @@ pub(super) struct Group {
     parts: Vec<Doc>,
     /// The width on one line; none if it cannot be on one.
     flat: Option<usize>,
+}
+
+/// The column of comments behind code, counted from 0; behind longer code they stand two blanks away.
+const COMMENT_COLUMN: usize = 46;
+
+/// How many blanks stand before a comment behind code that ends in a column.
+pub(super) fn blanks_before_comment(column: usize) -> usize {
+    COMMENT_COLUMN.saturating_sub(column).max(2)
 }
 
 /// Blanks for each step of indentation.
@@ -59,7 +69,7 @@ impl Doc {
             Self::Text(text) => Some(text.chars().count()),
             Self::Line => Some(1),
             Self::Soft | Self::OnlyBroken(_) => Some(0),
-            Self::Hard | Self::Breaks => None,
+            Self::Hard | Self::Breaks | Self::Trailing(_) => None,
             Self::Group(group) => group.flat,
             Self::Indent(parts) => flat_width(parts),
         }
@@ -72,7 +82,13 @@ impl Doc {
         match self {
             Self::Text(text) => Some(text.lines().next().map_or(0, |line| line.chars().count())),
             Self::OnlyBroken(text) => Some(text.len()),
-            Self::Line | Self::Soft | Self::Hard | Self::Breaks | Self::Group(_) | Self::Indent(_) => None,
+            Self::Line
+            | Self::Soft
+            | Self::Hard
+            | Self::Breaks
+            | Self::Trailing(_)
+            | Self::Group(_)
+            | Self::Indent(_) => None,
         }
     }
 }
@@ -122,6 +138,10 @@ impl Printer {
         for (at, part) in parts.iter().enumerate() {
             match (part, mode) {
                 (Doc::Text(text), _) => self.put(text),
+                (Doc::Trailing(text), _) => {
+                    self.put(&" ".repeat(blanks_before_comment(self.column)));
+                    self.put(text);
+                }
                 (Doc::Line, Mode::Flat) => self.put(" "),
                 (Doc::Soft | Doc::OnlyBroken(_), Mode::Flat) | (Doc::Breaks, _) => {}
                 (Doc::OnlyBroken(text), Mode::Broken) => self.put(text),

@@ -5,12 +5,10 @@
 //! neighbourhood, and names beyond [`LONGEST_NAME`] stay out of it.
 
 use super::WIDTH;
-use super::doc::{Doc, STEP, on_one_line, wrapped};
+use super::doc::{Doc, STEP, blanks_before_comment, on_one_line, wrapped};
 use super::read::{Body, Comment, Extent, Gap, Kind, Source, Statement};
 use super::value::{cut, statement};
 
-/// The column of comments behind code, counted from 0; behind longer code they stand two blanks away.
-const COMMENT_COLUMN: usize = 46;
 /// Longest name that shares a column with its neighbours, in characters.
 const LONGEST_NAME: usize = 24;
 /// More bytes than a line has that fits, whatever its characters. Blocks nested in one another are not looked through beyond.
@@ -91,7 +89,7 @@ impl Writer {
     fn comments_behind(&mut self, comments: &[Comment]) {
         for (at, comment) in comments.iter().enumerate() {
             let blanks = match at {
-                0 => COMMENT_COLUMN.saturating_sub(self.column()).max(2),
+                0 => blanks_before_comment(self.column()),
                 _ => 1,
             };
             self.text.extend(std::iter::repeat_n(' ', blanks));
@@ -112,17 +110,33 @@ impl Writer {
         }
     }
 
-    fn body(&mut self, body: &Body<'_>) {
-        let mut is_begun = false;
-        for comment in &body.before {
-            self.text.push_str(if is_begun { "" } else { " " });
-            self.text.push_str(&comment.text);
-            is_begun = comment.ends_its_line();
-            if is_begun {
+    /// Comments between a head and its brace, and what stands before the brace.
+    fn comments_before_brace(&mut self, comments: &[Comment]) {
+        let mut line_ends = false;
+        for comment in comments {
+            if line_ends || comment.is_below() {
+                self.depth += 1;
                 self.begin_line(Gap::Below, false);
+                self.depth -= 1;
+                self.text.push_str(&comment.text);
+            } else if comment.ends_its_line() {
+                self.comments_behind(std::slice::from_ref(comment));
+            } else {
+                self.text.push(' ');
+                self.text.push_str(&comment.text);
             }
+            line_ends = comment.ends_its_line() || comment.is_below();
         }
-        self.text.push_str(if is_begun { "{" } else { " {" });
+        if line_ends {
+            self.begin_line(Gap::Below, false);
+        } else {
+            self.text.push(' ');
+        }
+    }
+
+    fn body(&mut self, body: &Body<'_>) {
+        self.comments_before_brace(&body.before);
+        self.text.push('{');
         self.comments_behind(&body.opening);
         self.depth += 1;
         self.statements(&body.statements, &body.closing);
@@ -148,7 +162,8 @@ fn one_line(found: &Statement<'_>, depth: usize, column: usize) -> Option<String
 
 fn block_on_one_line(found: &Statement<'_>, body: &Body<'_>, column: usize) -> Option<String> {
     let is_empty = body.statements.is_empty() && body.opening.is_empty() && body.closing.is_empty();
-    let breaks = |comment: &Comment| comment.ends_its_line() || comment.text.contains('\n');
+    let breaks =
+        |comment: &Comment| comment.ends_its_line() || comment.is_below() || comment.text.contains('\n');
     if (body.extent == Extent::ManyLines && !is_empty) || body.before.iter().any(breaks) {
         return None;
     }

@@ -33,6 +33,11 @@ impl Comment {
     pub(super) fn ends_its_line(&self) -> bool {
         self.text.starts_with("//")
     }
+
+    /// Whether it begins a line.
+    pub(super) fn is_below(&self) -> bool {
+        self.gap != Gap::Beside
+    }
 }
 
 /// A word of a statement: a name, a number, a text or a mark.
@@ -41,7 +46,7 @@ pub(super) struct Word<'t> {
     pub(super) text: &'t str,
     pub(super) kind: TokenKind,
     pub(super) role: Role,
-    /// Whether it begins where the word before ends.
+    /// Whether it begins where the word before ends, without a comment in between.
     pub(super) touches: bool,
     /// Between the word before and this one.
     pub(super) comments: Vec<Comment>,
@@ -386,7 +391,7 @@ impl<'t> Reader<'t> {
                 | TokenKind::Close(_)
                 | TokenKind::UnclosedComment
                 | TokenKind::Symbol => {
-                    let touches = token.start == self.end && self.at > 0;
+                    let touches = token.start == self.end && self.at > 0 && comments.is_empty();
                     let gap = self.take(token);
                     words.push(Word {
                         text: self.slice(token.start, token.end),

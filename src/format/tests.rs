@@ -108,7 +108,7 @@ fn long_values_are_wrapped() {
     // A comment on its own line among points keeps it.
     assert_layout(
         "p { tips // of these\n (1, 2) // behind\n // below\n (3, 4) }",
-        "p {\n  tips // of these\n    (1, 2) // behind\n    // below\n    (3, 4)\n}\n",
+        "p {\n  tips                                        // of these\n    (1, 2)                                    // behind\n    // below\n    (3, 4)\n}\n",
     );
     // A point has no comma behind its second value.
     assert_layout(
@@ -131,16 +131,83 @@ fn comments_stay_where_they_are() {
         "a{x=1/* one */,/* two */y=2}",
         "a { x = 1 /* one */, /* two */ y = 2 }\n",
     );
-    assert_layout("let v = 1+// one\n2", "let v = 1\n  + // one\n  2\n");
+    assert_layout(
+        "let v = 1+// one\n2",
+        "let v = 1\n  +                                           // one\n  2\n",
+    );
     assert_layout(
         "let v=(1 // one\n,2, // two\n// three\n/* four */ 4\n// end\n)",
-        "let v = (\n  1, // one\n  2, // two\n  // three\n  /* four */ 4,\n  // end\n)\n",
+        "let v = (\n  1,                                          // one\n  2,                                          // two\n  // three\n  /* four */ 4,\n  // end\n)\n",
     );
     assert_layout(
         "job /* a */ \"b\"/* c */// d",
         "job /* a */ \"b\"                               /* c */ // d\n",
     );
     assert_layout("/* a\r\n  b */ job \"c\"", "/* a\n  b */ job \"c\"\n");
+}
+
+/// A text whose own-line comments all keep their lines, and whose other ones begin in one column.
+#[test]
+fn comments_of_their_own_line_keep_it_within_statements() {
+    let text = "job
+  // own
+  \"a\"
+let a = 12 mm                                 // behind
+  // own
+  + 3 mm                                      // behind
+let b = max(                                  // behind
+  // own
+  1 mm,
+  // own
+  2 mm,                                       // behind
+  // own
+  3 mm,
+)
+stock
+  // own
+  /* own */
+{
+  size = (1, 2, 3)
+}
+blade                                         // behind
+{
+  x
+    /* own */
+    = 4
+  limits {
+    swing <= 50 deg
+    // own
+    scallop <= 10 mm
+  }
+}
+profile {
+  line
+    // own
+    to (1, 2)
+  arc  to (1 mm, 2 mm)                        // behind
+    // own
+    radius                                    // behind
+    3 mm
+}
+let f = -
+  // own
+  3
+";
+    assert_layout(text, text);
+    assert_layout(
+        "let b = max(1,2\n// own\n,3)",
+        "let b = max(\n  1,\n  2,\n  // own\n  3,\n)\n",
+    );
+    assert_layout(
+        "let b = max(1,2\n/* own */\n,3)",
+        "let b = max(\n  1,\n  2,\n  /* own */\n  3,\n)\n",
+    );
+}
+
+#[test]
+fn a_comment_ends_a_unit() {
+    assert_layout("let a = 12 m/* c *//min", "let a = 12 m /* c */ / min\n");
+    assert_layout("let a = 12 m / /* c */min", "let a = 12 m / /* c */ min\n");
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub(super) fn name(words: &[Word<'_>]) -> Vec<Doc> {
 /// All words of a statement; a name is filled up to `column` characters.
 pub(super) fn statement(kind: Kind, words: &[Word<'_>], column: usize) -> Vec<Doc> {
     let Parts { name, rest } = cut(kind, words);
-    let mut docs = row(name, None);
+    let mut docs = vec![Doc::Indent(row(name, None))];
     let mut before = name.last();
     if rest.is_empty() {
         return docs;
@@ -46,8 +46,7 @@ pub(super) fn statement(kind: Kind, words: &[Word<'_>], column: usize) -> Vec<Do
     let mut value = Vec::new();
     let rest = match rest {
         [relation, value_words @ ..] if relation.role == Role::Relation => {
-            comments_in_a_row(&relation.comments, &mut value);
-            separate(&relation.comments, Spacing::Blank, &mut value);
+            lead_in(relation, Spacing::Blank, &mut value);
             value.push(Doc::text(relation.text));
             before = Some(relation);
             value_words
@@ -55,20 +54,21 @@ pub(super) fn statement(kind: Kind, words: &[Word<'_>], column: usize) -> Vec<Do
         _ => rest,
     };
     let mut words = row(rest, before);
+    let mut begins_below = false;
     if let Some(first) = rest.first() {
-        comments_in_a_row(&first.comments, &mut value);
         let is_point = kind == Kind::Curve && first.role == Role::Open;
         if is_point && first.comments.is_empty() && words.iter().any(|doc| matches!(doc, Doc::Line)) {
             // Broken before one point, a piece is broken before all.
             words.insert(0, Doc::Line);
         } else {
-            separate(&first.comments, Spacing::Blank, &mut value);
+            lead_in(first, Spacing::Blank, &mut value);
+            begins_below = matches!(value.last(), Some(Doc::Hard));
         }
     }
     docs.push(Doc::Indent(value));
     let rest = words;
     // A list alone closes below the name that it belongs to.
-    let is_one_piece = !rest.iter().any(|doc| matches!(doc, Doc::Line | Doc::Hard));
+    let is_one_piece = !begins_below && !rest.iter().any(|doc| matches!(doc, Doc::Line | Doc::Hard));
     let rest = Doc::group(rest);
     docs.push(if is_one_piece {
         rest
@@ -85,8 +85,7 @@ fn row(words: &[Word<'_>], before: Option<&Word<'_>>) -> Vec<Doc> {
     let mut at = 0;
     while let Some(word) = words.get(at) {
         if let Some(previous) = previous.filter(|_| at > 0) {
-            comments_in_a_row(&word.comments, &mut docs);
-            separate(&word.comments, between(previous, word), &mut docs);
+            lead_in(word, between(previous, word), &mut docs);
         }
         if matches!(word.role, Role::Open | Role::CallOpen) {
             let length = list_length(words.get(at..).unwrap_or_default());
@@ -102,31 +101,33 @@ fn row(words: &[Word<'_>], before: Option<&Word<'_>>) -> Vec<Doc> {
     docs
 }
 
-/// Comments behind a word: on its line, or on lines of their own as they were.
-fn comments_in_a_row(comments: &[Comment], docs: &mut Vec<Doc>) {
-    let mut after_line_end = false;
-    for comment in comments {
-        if !after_line_end {
-            docs.push(match comment.gap {
-                Gap::Beside => Doc::blank(),
-                Gap::Below | Gap::Apart => Doc::Hard,
-            });
+/// What stands before a word: the comments there, on the line of the word before or on lines of their own as they were, or
+/// the spacing.
+fn lead_in(word: &Word<'_>, spacing: Spacing, docs: &mut Vec<Doc>) {
+    let mut line_ends = false;
+    for comment in &word.comments {
+        if line_ends || comment.is_below() {
+            docs.extend([Doc::Hard, Doc::text(comment.text.clone())]);
+        } else {
+            beside(comment, docs);
         }
-        docs.push(Doc::text(comment.text.clone()));
-        after_line_end = comment.ends_its_line();
-        if after_line_end {
-            docs.push(Doc::Hard);
-        }
+        line_ends = comment.ends_its_line();
     }
-}
-
-/// What stands before a word: its spacing, or a blank behind its last comment.
-fn separate(comments: &[Comment], spacing: Spacing, docs: &mut Vec<Doc>) {
-    match (comments.last(), spacing) {
-        (Some(comment), _) if comment.ends_its_line() => {}
+    let is_alone = |comment: &Comment| comment.is_below() && word.gap != Gap::Beside;
+    match (word.comments.last(), spacing) {
+        (Some(comment), _) if line_ends || is_alone(comment) => docs.push(Doc::Hard),
         (Some(_), _) | (None, Spacing::Blank) => docs.push(Doc::blank()),
         (None, Spacing::Breakable) => docs.push(Doc::Line),
         (None, Spacing::None) => {}
+    }
+}
+
+/// A comment on the line of what is before it.
+fn beside(comment: &Comment, docs: &mut Vec<Doc>) {
+    if comment.ends_its_line() {
+        docs.push(Doc::Trailing(comment.text.clone()));
+    } else {
+        docs.extend([Doc::blank(), Doc::text(comment.text.clone())]);
     }
 }
 
@@ -290,7 +291,7 @@ fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mu
     let before_comma = ending.end.map_or(&[][..], |comma| &comma.comments);
     let kept = before_comma
         .iter()
-        .take_while(|comment| !comment.ends_its_line())
+        .take_while(|comment| !comment.ends_its_line() && !comment.is_below())
         .count();
     let (kept, moved) = before_comma.split_at(kept);
     trailing(kept.iter(), docs);
@@ -309,13 +310,16 @@ fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mu
 
 /// Comments behind a value of a list. The line of one that needs it ends with the next place where it can.
 fn trailing<'c>(comments: impl Iterator<Item = &'c Comment>, docs: &mut Vec<Doc>) {
-    let mut after_line_end = false;
+    let mut line_ends = false;
     for comment in comments {
-        docs.push(if after_line_end { Doc::Hard } else { Doc::blank() });
-        docs.push(Doc::text(comment.text.clone()));
-        after_line_end = comment.ends_its_line();
+        if line_ends || comment.is_below() {
+            docs.extend([Doc::Hard, Doc::text(comment.text.clone())]);
+        } else {
+            beside(comment, docs);
+        }
+        line_ends = comment.ends_its_line() || comment.is_below();
     }
-    if after_line_end {
+    if line_ends {
         docs.push(Doc::Breaks);
     }
 }
@@ -337,10 +341,11 @@ fn dangling(comments: &[Comment], values: &[Value<'_, '_>], tail: Tail, docs: &m
     let mut after_line_end = tail == Tail::LineComment;
     for (at, comment) in comments.iter().enumerate() {
         let is_on_the_line = comment.gap == Gap::Beside && !after_line_end;
-        if !values.is_empty() || at > 0 {
-            docs.push(if is_on_the_line { Doc::blank() } else { Doc::Hard });
+        match (is_on_the_line, !values.is_empty() || at > 0) {
+            (true, true) => beside(comment, docs),
+            (false, true) => docs.extend([Doc::Hard, Doc::text(comment.text.clone())]),
+            (true | false, false) => docs.push(Doc::text(comment.text.clone())),
         }
-        docs.push(Doc::text(comment.text.clone()));
         after_line_end = comment.ends_its_line();
     }
     if after_line_end {

@@ -8,12 +8,16 @@
 mod affine;
 mod chain;
 mod join;
+mod pairs;
+mod repeats;
+mod ring;
 mod shape;
 mod sides;
 
 pub use affine::Affine;
 pub(super) use affine::sincos_degrees;
 pub use chain::{Chain, Gap, Outline, OutlineError, outline};
+pub use repeats::{Overlap, drawn_over};
 pub use shape::Shape;
 pub use sides::{Side, SideError, side};
 
@@ -122,6 +126,10 @@ pub enum Why {
     Paper,
     /// It is not shown.
     Hidden,
+    /// It stands on a layer that is off, and no layer is named.
+    Off,
+    /// It stands on a layer that is frozen, or is inserted there.
+    Frozen,
     /// It is a single point.
     NoExtent,
     /// It stands in another file.
@@ -137,6 +145,8 @@ impl Why {
             Self::Tilted => "tilted out of the plane of the drawing",
             Self::Paper => "on a sheet of paper space",
             Self::Hidden => "hidden",
+            Self::Off => "on a layer that is off",
+            Self::Frozen => "on a layer that is frozen",
             Self::NoExtent => "without extent",
             Self::OtherFile => "in another file",
         }

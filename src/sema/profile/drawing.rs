@@ -10,7 +10,9 @@ use super::TOLERANCE;
 use super::data::{as_text, bad_data, bytes_of, place_of};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
-use crate::geom::import::drawing::{Affine, Drawing, Outline, Side, Unit, outline, side};
+use crate::geom::import::drawing::{
+    Affine, Drawing, Outline, OutlineError, Side, SideError, Unit, drawn_over, outline, side,
+};
 use crate::geom::import::{self, DataError, NoText};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, FieldSpec, Fields, Inner, Takes, value};
@@ -176,13 +178,29 @@ fn profile_of(told: &Told<'_>, options: &Options) -> Result<Outline, Box<Diagnos
     };
     let factor = unit * options.scale;
     let map = Affine::shift(options.x.to_mm(), options.z.to_mm()).after(Affine::stretch(factor, factor));
-    let whole = outline(&told.drawing.strokes, map, TOLERANCE, options.tolerance)
-        .map_err(|error| told.no_outline(error, options.tolerance))?;
+    let strokes = &told.drawing.strokes;
+    // Lines drawn over each other are the cause of many faults that look like others.
+    let twice = || drawn_over(strokes, map, TOLERANCE, options.tolerance).map(|found| told.drawn_over(found));
+    let whole = outline(strokes, map, TOLERANCE, options.tolerance).map_err(|error| {
+        let is_torn = matches!(error, OutlineError::Branch { .. } | OutlineError::Several { .. });
+        let otherwise = told.no_outline(error, options.tolerance);
+        is_torn.then(twice).flatten().unwrap_or(otherwise)
+    })?;
     match options.side {
         None if whole.is_closed => Err(Box::new(told.which_side(&whole))),
+        None if turns_back(&whole) => twice().map_or(Ok(whole), Err),
         None => Ok(whole),
-        Some(wanted) => side(&whole, wanted).map_err(|error| told.no_side(error, options.tolerance)),
+        Some(wanted) => side(&whole, wanted, TOLERANCE).map_err(|error| {
+            let is_crossed = matches!(error, SideError::Crossed { .. } | SideError::NoArea);
+            let otherwise = told.no_side(error, options.tolerance);
+            is_crossed.then(twice).flatten().unwrap_or(otherwise)
+        }),
     }
+}
+
+/// Whether x falls somewhere on the way of an open outline.
+fn turns_back(outline: &Outline) -> bool {
+    outline.points.windows(2).any(|pair| pair[1].x < pair[0].x)
 }
 
 /// The points of an outline, parted where another stroke begins.

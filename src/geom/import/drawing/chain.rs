@@ -5,11 +5,11 @@
 //! by at most the gap.
 
 use super::join::{End, JoinError, SAME, join};
+use super::repeats::without_repeats;
 use super::shape::ShapeError;
 use super::{Affine, Stroke};
 use crate::geom::curve::{COINCIDENT, CurveError, MOST_POINTS, NurbsError};
 use crate::geom::point::Point2;
-use std::collections::BTreeMap;
 use vcutc_backend_api::units::Length;
 
 /// A chain that is everything drawn.
@@ -23,7 +23,7 @@ pub struct Outline {
     pub is_closed: bool,
     /// The widest gap over which ends were joined; none when all ends coincide.
     pub widest: Option<Gap>,
-    /// Strokes that are drawn over by an earlier one, and count once.
+    /// Strokes that lie on others from end to end, and count once.
     pub repeated: Vec<usize>,
 }
 
@@ -104,9 +104,9 @@ pub enum OutlineError {
 }
 
 /// A flattened stroke.
-struct Line {
-    stroke: usize,
-    points: Vec<Point2>,
+pub(super) struct Line {
+    pub(super) stroke: usize,
+    pub(super) points: Vec<Point2>,
 }
 
 impl Line {
@@ -160,7 +160,8 @@ pub fn outline(
     }
 }
 
-fn flatten(strokes: &[Stroke], map: Affine, flat: Length) -> Result<Vec<Line>, OutlineError> {
+/// Strokes as lines; those without extent are left out.
+pub(super) fn flatten(strokes: &[Stroke], map: Affine, flat: Length) -> Result<Vec<Line>, OutlineError> {
     let mut lines = Vec::new();
     let mut left = MOST_POINTS;
     for (stroke, drawn) in strokes.iter().enumerate() {
@@ -187,37 +188,6 @@ fn flatten(strokes: &[Stroke], map: Affine, flat: Length) -> Result<Vec<Line>, O
         }
     }
     Ok(lines)
-}
-
-/// Lines that do not lie on an earlier one from end to end, and the strokes of those that do.
-fn without_repeats(lines: Vec<Line>) -> (Vec<Line>, Vec<usize>) {
-    // Lines are compared only where their ends agree to a micrometre.
-    let cell = |value: f64| libm::round(value * 1000.0) as i64;
-    let mut seen: BTreeMap<[(i64, i64); 2], Vec<usize>> = BTreeMap::new();
-    let mut kept: Vec<Line> = Vec::new();
-    let mut repeated = Vec::new();
-    for line in lines {
-        let Some(ends) = line.ends() else { continue };
-        let mut key = ends.map(|end| (cell(end.x), cell(end.z)));
-        key.sort_unstable();
-        let alike = seen.entry(key).or_default();
-        // More than a few different lines between the same ends branch anyway.
-        if alike.iter().take(8).any(|&other| is_same(&kept[other], &line)) {
-            repeated.push(line.stroke);
-        } else {
-            alike.push(kept.len());
-            kept.push(line);
-        }
-    }
-    (kept, repeated)
-}
-
-/// Whether two lines have the same corners, in the same or the opposite order.
-fn is_same(one: &Line, other: &Line) -> bool {
-    let near = |(a, b): (&Point2, &Point2)| a.distance(*b) <= SAME;
-    one.points.len() == other.points.len()
-        && (one.points.iter().zip(&other.points).all(near)
-            || one.points.iter().zip(other.points.iter().rev()).all(near))
 }
 
 fn in_strokes(error: JoinError, open: &[&Line]) -> OutlineError {
@@ -309,6 +279,17 @@ impl Walked {
         };
         self.note(last, first, self.owners.first().copied().unwrap_or(0));
         let middle = last.lerp(first, 0.5);
+        // As between two lines: what is nearer to the middle than the ends would lead back.
+        let size = last.distance(first);
+        let end = self.points.len().saturating_sub(1);
+        let inner = self.points.get(1..end).unwrap_or_default();
+        let near = |point: &&Point2| point.distance(middle) <= size;
+        let leading = inner.iter().take_while(near).count();
+        let ending = inner.iter().skip(leading).rev().take_while(near).count();
+        self.points.drain(end - ending..end);
+        self.points.drain(1..=leading);
+        self.owners.drain(end - ending..end);
+        self.owners.drain(1..=leading);
         if let Some(place) = self.points.first_mut() {
             *place = middle;
         }
@@ -335,7 +316,23 @@ impl Walked {
         self.owners.push(owner);
     }
 
+    /// Drops corners that are where the one before is; the last one stays where it is.
+    fn drop_coinciding(&mut self) {
+        let drawn = core::mem::take(&mut self.points);
+        let owners = core::mem::take(&mut self.owners);
+        let count = drawn.len();
+        for (place, (point, owner)) in drawn.into_iter().zip(owners).enumerate() {
+            match self.points.last_mut() {
+                Some(last) if last.distance(point) >= COINCIDENT => self.push(point, owner),
+                Some(last) if place + 1 == count && place > 1 => *last = point,
+                Some(_) => {}
+                None => self.push(point, owner),
+            }
+        }
+    }
+
     fn finish(mut self, repeated: Vec<usize>) -> Outline {
+        self.drop_coinciding();
         let leads_left = match (self.points.first(), self.points.last()) {
             (Some(first), Some(last)) => last.x < first.x,
             _ => false,

@@ -88,10 +88,10 @@ impl Shape {
                 to: map.point(to),
                 sweep: if map.keeps_sense() { sweep } else { -sweep },
             },
-            Self::Arc { from, to, sweep } if sweep.abs() < STRAIGHT => {
-                Self::Polyline(vec![map.point(from), map.point(to)])
-            }
-            Self::Arc { from, to, sweep } => as_ellipse(from, to, sweep).mapped(map),
+            Self::Arc { from, to, sweep } => match center_of_arc(from, to, sweep) {
+                Some(center) => as_ellipse(center, from, sweep).mapped(map),
+                None => Self::Polyline(vec![map.point(from), map.point(to)]),
+            },
         }
     }
 
@@ -113,13 +113,23 @@ impl Shape {
     }
 }
 
-/// An arc as one of an ellipse. Its centre lies on the bisector of the chord, half the chord over the tangent of half the
-/// angle to the left.
-fn as_ellipse(from: Point2, to: Point2, sweep: f64) -> Shape {
+/// The centre of an arc: it lies on the bisector of the chord, half the chord over the tangent of half the angle to the
+/// left. None for arcs that are as good as straight.
+pub(super) fn center_of_arc(from: Point2, to: Point2, sweep: f64) -> Option<Point2> {
+    if sweep.abs() < STRAIGHT {
+        return None;
+    }
     let chord = to.minus(from);
     let height = 0.5 / libm::tan(sweep / 2.0);
     let middle = from.lerp(to, 0.5);
-    let center = Point2::new(middle.x - chord.z * height, middle.z + chord.x * height);
+    Some(Point2::new(
+        middle.x - chord.z * height,
+        middle.z + chord.x * height,
+    ))
+}
+
+/// An arc as one of an ellipse.
+fn as_ellipse(center: Point2, from: Point2, sweep: f64) -> Shape {
     let first = from.minus(center);
     Shape::Ellipse {
         center,

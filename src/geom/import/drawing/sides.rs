@@ -5,9 +5,10 @@
 
 use super::chain::reverse;
 use super::join::SAME;
+use super::ring::{RingError, Turn, prove_simple};
 use super::{Gap, Outline};
 use crate::geom::point::Point2;
-use crate::geom::profile::Profile;
+use vcutc_backend_api::units::Length;
 
 /// The two sides of a closed outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,18 +26,24 @@ pub enum SideError {
     Open(Gap),
     /// Both its ends have the same x.
     NoExtent,
-    /// Its sides change places, at this x.
+    /// Nothing lies between its sides.
+    NoArea,
+    /// It meets itself.
     Crossed {
-        /// Where, in mm.
-        x: f64,
+        /// Where, in the workpiece.
+        at: Point2,
+        /// The strokes that meet there; twice the same where one meets itself.
+        strokes: [usize; 2],
     },
+    /// So much of it lies beside itself that it was not looked through.
+    Dense,
 }
 
-/// A side of a closed outline, from left to right.
+/// A side of a closed outline, from left to right. `flat` is how far its curves may have moved when it was flattened.
 ///
 /// # Errors
 /// See [`SideError`].
-pub fn side(outline: &Outline, side: Side) -> Result<Outline, SideError> {
+pub fn side(outline: &Outline, side: Side, flat: Length) -> Result<Outline, SideError> {
     if let (false, Some(&from), Some(&to)) =
         (outline.is_closed, outline.points.first(), outline.points.last())
     {
@@ -48,39 +55,51 @@ pub fn side(outline: &Outline, side: Side) -> Result<Outline, SideError> {
             strokes: [first, last],
         }));
     }
-    let wanted = half(outline, side)?;
-    let other = half(
-        outline,
-        match side {
-            Side::Upper => Side::Lower,
-            Side::Lower => Side::Upper,
+    // Without the last point, which is the first.
+    let count = outline.points.len().saturating_sub(1);
+    let ring = outline.points.get(..count).unwrap_or_default();
+    let span = Span::of(outline, ring)?;
+    let turn = prove_simple(ring, 2.0 * flat.to_mm()).map_err(|error| match error {
+        RingError::NoArea => SideError::NoArea,
+        RingError::Dense => SideError::Dense,
+        // The owner of the end of a segment is that of the segment.
+        RingError::Meets { at, segments } => SideError::Crossed {
+            at,
+            strokes: segments.map(|place| outline.owners.get(place + 1).copied().unwrap_or(0)),
         },
-    )?;
-    let (upper, lower) = match side {
-        Side::Upper => (&wanted, &other),
-        Side::Lower => (&other, &wanted),
-    };
-    match crossing(upper, lower) {
-        Some(x) => Err(SideError::Crossed { x }),
-        None => Ok(wanted),
+    })?;
+    Ok(half(outline, ring, &span, side, turn))
+}
+
+/// From where to where a ring reaches.
+struct Span {
+    leftmost: f64,
+    rightmost: f64,
+    /// How well that is known: corners that were joined over a gap are known no better than that.
+    margin: f64,
+}
+
+impl Span {
+    fn of(outline: &Outline, ring: &[Point2]) -> Result<Self, SideError> {
+        let start = (f64::INFINITY, f64::NEG_INFINITY);
+        let (leftmost, rightmost) = ring
+            .iter()
+            .fold(start, |(low, high), point| (low.min(point.x), high.max(point.x)));
+        let margin = outline.widest.map_or(SAME, |gap| gap.size().to_mm().max(SAME));
+        if rightmost - leftmost <= 4.0 * margin {
+            return Err(SideError::NoExtent);
+        }
+        Ok(Self {
+            leftmost,
+            rightmost,
+            margin,
+        })
     }
 }
 
 /// The half of a ring between its leftmost and its rightmost place that is on a side.
-fn half(outline: &Outline, side: Side) -> Result<Outline, SideError> {
-    // Without the last point, which is the first.
-    let count = outline.points.len().saturating_sub(1);
-    let ring = outline.points.get(..count).unwrap_or_default();
-    let (leftmost, rightmost) = ring
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
-            (low.min(point.x), high.max(point.x))
-        });
-    // Corners that were joined over a gap are known no better than that.
-    let margin = outline.widest.map_or(SAME, |gap| gap.size().to_mm().max(SAME));
-    if rightmost - leftmost <= 4.0 * margin {
-        return Err(SideError::NoExtent);
-    }
+fn half(outline: &Outline, ring: &[Point2], span: &Span, side: Side, turn: Turn) -> Outline {
+    let count = ring.len();
     let rank = |point: &Point2| match side {
         Side::Upper => point.z,
         Side::Lower => -point.z,
@@ -90,12 +109,12 @@ fn half(outline: &Outline, side: Side) -> Result<Outline, SideError> {
         let best = there.max_by(|(_, a), (_, b)| rank(a).total_cmp(&rank(b)));
         best.map_or(0, |(place, _)| place)
     };
-    let left = best(&|point| point.x <= leftmost + margin);
-    let right = best(&|point| point.x >= rightmost - margin);
-    // Round a ring to the left (area above 0) the lower side leads right and the upper one left.
+    let left = best(&|point| point.x <= span.leftmost + span.margin);
+    let right = best(&|point| point.x >= span.rightmost - span.margin);
+    // Round a ring to the left the lower side leads right and the upper one left.
     let leads_right = match side {
-        Side::Lower => area(ring) > 0.0,
-        Side::Upper => area(ring) < 0.0,
+        Side::Lower => turn == Turn::Left,
+        Side::Upper => turn == Turn::Right,
     };
     let (from, to) = if leads_right { (left, right) } else { (right, left) };
     let steps = (to + count - from) % count;
@@ -111,37 +130,16 @@ fn half(outline: &Outline, side: Side) -> Result<Outline, SideError> {
         reverse(&mut points, &mut owners);
     }
     if let Some(first) = points.first_mut() {
-        first.x = leftmost;
+        first.x = span.leftmost;
     }
     if let Some(last) = points.last_mut() {
-        last.x = rightmost;
+        last.x = span.rightmost;
     }
-    Ok(Outline {
+    Outline {
         points,
         owners,
         is_closed: false,
         widest: outline.widest,
         repeated: outline.repeated.clone(),
-    })
-}
-
-/// Twice the area inside of a ring, above 0 when it turns left.
-fn area(ring: &[Point2]) -> f64 {
-    let Some(&origin) = ring.first() else {
-        return 0.0;
-    };
-    ring.windows(2)
-        .map(|pair| pair[0].minus(origin).cross(pair[1].minus(origin)))
-        .sum()
-}
-
-/// The leftmost corner at which the upper side lies below the lower one. Sides that turn back are found elsewhere.
-fn crossing(upper: &Outline, lower: &Outline) -> Option<f64> {
-    let top = Profile::new(upper.points.clone()).ok()?;
-    let bottom = Profile::new(lower.points.clone()).ok()?;
-    let corners = upper.points.iter().chain(&lower.points);
-    corners
-        .map(|point| point.x)
-        .filter(|&x| top.height(x) < bottom.height(x) - SAME)
-        .min_by(f64::total_cmp)
+    }
 }

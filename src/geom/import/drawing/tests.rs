@@ -163,7 +163,7 @@ proptest! {
         let outline = joined(&[stroke(&ring)], 0.01).unwrap();
         prop_assert!(outline.is_closed);
         for (wanted, expected) in [(Side::Upper, upper), (Side::Lower, lower)] {
-            let found = side(&outline, wanted).unwrap();
+            let found = side(&outline, wanted, Length::mm(FLAT)).unwrap();
             let found: Vec<(f64, f64)> = found.points.iter().map(|p| (p.x, p.z)).collect();
             prop_assert_eq!(found, expected);
         }
@@ -227,14 +227,20 @@ fn gaps_and_branches_are_named() {
 #[test]
 fn outlines_without_sides_are_refused() {
     let open = joined(&[stroke(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0)])], 0.01).unwrap();
-    assert!(matches!(side(&open, Side::Upper), Err(SideError::Open(_))));
+    assert!(matches!(
+        side(&open, Side::Upper, Length::mm(FLAT)),
+        Err(SideError::Open(_))
+    ));
     let (upper, lower) = (
         [(0.0, 5.0), (10.0, 8.0), (20.0, 2.0)],
         [(30.0, 5.0), (20.0, 9.0), (10.0, 2.0), (0.0, 5.0)],
     );
     let bow = [&upper[..], &lower[..]].concat();
     let bow = joined(&[stroke(&bow)], 0.01).unwrap();
-    assert!(matches!(side(&bow, Side::Upper), Err(SideError::Crossed { .. })));
+    assert!(matches!(
+        side(&bow, Side::Upper, Length::mm(FLAT)),
+        Err(SideError::Crossed { .. })
+    ));
 }
 
 /// Corners of a ring that were joined over a gap may lean its vertical sides a little.
@@ -244,7 +250,7 @@ fn sides_that_lean_by_a_joined_gap_are_vertical() {
         stroke(&[(-0.008, 0.0), (50.0, 0.0)]),
         stroke(&[(50.0, 0.0), (50.0, 20.0), (0.0, 30.0), (0.0, 0.0)]),
     ];
-    let upper = side(&joined(&ring, 0.01).unwrap(), Side::Upper).unwrap();
+    let upper = side(&joined(&ring, 0.01).unwrap(), Side::Upper, Length::mm(FLAT)).unwrap();
     assert_eq!(upper.points.len(), 2);
     assert!((upper.points[0].z - 30.0).abs() < 1e-12);
 }

@@ -35,10 +35,11 @@ pub(super) enum Content<'t> {
     Unread(Why),
 }
 
-/// Takes the entity whose name is the group at hand. None for the ends of lists of attributes.
+/// Takes the entity whose name is the group at hand. None for what draws nothing: the ends of lists of attributes, and
+/// windows of sheets.
 pub(super) fn take<'t>(name: Group, groups: &mut Groups<'t>) -> Result<Option<Entity<'t>>, DataError> {
     let fields = Fields::take(name, groups)?;
-    if fields.kind == "SEQEND" {
+    if matches!(fields.kind, "SEQEND" | "VIEWPORT") {
         return Ok(None);
     }
     // A polyline of the old kind goes on with its corners, whatever becomes of it.

@@ -2,6 +2,9 @@
 //!
 //! An insertion puts the base point of a block to its own place, stretches the block, turns it, and may repeat it in
 //! columns and rows. Entities of a block on layer `0` take the layer of the insertion.
+//!
+//! What stands on a layer that is off or frozen is not seen, nor is what is inserted on a frozen one, whatever its own layer.
+//! So it is left out and listed, unless its layer is the one that is asked for.
 
 use super::super::drawing::{Affine, Drawing, MOST_STROKES, Place, Remark, Shape, Stroke, UnreadList, Why};
 use super::super::{DataError, shortened};
@@ -72,6 +75,7 @@ pub(super) fn unfold(file: File<'_>, layer: Option<&str>) -> Result<Drawing, Dat
     let mut unfolding = Unfolding {
         blocks: &file.blocks,
         wanted: layer.map(folded),
+        hidden: BTreeMap::new(),
         strokes: Vec::new(),
         unread: UnreadList::default(),
         layers: BTreeMap::new(),
@@ -79,10 +83,21 @@ pub(super) fn unfold(file: File<'_>, layer: Option<&str>) -> Result<Drawing, Dat
         looked_at: 0,
         path: Vec::new(),
     };
-    for &name in &file.layers {
-        unfolding.layers.entry(folded(name)).or_insert((name, 0));
+    for layer in &file.layers {
+        let key = folded(layer.name);
+        if unfolding.wanted.as_ref() != Some(&key) {
+            unfolding
+                .hidden
+                .extend(layer.hidden.map(|why| (key.clone(), why)));
+        }
+        unfolding.layers.entry(key).or_insert((layer.name, 0));
     }
-    unfolding.entities(&file.entities, Affine::IDENTITY, None)?;
+    let model = Host {
+        map: Affine::IDENTITY,
+        layer: None,
+        hidden: None,
+    };
+    unfolding.entities(&file.entities, model)?;
     Ok(Drawing {
         unit,
         strokes: unfolding.strokes,
@@ -99,6 +114,8 @@ pub(super) fn unfold(file: File<'_>, layer: Option<&str>) -> Result<Drawing, Dat
 struct Unfolding<'f, 't> {
     blocks: &'f BTreeMap<String, Block<'t>>,
     wanted: Option<String>,
+    /// Layers that are not seen, by name in small letters, but for the wanted one.
+    hidden: BTreeMap<String, Why>,
     strokes: Vec<Stroke>,
     unread: UnreadList,
     /// Layers by name in small letters: their names, and how many strokes they have.
@@ -109,30 +126,54 @@ struct Unfolding<'f, 't> {
     path: Vec<&'f str>,
 }
 
+/// Where entities are drawn: in the model, or by an insertion.
+#[derive(Clone, Copy)]
+struct Host<'t> {
+    map: Affine,
+    /// The layer of the insertion.
+    layer: Option<&'t str>,
+    /// Why nothing of it is seen, if so.
+    hidden: Option<Why>,
+}
+
 impl<'f, 't> Unfolding<'f, 't> {
-    /// Adds entities, after a map. `layer` is that of the insertion, if they stand in a block.
-    fn entities(
-        &mut self,
-        entities: &'f [Entity<'t>],
-        map: Affine,
-        layer: Option<&'t str>,
-    ) -> Result<(), DataError> {
+    fn entities(&mut self, entities: &'f [Entity<'t>], host: Host<'t>) -> Result<(), DataError> {
         for entity in entities {
             self.looked_at += 1;
             if self.looked_at > MOST_ENTITIES {
                 let message = format!("the blocks of this file unfold to more than {MOST_ENTITIES} entities");
                 return Err(entity.place.error(message));
             }
-            let layer = match layer {
+            let layer = match host.layer {
                 Some(inserted) if entity.layer == "0" => inserted,
                 Some(_) | None => entity.layer,
             };
-            self.entity(entity, map, layer)?;
+            self.entity(entity, host, layer)?;
         }
         Ok(())
     }
 
-    fn entity(&mut self, entity: &'f Entity<'t>, map: Affine, layer: &'t str) -> Result<(), DataError> {
+    /// Why an entity is not seen where it is drawn.
+    fn hidden(&self, host: Host<'_>, layer: &str) -> Option<Why> {
+        let own = || self.hidden.get(&folded(layer)).copied();
+        if self.hidden.is_empty() {
+            host.hidden
+        } else {
+            host.hidden.or_else(own)
+        }
+    }
+
+    fn entity(&mut self, entity: &'f Entity<'t>, host: Host<'t>, layer: &'t str) -> Result<(), DataError> {
+        let map = host.map;
+        if let (Some(why), Content::Stroke(..) | Content::Fitted(..) | Content::Unread(_)) =
+            (self.hidden(host, layer), &entity.content)
+        {
+            if let Content::Stroke(..) | Content::Fitted(..) = entity.content {
+                self.count(layer);
+            }
+            self.leave_out(entity.kind, why, entity.place, layer);
+            return Ok(());
+        }
         match &entity.content {
             Content::Stroke(kind, shapes) => {
                 self.stroke(drawn(kind, shapes, entity.place, map), layer)?;
@@ -146,7 +187,7 @@ impl<'f, 't> Unfolding<'f, 't> {
                     });
                 }
             }
-            Content::Insert(insert) => self.insert(insert, entity, map, layer)?,
+            Content::Insert(insert) => self.insert(insert, entity, host, layer)?,
             Content::Unread(why) => self.leave_out(entity.kind, *why, entity.place, layer),
         }
         Ok(())
@@ -163,8 +204,12 @@ impl<'f, 't> Unfolding<'f, 't> {
         }
     }
 
-    fn stroke(&mut self, stroke: Stroke, layer: &'t str) -> Result<Taken, DataError> {
+    fn count(&mut self, layer: &'t str) {
         self.layers.entry(folded(layer)).or_insert((layer, 0)).1 += 1;
+    }
+
+    fn stroke(&mut self, stroke: Stroke, layer: &'t str) -> Result<Taken, DataError> {
+        self.count(layer);
         if !self.is_wanted(layer) {
             return Ok(Taken::No);
         }
@@ -180,7 +225,7 @@ impl<'f, 't> Unfolding<'f, 't> {
         &mut self,
         insert: &Insert<'t>,
         entity: &Entity<'t>,
-        map: Affine,
+        host: Host<'t>,
         layer: &'t str,
     ) -> Result<(), DataError> {
         let place = entity.place;
@@ -198,6 +243,8 @@ impl<'f, 't> Unfolding<'f, 't> {
         if self.path.len() >= DEEPEST {
             return Err(place.error(format!("blocks are nested more than {DEEPEST} deep here")));
         }
+        // On a layer that is off it hides only what is on that layer too.
+        let frozen = self.hidden(host, layer).filter(|why| *why == Why::Frozen);
         let to_base = Affine::shift(-block.base.x, -block.base.z);
         self.path.push(block.name);
         for row in 0..insert.rows.count {
@@ -209,8 +256,12 @@ impl<'f, 't> Unfolding<'f, 't> {
                     insert.columns.step.x * c + insert.rows.step.x * r,
                     insert.columns.step.z * c + insert.rows.step.z * r,
                 );
-                let whole = map.after(aside).after(insert.map).after(to_base);
-                self.entities(&block.entities, whole, Some(layer))?;
+                let inner = Host {
+                    map: host.map.after(aside).after(insert.map).after(to_base),
+                    layer: Some(layer),
+                    hidden: host.hidden.or(frozen),
+                };
+                self.entities(&block.entities, inner)?;
                 if self.looked_at > MOST_ENTITIES {
                     return Err(place.error("this INSERT repeats its block too often"));
                 }

@@ -1,8 +1,9 @@
 //! The sections of a DXF file: what the head says of units, the names of layers, the blocks, and what is drawn.
 
-use super::super::drawing::{Place, Unit};
+use super::super::drawing::{Place, Unit, Why};
 use super::super::{DataError, shortened};
 use super::entity::{self, Entity};
+use super::fields::{Fields, Value};
 use super::groups::{Group, Groups};
 use crate::geom::point::Point2;
 use std::collections::BTreeMap;
@@ -11,12 +12,22 @@ use std::collections::BTreeMap;
 pub(super) struct File<'t> {
     pub(super) unit: Unit,
     /// Layers that the file defines.
-    pub(super) layers: Vec<&'t str>,
+    pub(super) layers: Vec<Layer<'t>>,
     /// Blocks by name in small letters.
     pub(super) blocks: BTreeMap<String, Block<'t>>,
     /// What stands in the model, and on sheets.
     pub(super) entities: Vec<Entity<'t>>,
 }
+
+/// A layer of the table of layers.
+pub(super) struct Layer<'t> {
+    pub(super) name: &'t str,
+    /// Why what stands on it is not seen; none if it is.
+    pub(super) hidden: Option<Why>,
+}
+
+/// Flag of a layer: it is frozen.
+const FROZEN: i64 = 1;
 
 /// A block: entities that are drawn by being inserted.
 pub(super) struct Block<'t> {
@@ -111,7 +122,7 @@ fn header<'t>(groups: &mut Groups<'t>, file: &mut File<'t>) -> Result<(), DataEr
             0 if value == "ENDSEC" => return Ok(()),
             9 => variable = value,
             70 if variable == "$INSUNITS" => {
-                let value = super::fields::Value {
+                let value = Value {
                     text: value,
                     place: group.place,
                 };
@@ -123,17 +134,27 @@ fn header<'t>(groups: &mut Groups<'t>, file: &mut File<'t>) -> Result<(), DataEr
 }
 
 fn tables<'t>(groups: &mut Groups<'t>, file: &mut File<'t>) -> Result<(), DataError> {
-    let mut is_layer = false;
     loop {
         let group = groups.take()?;
-        let value = groups.value(group);
-        match group.code {
-            0 if value == "ENDSEC" => return Ok(()),
-            0 => is_layer = value == "LAYER",
-            2 if is_layer => file.layers.push(value),
+        match (group.code, groups.value(group)) {
+            (0, "ENDSEC") => return Ok(()),
+            (0, "LAYER") => file.layers.extend(layer(&Fields::take(group, groups)?)?),
             _ => {}
         }
     }
+}
+
+/// A layer, if it has a name. One that is off has a colour below 0.
+fn layer<'t>(fields: &Fields<'t>) -> Result<Option<Layer<'t>>, DataError> {
+    let hidden = if fields.whole(70)? & FROZEN != 0 {
+        Some(Why::Frozen)
+    } else if fields.whole(62)? < 0 {
+        Some(Why::Off)
+    } else {
+        None
+    };
+    let name = fields.get(2).map(|value| value.text);
+    Ok(name.map(|name| Layer { name, hidden }))
 }
 
 fn blocks<'t>(groups: &mut Groups<'t>, file: &mut File<'t>) -> Result<(), DataError> {
@@ -142,7 +163,7 @@ fn blocks<'t>(groups: &mut Groups<'t>, file: &mut File<'t>) -> Result<(), DataEr
         match (group.code, groups.value(group)) {
             (0, "ENDSEC") => return Ok(()),
             (0, "BLOCK") => {
-                let fields = super::fields::Fields::take(group, groups)?;
+                let fields = Fields::take(group, groups)?;
                 let name = fields.get(2);
                 let name = name.ok_or_else(|| fields.error("this BLOCK has no name"))?;
                 let flags = fields.whole(70)?;

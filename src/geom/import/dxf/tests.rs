@@ -1,9 +1,10 @@
 //! Files that are no DXF, or one that cannot be understood: all are pointed at.
 
-use super::super::drawing::{Shape, Why};
+use super::super::drawing::{Affine, Drawing, Shape, Why, outline};
 use super::*;
 use crate::geom::point::Point2;
 use proptest::prelude::*;
+use vcutc_backend_api::units::Length;
 
 /// A file with these groups in its section ENTITIES, written `code value code value`.
 fn entities(groups: &str) -> String {
@@ -220,6 +221,242 @@ fn arcs_seen_from_below_are_mirrored() {
     };
     assert_eq!(from, Point2::new(3.0, 1.0));
     assert!(sweep < 0.0);
+}
+
+/// A file with a table of layers: name, flags and colour of each.
+fn with_layers(layers: &str, rest: &str) -> String {
+    let table: String = layers
+        .split(", ")
+        .map(|layer| {
+            let [name, flags, color] = layer.split(' ').collect::<Vec<_>>()[..] else {
+                panic!("{layer}");
+            };
+            format!("0 LAYER 2 {name} 70 {flags} 62 {color} ")
+        })
+        .collect();
+    file(&format!(
+        "0 SECTION 2 TABLES 0 TABLE 2 LAYER 70 9 {table}0 ENDTAB 0 ENDSEC {rest} 0 EOF"
+    ))
+}
+
+/// What is left out: its kind, why, how often.
+fn left_out(drawing: &Drawing) -> Vec<(&str, Why, usize)> {
+    let listed = drawing.unread.iter();
+    listed
+        .map(|unread| (unread.kind.as_str(), unread.why, unread.count))
+        .collect()
+}
+
+#[test]
+fn what_is_not_seen_is_not_read_unless_its_layer_is_named() {
+    let on = |layer: &str, more: &str| LINE.replace("8 SKIN", &format!("8 {layer}{more}"));
+    let rest = format!(
+        "0 SECTION 2 ENTITIES {} {} {} {} 0 TEXT 8 OFF 1 RIB 0 ENDSEC",
+        on("SKIN", ""),
+        on("OFF", ""),
+        on("ICE", ""),
+        on("SKIN", " 60 1"),
+    );
+    let text = with_layers("SKIN 0 7, OFF 0 -7, ICE 1 7", &rest);
+    let whole = dxf(&text, None).unwrap();
+    assert_eq!(whole.strokes.len(), 1);
+    assert_eq!(
+        left_out(&whole),
+        [
+            ("LINE", Why::Off, 1),
+            ("LINE", Why::Frozen, 1),
+            ("LINE", Why::Hidden, 1),
+            ("TEXT", Why::Off, 1)
+        ]
+    );
+    assert_eq!(whole.layers.values().sum::<usize>(), 3);
+    for (layer, others) in [
+        ("off", vec![("TEXT", Why::Kind, 1)]),
+        ("ice", vec![]),
+        ("skin", vec![("LINE", Why::Hidden, 1)]),
+    ] {
+        let drawing = dxf(&text, Some(layer)).unwrap();
+        assert_eq!(drawing.strokes.len(), 1, "{layer}");
+        assert_eq!(left_out(&drawing), others, "{layer}");
+    }
+}
+
+/// A block with a line on its own layer and one on layer 0, inserted on a layer that is not seen.
+#[test]
+fn a_frozen_insertion_hides_all_and_one_that_is_off_what_is_on_its_layer() {
+    let block = format!(
+        "0 SECTION 2 BLOCKS 0 BLOCK 2 A {} {} 0 ENDBLK 0 ENDSEC",
+        LINE,
+        LINE.replace("SKIN", "0")
+    );
+    let inserted = |layer: &str, state: &str| {
+        let rest = format!("{block} 0 SECTION 2 ENTITIES 0 INSERT 8 {layer} 2 A 10 0 20 0 0 ENDSEC");
+        with_layers(&format!("SKIN 0 7, {layer} {state}"), &rest)
+    };
+    let off = dxf(&inserted("OFF", "0 -7"), None).unwrap();
+    assert_eq!(off.strokes.len(), 1);
+    assert_eq!(left_out(&off), [("LINE", Why::Off, 1)]);
+    let frozen = inserted("ICE", "1 7");
+    let all = dxf(&frozen, None).unwrap();
+    assert_eq!(
+        (all.strokes.len(), left_out(&all)),
+        (0, vec![("LINE", Why::Frozen, 2)])
+    );
+    // Named, the frozen layer has what is on it; the other one stays hidden by the insertion.
+    let ice = dxf(&frozen, Some("ICE")).unwrap();
+    assert_eq!((ice.strokes.len(), ice.unread.len()), (1, 0));
+    let skin = dxf(&frozen, Some("SKIN")).unwrap();
+    assert_eq!(
+        (skin.strokes.len(), left_out(&skin)),
+        (0, vec![("LINE", Why::Frozen, 1)])
+    );
+}
+
+/// The chain that entities make, rounded.
+fn chain(groups: &str) -> Vec<(f64, f64)> {
+    rounded(&entities(groups))
+}
+
+fn rounded(text: &str) -> Vec<(f64, f64)> {
+    let drawing = dxf(text, None).unwrap();
+    let length = Length::mm(1e-3);
+    let outline = outline(&drawing.strokes, Affine::IDENTITY, length, length).unwrap();
+    let round = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+    outline.points.iter().map(|p| (round(p.x), round(p.z))).collect()
+}
+
+#[test]
+fn polylines_of_all_programs_are_the_same_line() {
+    let line = [(0.0, 0.0), (10.0, 5.0), (20.0, 0.0)];
+    let heavy = |flags: &str, more: &str| {
+        let corners: String = [(0, 0), (10, 5), (20, 0)]
+            .map(|(x, y)| format!("0 VERTEX 8 0 10 {x} 20 {y} 30 3{more} "))
+            .concat();
+        format!("0 POLYLINE 8 0 66 1 10 0 20 0 30 3 70 {flags} {corners}0 SEQEND 8 0")
+    };
+    for groups in [
+        // With widths, elevation, thickness, colours, and identifiers of corners.
+        "0 LWPOLYLINE 5 2A 100 AcDbPolyline 90 3 70 128 43 0.5 38 7 39 1 10 0 20 0 40 1 41 2 91 7 10 10 20 5 42 0 10 20 20 0",
+        // Seen from below.
+        "0 LWPOLYLINE 90 3 70 0 10 0 20 0 10 -10 20 5 10 -20 20 0 210 0 220 0 230 -1",
+        // A corner twice, and extended data behind.
+        "0 LWPOLYLINE 90 4 70 0 10 0 20 0 10 10 20 5 10 10 20 5 10 20 20 0 1001 ACAD 1040 7.5 1010 99 1020 99",
+        &heavy("0", ""),
+        &heavy("8", " 70 32"),
+        "0 LINE 10 20 20 0 11 10 21 5 0 LINE 10 0 20 0 11 10 21 5",
+        // As coded by hand: whole numbers with a point, lines of blanks around values.
+        "0 LINE 62 256.0 10 0. 20 .0 11 1.0E+1 21 +5 0 LINE 10 10 20 5 11 2.0e1 21 -0",
+    ] {
+        assert_eq!(chain(groups), line, "{groups}");
+    }
+}
+
+/// A half circle by a bulge, as drawn, from below, and in blocks: mirrored twice, once.
+#[test]
+fn bulges_turn_the_right_way() {
+    let top = |points: &[(f64, f64)]| {
+        let z = points.iter().map(|point| point.1);
+        (z.clone().fold(0.0, f64::min), z.fold(0.0, f64::max))
+    };
+    let half = |bulge: f64| format!("LWPOLYLINE 8 0 90 2 70 0 10 0 20 0 42 {bulge} 10 20 20 0");
+    let near = |found: (f64, f64), low: f64, high: f64| {
+        assert!(
+            (found.0 - low).abs() < 2e-3 && (found.1 - high).abs() < 2e-3,
+            "{found:?}"
+        );
+    };
+    // To the left of the way from left to right is up, so the arc to the left bulges down.
+    near(top(&chain(&format!("0 {}", half(1.0)))), -10.0, 0.0);
+    near(
+        top(&chain(&format!("0 {} 210 0 220 0 230 -1", half(1.0)))),
+        -10.0,
+        0.0,
+    );
+    near(
+        top(&chain(
+            "0 POLYLINE 66 1 70 0 0 VERTEX 10 0 20 0 42 -1 0 VERTEX 10 20 20 0 0 SEQEND",
+        )),
+        0.0,
+        10.0,
+    );
+    let nested = |outer: &str, inner: &str| {
+        let blocks = format!(
+            "0 BLOCK 2 A 0 INSERT 2 B 10 0 20 0 {inner} 0 ENDBLK 0 BLOCK 2 B 0 {} 0 ENDBLK",
+            half(1.0)
+        );
+        let text = with_blocks(&blocks).replace("\n2\nA\n10\n0\n20\n0\n0\nENDSEC", &{
+            let more: String = outer.split(' ').map(|part| format!("{part}\n")).collect();
+            format!("\n2\nA\n10\n0\n20\n0\n{more}0\nENDSEC")
+        });
+        top(&rounded(&text))
+    };
+    near(nested("41 1", "42 -1"), 0.0, 10.0);
+    near(nested("42 -1", "42 -1"), -10.0, 0.0);
+    near(nested("41 -1 42 2", "42 -1"), 0.0, 20.0);
+    near(nested("50 180", "41 1"), 0.0, 10.0);
+}
+
+/// A closed cubic with knots that are not repeated at its ends: it begins at (P0 + 4 P1 + P2) / 6 and ends there.
+#[test]
+fn periodic_splines_are_rings() {
+    let corners = [(0, 0), (60, 0), (60, 30), (0, 30)];
+    let control: String = (0..7)
+        .map(|i| corners[i % 4])
+        .map(|(x, y)| format!(" 10 {x} 20 {y} 30 0"))
+        .collect();
+    let knots: String = (0..11).map(|knot| format!(" 40 {}", knot - 3)).collect();
+    for flags in [8, 11] {
+        let found = chain(&format!(
+            "0 SPLINE 70 {flags} 71 3 72 11 73 7 74 0{knots}{control}"
+        ));
+        let start = ((0.0 + 4.0 * 60.0 + 60.0) / 6.0, 5.0);
+        assert_eq!(found[0], start);
+        assert_eq!(found.last(), found.first());
+        let top = found.iter().map(|point| point.1).fold(0.0, f64::max);
+        // In the middle of a piece, (P0 + 23 P1 + 23 P2 + P3) / 48.
+        assert!((top - 28.75).abs() < 2e-3, "{top}");
+    }
+}
+
+/// A quarter circle as a rational spline: every point is on the circle.
+#[test]
+fn weights_of_splines_are_heeded() {
+    let weight = 0.5_f64.sqrt();
+    let spline = format!(
+        "0 SPLINE 70 4 71 2 72 6 73 3 74 0 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 {weight} 41 1 \
+         10 0 20 10 30 0 10 10 20 10 30 0 10 10 20 0 30 0"
+    );
+    let found = chain(&spline);
+    assert!(found.len() > 20);
+    assert!(
+        found
+            .iter()
+            .all(|point| (point.0.hypot(point.1) - 10.0).abs() < 2e-6)
+    );
+}
+
+#[test]
+fn other_things_are_listed_and_windows_of_sheets_are_not() {
+    let kinds = [
+        "3DFACE",
+        "SOLID",
+        "HATCH",
+        "DIMENSION",
+        "POINT",
+        "MTEXT",
+        "LEADER",
+        "ATTDEF",
+        "REGION",
+        "MLINE",
+    ];
+    let others: String = kinds
+        .map(|kind| format!("0 {kind} 8 SKIN 10 0 20 0 30 0 "))
+        .concat();
+    let text = entities(&format!("{others}0 VIEWPORT 67 1 8 0 10 0 20 0 {LINE}"));
+    let drawing = dxf(&text, None).unwrap();
+    assert_eq!(drawing.strokes.len(), 1);
+    let listed: Vec<&str> = drawing.unread.iter().map(|unread| unread.kind.as_str()).collect();
+    assert_eq!(listed, kinds);
 }
 
 #[test]

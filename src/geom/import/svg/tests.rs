@@ -222,6 +222,85 @@ fn layers_are_groups_with_names_and_the_rest_is_listed() {
     assert!(svg(&text, Some("nothing")).unwrap().strokes.is_empty());
 }
 
+#[test]
+fn what_styles_hide_is_left_out_unless_it_is_asked_for() {
+    let shown = |text: &str, layer: Option<&str>| svg(text, layer).unwrap().strokes.len();
+    let drawn = "<path d='M0 0 9 9'/>";
+    for hidden in [
+        format!("<g id='a' style='display:none'>{drawn}</g>"),
+        format!("<g id='a' style='fill:none; DISPLAY : none !important;'>{drawn}</g>"),
+        format!("<g id='a' display='none'>{drawn}</g>"),
+        format!("<g id='a' visibility='hidden'>{drawn}</g>"),
+        format!(
+            "<style>.st0{{display:none;}} .st1{{fill:none}}</style><g id='a' class='st1 st0'>{drawn}</g>"
+        ),
+        format!(
+            "<style>/* of layers */ .x,.y-1 {{fill:red;visibility:hidden}}</style><g id='a' class='y-1'>{drawn}</g>"
+        ),
+        format!("<style>.b{{display:inline}}.a{{display:none}}</style><g id='a' class='a b'>{drawn}</g>"),
+    ] {
+        assert_eq!(shown(&page(&hidden), None), 0, "{hidden}");
+        assert_eq!(shown(&page(&hidden), Some("a")), 1, "{hidden}");
+    }
+    for visible in [
+        format!("<style>.st0{{display:none}} .st0{{display:inline}}</style><g class='st0'>{drawn}</g>"),
+        format!("<style>.st0{{display:none}}</style><g class='st0' style='display:inline'>{drawn}</g>"),
+        format!(
+            "<style>@import url(a.css); path{{fill:none}} @media print{{ .q{{fill:red}} }}</style>{drawn}"
+        ),
+        // What Inkscape writes for texts moves nothing.
+        format!("<g style='text-transform:none;-inkscape-font-specification:Sans'>{drawn}</g>"),
+        format!("<g style='transform:none'>{drawn}</g>"),
+    ] {
+        assert_eq!(shown(&page(&visible), None), 1, "{visible}");
+    }
+    for refused in [
+        "<style>g path{display:none}</style>",
+        "<style>@media print{ .q{display:none} }</style>",
+        "<style>.q{transform:scale(2)}</style>",
+        "<g style='fill:none;transform:scale(2)'/>",
+        "<g style='rotate: 3deg'/>",
+    ] {
+        let (_, message) = complaint(&page(refused));
+        assert!(message.contains("not read"), "{refused}: {message}");
+    }
+}
+
+#[test]
+fn numbers_run_together_as_programs_write_them() {
+    for (data, ends) in [
+        // Flags without blanks, points without zeros, signs as separators, exponents.
+        ("M0 50a1,1 0 01.5.5", (0.5, -0.5)),
+        ("M0 50A5 5 0 1110-.5e1", (10.0, 55.0)),
+        ("M0,50c0-1.5.5-2 1e1,0", (10.0, 0.0)),
+        ("m0 50l5 5 5-5", (10.0, 0.0)),
+        ("M0 50h5v-5H10V50", (10.0, 0.0)),
+        ("M-0+50\n\tL+10\r\n50", (10.0, 0.0)),
+    ] {
+        let found = rounded(&page(&format!("<path d='{data}'/>")));
+        assert_eq!((found[0], found[found.len() - 1]), ((0.0, 0.0), ends), "{data}");
+    }
+}
+
+/// The page of CorelDRAW: mm, a view box of hundredths, a foreign document type; and one that begins elsewhere.
+#[test]
+fn pages_of_other_programs_are_scaled() {
+    let corel = "\u{feff}<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \
+                 \"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" \
+                 xml:space=\"preserve\" width=\"210mm\" height=\"297mm\" viewBox=\"0 0 21000 29700\">\n \
+                 <g id=\"Layer_x0020_1\"><metadata id=\"CorelCorpID_0Corel-Layer\"/><polygon class=\"fil0\" \
+                 points=\"100,29700 8600,29700 8600,27000 100,26000 \"/></g></svg>";
+    let drawing = svg(corel, Some("Layer_x0020_1")).unwrap();
+    assert_eq!(drawing.unit, Unit::Known(0.01));
+    assert!(drawing.unread.is_empty());
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='4in' height='2in' viewBox='-10 -20 101.6 50.8'>\
+                <g transform='translate(5 5) rotate(90) scale(2,-2)'><path d='M0 0 10 0'/></g></svg>";
+    assert_eq!(svg(text, None).unwrap().unit, Unit::Known(1.0));
+    let mut ends = rounded(text);
+    ends.sort_by(|a, b| a.1.total_cmp(&b.1));
+    assert_eq!(ends, [(15.0, 5.8), (15.0, 25.8)]);
+}
+
 proptest! {
     #[test]
     fn any_path_data_gives_a_drawing_or_a_place(data in "[MmLlHhVvCcSsQqTtAaZz0-9.,eE+ -]{0,60}") {

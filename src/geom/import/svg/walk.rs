@@ -3,6 +3,7 @@
 use super::super::drawing::{Affine, Drawing, MOST_STROKES, Place, Stroke, UnreadList, Why};
 use super::super::{DataError, shortened};
 use super::page::{self, Page, length_or};
+use super::style::{Property, Sheet};
 use super::tree::{attribute, place};
 use super::{shapes, transform};
 use roxmltree::{Document, Node};
@@ -58,10 +59,10 @@ pub(super) fn drawing(
         if let Some(id) = node.attribute("id") {
             ids.entry(id).or_insert(node);
         }
-        refuse_styles(node)?;
     }
     let mut walk = Walk {
         ids,
+        sheet: Sheet::of(document)?,
         wanted: layer,
         strokes: Vec::new(),
         unread: UnreadList::default(),
@@ -90,23 +91,6 @@ pub(super) fn drawing(
     })
 }
 
-/// Style sheets may move things too. What they say of it is not read, so they must say nothing.
-fn refuse_styles(node: Node<'_, '_>) -> Result<(), DataError> {
-    let moves = |text: &str| {
-        let is_word = |part: &str| part.trim_end().ends_with("transform");
-        let mut parts: Vec<&str> = text.split(':').collect();
-        parts.pop();
-        parts.into_iter().any(is_word)
-    };
-    let is_moved = attribute(node, "style").is_some_and(|style| moves(style.text))
-        || (node.tag_name().name() == "style" && node.text().is_some_and(moves));
-    if is_moved {
-        let message = "a style moves things here, which is not read: use the attribute `transform`";
-        return Err(place(node).error(message));
-    }
-    Ok(())
-}
-
 /// Whether something is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shown {
@@ -129,6 +113,7 @@ struct State {
 
 struct Walk<'d, 't, 'w> {
     ids: BTreeMap<&'d str, Node<'d, 't>>,
+    sheet: Sheet<'d>,
     wanted: Option<&'w str>,
     strokes: Vec<Stroke>,
     unread: UnreadList,
@@ -184,11 +169,18 @@ impl<'d, 't> Walk<'d, 't, '_> {
             Some(text) => outer.map.after(transform::transform(text)?),
             None => outer.map,
         };
-        let is_named = |wanted: &str| names(node).any(|name| name == wanted);
+        let is_named = self
+            .wanted
+            .is_some_and(|wanted| names(node).any(|name| name == wanted));
         Ok(State {
             map,
-            shown: shown(node, outer.shown),
-            is_wanted: outer.is_wanted || self.wanted.is_some_and(is_named),
+            // A layer that is asked for is read though it is hidden.
+            shown: if is_named {
+                Shown::Yes
+            } else {
+                self.shown(node, outer.shown)
+            },
+            is_wanted: outer.is_wanted || is_named,
         })
     }
 
@@ -271,6 +263,16 @@ impl<'d, 't> Walk<'d, 't, '_> {
         Ok(())
     }
 
+    fn shown(&self, node: Node<'d, 't>, outer: Shown) -> Shown {
+        let said = |property| self.sheet.said(node, property);
+        match (outer, said(Property::Display), said(Property::Visibility)) {
+            (Shown::No, _, _) | (_, Some("none"), _) => Shown::No,
+            (_, _, Some("hidden" | "collapse")) => Shown::Invisible,
+            (_, _, Some("visible")) => Shown::Yes,
+            (Shown::Yes | Shown::Invisible, _, _) => outer,
+        }
+    }
+
     fn leave_out(&mut self, node: Node<'d, 't>, why: Why, state: State) {
         if state.is_wanted {
             let place: Place = place(node);
@@ -283,22 +285,4 @@ impl<'d, 't> Walk<'d, 't, '_> {
 fn names<'d>(node: Node<'d, '_>) -> impl Iterator<Item = &'d str> {
     let label = node.attribute((INKSCAPE, "label"));
     [label, node.attribute("id")].into_iter().flatten()
-}
-
-fn shown(node: Node<'_, '_>, outer: Shown) -> Shown {
-    let said = |property: &str| {
-        let styled = node.attribute("style").and_then(|style| {
-            style.split(';').find_map(|part| {
-                let (name, value) = part.split_once(':')?;
-                (name.trim() == property).then(|| value.trim())
-            })
-        });
-        styled.or_else(|| node.attribute(property))
-    };
-    match (outer, said("display"), said("visibility")) {
-        (Shown::No, _, _) | (_, Some("none"), _) => Shown::No,
-        (_, _, Some("hidden" | "collapse")) => Shown::Invisible,
-        (_, _, Some("visible")) => Shown::Yes,
-        (Shown::Yes | Shown::Invisible, _, _) => outer,
-    }
 }

@@ -3,7 +3,7 @@
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::{CurveError, Point2};
-use crate::geom::import::drawing::{Chain, Drawing, Gap, Outline, OutlineError, Place, SideError};
+use crate::geom::import::drawing::{Chain, Drawing, Gap, Outline, OutlineError, Overlap, Place, SideError};
 use crate::sema::fields::Fields;
 use crate::sema::quantity::mm;
 use crate::source::{FileId, SourceMap, Span, Spanned};
@@ -204,6 +204,32 @@ impl Told<'_> {
         })
     }
 
+    /// Two lines lie on each other.
+    pub(super) fn drawn_over(&self, overlap: Overlap) -> Box<Diagnostic> {
+        let Overlap { from, to, strokes } = overlap;
+        let message = format!(
+            "a line of {} is drawn twice, from {} to {}",
+            self.subject(),
+            shown(from),
+            shown(to)
+        );
+        let diagnostic = Diagnostic::new(
+            Code::DrawnOver,
+            message,
+            self.place(),
+            format!("lines lie on each other over {}", mm(from.distance(to))),
+        );
+        let [one, other] = strokes.map(|stroke| self.stroke(stroke));
+        let diagnostic = if one == other {
+            diagnostic.and(one, "this one leads back over itself")
+        } else {
+            diagnostic.and(one, "this one").and(other, "lies on this one")
+        };
+        Box::new(diagnostic.help(
+            "delete one of the two, or end it where the other begins (OVERKILL in AutoCAD, \"detect duplicates\" elsewhere)",
+        ))
+    }
+
     fn no_curve(&self, stroke: usize, error: CurveError) -> Diagnostic {
         let kind = self
             .drawing
@@ -320,14 +346,40 @@ impl Told<'_> {
                 "all its points have the same x",
             )
             .help("check `unit` and `scale`, and that x runs across the cuts in the drawing"),
-            SideError::Crossed { x } => Diagnostic::new(
+            SideError::NoArea => Diagnostic::new(
                 Code::BrokenOutline,
-                format!("the outline in {subject} crosses itself near x = {}", mm(x)),
+                format!("the outline in {subject} has nothing between its sides"),
                 self.place(),
-                "its sides change places there",
+                "both its sides are the same line",
             )
-            .help("draw it so that it does not cross itself"),
+            .help("delete one of the two; an open outline is the profile as it is, without `side`"),
+            SideError::Crossed { at, strokes } => self.crossed(at, strokes),
+            SideError::Dense => Diagnostic::new(
+                Code::BrokenOutline,
+                format!("the outline in {subject} lies so close beside itself that it has no sides"),
+                self.place(),
+                "too many of its lines lie across each other",
+            )
+            .help("draw the side that the blade cuts as an open line, and take `side` out"),
         })
+    }
+
+    fn crossed(&self, at: Point2, strokes: [usize; 2]) -> Diagnostic {
+        let diagnostic = Diagnostic::new(
+            Code::BrokenOutline,
+            format!("the outline in {} meets itself at {}", self.subject(), shown(at)),
+            self.place(),
+            "has no upper and no lower side",
+        );
+        let diagnostic = match strokes {
+            [one, other] if self.stroke(one) == self.stroke(other) => {
+                diagnostic.and(self.stroke(one), "this one crosses or touches itself")
+            }
+            [one, other] => diagnostic
+                .and(self.stroke(one), "this one")
+                .and(self.stroke(other), "crosses or touches this one"),
+        };
+        diagnostic.help("draw it as one line round the part that does not cross or touch itself")
     }
 }
 

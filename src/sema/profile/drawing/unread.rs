@@ -3,7 +3,7 @@
 use super::faults::Told;
 use crate::diag::position::position;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::import::drawing::{Outline, Place};
+use crate::geom::import::drawing::{Outline, Place, Unread, Why};
 
 /// Most lines of one kind of remark.
 const MOST_LINES: usize = 8;
@@ -52,6 +52,15 @@ impl Told<'_> {
             "more is drawn here than the outline",
         )
         .help("move what is no part of the outline to another layer, or delete it");
+        let is_dark = |unread: &Unread| match unread.why {
+            Why::Off | Why::Frozen => true,
+            Why::Kind | Why::Tilted | Why::Paper | Why::Hidden | Why::NoExtent | Why::OtherFile => false,
+        };
+        let diagnostic = if self.layer.is_none() && drawing.unread.iter().any(is_dark) {
+            diagnostic.help("a layer that is named is read though it is off or frozen")
+        } else {
+            diagnostic
+        };
         vec![notes.into_iter().fold(diagnostic, Diagnostic::note)]
     }
 
