@@ -17,7 +17,7 @@ use crate::syntax;
 use serde::Serialize;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How the layout is called where a job is named that gives a file.
 const NAME: &str = "vcutc fmt";
@@ -111,7 +111,7 @@ impl Run<'_> {
         let count = self.count();
         let exit = inside
             .iter()
-            .map(|name| self.path(&path.join(name), depth + 1))
+            .map(|name| self.path(&within(path, name), depth + 1))
             .max()
             .unwrap_or(Exit::Success);
         match (depth, exit) {
@@ -192,13 +192,23 @@ impl Tally {
         };
         let refused = match self.refused {
             0 => String::new(),
-            count => format!(", {} left as it is because of errors", files(count)),
+            1 => ", 1 file left as it is because of errors".to_owned(),
+            count => format!(", {} left as they are because of errors", files(count)),
         };
         let unchanged = self.unchanged;
         format!(
             "{} {done}, {unchanged} in order{refused}\n",
             files(self.formatted.len())
         )
+    }
+}
+
+/// A file of a folder, as people call it: those of the folder they are in by their names alone.
+fn within(folder: &Path, name: &str) -> PathBuf {
+    if folder == Path::new(".") {
+        PathBuf::from(name)
+    } else {
+        folder.join(name)
     }
 }
 

@@ -137,3 +137,56 @@ fn links_stay_links_and_permissions_stay() {
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert_eq!(read(path, "link.vcut"), LOOSE);
 }
+
+/// One broken, one in foreign letters, one write-protected, one that is no file: the others are formatted all the same, whole,
+/// and the run ends with the worst that happened.
+#[cfg(unix)]
+#[test]
+fn files_in_trouble_do_not_keep_others_from_being_formatted() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("a.vcut"), LOOSE).unwrap();
+    fs::write(path.join("broken.vcut"), "let a = \n").unwrap();
+    fs::write(path.join("bytes.vcut"), b"job \"\xff\"\n").unwrap();
+    fs::write(path.join("locked.vcut"), LOOSE).unwrap();
+    fs::set_permissions(path.join("locked.vcut"), fs::Permissions::from_mode(0o444)).unwrap();
+    fs::write(path.join("mark.vcut"), "\u{feff}let a = 1 mm\r\n\r\nlet b=2\r\n").unwrap();
+    symlink(path.join("nowhere"), path.join("dead.vcut")).unwrap();
+    let before = names(path);
+    let all = [
+        "fmt",
+        "a.vcut",
+        "broken.vcut",
+        "bytes.vcut",
+        "locked.vcut",
+        "dead.vcut",
+        "mark.vcut",
+    ];
+    let run = vcutc(path, &all);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+    for told in [
+        "VC0101",
+        "VC0107",
+        "cannot format locked.vcut: it is write-protected",
+        "cannot format dead.vcut: there is no such file",
+        "formatted a.vcut\nformatted mark.vcut\n2 files formatted, 0 in order, 4 files left as they are because of errors\n",
+    ] {
+        assert!(run.stderr.contains(told), "{told}: {}", run.stderr);
+    }
+    assert_eq!(read(path, "a.vcut"), TIDY);
+    assert_eq!(read(path, "mark.vcut"), "let a = 1 mm\n\nlet b = 2\n");
+    assert_eq!(
+        (
+            read(path, "locked.vcut").as_str(),
+            read(path, "broken.vcut").as_str()
+        ),
+        (LOOSE, "let a = \n")
+    );
+    // Nothing is left behind; in a folder dead links are passed over, and files go by their names.
+    assert_eq!(names(path), before);
+    let run = vcutc(path, &["fmt", "--check", "."]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("--- locked.vcut\n"), "{}", run.stderr);
+    assert!(run.stderr.ends_with("1 file to format (run again without --check), 2 in order, 2 files left as they are because of errors\n"), "{}", run.stderr);
+}
