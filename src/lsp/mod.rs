@@ -28,10 +28,13 @@ mod names;
 mod requests;
 mod server;
 mod sites;
+mod slots;
+mod surroundings;
 mod symbols;
 mod text;
 mod tokens;
 mod uri;
+mod values;
 pub mod wire;
 
 pub use analysis::{Done, Task};

@@ -54,7 +54,7 @@ fn named(analysis: &Analysis, site: &Site<'_>) -> Option<Name> {
         | Kind::Number(_)
         | Kind::Unit(_)
         | Kind::Function(_)
-        | Kind::Label
+        | Kind::Label(_)
         | Kind::Formula
         | Kind::Variable
         | Kind::Path(..)

@@ -104,7 +104,7 @@ const fn class_of(kind: Kind<'_>) -> Option<(Class, u32)> {
         Kind::Unit(_) => (Class::Unit, 0),
         Kind::Function(_) => (Class::Function, 0),
         Kind::Formula => (Class::Function, DECLARATION),
-        Kind::Label | Kind::Variable => (Class::Parameter, 0),
+        Kind::Label(_) | Kind::Variable => (Class::Parameter, 0),
         Kind::JobName | Kind::Path(..) | Kind::Number(_) | Kind::Value(_) => return None,
     })
 }
