@@ -36,6 +36,8 @@ mod tokens;
 mod uri;
 mod values;
 pub mod wire;
+#[cfg(test)]
+mod words;
 
 pub use analysis::{Done, Task};
 pub use server::{Ending, Server};

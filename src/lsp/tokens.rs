@@ -156,7 +156,7 @@ fn relative(stretches: &[Stretch], text: &Text) -> Vec<SemanticToken> {
         let mut start = stretch.start;
         for piece in body.split_inclusive(['\n', '\r']) {
             let shown = piece.trim_end_matches(['\n', '\r']);
-            let length: usize = shown.chars().map(char::len_utf16).sum();
+            let length = text.units(shown);
             let at = text.position(start);
             start += piece.len();
             if length == 0 {

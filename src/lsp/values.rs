@@ -10,7 +10,7 @@ use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, Dimension, FieldSpec, Inside, Leaving, Signature, Takes};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::{Backend, OptionKind};
-use vcutc_backend_api::ir::{AxisKind, MachineKind};
+use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
 
 /// What is known of the place of a value.
 pub(super) struct Place<'a> {
@@ -87,8 +87,8 @@ impl Place<'_> {
 
     /// The calls that a field takes; the home of a machine with straight axes is a position of those.
     fn calls(&self, field: &str, calls: &[(&str, &str)]) -> Vec<Offer> {
-        let axes = self.labels_of("axes");
-        if field == "home" && self.machine == Some(MachineKind::FiveAxis) && !axes.is_empty() {
+        if field == "home" && self.machine == Some(MachineKind::FiveAxis) {
+            let axes = self.labels_of("axes");
             let values: Vec<String> = axes
                 .iter()
                 .map(|(axis, value)| format!("{axis} = {value}"))
@@ -175,6 +175,11 @@ impl Place<'_> {
             Fit::Anything => vocabulary::units().map(|(name, _, _)| name.to_owned()).collect(),
             Fit::Call(..) => Vec::new(),
         };
+        // Whole numbers, which options count in, have no share.
+        let units = units
+            .into_iter()
+            .filter(|unit| self.target.is_none() || unit != "%");
+        let units: Vec<String> = units.collect();
         let unit = |unit: &String| Offer {
             detail: vocabulary::unit_in_words(unit)
                 .map_or(String::new(), |(kind, one)| format!("{kind}; 1 {unit} = {one}")),
@@ -216,16 +221,19 @@ impl Place<'_> {
                 .map(|(label, value)| (label.to_owned(), value.to_owned()))
                 .collect();
         }
-        let model = self.model.and_then(catalogue::find);
-        let axes = model.into_iter().flat_map(|model| model.axes);
-        axes.map(|axis| {
-            let value = match axis.kind {
-                AxisKind::Rotary => "0 deg",
-                AxisKind::Linear => "0 mm",
-            };
-            (axis.name.to_lowercase(), value.to_owned())
+        let axes = self.model.and_then(catalogue::find).map(|model| model.axes);
+        let known = axes.map(|axes| {
+            let axis = |axis: Axis| (axis.name.to_lowercase(), zero(axis.kind).to_owned());
+            axes.into_iter().map(axis).collect()
+        });
+        // The machine of a file: the names that most have, with a head that turns about B and A.
+        known.unwrap_or_else(|| {
+            let straight = ["x", "y", "z"].map(|name| (name, AxisKind::Linear));
+            let turning = ["b", "a"].map(|name| (name, AxisKind::Rotary));
+            let all = straight.into_iter().chain(turning);
+            all.map(|(name, kind)| (name.to_owned(), zero(kind).to_owned()))
+                .collect()
         })
-        .collect()
     }
 
     /// What fits: from the field inwards, bracket by bracket.
@@ -283,6 +291,14 @@ impl Place<'_> {
             .chain(["default".to_owned()])
             .map(|word| offer(&word, CompletionItemKind::ENUM_MEMBER, Rank::Fitting))
             .collect()
+    }
+}
+
+/// Where an axis is at zero.
+const fn zero(kind: AxisKind) -> &'static str {
+    match kind {
+        AxisKind::Rotary => "0 deg",
+        AxisKind::Linear => "0 mm",
     }
 }
 
