@@ -36,8 +36,9 @@ mod tokens;
 mod uri;
 mod values;
 pub mod wire;
+
 #[cfg(test)]
-mod words;
+mod tests;
 
 pub use analysis::{Done, Task};
 pub use server::{Ending, Server};

@@ -74,12 +74,7 @@ impl Slot {
 
     /// Where a unit is wanted: behind the number before a token, and before a unit that may stand there.
     pub(super) fn behind(around: &Surroundings<'_>, before: usize) -> Self {
-        let end = if around.is_word(before) || around.is_symbol(before, &["%"]) {
-            before + 1
-        } else {
-            before
-        };
-        Self::of(around, before.saturating_sub(1), end)
+        Self::of(around, before.saturating_sub(1), behind_unit(around, before))
     }
 
     /// Of the operand that reaches from a token to another.
@@ -106,6 +101,17 @@ impl Slot {
     /// The innermost call.
     pub(super) fn call(&self) -> Option<&Within> {
         self.within.last().filter(|within| within.call.is_some())
+    }
+}
+
+/// Behind the unit that a token begins, such as `mm` or `deg/s`; the token itself if it begins none.
+fn behind_unit(around: &Surroundings<'_>, start: usize) -> usize {
+    let word = |number: usize| around.word(number).unwrap_or_default();
+    let quotient = format!("{}/{}", word(start), word(start + 2));
+    if around.is_symbol(start + 1, &["/"]) && vocabulary::unit_in_words(&quotient).is_some() {
+        start + 3
+    } else {
+        start + usize::from(around.is_word(start) || around.is_symbol(start, &["%"]))
     }
 }
 
@@ -192,6 +198,7 @@ fn within(around: &Surroundings<'_>, brackets: &[usize], start: usize) -> Vec<Wi
 
 /// How the operand from a token to another stands to its neighbours.
 fn part(around: &Surroundings<'_>, start: usize, end: usize) -> Part {
+    const BINDING: &[&str] = &["*", "/", "^"];
     // Minus signs before it change nothing.
     let mut before = start.checked_sub(1);
     while let Some(number) = before
@@ -199,7 +206,6 @@ fn part(around: &Surroundings<'_>, start: usize, end: usize) -> Part {
     {
         before = number.checked_sub(1);
     }
-    const BINDING: &[&str] = &["*", "/", "^"];
     let is_bound =
         before.is_some_and(|number| around.is_symbol(number, BINDING)) || around.is_symbol(end, BINDING);
     if is_bound { Part::Factor } else { Part::Summand }

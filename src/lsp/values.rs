@@ -58,7 +58,8 @@ impl Place<'_> {
         if let Some(target) = self.target {
             return self.option_values(target);
         }
-        let whole = self.field.filter(|_| self.slot.rest == Rest::Begins);
+        let is_whole = self.slot.rest == Rest::Begins && self.slot.part == Part::Summand;
+        let whole = self.field.filter(|_| is_whole);
         let Some(spec) = whole else {
             return self.parts();
         };

@@ -116,7 +116,7 @@ fn folders_come_and_go() {
     process.write("other.vcut", &RIB.replace("\"rib\"", "\"other\""));
     process.show(NAME, RIB);
     let at = RIB.find("slow").unwrap();
-    let mut files = |process: &mut Process, id: i64| {
+    let files = |process: &mut Process, id: i64| {
         let params = json!({
             "textDocument": { "uri": process.uri(NAME) },
             "position": super::editor::position(RIB, at),
