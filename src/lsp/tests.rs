@@ -187,18 +187,12 @@ fn spots_of_targets() -> Vec<Spot> {
     spots
 }
 
-fn explained(spot: &Spot) -> String {
+/// What is shown over a word; none if that is nothing, or about something else.
+fn explained(spot: &Spot) -> Option<String> {
     let path = "/job.vcut";
-    let known = Analysis::of(path, 1, &One(spot.text.clone())).unwrap();
-    let told = hover(&known, path, spot.at, &registry::backends());
-    let told = told.unwrap_or_else(|| panic!("nothing about {spot:?}"));
-    assert_eq!(
-        &spot.text[told.span.bytes()],
-        spot.word,
-        "{spot:?}: {}",
-        told.text
-    );
-    told.text
+    let known = Analysis::of(path, 1, &One(spot.text.clone()))?;
+    let told = hover(&known, path, spot.at, &registry::backends())?;
+    (spot.text.get(told.span.bytes()) == Some(spot.word.as_str())).then_some(told.text)
 }
 
 #[test]

@@ -202,7 +202,7 @@ impl Place<'_> {
         let quaternion = (call == Some("frame") && !given.iter().any(turned))
             .then(|| ("q".to_owned(), "(1, 0, 0, 0)".to_owned()));
         let is_new =
-            |(label, _): &(String, String)| !given.contains(label) && !(is_quaternion && turned(label));
+            |(label, _): &(String, String)| !(given.contains(label) || is_quaternion && turned(label));
         all.into_iter()
             .chain(quaternion)
             .filter(is_new)
