@@ -1,4 +1,4 @@
-// The client: starts `vcutc lsp` for job files, and starts it anew when it is asked to.
+// The client: starts `vcutc lsp` for job files, and starts it anew when it is asked to or when its settings change.
 
 const vscode = require("vscode");
 const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
@@ -6,17 +6,14 @@ const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
 /** @type {LanguageClient | undefined} */
 let client;
 
-async function start() {
+async function start(watcher) {
   const settings = vscode.workspace.getConfiguration("vcut");
   const command = settings.get("server.path", "vcutc");
   const server = { command, args: ["lsp"], transport: TransportKind.stdio };
   const options = {
     documentSelector: [{ language: "vcut" }],
     initializationOptions: { planning: settings.get("planning", "whileTyping") },
-    // Files that jobs name: a change on the disk may make a job right or wrong.
-    synchronize: {
-      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{vcut,toml,urdf,csv,dat,dxf,svg}"),
-    },
+    synchronize: { fileEvents: watcher },
   };
   client = new LanguageClient("vcut", "vcut", server, options);
   try {
@@ -38,12 +35,23 @@ async function stop() {
 }
 
 async function activate(context) {
-  const restart = vscode.commands.registerCommand("vcut.restart", async () => {
+  // Files that jobs name: a change on the disk may make a job right or wrong.
+  const watcher = vscode.workspace.createFileSystemWatcher("**/*.{vcut,toml,urdf,csv,dat,dxf,svg}");
+  const restart = async () => {
     await stop();
-    await start();
-  });
-  context.subscriptions.push(restart);
-  await start();
+    await start(watcher);
+  };
+  const changed = async (event) => {
+    if (event.affectsConfiguration("vcut")) {
+      await restart();
+    }
+  };
+  context.subscriptions.push(
+    watcher,
+    vscode.commands.registerCommand("vcut.restart", restart),
+    vscode.workspace.onDidChangeConfiguration(changed),
+  );
+  await start(watcher);
 }
 
 module.exports = { activate, deactivate: stop };

@@ -5,14 +5,15 @@
 
 use super::Targets;
 use super::files::{load_file, with_forward_slashes};
-use crate::lsp::wire::{self, Broken, Incoming};
+use crate::lsp::wire::{self, Broken, Fault, Incoming};
 use crate::lsp::{Done, Ending, Server, Task, Workspace};
 use crate::source::{LoadError, Loader};
 use serde_json::Value;
+use std::collections::VecDeque;
 use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
@@ -41,6 +42,7 @@ pub(super) fn serve(targets: &Targets) -> ExitCode {
     thread::spawn(move || read_all(&sender));
     let mut conversation = Conversation {
         server: Server::new(targets),
+        waiting: VecDeque::new(),
         tasks,
         planner: Planner::Idle,
     };
@@ -81,6 +83,8 @@ fn planner(targets: Vec<&'static dyn Backend>, events: Sender<Event>) -> Sender<
 
 struct Conversation {
     server: Server,
+    /// What has come in and is still to be looked at, the oldest first.
+    waiting: VecDeque<Event>,
     tasks: Sender<Task>,
     planner: Planner,
 }
@@ -89,10 +93,10 @@ impl Conversation {
     /// Holds it to its end.
     fn hold(&mut self, events: &Receiver<Event>) -> io::Result<Ending> {
         loop {
-            let event = match events.try_recv() {
-                Ok(event) => event,
-                Err(TryRecvError::Disconnected) => return Ok(Ending::Abrupt),
-                Err(TryRecvError::Empty) => {
+            self.waiting.extend(events.try_iter());
+            let event = match self.waiting.pop_front() {
+                Some(event) => event,
+                None => {
                     send(&self.server.settle(&Disk))?;
                     match self.wait(events) {
                         Some(event) => event,
@@ -101,7 +105,7 @@ impl Conversation {
                 }
             };
             match event {
-                Event::Message(message) => send(&self.server.handle(message, &Disk))?,
+                Event::Message(message) => send(&self.answers(message))?,
                 Event::Planned(done) => {
                     self.planner = Planner::Idle;
                     send(&self.server.finish(*done))?;
@@ -113,6 +117,20 @@ impl Conversation {
                 return Ok(ending);
             }
         }
+    }
+
+    /// What is to be said to a message. A request that the client has taken back meanwhile is not met.
+    fn answers(&mut self, message: Incoming) -> Vec<Value> {
+        if let Incoming::Request { id, .. } = &message {
+            let is_taken_back = self.waiting.iter().any(|event| match event {
+                Event::Message(later) => later.takes_back() == Some(id),
+                Event::Broken(_) | Event::Planned(_) => false,
+            });
+            if is_taken_back {
+                return vec![wire::refusal(id, Fault::RequestCancelled, "taken back")];
+            }
+        }
+        self.server.handle(message, &Disk)
     }
 
     /// Waits for the next event; a job is planned meanwhile if none comes soon.

@@ -5,11 +5,12 @@ use super::analysis::Analysis;
 use super::context::{BlockAround, Context, Wanted, context};
 use super::hover::explained;
 use super::manual::{self, Table};
+use super::slots::{Owner, Slot};
+use super::values::{Begun, Place};
 use crate::machine::catalogue;
-use crate::sema::study::{Definition, Meaning};
-use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Range, Takes};
+use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
 use lsp_types::CompletionItemKind;
-use vcutc_backend_api::backend::{Backend, OptionKind};
+use vcutc_backend_api::backend::Backend;
 
 /// Something that can be written.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,9 +66,12 @@ pub(super) fn completion(
         Wanted::Nothing => Vec::new(),
         Wanted::Entry => desk.entries(text),
         Wanted::Head(words) => head(words),
-        Wanted::Value(field) => desk.values(field),
-        Wanted::Unit(field) => desk.units(field),
-        Wanted::Label { function, given } => desk.labels(function, given),
+        Wanted::Joint { piece, given } => joints(piece, given),
+        Wanted::Point => vec![point()],
+        Wanted::File => vec![file()],
+        Wanted::Value(slot) => desk.place(slot).values(),
+        Wanted::Unit(slot) => desk.place(slot).units(),
+        Wanted::Label { slot, given } => desk.place(slot).labels(given),
         Wanted::Text(words) => texts(words),
     };
     Offers {
@@ -77,11 +81,11 @@ pub(super) fn completion(
 }
 
 /// A text in which `$`, `}` and `\` mean themselves.
-fn verbatim(text: &str) -> String {
+pub(super) fn verbatim(text: &str) -> String {
     text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
 }
 
-fn offer(label: &str, kind: CompletionItemKind, rank: Rank) -> Offer {
+pub(super) fn offer(label: &str, kind: CompletionItemKind, rank: Rank) -> Offer {
     Offer {
         label: label.to_owned(),
         kind,
@@ -236,168 +240,34 @@ impl Desk<'_> {
         spec.field(field)
     }
 
-    fn values(&self, field: &str) -> Vec<Offer> {
-        if let Some(target) = self.target() {
-            return option_values(target, field);
-        }
-        let Some(spec) = self.takes(field) else {
-            return self.calculation(None);
+    /// What is known of the place of a value.
+    fn place<'s>(&'s self, slot: &'s Slot) -> Place<'s> {
+        let field = match &slot.owner {
+            Owner::Field(name) => self.takes(name),
+            Owner::Let | Owner::Coordinate | Owner::Formula(_) => None,
         };
-        let mut offers = Vec::new();
-        if spec.leaving == Leaving::Open {
-            offers.push(Offer {
-                detail: "left to the compiler".to_owned(),
-                documentation: manual::row(Table::Auto, field).map(manual::Row::text),
-                ..offer("auto", CompletionItemKind::KEYWORD, Rank::Fitting)
-            });
-        }
-        match spec.takes {
-            Takes::Words(words) => offers.extend(words().iter().map(|word| self.word(field, word))),
-            Takes::Blade => offers.extend(self.named(Meaning::Blade)),
-            Takes::Machine => offers.extend(self.named(Meaning::Machine)),
-            Takes::Calls(calls) => offers.extend(calls.iter().map(|(name, example)| Offer {
-                snippet: verbatim(example),
-                detail: (*example).to_owned(),
-                documentation: manual::row(Table::Calls, name).map(manual::Row::text),
-                ..offer(name, CompletionItemKind::FUNCTION, Rank::Fitting)
-            })),
-            Takes::Quantity(_) => {
-                if spec.typical != "auto" && self.context.word.is_empty() {
-                    offers.push(Offer {
-                        detail: "a typical value".to_owned(),
-                        ..offer(spec.typical, CompletionItemKind::VALUE, Rank::Fitting)
-                    });
-                }
-                offers.extend(self.calculation(Some(spec)));
+        let head = self.context.blocks.first().map(|block| block.head.as_slice());
+        let (machine, model) = match head {
+            Some([first, _, _, kind, model]) if first == "machine" => {
+                (vocabulary::machine_kind(kind), Some(model.trim_matches('"')))
             }
-            Takes::Anything | Takes::Fields(_) => offers.extend(self.calculation(None)),
-        }
-        offers
-    }
-
-    fn word(&self, field: &str, word: &str) -> Offer {
-        let documentation = match field {
-            "residual" => manual::row(Table::Residuals, word).map(manual::Row::text),
-            _ => explained(&self.title(), field),
+            Some(_) | None => (None, None),
         };
-        Offer {
-            documentation,
-            ..offer(word, CompletionItemKind::ENUM_MEMBER, Rank::Fitting)
-        }
-    }
-
-    /// Names of a kind.
-    fn named(&self, meaning: Meaning) -> Vec<Offer> {
-        let names = self.analysis.study.definitions.iter();
-        names
-            .filter(|definition| definition.meaning == meaning)
-            .map(|definition| offer(&definition.name.node, CompletionItemKind::CLASS, Rank::Fitting))
-            .collect()
-    }
-
-    /// Names of values and functions.
-    fn calculation(&self, field: Option<&FieldSpec>) -> Vec<Offer> {
-        let names = self.analysis.study.definitions.iter();
-        let mut offers: Vec<Offer> = names
-            .filter_map(|definition| self.value(definition, field))
-            .collect();
-        offers.extend(vocabulary::functions().map(|(name, example)| Offer {
-            snippet: format!("{name}($1)"),
-            detail: example.to_owned(),
-            documentation: manual::row(Table::Functions, name).map(|row| format!("takes {}", row.text())),
-            ..offer(name, CompletionItemKind::FUNCTION, Rank::Possible)
-        }));
-        offers.push(offer("pi", CompletionItemKind::CONSTANT, Rank::Possible));
-        offers
-    }
-
-    fn value(&self, definition: &Definition, field: Option<&FieldSpec>) -> Option<Offer> {
-        let Meaning::Value(value) = definition.meaning else {
-            return None;
-        };
-        let range = field.and_then(range_of);
-        let fits = range.zip(value).is_some_and(|(range, value)| value.is_of(range));
-        let rank = if fits { Rank::Fitting } else { Rank::Possible };
-        Some(Offer {
-            detail: value.map_or(String::new(), |value| value.text()),
-            ..offer(&definition.name.node, CompletionItemKind::VARIABLE, rank)
-        })
-    }
-
-    /// Units that fit the field, or all of them.
-    fn units(&self, field: &str) -> Vec<Offer> {
-        let range = self.takes(field).and_then(range_of);
-        let fitting = range.map(vocabulary::units_for).unwrap_or_default();
-        let all = vocabulary::units().map(|(name, _, _)| name.to_owned());
-        let units: Vec<String> = if fitting.is_empty() {
-            all.collect()
-        } else {
-            fitting
-        };
-        let unit = |unit: &String| Offer {
-            detail: vocabulary::unit_in_words(unit)
-                .map_or(String::new(), |(kind, one)| format!("{kind}; 1 {unit} = {one}")),
-            ..offer(unit, CompletionItemKind::UNIT, Rank::Fitting)
-        };
-        units.iter().map(unit).collect()
-    }
-
-    /// The labels that a call has not got yet, or what a function calculates with.
-    fn labels(&self, function: &str, given: &[String]) -> Vec<Offer> {
-        let Some(example) = example_of(function) else {
-            return self.calculation(None);
-        };
-        let inner = example.split_once('(').map_or("", |(_, inner)| inner);
-        // A call within a call is written by itself.
-        let inner = if inner.contains('(') { "" } else { inner };
-        let labels: Vec<Offer> = inner
-            .trim_end_matches(')')
-            .split(',')
-            .filter_map(|part| part.split_once(" = "))
-            .map(|(label, value)| (label.trim(), value.trim()))
-            .filter(|(label, _)| vocabulary::is_name(label) && !given.iter().any(|known| known == label))
-            .map(|(label, value)| Offer {
-                snippet: format!("{label} = ${{1:{}}}", verbatim(value)),
-                detail: "required".to_owned(),
-                ..offer(label, CompletionItemKind::FIELD, Rank::Needed)
-            })
-            .collect();
-        if labels.is_empty() && given.is_empty() {
-            self.calculation(None)
-        } else {
-            labels
+        Place {
+            analysis: self.analysis,
+            slot,
+            field,
+            target: self.target(),
+            title: self.title(),
+            machine,
+            model,
+            begun: if self.context.word.is_empty() {
+                Begun::Nothing
+            } else {
+                Begun::Word
+            },
         }
     }
-}
-
-/// The range of the values that a field takes.
-const fn range_of(field: &FieldSpec) -> Option<Range> {
-    match field.takes {
-        Takes::Quantity(range) => Some(range),
-        Takes::Anything
-        | Takes::Words(_)
-        | Takes::Blade
-        | Takes::Machine
-        | Takes::Calls(_)
-        | Takes::Fields(_) => None,
-    }
-}
-
-/// How a call of a machine's field looks.
-fn example_of(function: &str) -> Option<&'static str> {
-    let machine = vocabulary::block("machine")?;
-    machine.fields.iter().find_map(|field| match field.takes {
-        Takes::Calls(calls) => calls
-            .iter()
-            .find(|(name, _)| *name == function)
-            .map(|(_, example)| *example),
-        Takes::Anything
-        | Takes::Quantity(_)
-        | Takes::Words(_)
-        | Takes::Blade
-        | Takes::Machine
-        | Takes::Fields(_) => None,
-    })
 }
 
 /// A field with its typical value as a place to go on at.
@@ -443,6 +313,7 @@ fn head(words: &[String]) -> Vec<Offer> {
     let next = match words.as_slice() {
         ["rough"] => vocabulary::head_words("rough"),
         ["machine", _, "="] => vocabulary::head_words("machine"),
+        ["profile", "="] => return short_forms(),
         _ => Vec::new(),
     };
     next.iter()
@@ -450,11 +321,26 @@ fn head(words: &[String]) -> Vec<Offer> {
         .collect()
 }
 
+/// The files that a profile in its short form can be.
+fn short_forms() -> Vec<Offer> {
+    let forms = vocabulary::short_forms();
+    forms
+        .map(|(word, form)| Offer {
+            snippet: verbatim(&form),
+            detail: form,
+            documentation: manual::row(Table::Files, word).map(manual::Row::text),
+            ..offer(word, CompletionItemKind::FUNCTION, Rank::Fitting)
+        })
+        .collect()
+}
+
 fn curves() -> Vec<Offer> {
     let pieces = vocabulary::CURVES.iter().map(|(word, form)| Offer {
         snippet: verbatim(form),
         detail: (*form).to_owned(),
-        documentation: manual::row(Table::Pieces, word).map(manual::Row::text),
+        documentation: manual::row(Table::Pieces, word)
+            .or_else(|| manual::row(Table::Files, word))
+            .map(manual::Row::text),
         ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
     });
     let formula = Offer {
@@ -463,6 +349,43 @@ fn curves() -> Vec<Offer> {
         ..offer("z(x)", CompletionItemKind::FUNCTION, Rank::Possible)
     };
     pieces.chain([formula]).collect()
+}
+
+/// The words that a piece lacks next.
+fn joints(piece: &str, given: &[String]) -> Vec<Offer> {
+    let words: &[&str] = match (piece, given) {
+        (_, []) => &["to"],
+        ("arc", [_]) => &["radius", "center", "through"],
+        _ => &[],
+    };
+    let mut offers: Vec<Offer> = words
+        .iter()
+        .map(|word| Offer {
+            documentation: manual::row(Table::Joints, word).map(manual::Row::text),
+            ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
+        })
+        .collect();
+    if given.is_empty() && matches!(piece, "bezier" | "spline" | "polyline") {
+        offers.push(point());
+    }
+    offers
+}
+
+fn point() -> Offer {
+    Offer {
+        snippet: "(${1:10 mm}, ${2:10 mm})".to_owned(),
+        detail: "a point: along x, height".to_owned(),
+        ..offer("(x, z)", CompletionItemKind::SNIPPET, Rank::Fitting)
+    }
+}
+
+/// The path of a file, with its quotes.
+fn file() -> Offer {
+    Offer {
+        snippet: "\"$1\"".to_owned(),
+        detail: "the path of a file, relative to this one".to_owned(),
+        ..offer("\"...\"", CompletionItemKind::FILE, Rank::Fitting)
+    }
 }
 
 /// Texts in quotes: the machines of the catalogue.
@@ -497,22 +420,5 @@ fn options(target: &'static dyn Backend, given: &[String]) -> Vec<Offer> {
             documentation: Some(option.help.to_owned()),
             ..offer(option.key, CompletionItemKind::FIELD, Rank::Fitting)
         })
-        .collect()
-}
-
-fn option_values(target: &'static dyn Backend, key: &str) -> Vec<Offer> {
-    let option = target.options().iter().find(|option| option.key == key);
-    let words: Vec<String> = match option.map(|option| option.kind) {
-        Some(OptionKind::Choice { of }) => of.iter().map(|word| (*word).to_owned()).collect(),
-        Some(OptionKind::Integer { default, .. }) => vec![default.to_string()],
-        Some(OptionKind::Length { default, .. }) => vec![format!("{} mm", default.to_mm())],
-        Some(OptionKind::Lines | OptionKind::Text) => vec!["\"\"".to_owned()],
-        None => Vec::new(),
-    };
-    let taken_back = option.map(|_| "default".to_owned());
-    words
-        .into_iter()
-        .chain(taken_back)
-        .map(|word| offer(&word, CompletionItemKind::ENUM_MEMBER, Rank::Fitting))
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Diagnostics and their fixes as the protocol has them.
 
-use super::text::Text;
+use super::text::{Encoding, Text};
 use super::uri::uri_of;
 use crate::diag::{Diagnostic, Fix, Label, Severity};
 use crate::source::SourceMap;
@@ -13,24 +13,26 @@ use std::collections::BTreeMap;
 /// The texts of a source map with their lines, each worked out once.
 pub(super) struct Lines<'a> {
     sources: &'a SourceMap,
+    encoding: Encoding,
     texts: BTreeMap<crate::source::FileId, Text>,
 }
 
 impl<'a> Lines<'a> {
-    /// Of these texts.
-    pub(super) const fn of(sources: &'a SourceMap) -> Self {
+    /// Of these texts, with positions in these units.
+    pub(super) const fn of(sources: &'a SourceMap, encoding: Encoding) -> Self {
         Self {
             sources,
+            encoding,
             texts: BTreeMap::new(),
         }
     }
 
     /// The range of a span.
     pub(super) fn range(&mut self, span: crate::source::Span) -> Range {
-        let sources = self.sources;
+        let (sources, encoding) = (self.sources, self.encoding);
         let text = self.texts.entry(span.file).or_insert_with(|| {
             let text = sources.get(span.file).map_or("", |file| file.text.as_str());
-            Text::new(text)
+            Text::new(text, encoding)
         });
         text.range(span.bytes())
     }
@@ -43,23 +45,35 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// A diagnostic, with the path of the file that it is about.
-pub(super) fn in_protocol(diagnostic: &Diagnostic, lines: &mut Lines<'_>) -> (String, lsp_types::Diagnostic) {
-    let path = lines.sources.name(diagnostic.primary.span.file).to_owned();
-    let related: Vec<DiagnosticRelatedInformation> = diagnostic
-        .secondary
-        .iter()
+/// A diagnostic, with the path of the file that it is shown in. That is a file of the language: a flaw of a drawing, or of any
+/// other file that a job names, is shown where the job names it, with its own place beside.
+pub(super) fn in_protocol(
+    diagnostic: &Diagnostic,
+    is_of_language: impl Fn(&str) -> bool,
+    lines: &mut Lines<'_>,
+) -> (String, lsp_types::Diagnostic) {
+    let primary = &diagnostic.primary;
+    let readable = |label: &&Label| is_of_language(lines.sources.name(label.span.file));
+    let shown = Some(primary)
+        .filter(readable)
+        .or_else(|| diagnostic.secondary.iter().find(readable))
+        .unwrap_or(primary);
+    let others = core::iter::once(primary).chain(&diagnostic.secondary);
+    let others: Vec<&Label> = others.filter(|label| label.span != shown.span).collect();
+    let path = lines.sources.name(shown.span.file).to_owned();
+    let related: Vec<DiagnosticRelatedInformation> = others
+        .into_iter()
         .filter_map(|label| related(label, lines))
         .collect();
     let told = lsp_types::Diagnostic {
-        range: lines.range(diagnostic.primary.span),
+        range: lines.range(shown.span),
         severity: Some(match diagnostic.severity() {
             Severity::Error => DiagnosticSeverity::ERROR,
             Severity::Warning => DiagnosticSeverity::WARNING,
         }),
         code: Some(NumberOrString::String(diagnostic.code.number().to_owned())),
         source: Some("vcutc".to_owned()),
-        message: message(diagnostic),
+        message: message(diagnostic, shown, lines),
         related_information: (!related.is_empty()).then_some(related),
         ..lsp_types::Diagnostic::default()
     };
@@ -73,18 +87,30 @@ fn related(label: &Label, lines: &mut Lines<'_>) -> Option<DiagnosticRelatedInfo
     })
 }
 
-/// All that a terminal would show as text: headline, label, notes and helps. Fixes are offered by themselves.
-fn message(diagnostic: &Diagnostic) -> String {
+/// All that a terminal would show as text: headline, label, notes and helps, and the place if another one is shown. Fixes are
+/// offered by themselves.
+fn message(diagnostic: &Diagnostic, shown: &Label, lines: &mut Lines<'_>) -> String {
+    let primary = &diagnostic.primary;
     let mut text = diagnostic.message.clone();
-    if !diagnostic.primary.text.is_empty() {
-        text += &format!("\n{}", diagnostic.primary.text);
+    let mut add = |lead: &str, line: &str| {
+        if !line.is_empty() {
+            text += &format!("\n{lead}{line}");
+        }
+    };
+    if primary.span == shown.span {
+        add("", &primary.text);
+    } else {
+        let start = lines.range(primary.span).start;
+        let file = lines.sources.name(primary.span.file);
+        let place = format!("{file}:{}:{}: ", start.line + 1, start.character + 1);
+        add(&place, &primary.text);
     }
     for note in &diagnostic.notes {
-        text += &format!("\nnote: {note}");
+        add("note: ", note);
     }
     let fixes = diagnostic.fixes.iter().map(|fix| &fix.title);
     for help in diagnostic.help.iter().chain(fixes) {
-        text += &format!("\nhelp: {help}");
+        add("help: ", help);
     }
     text
 }

@@ -2,7 +2,7 @@
 
 use super::Workspace;
 use super::analysis::{Analysis, OpenTexts, Overlay};
-use super::text::Text;
+use super::text::{Encoding, Text};
 use crate::sema::Part;
 use lsp_types::Uri;
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,6 +40,8 @@ pub(super) struct Documents {
     homes: BTreeSet<String>,
     /// Whether it must be found out anew which roots there are.
     roots: Roots,
+    /// What the client counts positions in.
+    pub(super) encoding: Encoding,
     /// Folders of the workspace.
     pub(super) folders: Vec<String>,
     stamps: u64,
@@ -55,7 +57,7 @@ enum Roots {
 impl Documents {
     /// Opens a document, or opens it anew.
     pub(super) fn open(&mut self, path: String, called: Called, text: &str) {
-        self.texts.insert(path.clone(), Text::new(text));
+        self.texts.insert(path.clone(), Text::new(text, self.encoding));
         self.called.insert(path, called);
         self.forget_all();
     }

@@ -39,10 +39,11 @@ fn common(a: impl Iterator<Item = char>, b: impl Iterator<Item = char>) -> usize
 
 #[cfg(test)]
 mod tests {
+    use super::super::text::Encoding;
     use super::*;
 
     fn formatted(text: &str) -> Option<String> {
-        let text = Text::new(text);
+        let text = Text::new(text, Encoding::Utf16);
         let edits = formatting(&text)?;
         let mut new = text.as_str().to_owned();
         for edit in edits {

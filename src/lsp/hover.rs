@@ -5,12 +5,13 @@ use super::analysis::Analysis;
 use super::chosen::{Chosen, chosen};
 use super::manual::{self, Table};
 use super::names::{definition_at, sites_at};
-use super::sites::{Kind, Path, Place, Site};
+use super::sites::{Kind, Path, Place, Site, sites};
 use crate::machine::catalogue;
 use crate::sema::study::{Definition, Meaning};
-use crate::sema::vocabulary;
+use crate::sema::vocabulary::{self, walk};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Block, Entry, Expr, HeadPart, Item};
+use crate::syntax::lexical::{TokenKind, tokens};
 use vcutc_backend_api::backend::{Backend, OptionKind};
 
 /// What there is to say about a place.
@@ -36,7 +37,11 @@ pub(super) fn hover(
     let inner = sites
         .iter()
         .rev()
-        .find(|site| !matches!(site.kind, Kind::Value(_)))?;
+        .find(|site| !matches!(site.kind, Kind::Value(_)));
+    let Some(inner) = inner else {
+        // Between the parts of a calculation.
+        return whole_value(analysis, &sites);
+    };
     let text = match inner.kind {
         Kind::Definition(..) | Kind::Reference(_) => match definition_at(analysis, path, offset) {
             Some(definition) => name(analysis, definition),
@@ -48,9 +53,9 @@ pub(super) fn hover(
         Kind::Number(number) => values(analysis, number)?,
         Kind::Unit(unit) => self::unit(unit)?,
         Kind::Function(function) => call(analysis, function, &sites)?,
-        Kind::Label => return whole_value(analysis, &sites),
+        Kind::Label(function) => label(analysis, function, inner.span)?,
         Kind::Block => block(inner.place, analysis.sources.slice(inner.span), targets)?,
-        Kind::HeadWord => manual::about(inner.place.block)?,
+        Kind::HeadWord => head_word(inner.place.block, analysis.sources.slice(inner.span))?,
         Kind::JobName => figures(analysis, path)?,
         Kind::Path(kind, written) => file(analysis, kind, written, inner),
         Kind::Formula | Kind::Variable => manual_of_formula()?,
@@ -62,27 +67,78 @@ pub(super) fn hover(
     })
 }
 
-/// A word of the language that is no site of the tree: `let`, `use`, `job`, and what pieces of a profile are called.
+/// A word of the language that is no site of the tree: `let`, `use`, `job`, `tips`, and what pieces of a profile are made of.
 fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Told> {
     let (file, ast) = analysis.file(path)?;
     let text = analysis.sources.get(file)?.text.as_str();
-    let holds = |span: &Span| (span.start as usize..=span.end as usize).contains(&offset);
-    let whole = ast.items.iter().find_map(|item| match item {
-        Item::Job { span, .. } | Item::Use { span, .. } | Item::Let { span, .. } => Some(*span).filter(holds),
-        Item::Block(block) => block.entries.iter().find_map(|entry| match entry {
-            Entry::Curve { span, .. } | Entry::Tips { span, .. } => Some(*span).filter(holds),
-            Entry::Field { .. } | Entry::Limit { .. } | Entry::Formula { .. } | Entry::Block(_) => None,
-        }),
-    })?;
-    let rest = text.get(whole.bytes())?;
-    let length = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
-    let word = rest.get(..length)?;
-    let start = whole.start as usize;
-    let span = Span::of_bytes(file, start..start + length);
-    let text = manual::row(Table::Pieces, word)
-        .map(|row| format!("`{word}`: {}", row.text()))
-        .or_else(|| manual::about(word))?;
-    Some(Told { span, text }).filter(|told| holds(&told.span))
+    let token = tokens(text)
+        .take_while(|token| token.start <= offset)
+        .filter(|token| token.kind == TokenKind::Word && offset <= token.end)
+        .last()?;
+    let span = Span::of_bytes(file, token.start..token.end);
+    let is_site = |site: &Site<'_>| !matches!(site.kind, Kind::Value(_)) && site.span == span;
+    if sites(ast).iter().any(is_site) {
+        return None;
+    }
+    let text = keyword_explained(text.get(token.start..token.end)?)?;
+    Some(Told { span, text })
+}
+
+/// What the reference says about a word that means the same everywhere.
+fn keyword_explained(word: &str) -> Option<String> {
+    let row = match word {
+        "job" | "use" | "let" => return manual::about(word),
+        "tips" => manual::row(Table::Fields("rough vcut"), word),
+        _ => manual::row(Table::Pieces, word)
+            .or_else(|| manual::row(Table::Joints, word))
+            .or_else(|| manual::row(Table::Files, word)),
+    };
+    Some(format!("`{word}`: {}", row?.text()))
+}
+
+/// A word behind the first one of a head: a kind of operation, or of machine.
+fn head_word(block: &str, word: &str) -> Option<String> {
+    match manual::row(Table::Machines, word).filter(|_| block == "machine") {
+        Some(row) => Some(format!("`{word}`: {}", row.text())),
+        None => manual::about(block),
+    }
+}
+
+/// The name of a value in a call, with what the call means and what the value is worth here.
+fn label(analysis: &Analysis, function: &str, name: Span) -> Option<String> {
+    let word = analysis.sources.slice(name);
+    let mut forms = manual::rows(Table::Calls).filter(|row| row.explains(function));
+    let is_named = |row: &manual::Row| row.head().contains(&format!("{word} = "));
+    let row = forms.clone().find(is_named).or_else(|| forms.next())?;
+    let worth = argument(analysis, name).and_then(|value| values(analysis, value));
+    let worth = worth.map_or(String::new(), |worth| format!("\n\nHere {worth}"));
+    Some(format!(
+        "`{word}` of `{function}`\n\n{}: {}{worth}",
+        row.head(),
+        row.text()
+    ))
+}
+
+/// The value behind a name in a call.
+fn argument(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
+    let file = analysis.study.files.iter().find(|file| file.id == name.file)?;
+    sites(&file.ast).into_iter().find_map(|site| {
+        let Kind::Value(value) = site.kind else {
+            return None;
+        };
+        walk(value).find_map(|part| match &part.node {
+            Expr::Call { arguments, .. } => arguments.iter().find_map(|argument| {
+                let is_it = argument.name.as_ref().is_some_and(|known| known.span == name);
+                is_it.then_some(&argument.value)
+            }),
+            Expr::Number { .. }
+            | Expr::Text(_)
+            | Expr::Name(_)
+            | Expr::Negate(_)
+            | Expr::Binary { .. }
+            | Expr::Tuple(_) => None,
+        })
+    })
 }
 
 /// The words of an expression and what it comes to.
@@ -228,13 +284,20 @@ fn word(analysis: &Analysis, site: &Site<'_>) -> Option<String> {
         return Some("`pi` = `3.14159`, a pure number".to_owned());
     }
     let field = site.place.field?;
-    if field.name == "residual"
-        && let Some(row) = manual::row(Table::Residuals, word)
-    {
-        return Some(format!("`{word}`: such a cut is {}", row.text()));
-    }
-    let text = explained(site.place.block, field.name)?;
+    let text = word_explained(site.place.block, field.name, word)?;
     Some(format!("`{word}` of **{}**\n\n{text}", field.name))
+}
+
+/// What the reference says about a word that a field takes: first about the word, then about the field.
+pub(super) fn word_explained(block: &str, field: &str, word: &str) -> Option<String> {
+    let of_field = explained(block, field)?;
+    let residual = manual::row(Table::Residuals, word).filter(|_| field == "residual");
+    let of_word = match residual {
+        Some(row) => Some(format!("such a cut is {}", row.text())),
+        None => manual::clause(&of_field, word).map(str::to_owned),
+    };
+    let of_word = of_word.map_or(String::new(), |text| format!("`{word}`: {text}\n\n"));
+    Some(of_word + &of_field)
 }
 
 fn unit(unit: &str) -> Option<String> {
@@ -289,6 +352,9 @@ fn option(target: &'static dyn Backend, key: &str) -> Option<String> {
 fn word_of_target(site: &Site<'_>, analysis: &Analysis, targets: &[&'static dyn Backend]) -> Option<String> {
     let target = targets.iter().find(|target| target.id() == site.place.block)?;
     let word = analysis.sources.slice(site.span);
+    if word == "default" {
+        return manual::about(word);
+    }
     let takes = |kind: OptionKind| match kind {
         OptionKind::Choice { of } => of.contains(&word),
         OptionKind::Integer { .. } | OptionKind::Length { .. } | OptionKind::Lines | OptionKind::Text => {

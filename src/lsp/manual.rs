@@ -13,6 +13,12 @@ pub(super) enum Table<'a> {
     Fields(&'a str),
     /// The pieces of a profile.
     Pieces,
+    /// The words that join the parts of a piece.
+    Joints,
+    /// The files that a profile can be.
+    Files,
+    /// The kinds of machines.
+    Machines,
     /// The calls that fields of a machine take.
     Calls,
     /// The functions of calculations.
@@ -48,18 +54,25 @@ impl Row {
         }
     }
 
+    /// The first cell: the words that it explains, as they are written.
+    pub(super) fn head(self) -> &'static str {
+        self.cells().first().copied().unwrap_or_default()
+    }
+
+    /// Whether it explains a word.
+    pub(super) fn explains(self, word: &str) -> bool {
+        self.words().any(|known| known == word)
+    }
+
     /// Whether the first cell says that the field must be there.
     #[cfg(test)]
     pub(super) fn is_required(self) -> bool {
-        self.cells()
-            .first()
-            .is_some_and(|cell| cell.contains("(required)"))
+        self.head().contains("(required)")
     }
 
     /// The words that it explains.
     fn words(self) -> impl Iterator<Item = &'static str> {
-        let first = self.cells().first().copied().unwrap_or_default();
-        first.split('`').skip(1).step_by(2).map(|quoted| {
+        self.head().split('`').skip(1).step_by(2).map(|quoted| {
             let end = quoted.find(['(', ' ', ',']).unwrap_or(quoted.len());
             quoted.get(..end).unwrap_or_default()
         })
@@ -68,14 +81,17 @@ impl Row {
 
 /// The row of a table that explains a word.
 pub(super) fn row(table: Table<'_>, word: &str) -> Option<Row> {
-    rows(table).find(|row| row.words().any(|known| known == word))
+    rows(table).find(|row| row.explains(word))
 }
 
 /// The rows of a table.
-pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> {
+pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
     let start = match table {
         Table::Fields(block) => fields_table(block),
         Table::Pieces => headed("| Piece |"),
+        Table::Joints => headed("| Word in a piece |"),
+        Table::Files => headed("| File | Holds |"),
+        Table::Machines => headed("| Kind | Is |"),
         Table::Calls => headed("| Value | Meaning |"),
         Table::Functions => headed("| Function |"),
         Table::Residuals => headed("| `residual` | Such a cut is |"),
@@ -114,13 +130,27 @@ fn behind(text: &str, head: &str) -> Option<usize> {
     Some(start + at + 1)
 }
 
+/// The paragraph that begins so.
+fn paragraph(beginning: &str) -> Option<String> {
+    let start = REFERENCE.find(&format!("\n{beginning}"))?;
+    let paragraph = REFERENCE.get(start..)?.trim_start().split("\n\n").next()?;
+    Some(without_links(paragraph))
+}
+
+/// The clause of a row that explains one of several words: `` `rows`: layer by layer ``.
+pub(super) fn clause<'r>(row: &'r str, word: &str) -> Option<&'r str> {
+    let lead = format!("`{word}`: ");
+    let start = row.find(&lead)? + lead.len();
+    row.get(start..)?.split([';', '\n']).next()
+}
+
 /// The first paragraph about a block that is not an example.
 pub(super) fn about(block: &str) -> Option<String> {
-    // What `use` does stands in the section about files.
-    if block == "use" {
-        let start = REFERENCE.find("\nThe path is relative to the file")?;
-        let paragraph = REFERENCE.get(start..)?.trim_start().split("\n\n").next()?;
-        return Some(without_links(paragraph));
+    match block {
+        // What `use` does stands in the section about files.
+        "use" => return paragraph("The path is relative to the file"),
+        "default" => return paragraph("The word `default`"),
+        _ => {}
     }
     let heading = format!("\n### `{block}`\n");
     let start = REFERENCE.find(&heading)? + heading.len();
@@ -226,8 +256,11 @@ mod tests {
             assert!(row(Table::Functions, name).is_some(), "{name}");
         }
         for (word, _) in vocabulary::CURVES {
-            let by_fields = vocabulary::data_file(word).is_some();
-            assert!(by_fields || row(Table::Pieces, word).is_some(), "{word}");
+            let table = match vocabulary::data_file(word) {
+                Some(_) => Table::Files,
+                None => Table::Pieces,
+            };
+            assert!(row(table, word).is_some(), "{word}");
         }
         for block in [
             "job",

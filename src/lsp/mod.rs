@@ -28,11 +28,17 @@ mod names;
 mod requests;
 mod server;
 mod sites;
+mod slots;
+mod surroundings;
 mod symbols;
 mod text;
 mod tokens;
 mod uri;
+mod values;
 pub mod wire;
+
+#[cfg(test)]
+mod tests;
 
 pub use analysis::{Done, Task};
 pub use server::{Ending, Server};

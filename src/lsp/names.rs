@@ -2,11 +2,11 @@
 
 use super::analysis::{Analysis, OpenTexts, Overlay};
 use super::sites::{Kind, Site, Words, sites};
-use super::text::Text;
-use crate::diag::Diagnostic;
+use super::text::{Encoding, Text};
 use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, RESERVED};
 use crate::source::{FileId, Loader, Span};
+use crate::syntax::lexical::{TokenKind, tokens};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A name in a text.
@@ -54,7 +54,7 @@ fn named(analysis: &Analysis, site: &Site<'_>) -> Option<Name> {
         | Kind::Number(_)
         | Kind::Unit(_)
         | Kind::Function(_)
-        | Kind::Label
+        | Kind::Label(_)
         | Kind::Formula
         | Kind::Variable
         | Kind::Path(..)
@@ -97,7 +97,7 @@ pub(super) fn occurrences(analysis: &Analysis, name: &str) -> Vec<Span> {
 pub(super) type Places = BTreeMap<String, (Text, BTreeSet<(u32, u32)>)>;
 
 /// All places of a name in several jobs that share the file in which it is defined.
-pub(super) fn places(analyses: &[&Analysis], name: &str) -> Places {
+pub(super) fn places(analyses: &[&Analysis], name: &str, encoding: Encoding) -> Places {
     let mut places = Places::new();
     for analysis in analyses {
         for span in occurrences(analysis, name) {
@@ -106,7 +106,7 @@ pub(super) fn places(analyses: &[&Analysis], name: &str) -> Places {
             };
             let file = places
                 .entry(source.name.clone())
-                .or_insert_with(|| (Text::new(&source.text), BTreeSet::new()));
+                .or_insert_with(|| (Text::new(&source.text, encoding), BTreeSet::new()));
             file.1.insert((span.start, span.end));
         }
     }
@@ -160,33 +160,96 @@ fn clash(analysis: &Analysis, new: &str) -> Option<String> {
     })
 }
 
-/// Whether renaming leaves every job as it was: it is tried, and what there is to tell must stay the same.
-pub(super) fn keeps_meaning(
+/// Why a name cannot be replaced by another: renaming must leave every job that sees it as it was. It is tried, and what there
+/// is to tell must stay the same, file by file. Jobs with mistakes are no obstacle, unless the name stands in a part of them
+/// that cannot be read.
+pub(super) fn changes_meaning(
     analyses: &[&Analysis],
     places: &Places,
-    new: &str,
+    (old, new): (&str, &str),
     open: &OpenTexts,
     below: &dyn Loader,
-) -> bool {
+) -> Option<String> {
+    if let Some(why) = analyses.iter().find_map(|analysis| unread(analysis, old)) {
+        return Some(why);
+    }
     let mut changed = open.clone();
     for (path, (text, spans)) in places {
-        changed.insert(path.clone(), Text::new(&renamed(text.as_str(), spans, new)));
+        let text = Text::new(&renamed(text.as_str(), spans, new), Encoding::default());
+        changed.insert(path.clone(), text);
     }
     let overlay = Overlay {
         open: &changed,
         below,
     };
-    analyses.iter().all(|analysis| {
-        let after = Analysis::of(&analysis.root, analysis.stamp, &overlay);
-        after.is_some_and(|after| codes(&after.diagnostics) == codes(&analysis.diagnostics))
+    analyses.iter().find_map(|before| {
+        let Some(after) = Analysis::of(&before.root, before.stamp, &overlay) else {
+            return Some(format!("{} cannot be read any more", before.root));
+        };
+        let (told_before, told_after) = (told(before), told(&after));
+        let more = surplus(&told_after, &told_before);
+        let less = surplus(&told_before, &told_after);
+        let appears = more.map(|(place, message)| format!("with `{new}` for `{old}`, {place} would be wrong: {message}"));
+        appears.or_else(|| {
+            let (place, message) = less?;
+            Some(format!(
+                "with `{new}` for `{old}`, {place} would get another meaning: this would no longer be wrong there: {message}"
+            ))
+        })
     })
 }
 
-fn codes(diagnostics: &[Diagnostic]) -> Vec<&'static str> {
-    diagnostics
-        .iter()
-        .map(|diagnostic| diagnostic.code.number())
-        .collect()
+/// Where a name stands in a part of a text that cannot be read, so that nobody knows whether it is the name.
+fn unread(analysis: &Analysis, name: &str) -> Option<String> {
+    analysis.study.files.iter().find_map(|file| {
+        let source = analysis.sources.get(file.id)?;
+        let known: BTreeSet<u32> = sites(&file.ast).iter().map(|site| site.span.start).collect();
+        let token = tokens(&source.text).find(|token| {
+            let is_known = u32::try_from(token.start).is_ok_and(|start| known.contains(&start));
+            token.kind == TokenKind::Word
+                && source.text.get(token.start..token.end) == Some(name)
+                && !is_known
+        })?;
+        Some(format!(
+            "`{name}` stands in {}:{} too, in a part that cannot be read: mend that first",
+            source.name,
+            token.line + 1
+        ))
+    })
+}
+
+/// What there is to tell: by file and code, each with the line and the message.
+type Told = BTreeMap<(String, &'static str), Vec<(usize, String)>>;
+
+fn told(analysis: &Analysis) -> Told {
+    let mut told = Told::new();
+    for diagnostic in &analysis.diagnostics {
+        let span = diagnostic.primary.span;
+        let text = analysis
+            .sources
+            .get(span.file)
+            .map_or("", |file| file.text.as_str());
+        let before = text.get(..span.start as usize).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
+        let file = analysis.sources.name(span.file).to_owned();
+        let of_code = told.entry((file, diagnostic.code.number())).or_default();
+        of_code.push((line, diagnostic.message.clone()));
+    }
+    told
+}
+
+/// The first thing that is told more often here than there, with its place.
+fn surplus(here: &Told, there: &Told) -> Option<(String, String)> {
+    here.iter().find_map(|(key, found)| {
+        let others = there.get(key).map_or(&[][..], Vec::as_slice);
+        if found.len() <= others.len() {
+            return None;
+        }
+        // One that was not there before, as far as that can be said; lines do not move.
+        let is_new = |(line, _): &&(usize, String)| others.iter().all(|(other, _)| other != line);
+        let (line, message) = found.iter().find(is_new).or(found.last())?;
+        Some((format!("{}:{line}", key.0), message.clone()))
+    })
 }
 
 fn renamed(text: &str, spans: &BTreeSet<(u32, u32)>, new: &str) -> String {

@@ -8,9 +8,9 @@ use super::formatting::formatting;
 use super::hints::hints;
 use super::hover::hover;
 use super::names::{
-    definition_at, file_meant, keeps_meaning, name_at, occurrences, places, refused, sites_at,
+    changes_meaning, definition_at, file_meant, name_at, occurrences, places, refused, sites_at,
 };
-use super::server::{Insertion, Server, parsed};
+use super::server::{Insertion, Server, Telling, parsed};
 use super::sites::{Kind, Path};
 use super::symbols::symbols;
 use super::text::Text;
@@ -21,10 +21,11 @@ use crate::machine::Origin;
 use crate::source::Span;
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
-    DocumentFormattingParams, DocumentSymbolParams, Documentation, GotoDefinitionParams, Hover,
-    HoverContents, HoverParams, InlayHint, InlayHintKind, InlayHintLabel, InlayHintParams, InlayHintTooltip,
-    InsertTextFormat, Location, MarkupContent, MarkupKind, Position, Range, ReferenceParams, RenameParams,
-    SemanticTokens, SemanticTokensParams, TextDocumentIdentifier, TextDocumentPositionParams, TextEdit,
+    DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation,
+    GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint, InlayHintKind, InlayHintLabel,
+    InlayHintParams, InlayHintTooltip, InsertTextFormat, Location, MarkupContent, MarkupKind, Position,
+    Range, ReferenceParams, RenameParams, SemanticTokens, SemanticTokensParams, TextDocumentIdentifier,
+    TextDocumentPositionParams, TextEdit,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -32,11 +33,19 @@ use std::collections::BTreeMap;
 /// A result, or why there is none.
 pub(super) type Answer = Result<Value, (Fault, String)>;
 
-/// What the server can do.
-pub(super) fn introduction() -> Value {
+/// What the server can do, in what this client understands.
+pub(super) fn introduction(server: &Server) -> Value {
+    let diagnostics = match server.telling {
+        Telling::Unasked => Value::Null,
+        Telling::OnRequest => json!({
+            "identifier": "vcutc", "interFileDependencies": true, "workspaceDiagnostics": false,
+        }),
+    };
     json!({
         "capabilities": {
-            "positionEncoding": "utf-16",
+            "positionEncoding": server.documents.encoding.name(),
+            "workspace": { "workspaceFolders": { "supported": true, "changeNotifications": true } },
+            "diagnosticProvider": diagnostics,
             "textDocumentSync": { "openClose": true, "change": 2, "save": { "includeText": false } },
             "hoverProvider": true,
             "completionProvider": { "triggerCharacters": ["=", "\"", "/", " ", "("] },
@@ -55,6 +64,12 @@ pub(super) fn introduction() -> Value {
         },
         "serverInfo": { "name": "vcutc", "version": env!("CARGO_PKG_VERSION") }
     })
+}
+
+/// Asks the client to ask for diagnostics again.
+pub(super) fn ask_again(number: u64) -> Value {
+    let id = format!("diagnostics-{number}");
+    json!({ "jsonrpc": "2.0", "id": id, "method": "workspace/diagnostic/refresh" })
 }
 
 /// Asks the client to tell when files that jobs name change on the disk.
@@ -87,6 +102,7 @@ pub(super) fn meet(server: &mut Server, method: &str, params: Value, files: &dyn
         "textDocument/rename" => renamed(server, parsed(params)?, files),
         "textDocument/formatting" => formatted(server, parsed(params)?),
         "textDocument/inlayHint" => hinted(server, parsed(params)?),
+        "textDocument/diagnostic" => told(server, &parsed(params)?),
         "textDocument/semanticTokens/full" => coloured(server, parsed(params)?),
         _ => Err((Fault::MethodNotFound, format!("there is no method `{method}`"))),
     }
@@ -105,6 +121,12 @@ fn asked<'s>(server: &'s Server, document: &TextDocumentIdentifier) -> Option<As
     let text = server.documents.texts.get(&path)?;
     let analysis = server.documents.about(&path)?;
     Some(Asked { path, text, analysis })
+}
+
+/// The diagnostics of a document.
+fn told(server: &Server, params: &DocumentDiagnosticParams) -> Answer {
+    let items = server.asked_for(&path_of(&params.text_document.uri));
+    Ok(json!({ "kind": "full", "items": items }))
 }
 
 fn markdown(value: String) -> MarkupContent {
@@ -194,7 +216,7 @@ fn location(server: &Server, analysis: &Analysis, span: Span) -> Option<Location
     let source = analysis.sources.get(span.file)?;
     Some(Location {
         uri: server.documents.uri(&source.name)?,
-        range: Text::new(&source.text).range(span.bytes()),
+        range: Text::new(&source.text, server.documents.encoding).range(span.bytes()),
     })
 }
 
@@ -248,7 +270,7 @@ fn referred(server: &mut Server, params: ReferenceParams, files: &dyn Workspace)
     };
     let users: Vec<&Analysis> = users.iter().collect();
     let mut found: Vec<Location> = Vec::new();
-    for (path, (text, spans)) in places(&users, &name) {
+    for (path, (text, spans)) in places(&users, &name, server.documents.encoding) {
         let Some(uri) = server.documents.uri(&path) else {
             continue;
         };
@@ -298,9 +320,9 @@ fn mended(server: &Server, params: CodeActionParams) -> Answer {
     let mut actions: Vec<Value> = Vec::new();
     for known in server.documents.speaking() {
         let (sources, diagnostics) = known.told();
-        let mut lines = Lines::of(sources);
+        let mut lines = Lines::of(sources, server.documents.encoding);
         for diagnostic in diagnostics {
-            let (of_file, told) = in_protocol(diagnostic, &mut lines);
+            let (of_file, told) = in_protocol(diagnostic, |path| known.file(path).is_some(), &mut lines);
             if of_file != path || !touches(told.range, params.range) {
                 continue;
             }
@@ -357,9 +379,9 @@ fn renamed(server: &mut Server, params: RenameParams, files: &dyn Workspace) -> 
     if let Some(why) = refused(&users, &name, new) {
         return Err((Fault::RequestFailed, why));
     }
-    let places = places(&users, &name);
-    if !keeps_meaning(&users, &places, new, &server.documents.texts, files) {
-        let why = format!("with `{new}` for `{name}` the files would not mean the same any more");
+    let places = places(&users, &name, server.documents.encoding);
+    let open = &server.documents.texts;
+    if let Some(why) = changes_meaning(&users, &places, (&name, new), open, files) {
         return Err((Fault::RequestFailed, why));
     }
     let mut changes: BTreeMap<String, Vec<TextEdit>> = BTreeMap::new();

@@ -5,11 +5,13 @@ use super::analysis::{Analysis, Done, Planning, Task};
 use super::diagnostics::{Lines, in_protocol};
 use super::documents::{Called, Documents, Language};
 use super::requests;
+use super::text::Encoding;
 use super::uri::path_of;
 use super::wire::{Fault, Incoming, answer, notification, refusal};
 use lsp_types::{
-    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, InitializeParams,
-    PublishDiagnosticsParams,
+    DidChangeTextDocumentParams, DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams, InitializeParams, PositionEncodingKind, PublishDiagnosticsParams,
+    WorkspaceFolder,
 };
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -67,6 +69,16 @@ enum Watching {
     OnRequest,
 }
 
+/// How the client learns of the diagnostics of open documents.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Telling {
+    /// They are sent when there is something new.
+    #[default]
+    Unasked,
+    /// It asks for them, and is told when it should ask again.
+    OnRequest,
+}
+
 /// What was last published about a file.
 type Published = (Option<i32>, Vec<lsp_types::Diagnostic>);
 
@@ -79,6 +91,8 @@ pub struct Server {
     pub(super) insertion: Insertion,
     planning: PlanningWish,
     watching: Watching,
+    pub(super) telling: Telling,
+    refreshes: u64,
 }
 
 impl Server {
@@ -93,6 +107,8 @@ impl Server {
             insertion: Insertion::default(),
             planning: PlanningWish::default(),
             watching: Watching::Unasked,
+            telling: Telling::default(),
+            refreshes: 0,
         }
     }
 
@@ -129,10 +145,11 @@ impl Server {
     fn request(&mut self, method: &str, params: Value, files: &dyn Workspace) -> requests::Answer {
         match (self.stage, method) {
             (Stage::Fresh, "initialize") => {
+                self.telling = telling(&params);
                 let params = parsed::<InitializeParams>(params)?;
                 self.introduced(&params);
                 self.stage = Stage::Running;
-                Ok(requests::introduction())
+                Ok(requests::introduction(self))
             }
             (Stage::Fresh, _) => Err((Fault::NotInitialized, "`initialize` comes first".to_owned())),
             (Stage::Running, "initialize") => Err((
@@ -168,6 +185,13 @@ impl Server {
         if watched.and_then(|watched| watched.dynamic_registration) == Some(true) {
             self.watching = Watching::OnRequest;
         }
+        let encodings = params.capabilities.general.as_ref();
+        let encodings = encodings.and_then(|general| general.position_encodings.as_deref());
+        let names = encodings
+            .unwrap_or_default()
+            .iter()
+            .map(PositionEncodingKind::as_str);
+        self.documents.encoding = Encoding::agreed(names);
         let folders = params.workspace_folders.iter().flatten();
         self.documents.folders = folders.map(|folder| path_of(&folder.uri)).collect();
         #[expect(deprecated, reason = "clients without folders still send their root so")]
@@ -207,6 +231,11 @@ impl Server {
                     self.documents.close(&path_of(&params.text_document.uri));
                 }
             }
+            (Stage::Running, "workspace/didChangeWorkspaceFolders") => {
+                if let Ok(params) = parsed::<DidChangeWorkspaceFoldersParams>(params) {
+                    self.moved(&params);
+                }
+            }
             (Stage::Running, "textDocument/didSave" | "workspace/didChangeWatchedFiles") => {
                 self.documents.forget_all();
             }
@@ -214,6 +243,16 @@ impl Server {
             _ => {}
         }
         Vec::new()
+    }
+
+    /// Takes other folders for those of the workspace.
+    fn moved(&mut self, params: &DidChangeWorkspaceFoldersParams) {
+        let path = |folder: &WorkspaceFolder| path_of(&folder.uri);
+        let gone: Vec<String> = params.event.removed.iter().map(path).collect();
+        let folders = &mut self.documents.folders;
+        folders.retain(|folder| !gone.contains(folder));
+        folders.extend(params.event.added.iter().map(path));
+        self.documents.forget_all();
     }
 
     fn opened(&mut self, params: DidOpenTextDocumentParams) {
@@ -254,6 +293,7 @@ impl Server {
     fn publish(&mut self) -> Vec<Value> {
         let mut told = self.told();
         let mut messages = Vec::new();
+        let mut is_other = false;
         let paths: BTreeSet<String> = told.keys().chain(self.published.keys()).cloned().collect();
         for path in paths {
             let version = self.documents.called.get(&path).map(|called| called.version);
@@ -261,6 +301,12 @@ impl Server {
             let is_gone = now.1.is_empty() && version.is_none();
             let before = self.published.get(&path);
             if before == Some(&now) || before.is_none() && is_gone {
+                continue;
+            }
+            if self.telling == Telling::OnRequest && version.is_some() {
+                // Of a new version the client asks by itself.
+                is_other |= before.is_some_and(|(known, _)| *known == version);
+                self.published.insert(path, now);
                 continue;
             }
             let Some(uri) = self.documents.uri(&path) else {
@@ -278,7 +324,16 @@ impl Server {
                 self.published.insert(path, now);
             }
         }
+        if is_other {
+            self.refreshes += 1;
+            messages.push(requests::ask_again(self.refreshes));
+        }
         messages
+    }
+
+    /// The diagnostics of a document, for a client that asks for them.
+    pub(super) fn asked_for(&self, path: &str) -> Vec<lsp_types::Diagnostic> {
+        self.told().remove(path).unwrap_or_default()
     }
 
     /// What is to be told, by file; open documents are there even when there is nothing to tell.
@@ -291,16 +346,22 @@ impl Server {
         for known in self.documents.speaking() {
             let is_open = self.documents.called.contains_key(&known.root);
             let (sources, diagnostics) = known.told();
-            let mut lines = Lines::of(sources);
+            let mut lines = Lines::of(sources, self.documents.encoding);
             for diagnostic in diagnostics {
-                let (path, diagnostic) = in_protocol(diagnostic, &mut lines);
-                // A job that was looked for to understand a library is not complained about itself.
-                if !is_open && !self.documents.called.contains_key(&path) {
-                    continue;
-                }
-                let of_file = told.entry(path).or_default();
-                if !of_file.contains(&diagnostic) {
-                    of_file.push(diagnostic);
+                let (path, shown) = in_protocol(diagnostic, |path| known.file(path).is_some(), &mut lines);
+                // A file of points that is open is marked too, beside the job that names it.
+                let aside = in_protocol(diagnostic, |_| true, &mut lines);
+                let aside = Some(aside)
+                    .filter(|(other, _)| *other != path && self.documents.called.contains_key(other));
+                for (path, diagnostic) in [(path, shown)].into_iter().chain(aside) {
+                    // A job that was looked for to understand a library is not complained about itself.
+                    if !is_open && !self.documents.called.contains_key(&path) {
+                        continue;
+                    }
+                    let of_file = told.entry(path).or_default();
+                    if !of_file.contains(&diagnostic) {
+                        of_file.push(diagnostic);
+                    }
                 }
             }
         }
@@ -333,6 +394,16 @@ impl Server {
             None => Planning::Needless,
         };
         self.publish()
+    }
+}
+
+/// How a client wants to learn of diagnostics. One that asks must also be willing to ask again when planning has found more.
+fn telling(introduction: &Value) -> Telling {
+    let asks = introduction.pointer("/capabilities/textDocument/diagnostic");
+    let again = introduction.pointer("/capabilities/workspace/diagnostics/refreshSupport");
+    match (asks, again) {
+        (Some(_), Some(Value::Bool(true))) => Telling::OnRequest,
+        (Some(_) | None, _) => Telling::Unasked,
     }
 }
 

@@ -43,8 +43,8 @@ pub(super) enum Kind<'a> {
     Unit(&'a str),
     /// A function, or another call.
     Function(&'a str),
-    /// The name of a value in a call.
-    Label,
+    /// The name of a value in a call of that name.
+    Label(&'a str),
     /// The name of a formula.
     Formula,
     /// The variable of a formula.
@@ -310,8 +310,8 @@ impl<'a> Row<'a> {
             self.part(next, place, variable);
             match &next.node {
                 Expr::Number { .. } | Expr::Text(_) | Expr::Name(_) => {}
-                Expr::Call { arguments, .. } => {
-                    self.labels(arguments, place);
+                Expr::Call { function, arguments } => {
+                    self.labels(&function.node, arguments, place);
                     open.extend(arguments.iter().map(|argument| &argument.value).rev());
                 }
                 Expr::Negate(inner) => open.push(inner),
@@ -321,9 +321,9 @@ impl<'a> Row<'a> {
         }
     }
 
-    fn labels(&mut self, arguments: &'a [Argument], place: Place<'a>) {
+    fn labels(&mut self, function: &'a str, arguments: &'a [Argument], place: Place<'a>) {
         for label in arguments.iter().filter_map(|argument| argument.name.as_ref()) {
-            self.push(label.span, Kind::Label, place);
+            self.push(label.span, Kind::Label(function), place);
         }
     }
 
@@ -471,7 +471,7 @@ mod tests {
         );
         match field.takes {
             Takes::Quantity(range) => {
-                let other = if vocabulary::units_for(range).contains(&"kg".to_owned()) {
+                let other = if vocabulary::units_for(range.dimension).contains(&"kg".to_owned()) {
                     "3 mm"
                 } else {
                     "3 kg"
@@ -479,7 +479,7 @@ mod tests {
                 if name != "size" {
                     assert!(has(&with(file, span, other), "VC0203"), "{name} = {other}");
                 }
-                for unit in vocabulary::units_for(range) {
+                for unit in vocabulary::units_for(range.dimension) {
                     let fits = with(file, span, &format!("3 {unit}"));
                     assert!(!has(&fits, "VC0203"), "{name} = 3 {unit}: {fits:?}");
                 }

@@ -104,7 +104,7 @@ const fn class_of(kind: Kind<'_>) -> Option<(Class, u32)> {
         Kind::Unit(_) => (Class::Unit, 0),
         Kind::Function(_) => (Class::Function, 0),
         Kind::Formula => (Class::Function, DECLARATION),
-        Kind::Label | Kind::Variable => (Class::Parameter, 0),
+        Kind::Label(_) | Kind::Variable => (Class::Parameter, 0),
         Kind::JobName | Kind::Path(..) | Kind::Number(_) | Kind::Value(_) => return None,
     })
 }
@@ -156,7 +156,7 @@ fn relative(stretches: &[Stretch], text: &Text) -> Vec<SemanticToken> {
         let mut start = stretch.start;
         for piece in body.split_inclusive(['\n', '\r']) {
             let shown = piece.trim_end_matches(['\n', '\r']);
-            let length: usize = shown.chars().map(char::len_utf16).sum();
+            let length = text.units(shown);
             let at = text.position(start);
             start += piece.len();
             if length == 0 {

@@ -37,6 +37,17 @@ pub enum Incoming {
     Malformed(Value),
 }
 
+impl Incoming {
+    /// The id of the request that this message takes back.
+    #[must_use]
+    pub fn takes_back(&self) -> Option<&Value> {
+        match self {
+            Self::Notification { method, params } if method == "$/cancelRequest" => params.get("id"),
+            Self::Notification { .. } | Self::Request { .. } | Self::Response | Self::Malformed(_) => None,
+        }
+    }
+}
+
 /// Why no more messages can be read.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Broken {
@@ -61,6 +72,8 @@ pub enum Fault {
     NotInitialized,
     /// What was asked cannot be done.
     RequestFailed,
+    /// The client does not want to know any more.
+    RequestCancelled,
 }
 
 impl Fault {
@@ -72,6 +85,7 @@ impl Fault {
             Self::InvalidParams => -32602,
             Self::NotInitialized => -32002,
             Self::RequestFailed => -32803,
+            Self::RequestCancelled => -32800,
         }
     }
 }

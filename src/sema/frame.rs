@@ -39,7 +39,8 @@ const fn angle(name: &str) -> Parameter<'_> {
 }
 
 const ORIGIN: &[Parameter<'_>; 3] = &[coordinate("x"), coordinate("y"), coordinate("z")];
-const WITH_ANGLES: &[Parameter<'_>; 6] = &[
+/// The values of a frame with angles.
+pub(crate) const WITH_ANGLES: &[Parameter<'_>; 6] = &[
     coordinate("x"),
     coordinate("y"),
     coordinate("z"),

@@ -17,6 +17,25 @@ struct Function {
     form: Form,
     /// A call of it.
     example: &'static str,
+    /// What it takes and gives.
+    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
+    signature: Signature,
+}
+
+/// What a function takes and gives, for those who help to write a call. The functions find out by themselves; a test holds the
+/// two against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Signature {
+    /// An angle, and gives a pure number.
+    OfAngle,
+    /// A pure number, and gives an angle.
+    ToAngle,
+    /// Values of one dimension, and gives an angle.
+    Bearing,
+    /// The square of what it gives.
+    Root,
+    /// Values of the dimension that it gives.
+    Alike,
 }
 
 /// How many values a function takes, and what it makes of them.
@@ -28,47 +47,83 @@ enum Form {
     Several(fn(&Apply<'_>, Operand<'_>, &[Operand<'_>]) -> Applied),
 }
 
-const fn function(name: &'static str, form: Form, example: &'static str) -> Function {
-    Function { name, form, example }
+const fn function(name: &'static str, form: Form, example: &'static str, signature: Signature) -> Function {
+    Function {
+        name,
+        form,
+        example,
+        signature,
+    }
 }
 
 /// All functions.
 const FUNCTIONS: &[Function] = &[
-    function("sin", Form::One(|f, a| f.of_angle(a, libm::sin)), "sin(30 deg)"),
-    function("cos", Form::One(|f, a| f.of_angle(a, libm::cos)), "cos(30 deg)"),
-    function("tan", Form::One(|f, a| f.of_angle(a, libm::tan)), "tan(30 deg)"),
+    function(
+        "sin",
+        Form::One(|f, a| f.of_angle(a, libm::sin)),
+        "sin(30 deg)",
+        Signature::OfAngle,
+    ),
+    function(
+        "cos",
+        Form::One(|f, a| f.of_angle(a, libm::cos)),
+        "cos(30 deg)",
+        Signature::OfAngle,
+    ),
+    function(
+        "tan",
+        Form::One(|f, a| f.of_angle(a, libm::tan)),
+        "tan(30 deg)",
+        Signature::OfAngle,
+    ),
     function(
         "asin",
         Form::One(|f, a| f.to_angle(a, 1.0, libm::asin)),
         "asin(0.5)",
+        Signature::ToAngle,
     ),
     function(
         "acos",
         Form::One(|f, a| f.to_angle(a, 1.0, libm::acos)),
         "acos(0.5)",
+        Signature::ToAngle,
     ),
     function(
         "atan",
         Form::One(|f, a| f.to_angle(a, f64::INFINITY, libm::atan)),
         "atan(0.5)",
+        Signature::ToAngle,
     ),
-    function("atan2", Form::Two(|f, a, b| f.atan2(a, b)), "atan2(3 mm, 4 mm)"),
-    function("sqrt", Form::One(|_, a| root(a)), "sqrt(2)"),
-    function("abs", Form::One(|_, a| Ok(absolute(a.quantity))), "abs(-3 mm)"),
+    function(
+        "atan2",
+        Form::Two(|f, a, b| f.atan2(a, b)),
+        "atan2(3 mm, 4 mm)",
+        Signature::Bearing,
+    ),
+    function("sqrt", Form::One(|_, a| root(a)), "sqrt(2)", Signature::Root),
+    function(
+        "abs",
+        Form::One(|_, a| Ok(absolute(a.quantity))),
+        "abs(-3 mm)",
+        Signature::Alike,
+    ),
     function(
         "min",
         Form::Several(|f, a, rest| f.fold(a, rest, f64::min)),
         "min(3 mm, 4 mm)",
+        Signature::Alike,
     ),
     function(
         "max",
         Form::Several(|f, a, rest| f.fold(a, rest, f64::max)),
         "max(3 mm, 4 mm)",
+        Signature::Alike,
     ),
     function(
         "clamp",
         Form::Three(|f, a, b, c| f.clamp(a, b, c)),
         "clamp(5 mm, 0 mm, 10 mm)",
+        Signature::Alike,
     ),
 ];
 
@@ -76,6 +131,13 @@ const FUNCTIONS: &[Function] = &[
 #[cfg(feature = "lsp")]
 pub(super) fn examples() -> impl Iterator<Item = (&'static str, &'static str)> {
     FUNCTIONS.iter().map(|function| (function.name, function.example))
+}
+
+/// What a function takes and gives.
+#[cfg(feature = "lsp")]
+pub(super) fn signature(name: &str) -> Option<Signature> {
+    let known = FUNCTIONS.iter().find(|function| function.name == name)?;
+    Some(known.signature)
 }
 
 /// Calls that are values only of certain fields, and where they belong.

@@ -40,7 +40,8 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
     inner: Inner::TargetOptions,
 };
 
-const LOAD_PARAMETERS: &[Parameter<'_>; 4] = &[
+/// The values of a load.
+pub(crate) const LOAD_PARAMETERS: &[Parameter<'_>; 4] = &[
     Parameter {
         name: "mass",
         range: MASS,

@@ -235,10 +235,10 @@ impl Value {
         self.0.dimension.unit().replace("deg", "rad")
     }
 
-    /// Whether it is of the dimension of a range.
+    /// Its dimension.
     #[cfg(feature = "lsp")]
-    pub(crate) fn is_of(self, range: super::range::Range) -> bool {
-        self.0.dimension == range.dimension
+    pub(crate) const fn dimension(self) -> Dimension {
+        self.0.dimension
     }
 
     /// What kind of quantity it is, with article: `a length`.

@@ -2,12 +2,16 @@
 //!
 //! Everything here is taken from the tables that the checks read by, so that nothing is offered that they refuse.
 
-use super::dimension::Dimension;
+use super::arguments::Parameter;
+pub(crate) use super::dimension::Dimension;
+pub(crate) use super::eval::walk;
+pub(crate) use super::functions::Signature;
 use super::heads::{self, Kind};
 use super::profile::{data, drawing};
 pub(crate) use super::range::Range;
+use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
 pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
-use super::{Part, blade, cell, functions, machine, names, rough_vcut, stock, units};
+use super::{Part, blade, cell, frame, functions, machine, names, rough_vcut, stock, units};
 use crate::syntax::ast::Block;
 use vcutc_backend_api::ir::MachineKind;
 
@@ -76,12 +80,78 @@ pub(crate) const CURVES: &[(&str, &str)] = &[
     ("svg", "svg \"rib.svg\" { side = upper }"),
 ];
 
+/// A profile in its short form, for each kind of file: its word, and how all of it looks.
+pub(crate) fn short_forms() -> impl Iterator<Item = (&'static str, String)> {
+    CURVES.iter().filter_map(|(word, form)| {
+        data_file(word)?;
+        let rest = form.strip_prefix(word)?.trim_start();
+        let short = match rest.split_once(" { ") {
+            Some((path, fields)) => format!("{word}({path}, {})", fields.trim_end_matches(" }")),
+            None => format!("{word}({rest})"),
+        };
+        Some((*word, short))
+    })
+}
+
 /// Words within a piece of a profile.
 pub(crate) const JOINTS_OF_CURVES: &[&str] = &["to", "radius", "center", "through"];
 
 /// Functions, each with a call of it.
 pub(crate) fn functions() -> impl Iterator<Item = (&'static str, &'static str)> {
     functions::examples()
+}
+
+/// What a function takes and gives.
+pub(crate) fn signature(function: &str) -> Option<Signature> {
+    functions::signature(function)
+}
+
+/// A value within a call that a field of a machine takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Inside {
+    /// A quantity.
+    Of(Dimension),
+    /// Another call, with an example.
+    Call(&'static str, &'static str),
+}
+
+/// The values with names of a call that a field of a machine takes, each with a typical value.
+pub(crate) fn labels(call: &str) -> Vec<(&'static str, &'static str)> {
+    parameters(call)
+        .iter()
+        .map(|parameter| (parameter.name, parameter.typical))
+        .collect()
+}
+
+fn parameters(call: &str) -> &'static [Parameter<'static>] {
+    match call {
+        "frame" => frame::WITH_ANGLES,
+        "load" => machine::LOAD_PARAMETERS,
+        _ => &[],
+    }
+}
+
+/// What a value of a call is that a field of a machine takes: by its name, or by its place among those without names.
+pub(crate) fn inside(call: &str, label: Option<&str>, place: usize) -> Option<Inside> {
+    let of = |range: Range| Some(Inside::Of(range.dimension));
+    match (call, label) {
+        ("frame", Some("q")) => of(QUATERNION_PART),
+        ("number", None) if place > 0 => Some(Inside::Call("frame", frame::FRAME)),
+        ("number", None) => of(TABLE_NUMBER),
+        ("joints", None) => of(AXIS_ANGLE),
+        // Axes are called as on the control: X, Y and Z are straight, A, B and C turn (ISO 841).
+        ("axes", Some("a" | "b" | "c")) => of(AXIS_ANGLE),
+        ("axes", Some(_)) => of(COORDINATE),
+        ("output" | "input", None) => of(SIGNAL),
+        ("after", None) => of(WAIT),
+        (_, Some(label)) => {
+            let known = parameters(call)
+                .iter()
+                .find(|parameter| parameter.name == label)?;
+            of(known.range)
+        }
+        (_, None) => None,
+    }
 }
 
 /// Words with a meaning of their own in values.
@@ -96,12 +166,8 @@ pub(crate) fn is_name(text: &str) -> bool {
         && letters.all(|letter| letter == '_' || letter.is_alphanumeric())
 }
 
-/// The units of values of a range, the usual one first.
-pub(crate) fn units_for(range: Range) -> Vec<String> {
-    fitting(range.dimension)
-}
-
-fn fitting(dimension: Dimension) -> Vec<String> {
+/// The units of a dimension, the usual one first.
+pub(crate) fn units_for(dimension: Dimension) -> Vec<String> {
     let usual = dimension.unit();
     let rest = units::fitting(dimension)
         .into_iter()

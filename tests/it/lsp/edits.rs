@@ -148,6 +148,14 @@ fn told(editor: &Editor, path: &str) -> Vec<Told> {
     all
 }
 
+/// A server that has seen nothing but the text tells the same, to the letter.
+fn as_a_fresh_server(editor: &Editor, path: &str) {
+    let mut fresh = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
+    let text = editor.text(path);
+    fresh.open_as(path, text);
+    assert_eq!(editor.diagnostics(path), fresh.diagnostics(path), "{text}");
+}
+
 const QUESTIONS: &[&str] = &[
     "hover",
     "completion",
@@ -223,6 +231,9 @@ fn ten_thousand_edits_leave_the_server_right() {
             "edit {number}:\n{text}\ntold {told:#?}\nexpected {as_job:#?}"
         );
         assert_eq!(editor.told[&uri(path)]["version"].as_i64(), Some(number + 2));
+        if compared % 20 == 0 {
+            as_a_fresh_server(&editor, path);
+        }
         compared += 1;
         right += usize::from(told.is_empty());
         ask_something(&mut editor, path, &mut dice);

@@ -1,102 +1,10 @@
 //! The server as a process, over its standard input and output.
 
-use super::editor::{BLADES, RIB};
+use super::editor::RIB;
+use super::process::Process;
 use serde_json::{Value, json};
-use std::io::{BufReader, Read, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::io::Write;
 use vcutc::lsp::wire::{self, Incoming};
-
-struct Process {
-    child: Child,
-    input: ChildStdin,
-    output: BufReader<ChildStdout>,
-    folder: tempfile::TempDir,
-}
-
-impl Process {
-    fn start() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("blades.vcut"), BLADES).unwrap();
-        let mut child = Command::new(env!("CARGO_BIN_EXE_vcutc"))
-            .args(["lsp", "--stdio"])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        Self {
-            input: child.stdin.take().unwrap(),
-            output: BufReader::new(child.stdout.take().unwrap()),
-            child,
-            folder,
-        }
-    }
-
-    fn send(&mut self, message: &Value) {
-        wire::write(&mut self.input, message).unwrap();
-    }
-
-    fn notify(&mut self, method: &str, params: &Value) {
-        self.send(&wire::notification(method, params));
-    }
-
-    /// The next message, which is an answer or a notification.
-    fn next(&mut self) -> Value {
-        let mut header = String::new();
-        while !header.ends_with("\r\n\r\n") {
-            let mut byte = [0];
-            self.output.read_exact(&mut byte).unwrap();
-            header.push(char::from(byte[0]));
-        }
-        let length = header
-            .strip_prefix("Content-Length: ")
-            .unwrap()
-            .trim()
-            .parse()
-            .unwrap();
-        let mut body = vec![0; length];
-        self.output.read_exact(&mut body).unwrap();
-        serde_json::from_slice(&body).unwrap()
-    }
-
-    /// The next message of that method, or the next answer for the empty one.
-    fn wait_for(&mut self, method: &str) -> Value {
-        loop {
-            let message = self.next();
-            if message["method"].as_str().unwrap_or_default() == method {
-                return message;
-            }
-        }
-    }
-
-    fn ask(&mut self, id: i64, method: &str, params: &Value) -> Value {
-        self.send(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params }));
-        loop {
-            let answer = self.wait_for("");
-            if answer["id"] == json!(id) {
-                return answer;
-            }
-        }
-    }
-
-    fn uri(&self, name: &str) -> String {
-        format!("file://{}/{name}", self.folder.path().to_str().unwrap())
-    }
-
-    /// The codes of the next diagnostics for a version of the job.
-    fn codes_of(&mut self, version: i64) -> Vec<String> {
-        loop {
-            let told = self.wait_for("textDocument/publishDiagnostics");
-            if told["params"]["version"] == json!(version) {
-                let diagnostics = told["params"]["diagnostics"].as_array().unwrap();
-                return diagnostics
-                    .iter()
-                    .map(|found| found["code"].as_str().unwrap().to_owned())
-                    .collect();
-            }
-        }
-    }
-}
 
 #[test]
 fn a_whole_conversation() {
