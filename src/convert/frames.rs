@@ -11,7 +11,7 @@ use crate::source::Span;
 use std::collections::BTreeMap;
 use vcutc_backend_api::readback::essence;
 use vcutc_backend_krl::read::syntax::{
-    Declaration, Field, Setting, SettingValue, Tail, Value, Variable, is_same_name,
+    Component, Declaration, Field, Setting, SettingValue, Tail, Value, Variable, is_same_name,
 };
 use vcutc_backend_krl::read::variables::Asker;
 
@@ -155,7 +155,20 @@ impl Reader<'_, '_> {
         } else if let Some(what) = set_by(to.name) {
             let index = to.index.map_or(String::new(), |index| index.to_string());
             let part = format!("{index}{}", to.field.unwrap_or_default().to_ascii_uppercase());
-            put(&mut said, what, &part, compared(self.files.said(place)));
+            let known = match value {
+                Value::Variable(variable) => self.variables.get(asker, variable),
+                Value::Number(_)
+                | Value::Bool(_)
+                | Value::Enum(_)
+                | Value::Text(_)
+                | Value::Coordinates(_)
+                | Value::Structure(_) => None,
+            };
+            let text = match known.map(|known| (known.all(Component::TIP), known.all(Component::ANGLES))) {
+                Some((Some(tip), Some(angles))) => format!("{tip:?}{angles:?}"),
+                Some(_) | None => compared(self.files.said(place)),
+            };
+            put(&mut said, what, &part, text);
         } else {
             return;
         }

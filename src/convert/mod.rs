@@ -5,8 +5,10 @@
 //! the compiler's: the same intermediate program, the same proofs, the same targets. So there are two steps and no third way
 //! to a program: text of a program to text of a job, and that job as any other.
 //!
-//! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate.
-//! 2. [`place`] finds out along which axis it cuts and where the blank lies, [`raster`] which motions are passes.
+//! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate; `motions`
+//!    says where they lead, `frames` in which tool and base.
+//! 2. `runs` puts together what leads along one axis, [`place`] finds out along which one and where the blank lies, [`raster`]
+//!    which runs are passes; `left_out` tells what is none.
 //! 3. `feeds` and `part` take speeds, the part and the least edge from the passes where the user gives none.
 //! 4. [`mod@write`] writes the job, and knows for every tip the line of the program that it stands for.
 //!
@@ -20,6 +22,7 @@ pub mod axes;
 mod complaints;
 mod feeds;
 mod frames;
+mod left_out;
 pub mod milling;
 mod motions;
 mod part;
@@ -241,25 +244,9 @@ fn understood(
     Ok(Found {
         job,
         inferences,
-        warnings: warnings(&milling, &raster, sources),
+        warnings: left_out::warnings(&milling, &raster, sources),
         raster,
     })
-}
-
-/// What is not carried over, and what may be missing.
-fn warnings(milling: &Milling, raster: &Raster, sources: &SourceMap) -> Vec<Diagnostic> {
-    let numbered = write::Numbered::of(sources);
-    let lines = |place: Span| numbered.line(place);
-    let mut warnings: Vec<Diagnostic> = milling
-        .ends_early
-        .iter()
-        .map(|&place| complaints::ends_early(place))
-        .collect();
-    warnings.extend(complaints::left_out(&milling.left_out, &lines));
-    warnings.extend(milling.uncalled.iter().map(|&place| complaints::uncalled(place)));
-    warnings.extend(complaints::above(&raster.above, &lines));
-    warnings.extend(complaints::beside(&raster.beside, &lines));
-    warnings
 }
 
 /// A program as passes over a blank.

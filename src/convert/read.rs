@@ -360,9 +360,10 @@ impl<'t> Reader<'t, '_> {
             self.speed = None;
         } else if let Some(frame) = said.strip_prefix("BAS(#") {
             let name = frame.split([',', ')']).next().unwrap_or_default();
-            self.frame(name, &said, place);
+            // Another one each time, for all that is known.
+            self.frame(name, &format!("{said}#{}", self.statements), place);
         } else {
-            self.frame(word, &said, place);
+            self.frame(word, &format!("{said}#{}", self.statements), place);
         }
         self.variables.forget(asker, word);
         self.milling.left_out.push(place);

@@ -2,7 +2,7 @@
 //!
 //! [`statements`] walks over a file line by line, for KRL has one statement a line, and borrows everything from the text.
 //! Names are as written; compare them without regard to case ([`is_same_name`]). What is KRL but not described here
-//! (control flow, circles, arithmetic, types of one's own) is [`Phrase::Other`]; what is no KRL is
+//! (control flow, splines, arithmetic, types of one's own) is [`Phrase::Other`]; what is no KRL is
 //! [`Phrase::Unreadable`]. Neither stops the walk.
 //!
 //! Sources: KUKA, Quickguide KRL-Syntax, KSS 8.x (2012); KUKA, KSS 8.3 Operating and Programming Instructions for System
