@@ -6,6 +6,7 @@ use super::console::{Console, Failure, Summary};
 use super::files::{Disk, load_program};
 use super::output::{Placed, one_file};
 use super::{Exit, Targets};
+use crate::convert::write::{ProfileFile, ProfileForm};
 use crate::convert::{self, Conversion, Refused};
 use crate::driver::{Outcome, Request};
 use crate::picture::Prefix;
@@ -37,11 +38,17 @@ fn converted(args: &ConvertArgs, console: &Console) -> Result<Result<Conversion,
         )));
     }
     let files = program(&args.files)?;
-    let folder = folder_of_the_job(args);
-    let (cell, profile) = (
-        beside(args.cell.as_deref(), folder)?,
-        beside(args.profile.as_deref(), folder)?,
-    );
+    let folder = JobFile::of(args).folder;
+    let cell = args
+        .cell
+        .as_deref()
+        .map(|path| seen_from(path, folder))
+        .transpose()?;
+    let profile = args
+        .profile
+        .as_deref()
+        .map(|path| profile(path, args.profile_fields.as_deref(), folder))
+        .transpose()?;
     let request = convert::Request {
         files: &files,
         asked: &asked,
@@ -49,7 +56,7 @@ fn converted(args: &ConvertArgs, console: &Console) -> Result<Result<Conversion,
         cell: cell.as_deref(),
         machine: args.machine.as_deref(),
         blade: args.blade.as_deref(),
-        profile: profile.as_deref(),
+        profile: profile.as_ref(),
     };
     match convert::convert(request) {
         Ok(conversion) => {
@@ -86,11 +93,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         Ok(product) => product,
         Err(failure) => return console.failure(&failure),
     };
-    let file = format!("{}.vcut", name(args));
-    let path = match folder_of_the_job(args) {
-        Some(folder) => folder.join(&file),
-        None => PathBuf::from(&file),
-    };
+    let path = JobFile::of(args).path();
     let mut placed = Vec::new();
     if args.as_job {
         match job_written(args, &path, &conversion, console) {
@@ -175,23 +178,97 @@ fn picture(args: &ConvertArgs, conversion: &Conversion, outcome: &Outcome) -> Re
     one_file(Path::new(path), svg.as_bytes())
 }
 
-/// The folder that the job lies in; none for the current one, where a job that is not written is taken to lie.
-fn folder_of_the_job(args: &ConvertArgs) -> Option<&Path> {
-    match args.output.as_deref() {
-        Some(folder) if args.as_job && folder != "-" => Some(Path::new(folder)),
-        Some(_) | None => None,
+/// Where the job lies, or would lie if it were written.
+struct JobFile<'a> {
+    /// None for the current folder, where a job that is not written is taken to lie.
+    folder: Option<&'a Path>,
+    name: String,
+}
+
+impl<'a> JobFile<'a> {
+    fn of(args: &'a ConvertArgs) -> Self {
+        let own = format!("{}.vcut", name(args));
+        let given = args
+            .output
+            .as_deref()
+            .filter(|output| args.as_job && *output != "-");
+        let Some(path) = given.map(Path::new) else {
+            return Self {
+                folder: None,
+                name: own,
+            };
+        };
+        let is_job = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("vcut"));
+        match path.file_name().and_then(|name| name.to_str()).filter(|_| is_job) {
+            Some(name) => Self {
+                folder: path.parent().filter(|folder| *folder != Path::new("")),
+                name: name.to_owned(),
+            },
+            None => Self {
+                folder: Some(path),
+                name: own,
+            },
+        }
+    }
+
+    fn path(&self) -> PathBuf {
+        match self.folder {
+            Some(folder) => folder.join(&self.name),
+            None => PathBuf::from(&self.name),
+        }
     }
 }
 
-/// A path of the command line, as the job says it: seen from its folder.
-fn beside(path: Option<&str>, folder: Option<&Path>) -> Result<Option<String>, Failure> {
-    let (Some(path), Some(_)) = (path, folder) else {
-        return Ok(path.map(str::to_owned));
+/// The file of a profile, by the ending of its name.
+fn profile(path: &str, fields: Option<&str>, folder: Option<&Path>) -> Result<ProfileFile, Failure> {
+    let fields = fields.unwrap_or_default();
+    if fields.contains(['{', '}']) {
+        return Err(Failure::new(format!(
+            "`--profile-fields {fields}`: write the fields without braces, such as `side = upper, chord = 300 mm`"
+        )));
+    }
+    let ending = Path::new(path).extension().and_then(|ending| ending.to_str());
+    Ok(ProfileFile {
+        form: ProfileForm::of_ending(ending.unwrap_or_default()),
+        path: seen_from(path, folder)?,
+        fields: fields.to_owned(),
+    })
+}
+
+/// A path of the command line as a job in a folder says it: from there, where one drive holds both.
+fn seen_from(path: &str, folder: Option<&Path>) -> Result<String, Failure> {
+    let Some(folder) = folder else {
+        return Ok(path.to_owned());
     };
-    // From another folder, the whole path is the one that surely leads there.
-    let whole =
-        std::fs::canonicalize(path).map_err(|error| Failure::new(format!("cannot read {path}: {error}")))?;
-    Ok(Some(whole.to_string_lossy().into_owned()))
+    let told = |error| Failure::new(format!("cannot read {path}: {error}"));
+    let whole = std::fs::canonicalize(path).map_err(told)?;
+    let from = real(folder).map_err(told)?;
+    let shared = from
+        .components()
+        .zip(whole.components())
+        .take_while(|(one, other)| one == other)
+        .count();
+    let words = |path: &Path| path.to_string_lossy().into_owned();
+    if shared == 0 {
+        return Ok(words(&whole));
+    }
+    let up = from.components().skip(shared).map(|_| "..".to_owned());
+    let down = whole
+        .components()
+        .skip(shared)
+        .map(|part| words(Path::new(part.as_os_str())));
+    Ok(up.chain(down).collect::<Vec<_>>().join("/"))
+}
+
+/// A folder without links, which need not be there yet.
+fn real(folder: &Path) -> std::io::Result<PathBuf> {
+    let folder = std::path::absolute(folder)?;
+    let there = folder.ancestors().find(|ancestor| ancestor.exists());
+    let Some(there) = there else { return Ok(folder) };
+    let rest = folder.strip_prefix(there).unwrap_or(Path::new(""));
+    Ok(std::fs::canonicalize(there)?.join(rest))
 }
 
 fn first(args: &ConvertArgs) -> &str {
@@ -229,10 +306,28 @@ fn program(paths: &[String]) -> Result<Vec<ProgramFile>, Failure> {
             .map_err(|reason| Failure::new(format!("cannot read the program {shown}: {reason}")))?;
         files.push(ProgramFile {
             name,
-            text: decoded(&bytes),
+            text: text(&bytes, &shown.to_string())?,
         });
     }
     Ok(files)
+}
+
+/// The text of a file of a program, which controllers read in one byte a character, line by line.
+fn text(bytes: &[u8], shown: &str) -> Result<String, Failure> {
+    let is_wide = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || bytes.contains(&0);
+    if is_wide {
+        return Err(Failure::new(format!(
+            "cannot read the program {shown}: it is in UTF-16, which no controller reads"
+        ))
+        .help("save it as UTF-8 or ANSI in an editor, or with `iconv -f UTF-16 -t UTF-8`"));
+    }
+    if bytes.contains(&b'\r') && !bytes.contains(&b'\n') {
+        return Err(Failure::new(format!(
+            "cannot read the program {shown}: its lines end with CR alone, so all of it is one line"
+        ))
+        .help("save it with the line ends of Windows (CR LF) or Unix (LF), or with `tr '\\r' '\\n'`"));
+    }
+    Ok(decoded(bytes))
 }
 
 /// The job of a conversion over the files that are there.

@@ -25,6 +25,7 @@ pub struct Words<'a> {
     pub edge: Option<&'a str>,
     pub half_apex: Option<&'a str>,
     pub thickness: Option<&'a str>,
+    pub tolerance: Option<&'a str>,
 }
 
 /// What they mean. Ranges are those of the language, which the job that is written is held to.
@@ -60,7 +61,15 @@ pub struct Asked {
     pub half_apex: Option<Angle>,
     /// Its thickness.
     pub thickness: Option<Length>,
+    /// How close to one another the points of a pass lie, across and in height.
+    pub tolerance: Length,
 }
+
+/// The tolerance where none is said: programs are printed with two or three decimals.
+pub(super) const TOLERANCE: Length = Length::mm(0.01);
+
+/// The largest tolerance: steps of passes are longer.
+const COARSEST: Length = Length::mm(1.0);
 
 /// Units that post processors write speeds in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,8 +127,10 @@ impl Words<'_> {
             rake: angle("--rake", self.rake)?,
             swing: angle("--swing", self.swing)?,
             extension: length("--extension", self.extension)?,
-            stock: three("--stock", self.stock, 'x', "85x50x50")?,
-            origin: optional(self.origin, |text| three("--origin", text, ',', "0,0,0"))?,
+            stock: three("--stock", self.stock, is_times, "85x50x50")?,
+            origin: optional(self.origin, |text| {
+                three("--origin", text, |sign| sign == ',', "0,0,0")
+            })?,
             along: optional(self.along, along)?,
             up: optional(self.up, up)?.unwrap_or(Direction::along(Axis::Z)),
             feed_unit: optional(self.feed_unit, feed_unit)?,
@@ -137,6 +148,7 @@ impl Words<'_> {
             thickness: optional(self.thickness, |text| {
                 quantity("--thickness", text, ("mm", "1.5mm")).map(Length::mm)
             })?,
+            tolerance: optional(self.tolerance, tolerance)?.unwrap_or(TOLERANCE),
         };
         asked.checked(self)
     }
@@ -245,10 +257,29 @@ fn speed(option: &'static str, text: &str) -> Result<Speed, BadOption> {
     positive(option, text, ("mm/s", "200mm/s")).map(Speed::mm_per_s)
 }
 
+fn tolerance(text: &str) -> Result<Length, BadOption> {
+    let tolerance = Length::mm(quantity("--tolerance", text, ("mm", "0.05mm"))?);
+    if (Length::ZERO..=COARSEST).contains(&tolerance) {
+        Ok(tolerance)
+    } else {
+        Err(bad("--tolerance", text, "it is from 0 mm to 1 mm".to_owned()))
+    }
+}
+
+/// The signs that people write between the sizes of a blank.
+fn is_times(sign: char) -> bool {
+    matches!(sign, 'x' | 'X' | '\u{d7}' | '*')
+}
+
 /// Three lengths; a unit behind the last holds for those before it without one.
-fn three(option: &'static str, text: &str, between: char, example: &str) -> Result<[f64; 3], BadOption> {
+fn three(
+    option: &'static str,
+    text: &str,
+    is_between: fn(char) -> bool,
+    example: &str,
+) -> Result<[f64; 3], BadOption> {
     let wrong = || bad(option, text, format!("write three lengths such as `{example}`"));
-    let parts: Vec<&str> = text.split(between).map(str::trim).collect();
+    let parts: Vec<&str> = text.split(is_between).map(str::trim).collect();
     let [x, y, z] = parts.as_slice() else {
         return Err(wrong());
     };

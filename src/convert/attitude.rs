@@ -6,7 +6,8 @@
 use super::axes::{Axis, Direction, Sense};
 use super::complaints;
 use super::milling::{Milling, Move};
-use super::raster::{Kind, SAME, stretches};
+use super::raster::SAME;
+use super::runs::{Kind, stretches};
 use super::{Axes, Blank};
 use crate::diag::Diagnostic;
 use vcutc_backend_api::geometry::Orientation;
@@ -15,11 +16,11 @@ use vcutc_backend_api::geometry::Orientation;
 const UPRIGHT: f64 = 1.0 - 1.5e-6;
 
 /// The first motion below the blank's top with a tool that leans, told with where it last stood upright.
-pub(super) fn leaning(milling: &Milling, axes: Axes, blank: Blank) -> Option<Diagnostic> {
+pub(super) fn leaning(milling: &Milling, axes: Axes, blank: Blank, tolerance: f64) -> Option<Diagnostic> {
     let top = blank.corner[2] + blank.height - SAME;
     let mut upright: Option<(&Move, UprightAxis)> = None;
-    let below =
-        stretches(milling, axes).filter(|stretch| stretch.lowest() < top && stretch.kind() == Kind::Along);
+    let below = stretches(milling, axes, tolerance)
+        .filter(|stretch| stretch.lowest() < top && stretch.kind == Kind::Along);
     for stretch in below {
         let said = stretch.said;
         let Some(attitude) = said.attitude else { continue };

@@ -1,8 +1,9 @@
 //! What a conversion has to say of a program, in the user's words.
 
-use super::axes::{Axis, Direction};
-use super::milling::{Milling, Written};
-use super::raster::{Kind, Pass, Stretch};
+use super::axes::{Axes, Axis, Direction};
+use super::milling::{Milling, Move, Written};
+use super::raster::Pass;
+use super::runs::{Kind, Run, Stretch};
 use crate::diag::{Code, Diagnostic};
 use crate::plan::parameters::show;
 use crate::source::Span;
@@ -32,7 +33,29 @@ pub(super) fn unreadable(place: Span, expected: &str) -> Diagnostic {
     .help("mend the line, or make it a comment with `;` if no motion depends on it")
 }
 
-pub(super) fn arc(place: Span, word: &str) -> Diagnostic {
+pub(super) fn cut_short(place: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::UnreadableStatement,
+        "the program ends in the middle of this statement",
+        place,
+        "the last of it; there is no `END` behind it",
+    )
+    .help("the file was cut short when it was written or copied: get the whole of it, which ends with `END`")
+}
+
+pub(super) fn outside(place: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::UnreadableStatement,
+        "this stands outside of all routines, and no controller carries it out",
+        place,
+        "expected `DEF NAME( )` before it",
+    )
+    .help(
+        "a program begins with `DEF NAME( )` and ends with `END`: mend the line that is missing or too early",
+    )
+}
+
+pub(super) fn curve(place: Span, word: &str) -> Diagnostic {
     Diagnostic::new(
         Code::NoPass,
         format!("`{word}` moves on a curve, and V-cuts are straight"),
@@ -40,6 +63,65 @@ pub(super) fn arc(place: Span, word: &str) -> Diagnostic {
         "a curve",
     )
     .help("let the post processor write curves as lines (`LIN`), and keep those out of the material")
+}
+
+pub(super) fn unknown_arc(place: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotFollowed,
+        "where an arc with `CA` ends follows from its circle, and that is not known here",
+        place,
+        "where it begins is not known, or its points lie on one line",
+    )
+    .help("let the post processor write curves as lines (`LIN`), or arcs without `CA`")
+}
+
+pub(super) fn unknown_start(place: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotFollowed,
+        "this motion is relative, and where it begins is not known",
+        place,
+        "from where? along the axes of a tool that is held how?",
+    )
+    .help("let a motion to a point with all of X, Y, Z, A, B and C come before it, or write its end in the base (`LIN`)")
+}
+
+pub(super) fn with(place: Span, name: &str) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotFollowed,
+        format!("`WITH` sets `{name}` for this motion, and what that does is not followed"),
+        place,
+        "more than a speed, a frame or how the motion is planned",
+    )
+    .help(format!("take `{name}` out of the motion"))
+}
+
+pub(super) fn missing_routine(place: Span, name: &str, first: &str) -> Diagnostic {
+    let file = format!("{}.src", name.to_ascii_lowercase());
+    Diagnostic::new(
+        Code::MissingRoutine,
+        format!("the routine `{name}` is in none of the files given, and its motions would be missing"),
+        place,
+        "called here",
+    )
+    .help(format!("give its file too: `vcutc convert {first} {file} ...`"))
+    .help("if it moves nothing, make the call a comment: put `;` before it")
+}
+
+pub(super) fn external_axis(place: Span, first: Span, (name, from, to): (&str, f64, f64)) -> Diagnostic {
+    Diagnostic::new(
+        Code::ExternalAxis,
+        format!(
+            "the external axis {name} goes from {} to {}, and what that does to the work is not followed",
+            show(from),
+            show(to)
+        ),
+        place,
+        format!("{name} is {} here", show(to)),
+    )
+    .and(first, format!("and {} from here on", show(from)))
+    .help(format!(
+        "let the post processor write each stand of {name} as a program of its own, and convert them one by one"
+    ))
 }
 
 pub(super) fn unknown_end(place: Span, why: &str) -> Diagnostic {
@@ -72,14 +154,23 @@ pub(super) fn arguments(place: Span, name: &str) -> Diagnostic {
     .help("write the motions of the routine with numbers, or convert it by itself")
 }
 
-pub(super) fn unknown_motion(place: Span) -> Diagnostic {
+pub(super) fn unknown_motion(place: Span, said: &str) -> Diagnostic {
+    let what = if said.contains(':') && !said.contains("POS:") {
+        "frames joined by `:`"
+    } else if said.contains(['+', '*', '/', '(']) {
+        "a target that is worked out"
+    } else if said.contains('[') {
+        "a position in a list whose place is worked out"
+    } else {
+        "a target with values that are not numbers"
+    };
     Diagnostic::new(
         Code::NotFollowed,
-        "what this motion does is not known",
+        "where this motion leads is worked out while the program runs",
         place,
-        "a target that is worked out, or more behind it than `C_DIS` and its like",
+        what,
     )
-    .help("write the motion with a target such as `{X 1.0,Y 2.0,Z 3.0}` and nothing behind it")
+    .help("let the post processor write the motion with numbers, such as `{X 1.0,Y 2.0,Z 3.0}`")
 }
 
 pub(super) fn jump(place: Span, word: &str) -> Diagnostic {
@@ -127,11 +218,18 @@ pub(super) fn speed_unknown(place: Span) -> Box<Diagnostic> {
 /// A motion in the material that is no pass.
 pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
     let ([x0, y0, z0], [x1, y1, z1]) = (stretch.from, stretch.to);
-    let headline = match stretch.kind() {
+    let headline = match stretch.kind {
         Kind::Across => "this motion cuts across the passes",
+        Kind::Curve => "this motion cuts on an arc, and V-cuts are straight",
         Kind::Oblique if (z1 - z0).abs() > super::raster::SAME => "this motion cuts along a slope",
         Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright => {
             "this motion cuts obliquely to the passes"
+        }
+    };
+    let help = match stretch.kind {
+        Kind::Curve => "keep arcs above the blank or beside it, or say where the blank lies with `--origin`",
+        Kind::Across | Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright => {
+            "let the tool leave the blank before it goes to the next pass, or say where the blank lies with `--origin`"
         }
     };
     Diagnostic::new(
@@ -149,7 +247,7 @@ pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
         ),
     )
     .note("coordinates are those of the job: x across the passes, y along them, z up, from the blank's lowest corner")
-    .help("let the tool leave the blank before it goes to the next pass, or say where the blank lies with `--origin`")
+    .help(help)
 }
 
 pub(super) fn leans(place: Span, earlier: Option<Span>) -> Diagnostic {
@@ -184,43 +282,101 @@ pub(super) fn too_short_pass(pass: &Pass, depth: f64) -> Box<Diagnostic> {
         .into()
 }
 
+pub(super) fn below_the_blank(pass: &Pass) -> Box<Diagnostic> {
+    Diagnostic::new(
+        Code::NoPass,
+        format!(
+            "this pass lies {} mm below the bottom of the blank, and a V-cut ends within it",
+            show(-pass.z)
+        ),
+        pass.places[0],
+        "below the bottom",
+    )
+    .help("let the lowest passes end at the bottom of the blank; if it lies lower, say where with `--origin`")
+    .into()
+}
+
 pub(super) fn nothing_straight(milling: &Milling) -> Box<Diagnostic> {
+    let mut lines = milling.moves.windows(2).filter_map(|pair| match pair {
+        [before, said] if before.to.is_some() && said.to.is_some() && before.to != said.to => {
+            Some(said.place)
+        }
+        _ => None,
+    });
+    let (place, label) = match lines.next() {
+        Some(place) => (place, "its first motion between two points leads elsewhere"),
+        None => (at_the_program(milling), "this program"),
+    };
     Diagnostic::new(
         Code::NothingToConvert,
         "there is no straight motion along an axis in this program",
-        at_the_program(milling),
-        "this program",
+        place,
+        label,
     )
     .help("passes have to run along x or y of the program's base; if another axis than z points up, say so with `--up`")
     .into()
 }
 
-pub(super) fn no_passes(milling: &Milling, top: f64) -> Box<Diagnostic> {
+pub(super) fn no_passes(milling: &Milling, lowest: Option<&Run>, top: f64) -> Box<Diagnostic> {
+    let (place, label) = match lowest {
+        Some(run) => (
+            run.places[0],
+            format!("the lowest runs at z {} mm", show(run.height())),
+        ),
+        None => (at_the_program(milling), "this program".to_owned()),
+    };
     Diagnostic::new(
         Code::NothingToConvert,
         format!(
             "no pass of this program lies below the blank's top at z {} mm",
             show(top)
         ),
-        at_the_program(milling),
-        "this program",
+        place,
+        label,
     )
     .help("give the size of the blank with `--stock`, and where its lowest corner lies with `--origin X,Y,Z`")
     .into()
 }
 
-pub(super) fn too_low(milling: &Milling, lowest: f64, height: f64) -> Box<Diagnostic> {
+pub(super) fn too_low(lowest: &Run, height: f64) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         format!(
             "the lowest pass lies at z {} mm, deeper than a blank of {} mm whose top is at 0",
-            show(lowest),
+            show(lowest.height()),
             show(height)
         ),
-        at_the_program(milling),
-        "this program",
+        lowest.places[0],
+        "the lowest pass",
     )
     .help("say where the blank's lowest corner lies in the file with `--origin X,Y,Z`, or mend `--stock`")
+    .into()
+}
+
+/// Passes on both sides of the file's zero.
+pub(super) fn both_sides(
+    [deepest, highest]: [&Run; 2],
+    [below, above]: [usize; 2],
+    height: f64,
+) -> Box<Diagnostic> {
+    Diagnostic::new(
+        Code::Unclear,
+        format!(
+            "passes lie on both sides of the file's zero, {below} below it and {above} above: whether it is at the bottom of the \
+             blank, which is cut through, or at its top is not clear"
+        ),
+        deepest.places[0],
+        format!("the lowest pass, at z {} mm", show(deepest.height())),
+    )
+    .and(
+        highest.places[0],
+        format!("as long as a pass, at z {} mm", show(highest.height())),
+    )
+    .help(format!(
+        "say where the blank's lowest corner lies in the file with `--origin X,Y,Z`: Z is 0 if zero is at the bottom, {} if it \
+         is at the top",
+        show(-height)
+    ))
     .into()
 }
 
@@ -228,11 +384,13 @@ pub(super) fn unclear_place(
     milling: &Milling,
     (axis, size): (Direction, f64),
     [least, most]: [f64; 2],
+    ends: [Option<&Run>; 2],
 ) -> Box<Diagnostic> {
-    let [low, high] = match axis.of([1.0; 3]) < 0.0 {
-        true => [-most, -least],
-        false => [least, most],
-    };
+    let is_turned = axis.of([1.0; 3]) < 0.0;
+    let [low, high] = if is_turned { [-most, -least] } else { [least, most] };
+    let [first, last] = if is_turned { [ends[1], ends[0]] } else { ends };
+    let place = |run: Option<&Run>| run.map_or_else(|| at_the_program(milling), |run| run.places[0]);
+    let label = |value: f64| format!("a pass at {} {} mm", axis.axis.letter(), show(value));
     Diagnostic::new(
         Code::Unclear,
         format!(
@@ -242,14 +400,22 @@ pub(super) fn unclear_place(
             show(high),
             show(size)
         ),
-        at_the_program(milling),
-        "this program",
+        place(first),
+        label(low),
     )
+    .and(place(last), label(high))
     .help("say where the blank's lowest corner lies in the file, for example `--origin 0,0,0`")
     .into()
 }
 
-pub(super) fn too_short(milling: &Milling, length: f64, size: f64) -> Box<Diagnostic> {
+pub(super) fn too_short(milling: &Milling, longest: Option<&Run>, length: f64, size: f64) -> Box<Diagnostic> {
+    let (place, label) = match longest {
+        Some(run) => (
+            run.places[0],
+            format!("the longest pass, of {} mm", show(run.length())),
+        ),
+        None => (at_the_program(milling), "this program".to_owned()),
+    };
     Diagnostic::new(
         Code::NoPass,
         format!(
@@ -257,8 +423,8 @@ pub(super) fn too_short(milling: &Milling, length: f64, size: f64) -> Box<Diagno
             show(length),
             show(size)
         ),
-        at_the_program(milling),
-        "this program",
+        place,
+        label,
     )
     .help("the sizes of `--stock` are width across the passes, depth along them, height; passes have to run through")
     .into()
@@ -266,9 +432,11 @@ pub(super) fn too_short(milling: &Milling, length: f64, size: f64) -> Box<Diagno
 
 pub(super) fn both_ways(
     milling: &Milling,
-    (one, first): (Axis, f64),
-    (other, second): (Axis, f64),
+    (one, first, first_run): (Axis, f64, Option<&Run>),
+    (other, second, second_run): (Axis, f64, Option<&Run>),
 ) -> Box<Diagnostic> {
+    let place = |run: Option<&Run>| run.map_or_else(|| at_the_program(milling), |run| run.places[0]);
+    let label = |axis: Axis| format!("the longest along {}", axis.letter());
     Diagnostic::new(
         Code::Unclear,
         format!(
@@ -278,9 +446,10 @@ pub(super) fn both_ways(
             show(second),
             other.letter()
         ),
-        at_the_program(milling),
-        "this program",
+        place(first_run),
+        label(one),
     )
+    .and(place(second_run), label(other))
     .help(format!("say it: `--along {}` or `--along {}`", one.letter(), other.letter()))
     .into()
 }
@@ -326,71 +495,31 @@ pub(super) fn unclear_speed(fastest: Written) -> Box<Diagnostic> {
     .into()
 }
 
-pub(super) fn no_clearance(milling: &Milling) -> Box<Diagnostic> {
+pub(super) fn no_clearance(milling: &Milling, axes: Axes) -> Box<Diagnostic> {
+    let height = |step: &Move| step.to.map(|to| axes.point(to)[2]);
+    let known = milling
+        .moves
+        .iter()
+        .filter_map(|step| Some((height(step)?, step.place)));
+    let highest = known.reduce(|one, other| if other.0 > one.0 { other } else { one });
+    let (place, label) = match highest {
+        Some((height, place)) => (place, format!("its highest motion, to z {} mm", show(height))),
+        None => (at_the_program(milling), "this program".to_owned()),
+    };
     Diagnostic::new(
         Code::Unclear,
         "the program never goes above the blank, so how high the safe plane lies is not clear",
-        at_the_program(milling),
-        "this program",
+        place,
+        label,
     )
     .help("give its height above the blank, for example `--clearance 10mm`")
     .into()
 }
 
-/// Most statements that a warning shows.
-const SHOWN: usize = 4;
-
-/// Statements that are not carried over.
-pub(super) fn left_out(places: &[Span], lines: &dyn Fn(Span) -> usize) -> Option<Diagnostic> {
-    let (&first, rest) = places.split_first()?;
-    let headline = match rest.len() {
-        0 => "a statement of the program has no place in a job and is left out".to_owned(),
-        more => format!(
-            "{} statements of the program have no place in a job and are left out",
-            more + 1
-        ),
-    };
-    let mut diagnostic = Diagnostic::new(Code::LeftOut, headline, first, "left out");
-    for &place in rest.iter().take(SHOWN - 1) {
-        diagnostic = diagnostic.and(place, "left out");
-    }
-    let further: Vec<String> = rest
-        .iter()
-        .skip(SHOWN - 1)
-        .take(LISTED)
-        .map(|&place| lines(place).to_string())
-        .collect();
-    if !further.is_empty() {
-        let dots = if rest.len() > SHOWN - 1 + LISTED {
-            " and more"
-        } else {
-            ""
-        };
-        diagnostic = diagnostic.note(format!("so are those in lines {}{dots}", further.join(", ")));
-    }
-    Some(diagnostic.help(
-        "see to it that nothing depends on them; what the machine needs can be said in its `machine` block",
+/// A program whose passes are straight only if more noise is allowed.
+pub(super) fn noisy(diagnostic: Diagnostic, tolerance: f64, passes: usize) -> Diagnostic {
+    diagnostic.help(format!(
+        "if this is rounding noise: with `--tolerance {}mm` the program is a raster of {passes} passes",
+        show(tolerance)
     ))
-}
-
-/// Most lines that a warning lists.
-const LISTED: usize = 40;
-
-pub(super) fn beside(passes: &[Pass]) -> Option<Diagnostic> {
-    let first = passes.first()?;
-    let headline = match passes.len() {
-        1 => format!(
-            "the pass at x {} mm lies beside the blank and is left out",
-            show(first.x)
-        ),
-        count => format!(
-            "{count} passes lie beside the blank and are left out, the first at x {} mm",
-            show(first.x)
-        ),
-    };
-    Some(
-        Diagnostic::new(Code::BesideBlank, headline, first.places[0], "beside the blank").help(
-            "if the blank lies elsewhere in the file, say where its lowest corner is with `--origin X,Y,Z`",
-        ),
-    )
 }

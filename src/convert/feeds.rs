@@ -108,6 +108,9 @@ fn mm_per_s(speed: Speed) -> String {
 fn cutting(milling: &Milling, raster: &Raster) -> Result<Written, Box<Diagnostic>> {
     let mut first: Option<Written> = None;
     for pass in &raster.passes {
+        if let (Some(one), Some(other)) = (pass.speed, pass.second_speed) {
+            return Err(complaints::two_speeds(one, other));
+        }
         match (pass.speed, first) {
             (None, _) => return Err(complaints::no_speed(pass.places[0])),
             (Some(speed), Some(known)) if speed.value != known.value => {

@@ -19,6 +19,12 @@ pub struct Milling {
     pub settings: Vec<Span>,
     /// Statements with an effect that a conversion does not carry over.
     pub left_out: Vec<Span>,
+    /// What axes outside of the arm are told to be all along: their names and values, in mm or degrees.
+    pub external: Vec<(&'static str, f64)>,
+    /// Where routines that are carried out break off without `END`.
+    pub ends_early: Vec<Span>,
+    /// Routines with motions that nobody calls.
+    pub uncalled: Vec<Span>,
 }
 
 impl Milling {
@@ -32,6 +38,9 @@ impl Milling {
             turning: None,
             settings: Vec::new(),
             left_out: Vec::new(),
+            external: Vec::new(),
+            ends_early: Vec::new(),
+            uncalled: Vec::new(),
         }
     }
 }
@@ -52,10 +61,15 @@ pub struct Move {
 }
 
 /// The way of a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
     /// On a straight line: `LIN`, `SLIN`.
     Straight,
+    /// On a circular arc through a point: `CIRC`, `SCIRC`.
+    Arc {
+        /// The point on the way, as the motion's end is told; none where nobody knows.
+        through: Option<[f64; 3]>,
+    },
     /// As all axes like it: `PTP`, `SPTP`.
     Joint,
 }

@@ -5,24 +5,31 @@
 //! the compiler's: the same intermediate program, the same proofs, the same targets. So there are two steps and no third way
 //! to a program: text of a program to text of a job, and that job as any other.
 //!
-//! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate.
-//! 2. [`place`] finds out along which axis it cuts and where the blank lies, [`raster`] which motions are passes.
+//! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate; `motions`
+//!    says where they lead, `frames` in which tool and base.
+//! 2. `runs` puts together what leads along one axis, [`place`] finds out along which one and where the blank lies, [`raster`]
+//!    which runs are passes; `left_out` tells what is none.
 //! 3. `feeds` and `part` take speeds, the part and the least edge from the passes where the user gives none.
 //! 4. [`mod@write`] writes the job, and knows for every tip the line of the program that it stands for.
 //!
 //! What is not said by the user is taken from the program only where that leaves one possibility, and told
 //! ([`Inference`]).
 
+mod arc;
 pub mod asked;
 mod attitude;
 pub mod axes;
 mod complaints;
 mod feeds;
+mod frames;
+mod left_out;
 pub mod milling;
+mod motions;
 mod part;
 pub mod place;
 pub mod raster;
 mod read;
+mod runs;
 pub mod write;
 
 use crate::diag::{Diagnostic, Label};
@@ -40,7 +47,7 @@ use read::Files;
 use serde::Serialize;
 use vcutc_backend_api::readback::ProgramFile;
 use vcutc_backend_api::units::{Angle, Length};
-use write::{Blade, JobText, Material, Part};
+use write::{Blade, JobText, Material, Part, ProfileFile};
 
 /// Half the apex angle of the blade of [Cui 2020], table 1, for a blade of which nothing is said.
 pub(crate) const HALF_APEX: Angle = Angle::deg(7.13);
@@ -60,8 +67,8 @@ pub struct Request<'a> {
     pub machine: Option<&'a str>,
     /// The blade of that file.
     pub blade: Option<&'a str>,
-    /// A file with the points of the part's profile, seen from the job.
-    pub profile: Option<&'a str>,
+    /// A file with the part's profile.
+    pub profile: Option<&'a ProfileFile>,
 }
 
 /// A program as a job.
@@ -205,18 +212,18 @@ fn understood(
 ) -> Result<Found, Vec<Diagnostic>> {
     let one = |diagnostic: Box<Diagnostic>| vec![*diagnostic];
     let asked = request.asked;
-    let mut inferences = Vec::new();
     let milling = read::read(files)?;
-    let axes = place::axes(&milling, asked, &mut inferences).map_err(one)?;
-    let blank = place::blank(&milling, axes, asked, &mut inferences).map_err(one)?;
-    if let Some(refused) = attitude::leaning(&milling, axes, blank) {
-        return Err(vec![refused]);
-    }
-    let raster = raster::recognise(&milling, axes, blank)?;
-    check(&milling, &raster, blank).map_err(one)?;
+    let Recognised {
+        axes,
+        blank,
+        raster,
+        mut inferences,
+    } = recognised(&milling, asked, asked.tolerance).map_err(|found| noisy(found, &milling, asked))?;
     inferences.push(in_passes(&milling, &raster));
+    inferences.extend(noise(&raster, asked));
+    inferences.extend(standing(&milling));
     let feeds = feeds::feeds(&milling, &raster, asked, &mut inferences).map_err(one)?;
-    let clearance = clearance(&milling, &raster, blank, asked, &mut inferences).map_err(one)?;
+    let clearance = clearance(&milling, &raster, (axes, blank), asked, &mut inferences).map_err(one)?;
     let blade = blade(request, &raster, blank, &mut inferences);
     let part = part(request, &raster, blank, &blade, &mut inferences);
     let job = write::job(&Material {
@@ -234,24 +241,71 @@ fn understood(
         feeds,
         sources,
     });
-    let mut warnings = Vec::new();
-    let lines = write::Numbered::of(sources);
-    warnings.extend(complaints::left_out(&milling.left_out, &|place| {
-        lines.line(place)
-    }));
-    warnings.extend(complaints::beside(&raster.beside));
     Ok(Found {
         job,
+        inferences,
+        warnings: left_out::warnings(&milling, &raster, sources),
+        raster,
+    })
+}
+
+/// A program as passes over a blank.
+struct Recognised {
+    axes: Axes,
+    blank: Blank,
+    raster: Raster,
+    inferences: Vec<Inference>,
+}
+
+fn recognised(milling: &Milling, asked: &Asked, tolerance: Length) -> Result<Recognised, Vec<Diagnostic>> {
+    let one = |diagnostic: Box<Diagnostic>| vec![*diagnostic];
+    let asked = &Asked {
+        tolerance,
+        ..asked.clone()
+    };
+    let mut inferences = Vec::new();
+    let axes = place::axes(milling, asked, &mut inferences).map_err(one)?;
+    let blank = place::blank(milling, axes, asked, &mut inferences).map_err(one)?;
+    if let Some(refused) = attitude::leaning(milling, axes, blank, tolerance.to_mm()) {
+        return Err(vec![refused]);
+    }
+    let raster = raster::recognise(milling, axes, blank, tolerance.to_mm())?;
+    check(milling, &raster, blank).map_err(one)?;
+    Ok(Recognised {
+        axes,
+        blank,
         raster,
         inferences,
-        warnings,
     })
+}
+
+/// Tolerances that are tried where a program is no raster, in mm.
+const COARSER: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
+
+/// What was found, with the least tolerance by which the program is a raster, if it is noise that keeps it from being one.
+fn noisy(found: Vec<Diagnostic>, milling: &Milling, asked: &Asked) -> Vec<Diagnostic> {
+    let mut coarser = COARSER
+        .into_iter()
+        .filter(|&coarser| coarser > asked.tolerance.to_mm());
+    let mended = coarser.find_map(|coarser| {
+        let recognised = recognised(milling, asked, Length::mm(coarser)).ok()?;
+        Some((coarser, recognised.raster.passes.len()))
+    });
+    let mut found = found.into_iter();
+    let first = found.next().map(|first| match mended {
+        Some((tolerance, passes)) => complaints::noisy(first, tolerance, passes),
+        None => first,
+    });
+    first.into_iter().chain(found).collect()
 }
 
 /// There are passes, and all of them run through the blank.
 fn check(milling: &Milling, raster: &Raster, blank: Blank) -> Result<(), Box<Diagnostic>> {
     if raster.passes.is_empty() {
-        return Err(complaints::no_passes(milling, blank.height));
+        return Err(complaints::no_passes(milling, None, blank.height));
+    }
+    if let Some(pass) = raster.passes.iter().find(|pass| pass.z < 0.0) {
+        return Err(complaints::below_the_blank(pass));
     }
     let ends_within = |pass: &&raster::Pass| pass.y[0] > SAME || pass.y[1] < blank.depth - SAME;
     match raster.passes.iter().find(ends_within) {
@@ -270,6 +324,9 @@ fn in_passes(milling: &Milling, raster: &Raster) -> Inference {
         "{} motions beside or above the blank are made anew",
         raster.other_moves
     )];
+    if raster.arcs > 0 {
+        others.push(format!("{} of them are arcs in the air", raster.arcs));
+    }
     if milling.axis_moves > 0 {
         others.push(format!("{} of all axes are those of `home`", milling.axis_moves));
     }
@@ -290,11 +347,42 @@ fn in_passes(milling: &Milling, raster: &Raster) -> Inference {
     Inference::new("passes", what, others.join("; "))
 }
 
+/// How far points of passes lie from them, where they do: the noise of a post that rounds.
+fn noise(raster: &Raster, asked: &Asked) -> Option<Inference> {
+    (raster.stray > grid::SPACING / 10.0).then(|| {
+        Inference::new(
+            "tolerance",
+            format!(
+                "{} pieces of passes are put together, and stray by up to {} mm from their lines",
+                raster.pieces,
+                show(raster.stray)
+            ),
+            format!(
+                "points of a pass lie within {} mm of one another; its tip lies in the middle",
+                show(asked.tolerance.to_mm())
+            ),
+        )
+    })
+}
+
+/// External axes, which no job moves.
+fn standing(milling: &Milling) -> Option<Inference> {
+    let stands = |(name, value): &(&str, f64)| format!("{name} at {}", show(*value));
+    let stands: Vec<String> = milling.external.iter().map(stands).collect();
+    (!stands.is_empty()).then(|| {
+        Inference::new(
+            "external",
+            format!("axes outside of the arm stand still: {}", stands.join(", ")),
+            "all along the program; the job does not move them",
+        )
+    })
+}
+
 /// The safe plane: as high above the blank as the program goes.
 fn clearance(
     milling: &Milling,
     raster: &Raster,
-    blank: Blank,
+    (axes, blank): (Axes, Blank),
     asked: &Asked,
     inferences: &mut Vec<Inference>,
 ) -> Result<Length, Box<Diagnostic>> {
@@ -305,7 +393,7 @@ fn clearance(
         .highest
         .map_or(0.0, |highest| grid::up(highest - blank.height));
     if above <= SAME {
-        return Err(complaints::no_clearance(milling));
+        return Err(complaints::no_clearance(milling, axes));
     }
     inferences.push(Inference::new(
         "clearance",
@@ -357,8 +445,8 @@ fn part(
     blade: &Blade,
     inferences: &mut Vec<Inference>,
 ) -> Part {
-    if let Some(path) = request.profile {
-        return Part::File(path.to_owned());
+    if let Some(file) = request.profile {
+        return Part::File(file.clone());
     }
     let asked = request.asked;
     let thickness = match blade {

@@ -8,8 +8,9 @@ use super::Inference;
 use super::asked::Asked;
 use super::axes::{Axes, Axis, Direction, Sense};
 use super::complaints;
-use super::milling::Milling;
-use super::raster::{Kind, SAME, Stretch, stretches};
+use super::milling::{Milling, Way};
+use super::raster::SAME;
+use super::runs::{Run, runs};
 use crate::diag::Diagnostic;
 use crate::plan::parameters::show;
 
@@ -55,13 +56,9 @@ pub(super) fn axes(
     if let Some(along) = asked.along {
         return Ok(Axes::new(along, up));
     }
-    let way = |axis: Axis| -> f64 {
-        stretches(milling, Axes::new(axis, up))
-            .filter(|stretch| stretch.kind() == Kind::Along)
-            .map(|stretch| (stretch.to[1] - stretch.from[1]).abs())
-            .sum()
-    };
-    let (first, second) = (way(one), way(other));
+    let [ones, others] = [one, other].map(|axis| runs(milling, Axes::new(axis, up), asked.tolerance.to_mm()));
+    let way = |runs: &[Run]| -> f64 { runs.iter().map(|run| run.travelled).sum() };
+    let (first, second) = (way(&ones), way(&others));
     let (along, longer, shorter) = if first > second {
         (one, first, second)
     } else {
@@ -71,7 +68,11 @@ pub(super) fn axes(
         return Err(complaints::nothing_straight(milling));
     }
     if longer < shorter * CLEARLY {
-        return Err(complaints::both_ways(milling, (one, first), (other, second)));
+        return Err(complaints::both_ways(
+            milling,
+            (one, first, longest(&ones)),
+            (other, second, longest(&others)),
+        ));
     }
     let axes = Axes::new(along, up);
     if along != Axis::Y || up != Direction::along(Axis::Z) {
@@ -118,37 +119,79 @@ pub(super) fn blank(
         ];
         return Ok(blank);
     }
-    let along: Vec<Stretch<'_>> = stretches(milling, axes)
-        .filter(|stretch| stretch.kind() == Kind::Along)
+    let along = runs(milling, axes, asked.tolerance.to_mm());
+    let levels = Levels::of(milling, axes, &along, depth);
+    let bottom = bottom(milling, &levels, height)?;
+    let passes: Vec<Run> = along
+        .iter()
+        .copied()
+        .filter(|run| run.height() < bottom.low + height - SAME)
         .collect();
-    let (bottom, bottom_words) = bottom(milling, &along, height)?;
-    let passes: Vec<Stretch<'_>> = along
-        .into_iter()
-        .filter(|stretch| stretch.lowest() < bottom + height - SAME)
-        .collect();
-    let xs = range(passes.iter().map(|pass| pass.to[0]));
-    let ys = range(passes.iter().flat_map(|pass| [pass.from[1], pass.to[1]]));
-    let (Some(xs), Some(ys)) = (xs, ys) else {
-        return Err(complaints::no_passes(milling, bottom + height));
+    let (side, front) = match (sideways(&passes), lengthways(&passes)) {
+        (Some(xs), Some(ys)) => (
+            (side(milling, &passes, xs, (axes.across, width))?, xs),
+            (front(milling, &passes, ys, (axes.along, depth))?, ys),
+        ),
+        _ => {
+            return Err(complaints::no_passes(
+                milling,
+                lowest(&along),
+                bottom.low + height,
+            ));
+        }
     };
-    let side = side(milling, xs, (axes.across, width))?;
-    let front = front(milling, ys, (axes.along, depth))?;
-    blank.corner = [side.low, front.low, bottom];
-    inferences.push(Inference::new(
+    blank.corner = [side.0.low, front.0.low, bottom.low];
+    inferences.push(placed(side, front, &bottom));
+    Ok(blank)
+}
+
+/// What is told of a place that was found.
+fn placed((side, xs): (End, [f64; 2]), (front, ys): (End, [f64; 2]), bottom: &Bottom) -> Inference {
+    let returns = match bottom.returns {
+        None => String::new(),
+        Some(height) => format!(
+            "; what runs along them at z {} mm are ways back in the air",
+            show(height)
+        ),
+    };
+    Inference::new(
         "blank",
         format!(
-            "the file's zero lies {} in x, {} in y, {bottom_words}",
-            side.words, front.words
+            "the file's zero lies {} in x, {} in y, {}",
+            side.words, front.words, bottom.words
         ),
         format!(
-            "passes lie at x from {} to {} mm and run from y {} to {} mm of the job",
+            "passes lie at x from {} to {} mm and run from y {} to {} mm of the job{returns}",
             show(xs[0] - side.low),
             show(xs[1] - side.low),
             show(ys[0] - front.low),
             show(ys[1] - front.low)
         ),
-    ));
-    Ok(blank)
+    )
+}
+
+/// From where to where runs lie across.
+fn sideways(runs: &[Run]) -> Option<[f64; 2]> {
+    range(runs.iter().map(Run::across))
+}
+
+/// From where to where they lead.
+fn lengthways(runs: &[Run]) -> Option<[f64; 2]> {
+    range(runs.iter().flat_map(|run| run.y))
+}
+
+/// The run that is farthest by a measure.
+fn most(runs: &[Run], measure: impl Fn(&Run) -> f64) -> Option<&Run> {
+    runs.iter()
+        .max_by(|one, other| measure(one).total_cmp(&measure(other)))
+}
+
+fn longest(runs: &[Run]) -> Option<&Run> {
+    most(runs, Run::length)
+}
+
+fn lowest(runs: &[Run]) -> Option<&Run> {
+    most(runs, |run| -run.height())
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
@@ -158,24 +201,96 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     })
 }
 
-/// The height of the blank's bottom. What goes below zero cuts from a zero at the top, for nobody mills the table.
-fn bottom(
-    milling: &Milling,
-    along: &[Stretch<'_>],
-    height: f64,
-) -> Result<(f64, &'static str), Box<Diagnostic>> {
-    let Some([lowest, _]) = range(along.iter().map(Stretch::lowest)) else {
+/// Runs as long as the blank, by their heights; all runs where none is so long.
+struct Levels {
+    /// Those below the file's zero.
+    below: Vec<Run>,
+    /// Those above it, and at it.
+    above: Vec<Run>,
+    /// How often the program goes from one kind to the other.
+    changes: usize,
+    /// The highest place that the program goes to.
+    highest: f64,
+}
+
+impl Levels {
+    fn of(milling: &Milling, axes: Axes, along: &[Run], depth: f64) -> Self {
+        let is_long = |run: &&Run| run.length() >= depth - SAME;
+        let any_long = along.iter().any(|run| is_long(&run));
+        let counted = along.iter().copied().filter(|run| !any_long || is_long(&run));
+        let (below, above): (Vec<Run>, Vec<Run>) = counted.clone().partition(|run| run.height() < -SAME);
+        let sides: Vec<bool> = counted.map(|run| run.height() < -SAME).collect();
+        let places = milling.moves.iter().filter_map(|step| step.to);
+        Self {
+            below,
+            above,
+            changes: sides
+                .windows(2)
+                .filter(|pair| pair.first() != pair.last())
+                .count(),
+            highest: places
+                .map(|to| axes.point(to)[2])
+                .fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
+    /// Whether what lies above zero are ways back in the air, all at one height: as high as the program goes, or one behind
+    /// every pass and not slower than that. Passes of another layer would come layer by layer.
+    fn returns(&self) -> Option<f64> {
+        let [low, high] = range(self.above.iter().map(Run::height))?;
+        let speeds = |runs: &[Run]| range(runs.iter().filter_map(|run| run.speed).map(|speed| speed.value));
+        let is_level = high - low <= SAME;
+        let is_highest = low >= self.highest - SAME;
+        let takes_turns = self.changes + 1 >= self.above.len() + self.below.len();
+        let is_slower = match (speeds(&self.above), speeds(&self.below)) {
+            (Some([slowest, _]), Some([_, fastest])) => slowest < fastest,
+            (None, _) | (_, None) => false,
+        };
+        let in_air = self.above.iter().all(|run| run.way == Way::Joint);
+        (is_level && (is_highest || takes_turns && !is_slower) || in_air).then_some(high)
+    }
+}
+
+/// The bottom of the blank, and where the file's zero is.
+struct Bottom {
+    low: f64,
+    words: &'static str,
+    /// The height of ways back above a zero at the top.
+    returns: Option<f64>,
+}
+
+/// The height of the blank's bottom. Passes on one side of zero leave one place for it; on both sides they may be those of a
+/// program that cuts through a blank from the bottom up, or ways back in the air.
+fn bottom(milling: &Milling, levels: &Levels, height: f64) -> Result<Bottom, Box<Diagnostic>> {
+    if let Some(deepest) = lowest(&levels.below) {
+        if deepest.height() < -height - SAME {
+            return Err(complaints::too_low(deepest, height));
+        }
+        let returns = levels.returns();
+        return match (returns, lowest(&levels.above)) {
+            (None, Some(above)) => Err(complaints::both_sides(
+                [deepest, above],
+                [levels.below.len(), levels.above.len()],
+                height,
+            )),
+            (Some(_), _) | (None, None) => Ok(Bottom {
+                low: -height,
+                words: "at its top in z",
+                returns,
+            }),
+        };
+    }
+    let Some(deepest) = lowest(&levels.above) else {
         return Err(complaints::nothing_straight(milling));
     };
-    if lowest < -height - SAME {
-        return Err(complaints::too_low(milling, lowest, height));
-    }
-    if lowest < -SAME {
-        Ok((-height, "at its top in z"))
-    } else if lowest < height - SAME {
-        Ok((0.0, "at its bottom in z"))
+    if deepest.height() < height - SAME {
+        Ok(Bottom {
+            low: 0.0,
+            words: "at its bottom in z",
+            returns: None,
+        })
     } else {
-        Err(complaints::no_passes(milling, height))
+        Err(complaints::no_passes(milling, Some(deepest), height))
     }
 }
 
@@ -205,7 +320,12 @@ fn ends((direction, size): (Direction, f64)) -> [End; 2] {
 
 /// The side of the blank: from an edge where all passes lie over the blank then, else from the middle; passes that lie farther
 /// out on both sides are taken to run beside it.
-fn side(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> Result<End, Box<Diagnostic>> {
+fn side(
+    milling: &Milling,
+    passes: &[Run],
+    [least, most]: [f64; 2],
+    axis: (Direction, f64),
+) -> Result<End, Box<Diagnostic>> {
     let size = axis.1;
     let holds = |end: &End| least >= end.low - SAME && most <= end.low + size + SAME;
     let covers = |end: &End| least <= end.low + SAME && most >= end.low + size - SAME;
@@ -216,12 +336,23 @@ fn side(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> R
     ) {
         (true, _) => Ok(corner),
         (false, true) => Ok(middle),
-        (false, false) => Err(complaints::unclear_place(milling, axis, [least, most])),
+        (false, false) => {
+            let ends = [
+                self::most(passes, |run| -run.across()),
+                self::most(passes, Run::across),
+            ];
+            Err(complaints::unclear_place(milling, axis, [least, most], ends))
+        }
     }
 }
 
 /// The front of the blank: passes run over all of it, and where the zero is not at an edge as far out on either side.
-fn front(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> Result<End, Box<Diagnostic>> {
+fn front(
+    milling: &Milling,
+    passes: &[Run],
+    [least, most]: [f64; 2],
+    axis: (Direction, f64),
+) -> Result<End, Box<Diagnostic>> {
     let size = axis.1;
     let covers = |end: &End| least <= end.low + SAME && most >= end.low + size - SAME;
     let [corner, middle] = ends(axis);
@@ -235,6 +366,11 @@ fn front(milling: &Milling, [least, most]: [f64; 2], axis: (Direction, f64)) -> 
             words: "so that passes run out as far on either side",
         })
     } else {
-        Err(complaints::too_short(milling, most - least, size))
+        Err(complaints::too_short(
+            milling,
+            longest(passes),
+            most - least,
+            size,
+        ))
     }
 }

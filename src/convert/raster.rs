@@ -1,13 +1,15 @@
 //! Passes of a raster: stretches along y below the top of the blank, and all other motions beside them [Cui III.A].
 //!
-//! A motion is a piece of a pass where only y changes. Pieces that follow one another in one column at one height are one
-//! pass, however many points the program divides it into and however often it goes to and fro. Everything else has to be
-//! in the air or beside the blank: what cuts across, obliquely or along a slope is no pass, and is refused.
+//! What runs along y, however many points the program divides it into, is a run (the module `runs`). Runs below the top of the
+//! blank are passes, and those that follow one another in one place are one. Everything else has to be in the air or beside the
+//! blank: what cuts across, obliquely, along a slope or on an arc is no pass, and is refused.
 
+use super::arc::CircularArc;
 use super::axes::Axes;
 use super::complaints;
-use super::milling::{Milling, Move, Way, Written};
+use super::milling::{Milling, Way, Written};
 use super::place::Blank;
+use super::runs::{Course, Kind, Run, Stretch, courses};
 use crate::diag::Diagnostic;
 use crate::plan::grid;
 use crate::source::Span;
@@ -28,6 +30,8 @@ pub struct Pass {
     pub places: [Span; 2],
     /// The speed that holds for it.
     pub speed: Option<Written>,
+    /// Another one that holds for a part of it.
+    pub second_speed: Option<Written>,
     /// Whether a motion of all axes is taken for a part of it.
     pub way: Way,
 }
@@ -39,10 +43,18 @@ pub struct Raster {
     pub passes: Vec<Pass>,
     /// Passes beside the blank, which cut nothing.
     pub beside: Vec<Pass>,
+    /// What is as long as a pass and as slow, and lies above the blank.
+    pub above: Vec<Pass>,
     /// How many passes follow another one in the same place.
     pub repeated: usize,
+    /// Of how many motions the passes are made.
+    pub pieces: usize,
+    /// How far points of passes lie from them, at most, in mm.
+    pub stray: f64,
     /// How many motions are no passes.
     pub other_moves: usize,
+    /// How many of them are arcs.
+    pub arcs: usize,
     /// The highest place that the tool goes to.
     pub highest: Option<f64>,
     /// Speeds on straight lines that are no passes.
@@ -51,101 +63,97 @@ pub struct Raster {
     pub path: Vec<Vec<[f64; 3]>>,
 }
 
-/// A motion between two known points, in the axes of the job.
-#[derive(Clone, Copy)]
-pub(super) struct Stretch<'m> {
-    pub(super) said: &'m Move,
-    pub(super) from: [f64; 3],
-    pub(super) to: [f64; 3],
-}
-
-/// What a motion is, by what changes along it.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Nothing.
-    Still,
-    /// Only y.
-    Along,
-    /// Only z.
-    Upright,
-    /// Only x, or x and z.
-    Across,
-    /// y with something else.
-    Oblique,
-}
-
-impl Stretch<'_> {
-    pub(super) fn kind(&self) -> Kind {
-        let differs = |axis: usize| match (self.from.get(axis), self.to.get(axis)) {
-            (Some(from), Some(to)) => (to - from).abs() > SAME,
-            _ => false,
-        };
-        match (differs(0), differs(1), differs(2)) {
-            (false, false, false) => Kind::Still,
-            (false, true, false) => Kind::Along,
-            (false, false, true) => Kind::Upright,
-            (true, false, _) => Kind::Across,
-            (_, true, _) => Kind::Oblique,
-        }
-    }
-
-    /// The lower of its ends.
-    pub(super) const fn lowest(&self) -> f64 {
-        self.from[2].min(self.to[2])
-    }
-}
-
-/// The motions between known points, in the axes of a job, from the program's origin.
-pub(super) fn stretches(milling: &Milling, axes: Axes) -> impl Iterator<Item = Stretch<'_>> {
-    milling.moves.windows(2).filter_map(move |pair| match pair {
-        [before, said] => Some(Stretch {
-            said,
-            from: axes.point(before.to?),
-            to: axes.point(said.to?),
-        }),
-        _ => None,
-    })
-}
-
-/// The passes of a program over a blank whose place is known.
+/// The passes of a program over a blank whose place is known, of which points lie so close to one line.
 ///
 /// # Errors
 /// Motions in the material that are no passes, told one by one.
-pub(super) fn recognise(milling: &Milling, axes: Axes, blank: Blank) -> Result<Raster, Vec<Diagnostic>> {
+pub(super) fn recognise(
+    milling: &Milling,
+    axes: Axes,
+    blank: Blank,
+    tolerance: f64,
+) -> Result<Raster, Vec<Diagnostic>> {
     let mut builder = Builder {
         blank,
+        tolerance,
         raster: Raster::default(),
-        open: None,
         complaints: Vec::new(),
     };
     builder.raster.path = path(milling, axes, blank);
     let all = builder.raster.path.iter().flatten();
     builder.raster.highest = all.map(|point| point[2]).reduce(f64::max);
-    for stretch in stretches(milling, axes) {
-        builder.take(Stretch {
-            from: blank.seen_from_corner(stretch.from),
-            to: blank.seen_from_corner(stretch.to),
-            ..stretch
-        });
-    }
-    builder.close();
+    courses(milling, axes, tolerance, &mut |course| match course {
+        Course::Run(run) => builder.run(&run),
+        Course::Other(stretch) => builder.other(stretch.seen_from(&blank)),
+    });
     if builder.complaints.is_empty() {
+        builder.raster.keep_slow();
         Ok(builder.raster)
     } else {
         Err(builder.complaints)
     }
 }
 
+/// Points that stand for an arc in a picture.
+const POINTS_OF_ARC: u32 = 16;
+
 fn path(milling: &Milling, axes: Axes, blank: Blank) -> Vec<Vec<[f64; 3]>> {
+    let seen = |to: [f64; 3]| blank.seen_from_corner(axes.point(to));
     milling
         .moves
         .split(|step| step.to.is_none())
         .map(|known| {
-            let points = known.iter().filter_map(|step| step.to);
-            points.map(|to| blank.seen_from_corner(axes.point(to))).collect()
+            let mut points: Vec<[f64; 3]> = Vec::with_capacity(known.len());
+            for step in known {
+                let Some(to) = step.to.map(seen) else { continue };
+                let arc = match (step.way, points.last()) {
+                    (
+                        Way::Arc {
+                            through: Some(through),
+                        },
+                        Some(&from),
+                    ) => CircularArc::through([from, seen(through), to]),
+                    (Way::Arc { .. } | Way::Straight | Way::Joint, _) => None,
+                };
+                match arc {
+                    Some(arc) => points.extend(arc.points(POINTS_OF_ARC)),
+                    None => points.push(to),
+                }
+            }
+            points
         })
-        .filter(|points: &Vec<_>| !points.is_empty())
+        .filter(|points| !points.is_empty())
         .collect()
+}
+
+impl Raster {
+    /// Leaves out of what lies above the blank the ways back of a raster that always cuts the same way: what is faster than the
+    /// passes, or as high as the program goes.
+    fn keep_slow(&mut self) {
+        let fastest = self
+            .passes
+            .iter()
+            .filter_map(|pass| pass.speed)
+            .map(|speed| speed.value)
+            .reduce(f64::max);
+        let highest = self.highest.unwrap_or(f64::INFINITY) - SAME;
+        self.above.retain(|run| {
+            let is_fast = match (run.speed, fastest) {
+                (Some(speed), Some(fastest)) => speed.value > fastest,
+                (None, _) | (_, None) => false,
+            };
+            !is_fast && run.z < highest
+        });
+    }
+
+    fn note_travel(&mut self, way: Way, speed: Option<Written>) {
+        if let (Way::Straight, Some(speed)) = (way, speed) {
+            let is_new = self.travel.iter().all(|known| known.value != speed.value);
+            if is_new && self.travel.len() < MOST_SPEEDS {
+                self.travel.push(speed);
+            }
+        }
+    }
 }
 
 /// Most motions that are told as no passes.
@@ -153,29 +161,91 @@ const MOST_COMPLAINTS: usize = 5;
 
 struct Builder {
     blank: Blank,
+    tolerance: f64,
     raster: Raster,
-    open: Option<Pass>,
     complaints: Vec<Diagnostic>,
 }
 
 impl Builder {
-    fn take(&mut self, stretch: Stretch<'_>) {
-        let is_below = stretch.lowest() < self.blank.height - SAME;
-        match stretch.kind() {
-            Kind::Along if is_below => self.along(stretch),
-            Kind::Still => {}
-            Kind::Along | Kind::Upright => self.other(stretch),
-            Kind::Across | Kind::Oblique => {
-                if self.meets_the_blank(stretch) {
-                    self.refuse(stretch);
-                }
-                self.other(stretch);
+    fn run(&mut self, run: &Run) {
+        let pass = self.pass(run);
+        let is_over = (0.0..=self.blank.width).contains(&pass.x);
+        if pass.z >= self.blank.height - SAME {
+            self.raster.other_moves += run.pieces;
+            self.raster.note_travel(run.way, run.speed);
+            let is_long = pass.y[0] <= SAME && pass.y[1] >= self.blank.depth - SAME;
+            if is_over && is_long && run.way == Way::Straight {
+                self.raster.above.push(pass);
             }
+            return;
+        }
+        let raster = &mut self.raster;
+        raster.pieces += run.pieces;
+        raster.stray = raster.stray.max(run.stray());
+        if !is_over {
+            raster.beside.push(pass);
+            return;
+        }
+        let tolerance = self.tolerance;
+        let is_again =
+            |last: &Pass| (last.x - pass.x).abs() <= tolerance && (last.z - pass.z).abs() <= tolerance;
+        if raster.passes.last().is_some_and(is_again) {
+            raster.repeated += 1;
+        } else {
+            raster.passes.push(pass);
         }
     }
 
+    /// A run as seen from the blank's corner.
+    fn pass(&self, run: &Run) -> Pass {
+        let (x, y, z) = run.line();
+        let [low, high] = y.map(|y| self.blank.seen_from_corner([x, y, z]));
+        let z = grid::nearest(low[2]);
+        Pass {
+            x: grid::nearest(low[0]),
+            // A hair below the bottom is the bottom.
+            z: if (-SAME..0.0).contains(&z) { 0.0 } else { z },
+            y: [low[1], high[1]],
+            places: run.places,
+            speed: run.speed,
+            second_speed: run.second_speed,
+            way: run.way,
+        }
+    }
+
+    fn other(&mut self, stretch: Stretch<'_>) {
+        self.raster.other_moves += 1;
+        self.raster.note_travel(stretch.said.way, stretch.said.speed);
+        let meets = match stretch.kind {
+            Kind::Still | Kind::Upright | Kind::Along => false,
+            Kind::Across | Kind::Oblique => self.meets_the_blank(&stretch),
+            Kind::Curve => self.curve_meets_the_blank(&stretch),
+        };
+        if meets && self.complaints.len() < MOST_COMPLAINTS {
+            self.complaints.push(complaints::no_pass(&stretch));
+        }
+    }
+
+    /// Whether an arc comes near the blank; it does where nobody knows which way it takes.
+    fn curve_meets_the_blank(&mut self, stretch: &Stretch<'_>) -> bool {
+        self.raster.arcs += 1;
+        let Some(through) = stretch.through else {
+            return true;
+        };
+        let Some(arc) = CircularArc::through([stretch.from, through, stretch.to]) else {
+            return true;
+        };
+        let [low, high] = arc.room();
+        self.raster.highest = self.raster.highest.map(|highest| highest.max(high[2]));
+        let sizes = [self.blank.width, self.blank.depth, self.blank.height];
+        low.into_iter()
+            .zip(high)
+            .zip(sizes)
+            .all(|((low, high), size)| high > SAME && low < size - SAME)
+    }
+
     /// Whether a motion leads through the blank, its faces left out.
-    fn meets_the_blank(&self, stretch: Stretch<'_>) -> bool {
+    fn meets_the_blank(&self, stretch: &Stretch<'_>) -> bool {
         let sizes = [self.blank.width, self.blank.depth, self.blank.height];
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         for ((from, to), size) in stretch.from.into_iter().zip(stretch.to).zip(sizes) {
@@ -193,73 +263,7 @@ impl Builder {
         }
         enters < leaves
     }
-
-    fn refuse(&mut self, stretch: Stretch<'_>) {
-        if self.complaints.len() < MOST_COMPLAINTS {
-            self.complaints.push(complaints::no_pass(&stretch));
-        }
-    }
-
-    fn other(&mut self, stretch: Stretch<'_>) {
-        self.close();
-        self.raster.other_moves += 1;
-        if let (Way::Straight, Some(speed)) = (stretch.said.way, stretch.said.speed) {
-            let is_new = self.raster.travel.iter().all(|known| known.value != speed.value);
-            if is_new && self.raster.travel.len() < MOST_SPEEDS {
-                self.raster.travel.push(speed);
-            }
-        }
-    }
-
-    fn along(&mut self, stretch: Stretch<'_>) {
-        let said = stretch.said;
-        let piece = Pass {
-            x: grid::nearest(stretch.to[0]),
-            z: grid::nearest(stretch.to[2]),
-            y: [
-                stretch.from[1].min(stretch.to[1]),
-                stretch.from[1].max(stretch.to[1]),
-            ],
-            places: [said.place; 2],
-            speed: said.speed,
-            way: said.way,
-        };
-        match &mut self.open {
-            Some(open) if is_same_column(open, &piece) => {
-                open.y = [open.y[0].min(piece.y[0]), open.y[1].max(piece.y[1])];
-                open.places[1] = said.place;
-                if piece.way == Way::Joint {
-                    open.way = Way::Joint;
-                }
-            }
-            Some(_) | None => {
-                self.close();
-                self.open = Some(piece);
-            }
-        }
-    }
-
-    /// Ends the pass at hand.
-    fn close(&mut self) {
-        let Some(pass) = self.open.take() else { return };
-        if pass.x < 0.0 || pass.x > self.blank.width {
-            self.raster.beside.push(pass);
-        } else if self
-            .raster
-            .passes
-            .last()
-            .is_some_and(|last| is_same_column(last, &pass))
-        {
-            self.raster.repeated += 1;
-        } else {
-            self.raster.passes.push(pass);
-        }
-    }
 }
 
 /// Most different speeds between passes that are remembered.
 const MOST_SPEEDS: usize = 64;
-
-fn is_same_column(one: &Pass, other: &Pass) -> bool {
-    (one.x - other.x).abs() <= SAME && (one.z - other.z).abs() <= SAME
-}

@@ -1,21 +1,20 @@
 //! From the text of a KRL program to its motions.
 //!
-//! Statements, routines and named positions are those of the KRL crate. Routines are followed from call to call. What a
-//! target leaves out keeps the value that it had. Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and
-//! their like) are not followed: with a motion inside they are refused.
+//! Statements, routines and named positions are those of the KRL crate. Routines are followed from call to call; where a
+//! motion leads is for [`super::motions`]. Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and their
+//! like) are not followed: with a motion inside they are refused. So are calls of routines that no file given holds, for
+//! their motions would be missing.
 
 use super::complaints;
-use super::milling::{Milling, Move, Way, Written};
+use super::frames::Frames;
+use super::milling::{Milling, Written};
+use super::motions::Tool;
 use crate::diag::Diagnostic;
 use crate::source::{FileId, SourceMap, Span};
-use std::collections::BTreeMap;
-use vcutc_backend_api::geometry::{Orientation, Zyx};
-use vcutc_backend_api::readback::ProgramFile;
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::readback::{ProgramFile, essence};
 use vcutc_backend_krl::read::index::{FileKind, Index, stem};
 use vcutc_backend_krl::read::syntax::{
-    Component, Coordinates, Motion, MotionWord, Phrase, Span as Bytes, Statement, Statements, Target, Value,
-    Variable, is_same_name, statements,
+    Phrase, Span as Bytes, Statement, Statements, Value, Variable, is_same_name, statements,
 };
 use vcutc_backend_krl::read::variables::{Asker, Outcome, Variables};
 
@@ -54,7 +53,7 @@ impl<'t> Files<'t> {
     }
 
     /// What stands at a place.
-    fn said(&self, place: Span) -> &'t str {
+    pub(super) fn said(&self, place: Span) -> &'t str {
         let at = self.ids.iter().position(|&id| id == place.file);
         let text = at.map_or("", |file| self.text(file));
         text.get(place.bytes()).unwrap_or_default().trim()
@@ -76,14 +75,15 @@ pub(super) fn read(files: &Files<'_>) -> Result<Milling, Vec<Diagnostic>> {
         index: &index,
         variables: Variables::default(),
         milling: Milling::empty(files.start),
-        last: Coordinates::default(),
+        tool: Tool::default(),
         speed: None,
         forks: Vec::new(),
-        frames: BTreeMap::new(),
-        reframed: None,
+        frames: Frames::default(),
+        entered: vec![false; index.routines.len()],
         complaints: Vec::new(),
         statements: 0,
     };
+    reader.outside();
     for (file, source) in files.files.iter().enumerate() {
         match FileKind::of(source) {
             FileKind::Data => reader.data(file, source),
@@ -94,6 +94,8 @@ pub(super) fn read(files: &Files<'_>) -> Result<Milling, Vec<Diagnostic>> {
         Some(main) => reader.follow(main),
         None => reader.complaints.push(complaints::no_routine(files.start)),
     }
+    reader.never_called();
+    reader.milling.external = reader.tool.external();
     if reader.complaints.is_empty() {
         Ok(reader.milling)
     } else {
@@ -102,22 +104,34 @@ pub(super) fn read(files: &Files<'_>) -> Result<Milling, Vec<Diagnostic>> {
 }
 
 /// Goes through a program.
-struct Reader<'t, 'i> {
-    files: &'i Files<'t>,
+pub(super) struct Reader<'t, 'i> {
+    pub(super) files: &'i Files<'t>,
     index: &'i Index<'t>,
-    variables: Variables,
-    milling: Milling,
-    /// What targets have said so far.
-    last: Coordinates,
-    speed: Option<Written>,
-    /// Statements that decide what is made, and are open.
-    forks: Vec<Span>,
-    /// What sets the tool and the base, by its name in capitals: how it was said last.
-    frames: BTreeMap<String, &'t str>,
-    /// Where one of them was said that was not so before, if no straight motion has followed yet.
-    reframed: Option<Span>,
+    pub(super) variables: Variables,
+    pub(super) milling: Milling,
+    /// Where the tool is.
+    pub(super) tool: Tool,
+    pub(super) speed: Option<Written>,
+    /// Statements that decide what is made, and are open; each with whether a motion in it was told.
+    pub(super) forks: Vec<Fork>,
+    pub(super) frames: Frames,
+    /// Which routines have been carried out.
+    entered: Vec<bool>,
     complaints: Vec<Diagnostic>,
     statements: usize,
+}
+
+/// A statement that decides what is made.
+pub(super) struct Fork {
+    pub(super) place: Span,
+    pub(super) told: Told,
+}
+
+/// Whether a motion that depends on a statement was told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Told {
+    Not,
+    Once,
 }
 
 /// A routine that is being carried out.
@@ -125,6 +139,8 @@ struct Call<'t> {
     file: usize,
     routine: usize,
     lines: Statements<'t>,
+    /// The statement before the one that comes next.
+    last: Option<Span>,
 }
 
 /// Whether to go on with a routine.
@@ -145,6 +161,7 @@ impl<'t> Reader<'t, '_> {
             match &line.phrase {
                 Phrase::Declaration(declaration) => {
                     self.variables.declare(asker, declaration);
+                    self.frames.declare(asker, declaration);
                 }
                 Phrase::Assignment { to, value } => {
                     self.variables.assign(asker, to, value);
@@ -157,6 +174,7 @@ impl<'t> Reader<'t, '_> {
                 | Phrase::EndDat
                 | Phrase::Ext { .. }
                 | Phrase::Motion(_)
+                | Phrase::Arc(_)
                 | Phrase::Bas { .. }
                 | Phrase::Call { .. }
                 | Phrase::WaitSec(_)
@@ -173,13 +191,21 @@ impl<'t> Reader<'t, '_> {
             file: found.file,
             routine,
             lines: Statements::within(self.files.text(found.file), found.span),
+            last: None,
         })
     }
 
     fn follow(&mut self, main: usize) {
+        if let Some(entered) = self.entered.get_mut(main) {
+            *entered = true;
+        }
         let mut calls: Vec<Call<'t>> = self.call(main).into_iter().collect();
         while let Some(mut call) = calls.pop() {
-            let Some(line) = call.lines.next() else { continue };
+            let Some(line) = call.lines.next() else {
+                let nothing = self.files.span(call.file, Bytes { start: 0, end: 0 });
+                self.milling.ends_early.extend(call.last.or(nothing));
+                continue;
+            };
             self.statements += 1;
             let is_endless = self.statements > MOST_STATEMENTS
                 || self.milling.moves.len() > MOST_MOVES
@@ -188,6 +214,7 @@ impl<'t> Reader<'t, '_> {
                 self.complain(call.file, &line, complaints::endless);
                 return;
             }
+            call.last = self.files.span(call.file, line.span);
             match self.step(&call, &line) {
                 Next::GoOn => calls.push(call),
                 Next::Enter(routine) => {
@@ -212,88 +239,137 @@ impl<'t> Reader<'t, '_> {
         self.complain(file, line, |place| complaints::unreadable(place, expected));
     }
 
+    /// What stands outside of routines belongs to none, and no controller carries it out.
+    fn outside(&mut self) {
+        for &(file, span) in &self.index.gaps {
+            for line in Statements::within(self.files.text(file), span) {
+                match line.phrase {
+                    Phrase::Mark(_) => {}
+                    _ => self.complain(file, &line, complaints::outside),
+                }
+            }
+        }
+    }
+
+    /// Routines with motions that nobody has called.
+    fn never_called(&mut self) {
+        let routines = self.index.routines.iter().zip(&self.entered);
+        for (routine, _) in routines.filter(|(_, entered)| !**entered) {
+            let mut lines = Statements::within(self.files.text(routine.file), routine.span);
+            let head = lines.next();
+            let moves = lines.any(|line| matches!(line.phrase, Phrase::Motion(_) | Phrase::Arc(_)));
+            if let (true, Some(head)) = (moves, head) {
+                self.milling
+                    .uncalled
+                    .extend(self.files.span(routine.file, head.span));
+            }
+        }
+    }
+
     /// Carries out a statement.
     fn step(&mut self, call: &Call<'t>, line: &Statement<'t>) -> Next {
         let Some(place) = self.files.span(call.file, line.span) else {
             return Next::Stop;
         };
-        let module = self
-            .files
-            .files
-            .get(call.file)
-            .map_or("", |file| stem(&file.name).0);
         let asker = Asker {
             routine: Some(call.routine),
-            module,
+            module: self.module(call.file),
         };
         match &line.phrase {
             Phrase::Mark(_) | Phrase::Def { .. } | Phrase::Ext { .. } => {}
             Phrase::End => return Next::Return,
             Phrase::Declaration(declaration) => {
                 self.variables.declare(asker, declaration);
+                self.frames.declare(asker, declaration);
             }
             Phrase::Motion(motion) => self.motion(asker, motion, place),
+            Phrase::Arc(arc) => self.arc(asker, arc, place),
             Phrase::Assignment { to, value } => self.assign(asker, to, value, place),
-            Phrase::Bas { command, value } => {
-                if let (true, Some(value)) = (is_same_name(command, "VEL_CP"), *value) {
-                    self.speed = Some(Written { value, place });
-                }
-                if is_frame(command) {
-                    self.frame(&command.to_ascii_uppercase(), place);
-                }
-                self.milling.settings.push(place);
-            }
+            Phrase::Bas { command, value } => self.bas(command, *value, place),
             Phrase::Call { name, arguments } => return self.enter(call.file, name, arguments, place),
-            Phrase::Other(word) => return self.other(word, place),
+            Phrase::Other(word) => return self.other(asker, word, place),
             Phrase::WaitSec(_) | Phrase::WaitFor(_) | Phrase::Halt => self.milling.left_out.push(place),
             Phrase::DefDat { .. } | Phrase::EndDat => {
                 self.unreadable(call.file, line, "an instruction, or `END`")
+            }
+            Phrase::Unreadable { .. } if call.lines.clone().next().is_none() => {
+                self.push(complaints::cut_short(place));
             }
             Phrase::Unreadable { expected } => self.unreadable(call.file, line, expected),
         }
         Next::GoOn
     }
 
-    fn enter(&mut self, file: usize, name: &str, arguments: &str, place: Span) -> Next {
-        match self.index.find(file, name) {
-            Some(routine) if arguments.is_empty() => Next::Enter(routine),
-            Some(_) => {
-                self.push(complaints::arguments(place, name));
-                Next::GoOn
-            }
-            None => {
-                self.milling.left_out.push(place);
-                Next::GoOn
-            }
-        }
+    fn module(&self, file: usize) -> &'t str {
+        self.files.files.get(file).map_or("", |file| stem(&file.name).0)
     }
 
-    /// A statement that the syntax does not describe.
-    fn other(&mut self, word: &str, place: Span) -> Next {
-        let is = |names: &[&str]| names.iter().any(|name| is_same_name(word, name));
-        if is(&["CIRC", "CIRC_REL", "SCIRC", "SCIRC_REL", "SPL", "SPL_REL"]) {
-            self.push(complaints::arc(place, word));
-        } else if is(&[
-            "LIN", "PTP", "SLIN", "SPTP", "LIN_REL", "PTP_REL", "SLIN_REL", "SPTP_REL",
-        ]) {
-            self.push(complaints::unknown_motion(place));
-        } else if is(&["GOTO", "RETURN", "RESUME"]) {
-            self.push(complaints::jump(place, word));
-        } else if is(&["IF", "FOR", "LOOP", "WHILE", "REPEAT", "SWITCH"]) {
-            self.forks.push(place);
-            self.milling.left_out.push(place);
-        } else if is(&["ENDIF", "ENDFOR", "ENDLOOP", "ENDWHILE", "UNTIL", "ENDSWITCH"]) {
-            self.forks.pop();
-            self.milling.left_out.push(place);
-        } else if is(&["SPLINE", "ENDSPLINE", "GLOBAL", "INTERRUPT", "CONTINUE"]) {
-            self.milling.settings.push(place);
-        } else {
-            self.milling.left_out.push(place);
+    fn enter(&mut self, file: usize, name: &str, arguments: &str, place: Span) -> Next {
+        match self.index.find(file, name) {
+            Some(routine) if arguments.is_empty() => {
+                if let Some(entered) = self.entered.get_mut(routine) {
+                    *entered = true;
+                }
+                return Next::Enter(routine);
+            }
+            Some(_) => self.push(complaints::arguments(place, name)),
+            None if MOTIONLESS.iter().any(|known| is_same_name(name, known)) => {
+                self.milling.left_out.push(place);
+            }
+            None => {
+                let first = self.files.files.first().map_or("", |file| &file.name);
+                self.push(complaints::missing_routine(place, name, first));
+            }
         }
         Next::GoOn
     }
 
-    fn push(&mut self, complaint: Diagnostic) {
+    /// A statement that the syntax does not describe.
+    fn other(&mut self, asker: Asker<'_>, word: &str, place: Span) -> Next {
+        let is = |names: &[&str]| names.iter().any(|name| is_same_name(word, name));
+        if is(&["CIRC", "CIRC_REL", "SCIRC", "SCIRC_REL", "SPL", "SPL_REL"]) {
+            self.push(complaints::curve(place, word));
+        } else if is(&[
+            "LIN", "PTP", "SLIN", "SPTP", "LIN_REL", "PTP_REL", "SLIN_REL", "SPTP_REL",
+        ]) {
+            self.push(complaints::unknown_motion(place, self.files.said(place)));
+        } else if is(&["RETURN"]) && self.forks.is_empty() && is_same_name(self.files.said(place), word) {
+            return Next::Return;
+        } else if is(&["GOTO", "RETURN", "RESUME"]) {
+            self.push(complaints::jump(place, word));
+        } else if is(&["IF", "FOR", "LOOP", "WHILE", "REPEAT", "SWITCH"]) {
+            let told = Told::Not;
+            self.forks.push(Fork { place, told });
+            self.milling.left_out.push(place);
+        } else if is(&["ENDIF", "ENDFOR", "ENDLOOP", "ENDWHILE", "UNTIL", "ENDSWITCH"]) {
+            self.forks.pop();
+            self.milling.left_out.push(place);
+        } else if is(&["SPLINE", "PTP_SPLINE", "ENDSPLINE", "CONTINUE"]) {
+            self.milling.settings.push(place);
+        } else {
+            self.unknown_value(asker, word, place);
+        }
+        Next::GoOn
+    }
+
+    /// A statement that may give something a value that is worked out while the program runs.
+    fn unknown_value(&mut self, asker: Asker<'_>, word: &str, place: Span) {
+        let said = essence(self.files.said(place)).to_ascii_uppercase();
+        if is_same_name(word, "$VEL") || said.starts_with("BAS(#VEL_CP") || said.starts_with("BAS(#CP_PARAMS")
+        {
+            self.speed = None;
+        } else if let Some(frame) = said.strip_prefix("BAS(#") {
+            let name = frame.split([',', ')']).next().unwrap_or_default();
+            // Another one each time, for all that is known.
+            self.frame(name, &format!("{said}#{}", self.statements), place);
+        } else {
+            self.frame(word, &format!("{said}#{}", self.statements), place);
+        }
+        self.variables.forget(asker, word);
+        self.milling.left_out.push(place);
+    }
+
+    pub(super) fn push(&mut self, complaint: Diagnostic) {
         if self.complaints.len() < MOST_COMPLAINTS {
             self.complaints.push(complaint);
         }
@@ -324,9 +400,7 @@ impl<'t> Reader<'t, '_> {
         } else if to.is_field("$VEL", "ORI1") {
             self.milling.turning = number.or(self.milling.turning);
         }
-        if is_frame(to.name) {
-            self.frame(&to.name.to_ascii_uppercase(), place);
-        }
+        self.framed(asker, to, value, place);
         let is_followed = is_setting(to)
             || self.forks.is_empty() && self.variables.assign(asker, to, value) == Outcome::Known;
         if is_followed {
@@ -338,124 +412,35 @@ impl<'t> Reader<'t, '_> {
         }
     }
 
-    /// Takes what sets the tool or the base. One for all passes is the job's own frame; a change between them is not followed.
-    fn frame(&mut self, what: &str, place: Span) {
-        let said = self.files.said(place);
-        if self.frames.insert(what.to_owned(), said) != Some(said) {
-            self.reframed = Some(place);
+    /// `BAS (#command,value)`, a routine of every controller.
+    fn bas(&mut self, command: &str, value: Option<f64>, place: Span) {
+        let is = |name| is_same_name(command, name);
+        match value {
+            Some(value) if is("VEL_CP") || is("CP_PARAMS") => self.speed = Some(Written { value, place }),
+            Some(number) => self.frame(command, &number.to_string(), place),
+            None => {}
         }
-    }
-
-    fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>, place: Span) {
-        if let Some(&fork) = self.forks.last() {
-            self.push(complaints::fork(place, fork));
-            return;
-        }
-        let (way, is_relative) = match motion.word {
-            MotionWord::Lin | MotionWord::Slin => (Way::Straight, false),
-            MotionWord::Ptp | MotionWord::Sptp => (Way::Joint, false),
-            MotionWord::LinRel | MotionWord::SlinRel => (Way::Straight, true),
-            MotionWord::PtpRel | MotionWord::SptpRel => (Way::Joint, true),
-        };
-        if let (Some(changed), Way::Straight) = (self.reframed, way) {
-            self.reframed = None;
-            if self.milling.moves.iter().any(|made| made.way == Way::Straight) {
-                self.push(complaints::frame_changes(changed));
-            }
-        }
-        let target = match motion.target {
-            Target::Literal(coordinates) => Some(coordinates),
-            Target::Variable(variable) => self.variables.get(asker, &variable),
-        };
-        let Some(target) = target.filter(|target| !target.has_any(&Component::AXES)) else {
-            return self.elsewhere(way, target.is_some(), place);
-        };
-        for component in Component::TIP.into_iter().chain(Component::ANGLES) {
-            if let Some(value) = target.get(component) {
-                let before = if is_relative {
-                    self.last.get(component).unwrap_or(0.0)
-                } else {
-                    0.0
-                };
-                self.last.set(component, before + value);
-            }
-        }
-        let to = self.last.all(Component::TIP);
-        if to.is_none() && way == Way::Straight {
-            self.push(complaints::unknown_end(
-                place,
-                "not all of X, Y and Z have been said so far",
-            ));
-        }
-        let attitude = self.last.all(Component::ANGLES).map(|[a, b, c]| {
-            Orientation::from_zyx(Zyx {
-                a: Angle::deg(a),
-                b: Angle::deg(b),
-                c: Angle::deg(c),
-            })
-        });
-        self.milling.moves.push(Move {
-            place,
-            way,
-            to,
-            attitude,
-            speed: self.speed,
-        });
-    }
-
-    /// A motion to axis values, or to a position that nobody knows.
-    fn elsewhere(&mut self, way: Way, has_axes: bool, place: Span) {
-        self.last = Coordinates::default();
-        if has_axes || way == Way::Joint {
-            self.milling.axis_moves += 1;
-            self.milling.settings.push(place);
-            self.milling.moves.push(Move {
-                place,
-                way: Way::Joint,
-                to: None,
-                attitude: None,
-                speed: self.speed,
-            });
-        } else {
-            self.push(complaints::unknown_end(
-                place,
-                "no position of this name is declared in the files given, or it was changed in a way that is not followed",
-            ));
-        }
+        self.milling.settings.push(place);
     }
 }
 
-/// What sets the frames that targets are told in: variables, and commands of `BAS`.
-fn is_frame(name: &str) -> bool {
-    ["$TOOL", "$BASE", "TOOL", "BASE"]
-        .iter()
-        .any(|frame| is_same_name(frame, name))
-}
+/// Routines of every controller that are called from programs and move nothing.
+const MOTIONLESS: [&str; 10] = [
+    "A10_INI",
+    "APPLICATION_INI",
+    "IR_STOPM",
+    "MSGDIALOG",
+    "MSGNOTIFY",
+    "MSGQUIT",
+    "P00",
+    "SET_CD_PARAMS",
+    "USERSPOT",
+    "USER_GRP",
+];
 
 /// Variables that set up motions, and those that inline forms of the pendant leave behind.
 fn is_setting(variable: &Variable<'_>) -> bool {
-    const SYSTEM: [&str; 21] = [
-        "$VEL",
-        "$ACC",
-        "$APO",
-        "$ORI_TYPE",
-        "$CIRC_TYPE",
-        "$ADVANCE",
-        "$TOOL",
-        "$BASE",
-        "$LOAD",
-        "$IPO_MODE",
-        "$ACT_TOOL",
-        "$ACT_BASE",
-        "$VEL_AXIS",
-        "$ACC_AXIS",
-        "$BWDSTART",
-        "$H_POS",
-        "$JERK",
-        "$GEAR_JERK",
-        "PDAT_ACT",
-        "LDAT_ACT",
-        "FDAT_ACT",
-    ];
-    SYSTEM.iter().any(|name| is_same_name(variable.name, name))
+    super::frames::SETUP
+        .iter()
+        .any(|name| is_same_name(variable.name, name))
 }

@@ -47,11 +47,57 @@ pub enum Blade {
     },
 }
 
+/// A file with a profile, as a job names it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProfileFile {
+    /// What it is.
+    pub form: ProfileForm,
+    /// Where it lies, seen from the job.
+    pub path: String,
+    /// The fields behind its name, without the braces.
+    pub fields: String,
+}
+
+/// Kinds of files that the language takes profiles from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProfileForm {
+    /// Points, x and z.
+    Points,
+    /// An airfoil, in the layout of Selig or Lednicer.
+    Airfoil,
+    /// A drawing in DXF.
+    Dxf,
+    /// A drawing in SVG.
+    Svg,
+}
+
+impl ProfileForm {
+    /// By the ending of a file's name: what has another one than the rest is a file of points.
+    #[must_use]
+    pub fn of_ending(ending: &str) -> Self {
+        let forms = [("dat", Self::Airfoil), ("dxf", Self::Dxf), ("svg", Self::Svg)];
+        let found = forms
+            .into_iter()
+            .find_map(|(known, form)| ending.eq_ignore_ascii_case(known).then_some(form));
+        found.unwrap_or(Self::Points)
+    }
+
+    /// The word of the language.
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Points => "points",
+            Self::Airfoil => "airfoil",
+            Self::Dxf => "dxf",
+            Self::Svg => "svg",
+        }
+    }
+}
+
 /// The part of the job.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
-    /// Its profile is in a file of points.
-    File(String),
+    /// Its profile is in a file.
+    File(ProfileFile),
     /// A polyline.
     Polyline(Vec<Point2>),
 }
@@ -183,7 +229,7 @@ impl Writer<'_> {
         self.line(&format!("stock {{ size = ({}) }}\n", sizes.join(", ")));
         self.line("profile {");
         match &material.part {
-            Part::File(path) => self.line(&format!("  points {}", quoted(path))),
+            Part::File(file) => self.profile_file(file),
             Part::Polyline(points) => self.polyline(points),
         }
         self.line("}\n");
@@ -199,6 +245,14 @@ impl Writer<'_> {
             self.line(&format!("  thickness      = {}", mm(thickness.to_mm())));
             self.line("  edges          = double\n}\n");
         }
+    }
+
+    fn profile_file(&mut self, file: &ProfileFile) {
+        let fields = match file.fields.trim() {
+            "" => String::new(),
+            fields => format!(" {{ {fields} }}"),
+        };
+        self.line(&format!("  {} {}{fields}", file.form.word(), quoted(&file.path)));
     }
 
     fn polyline(&mut self, points: &[Point2]) {

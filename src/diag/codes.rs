@@ -252,6 +252,14 @@ codes! {
     LeftOut = "VC1008", Warning, "statements of a milling program that are left out";
     /// Passes beside the blank.
     BesideBlank = "VC1009", Warning, "passes beside the blank";
+    /// A routine that a milling program calls and no file holds.
+    MissingRoutine = "VC1010", Error, "a routine of a milling program whose file is missing";
+    /// External axes that move in a milling program.
+    ExternalAxis = "VC1011", Error, "a milling program that moves external axes";
+    /// A milling program without its end.
+    NotWhole = "VC1012", Warning, "a milling program without its end";
+    /// Passes above the blank.
+    AboveBlank = "VC1013", Warning, "passes above the blank";
 }
 
 #[cfg(test)]

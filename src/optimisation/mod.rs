@@ -29,12 +29,25 @@ pub struct Optimisation {
     pub job: String,
     /// Its operations, in order.
     pub operations: Vec<OperationOptimum>,
+    /// Operations whose tips the job gives, so that there is nothing to choose.
+    pub given: Vec<GivenOperation>,
     /// The simulated scallop of the whole job.
     pub scallop: Length,
     /// What there was to warn of.
     pub warnings: Vec<Diagnostic>,
     /// The texts that warnings point into.
     pub sources: SourceMap,
+}
+
+/// An operation along tips that the job gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GivenOperation {
+    /// Which operation of the job it is, counted from 1.
+    pub number: u16,
+    /// Where its tips stand: `rib.vcut:12:3`.
+    pub place: String,
+    /// How many they are.
+    pub tips: usize,
 }
 
 /// What came of one operation's open parameters.
@@ -139,13 +152,28 @@ pub fn optimise(
     };
     progress(Stage::Optimising);
     let operations = operations(&job, &plan, &compiled, &sources, points);
+    let given = given(&job, &sources);
     Ok(Optimisation {
+        given,
         job: job.name,
         operations,
         scallop: compiled.report.scallop.height,
         warnings: diagnostics,
         sources,
     })
+}
+
+fn given(job: &CheckedJob, sources: &SourceMap) -> Vec<GivenOperation> {
+    let numbered = (1..).zip(&job.operations);
+    let given = numbered.filter_map(|(number, Operation::RoughVcut(asked))| {
+        let tips = asked.tips.as_ref()?;
+        Some(GivenOperation {
+            number,
+            place: bounds::place(sources, tips.span),
+            tips: tips.tips.len(),
+        })
+    });
+    given.collect()
 }
 
 fn operations(

@@ -1,7 +1,7 @@
 //! What came of optimising, for people and for programs.
 
 use super::bounds::{Relaxed, name, value};
-use super::{OperationOptimum, Optimisation, Planned, Role, Row};
+use super::{GivenOperation, OperationOptimum, Optimisation, Planned, Role, Row};
 use crate::job::Objective;
 use crate::plan::optimum::{Bound, Infeasible, Optimum};
 use crate::plan::parameters::VcutParameters;
@@ -30,6 +30,17 @@ pub fn text(optimisation: &Optimisation) -> String {
             text.push('\n');
         }
         text += &operation_text(&optimisation.job, operation, optimisation.scallop);
+    }
+    if !text.is_empty() && !optimisation.given.is_empty() {
+        text.push('\n');
+    }
+    for given in &optimisation.given {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{}: operation {}: its {} tips are given ({}), so there is nothing to choose",
+            optimisation.job, given.number, given.tips, given.place
+        );
     }
     text
 }
@@ -281,6 +292,16 @@ pub struct OptimisationBody<'a> {
     /// In mm, simulated.
     scallop: f64,
     operations: Vec<OperationBody<'a>>,
+    /// Operations along tips that the job gives.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    given: Vec<GivenBody<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct GivenBody<'a> {
+    operation: u16,
+    place: &'a str,
+    tips: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -357,6 +378,15 @@ pub fn body(optimisation: &Optimisation) -> OptimisationBody<'_> {
         job: &optimisation.job,
         scallop: optimisation.scallop.to_mm(),
         operations: optimisation.operations.iter().map(operation_body).collect(),
+        given: optimisation.given.iter().map(given_body).collect(),
+    }
+}
+
+fn given_body(given: &GivenOperation) -> GivenBody<'_> {
+    GivenBody {
+        operation: given.number,
+        place: &given.place,
+        tips: given.tips,
     }
 }
 

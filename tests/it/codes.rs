@@ -109,6 +109,30 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "what_is_no_raster_is_told_at_its_line",
         "it is about a milling program",
     ),
+    (
+        Code::MissingRoutine,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::ExternalAxis,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::NotWhole,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
+    (
+        Code::AboveBlank,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
 ];
 
 #[test]

@@ -32,6 +32,7 @@ const WORDS: Words<'static> = Words {
     edge: None,
     half_apex: None,
     thickness: None,
+    tolerance: None,
 };
 
 fn request<'a>(files: &'a [ProgramFile], asked: &'a Asked) -> Request<'a> {
@@ -244,6 +245,125 @@ fn passes_that_are_made_twice_are_one() {
          LIN {X 6.680,Y -3.000,Z 45.600,A 0.0,B 90.0,C 0.0}\r\n",
     );
     assert_eq!(tips(&converted(&files, WORDS)), paper().tips());
+}
+
+/// The program of the paper's block with a change, as one file.
+fn changed(change: impl Fn(String) -> String) -> Vec<ProgramFile> {
+    let post = Post {
+        style: Style::Full,
+        zero: Zero::Corner,
+        passes: PASSES[0],
+    };
+    let mut files = post.write(&paper());
+    files[0].text = change(files[0].text.replace("\r\n", "\n"));
+    files
+}
+
+fn inferred<'a>(conversion: &'a Conversion, subject: &str) -> Vec<&'a str> {
+    let of_subject = conversion
+        .inferences
+        .iter()
+        .filter(|inference| inference.subject == subject);
+    of_subject.map(|inference| inference.what.as_str()).collect()
+}
+
+/// What posts write around and behind motions, and what changes none of them.
+#[test]
+fn words_around_motions_change_no_pass() {
+    let head = "PDAT_ACT={VEL 15,ACC 100,APO_DIST 50}\nFDAT_ACT={TOOL_NO 13,BASE_NO 1,IPO_FRAME #BASE}\nBAS (#FRAMES)\n\
+        BAS (#VEL_PTP,15)\nPTP $POS_ACT\nINT I\nDECL REAL VF\n$ADVANCE=5\n$APO.CDIS=0.5\nCONTINUE\n$VEL.CP=1.0\n";
+    let changes: [&dyn Fn(String) -> String; 6] = [
+        &|text| text.replace("C_DIS", "C_DIS C_DIS"),
+        &|text| text.replacen("$VEL.CP=1.0\n", head, 1),
+        &|text| {
+            text.replace(
+                "\nEND\n",
+                "\nFDAT_ACT={TOOL_NO 0,BASE_NO 0}\nPTP {A1 0}\nRETURN\nEND\n",
+            )
+        },
+        &|text| {
+            text.replace("LIN {", "SLIN {")
+                .replace("C_DIS", "WITH $ACC=SACC_CP(LCPDAT1), $JERK=SJERK(LCPDAT1) C_SPL")
+        },
+        &|text| text.replace("C 0.0}", "C 0.0,E1 250.0,E2 0.0}"),
+        // Up by 5 mm and down again, along the base and along the tool, whose x points down.
+        &|text| {
+            text.replacen(
+                "$VEL.CP=0.2\n",
+                "LIN_REL {Z 5.0} C_DIS #BASE\nLIN_REL {X 5.0} #TOOL\n\
+                 CIRC {X 0.71,Y 25,Z 75},{X 0.71,Y 53,Z 60}\nCIRC_REL {Y -28,Z 15},{Y -56}\n$VEL.CP=0.2\n",
+                1,
+            )
+        },
+    ];
+    for (number, change) in changes.into_iter().enumerate() {
+        let conversion = converted(&changed(change), WORDS);
+        assert_eq!(tips(&conversion), paper().tips(), "{number}");
+        assert!(
+            conversion.warnings.is_empty(),
+            "{number}: {:#?}",
+            conversion.warnings
+        );
+        match number {
+            4 => assert_eq!(
+                inferred(&conversion, "external"),
+                ["axes outside of the arm stand still: E1 at 250, E2 at 0"]
+            ),
+            5 => assert_eq!(conversion.raster.arcs, 2),
+            _ => {}
+        }
+    }
+}
+
+/// Noise up to the tolerance leaves the passes what they are, and is told.
+#[test]
+fn noise_of_posts_is_swallowed_up_to_the_tolerance() {
+    let noisy = changed(|text| {
+        let mut out = String::new();
+        let mut last = String::new();
+        for line in text.lines() {
+            let part = |line: &str, from: &str| -> Option<f64> {
+                line.split(from).nth(1)?.split([',', '}']).next()?.parse().ok()
+            };
+            let here = (part(line, "{X "), part(line, "Z "));
+            if let (Some(x), Some(z)) = here
+                && here == (part(&last, "{X "), part(&last, "Z "))
+                && part(line, "Y ") != part(&last, "Y ")
+            {
+                out += &format!(
+                    "LIN {{X {:.3},Y 20,Z {:.3}}}\nLIN {{X {:.3},Y 30,Z {z:.3}}}\n",
+                    x + 0.03,
+                    z - 0.01,
+                    x - 0.02
+                );
+            }
+            out += line;
+            out.push('\n');
+            last = line.to_owned();
+        }
+        out
+    });
+    let asked = WORDS.asked().unwrap();
+    let refused = convert(request(&noisy, &asked)).unwrap_err();
+    let help = format!("{:?}", refused.diagnostics);
+    assert!(
+        help.contains("--tolerance 0.05mm") || help.contains("--tolerance 0.1mm"),
+        "{help}"
+    );
+    let words = Words {
+        tolerance: Some("0.06"),
+        ..WORDS
+    };
+    let conversion = converted(&noisy, words);
+    for (found, made) in tips(&conversion).iter().zip(paper().tips()) {
+        assert!(
+            (found[0] - made[0]).abs() <= 0.03 && (found[1] - made[1]).abs() <= 0.03,
+            "{found:?} {made:?}"
+        );
+    }
+    assert_eq!(conversion.raster.passes.len(), paper().tips().len());
+    let told = inferred(&conversion, "tolerance");
+    assert!(told.len() == 1 && told[0].contains("0.025 mm"), "{told:?}");
 }
 
 fn any_raster() -> impl Strategy<Value = Raster> {

@@ -171,7 +171,7 @@ fn swap_piece(pieces: &[&[u8]], at: &Index, is_wanted: impl Fn(&[u8]) -> bool, b
 fn a_token() -> impl Strategy<Value = String> {
     let words = [
         "job", "use", "let", "stock", "profile", "blade", "rough", "vcut", "machine", "robot", "start",
-        "line", "to", "arc", "bezier", "spline", "polyline", "points", "airfoil", "radius", "center",
+        "line", "to", "arc", "bezier", "spline", "polyline", "points", "airfoil", "radius", "center", "tips",
         "through", "z", "x", "size", "feed", "limits", "swing", "layer", "auto", "frame", "joints", "output",
         "number", "krl", "mm", "deg", "s", "(", ")", "{", "}", "=", "<=", ",", "+", "-", "*", "/", "^", "\"",
         "//", "\n", "0", "1", "85", "1e308", "\u{fffd}",

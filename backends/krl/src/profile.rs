@@ -78,7 +78,7 @@ fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String>
         ));
     }
     let why = match phrase {
-        Phrase::Motion(_) => "moves the robot, and nothing has proven where",
+        Phrase::Motion(_) | Phrase::Arc(_) => "moves the robot, and nothing has proven where",
         Phrase::Other(_) if !is_assignment(text) => {
             "may move the robot, or make it leave out lines; a line may call a routine, assign, declare or wait"
         }

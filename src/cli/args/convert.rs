@@ -73,6 +73,12 @@ pub(in crate::cli) struct ConvertArgs {
     #[arg(long, value_name = "LENGTH")]
     pub(in crate::cli) thickness: Option<String>,
 
+    /// How close together the points of a pass lie, across and in height [default: 0.01 mm]
+    ///
+    /// Posts that divide a straight pass into many points round each of them. Up to 1 mm; steps between passes have to be longer.
+    #[arg(long, value_name = "LENGTH")]
+    pub(in crate::cli) tolerance: Option<String>,
+
     /// A file of the shop with machines, and blades for --blade
     #[arg(long, value_name = "FILE.vcut")]
     pub(in crate::cli) cell: Option<String>,
@@ -85,9 +91,13 @@ pub(in crate::cli) struct ConvertArgs {
     #[arg(long, value_name = "NAME", requires = "cell")]
     pub(in crate::cli) machine: Option<String>,
 
-    /// Points of the part's profile, x and z in mm [default: through the lowest passes]
-    #[arg(long, value_name = "FILE.csv")]
+    /// The part's profile: points in .csv, an airfoil in .dat, a drawing in .dxf or .svg [default: through the lowest passes]
+    #[arg(long, value_name = "FILE")]
     pub(in crate::cli) profile: Option<String>,
+
+    /// Fields of that file as in the language, such as "side = upper, chord = 300 mm"
+    #[arg(long, value_name = "FIELDS", requires = "profile")]
+    pub(in crate::cli) profile_fields: Option<String>,
 
     /// Write the job (.vcut) that stands for the program
     #[arg(long, conflicts_with = "target")]
@@ -99,8 +109,8 @@ pub(in crate::cli) struct ConvertArgs {
     #[arg(short, long, value_name = "TARGET", requires = "cell")]
     pub(in crate::cli) target: Option<String>,
 
-    /// Where the job or the program goes: a folder, or - for standard output [default: the current folder]
-    #[arg(short, long, value_name = "DIR|-")]
+    /// Where the job or the program goes: a folder, a job also FILE.vcut, or - for standard output [default: the current folder]
+    #[arg(short, long, value_name = "DIR|FILE.vcut|-")]
     pub(in crate::cli) output: Option<String>,
 
     /// Draw the path of the file and that of the V-cuts into this file
@@ -130,6 +140,7 @@ impl ConvertArgs {
             edge: self.edge.as_deref(),
             half_apex: self.half_apex.as_deref(),
             thickness: self.thickness.as_deref(),
+            tolerance: self.tolerance.as_deref(),
         }
     }
 }

@@ -133,6 +133,81 @@ fn messages_about_tips_show_the_line_of_the_program() {
     );
 }
 
+/// A job in another folder names the files of the shop from there, so that both can be moved together.
+#[test]
+fn a_job_elsewhere_names_files_from_where_it_lies() {
+    let out = folder();
+    let shop = out.path().join("shop");
+    fs::create_dir(&shop).unwrap();
+    fs::write(shop.join("cells.vcut"), read("examples/shop/cells.vcut")).unwrap();
+    fs::write(
+        shop.join("part.dxf"),
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n5\n\
+         11\n85\n21\n5\n0\nENDSEC\n0\nEOF\n",
+    )
+    .unwrap();
+    let text = |path: &std::path::Path| path.to_str().unwrap().to_owned();
+    let (cell, profile) = (text(&shop.join("cells.vcut")), text(&shop.join("part.dxf")));
+    let job = out.path().join("jobs").join("first").join("x.vcut");
+    let named = text(&job);
+    let arguments = [
+        "--cell",
+        &cell,
+        "--machine",
+        "large_cell",
+        "--profile",
+        &profile,
+        "--profile-fields",
+        "layer = \"0\"",
+        "--as-job",
+        "-o",
+        &named,
+    ];
+    let run = vcutc(root(), &convert(&arguments));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let written = fs::read_to_string(&job).unwrap();
+    assert!(written.contains("use \"../../shop/cells.vcut\""), "{written}");
+    assert!(
+        written.contains("dxf \"../../shop/part.dxf\" { layer = \"0\" }"),
+        "{written}"
+    );
+    let run = vcutc(root(), &[&named]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+}
+
+#[test]
+fn files_that_no_controller_reads_say_how_to_save_them() {
+    let out = folder();
+    let program = read(PANEL);
+    let wide: Vec<u8> = program.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let cases = [
+        (
+            "wide.src",
+            [&[0xff, 0xfe], wide.as_slice()].concat(),
+            "it is in UTF-16",
+        ),
+        ("bare.src", wide, "it is in UTF-16"),
+        (
+            "mac.src",
+            program.replace('\n', "\r").into_bytes(),
+            "its lines end with CR alone",
+        ),
+    ];
+    for (name, bytes, said) in cases {
+        let path = out.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        let mut arguments = convert(&[]);
+        arguments[1] = path.to_str().unwrap();
+        let run = vcutc(root(), &arguments);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(
+            run.stderr.contains(said) && run.stderr.contains("save it"),
+            "{}",
+            run.stderr
+        );
+    }
+}
+
 #[test]
 fn a_program_needs_a_machine_and_files_have_to_be_there() {
     let run = vcutc(root(), &convert(&["--target", "krl"]));

@@ -145,3 +145,23 @@ fn jobs_with_errors_are_told_of_as_ever() {
     let run = vcutc(root(), &["optimize", "examples/block_cui.vcut", "--points", "1"]);
     assert_eq!(run.code, Some(2));
 }
+
+#[test]
+fn operations_along_given_tips_are_named() {
+    let job = {
+        let jobs = crate::repository::files("tests/jobs", "job.vcut");
+        jobs.into_iter()
+            .find(|job| job.text.contains("\n  tips"))
+            .unwrap()
+    };
+    let folder = super::folder();
+    let path = folder.path().join("job.vcut");
+    std::fs::write(&path, &job.text).unwrap();
+    let run = vcutc(root(), &["optimize", path.to_str().unwrap()]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(
+        run.stdout.contains("tips are given (") && run.stdout.contains("so there is nothing to choose"),
+        "{}",
+        run.stdout
+    );
+}

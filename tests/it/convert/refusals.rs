@@ -33,6 +33,27 @@ fn told(text: &str, words: Words<'_>) -> (Vec<Diagnostic>, SourceMap) {
 /// A pass in the middle of the first row.
 const PASS: &str = "LIN {X 30.560,Y -3.000,Z 45.600,A 0.0,B 90.0,C 0.0}\n";
 
+/// The program with its zero so much higher, in mm.
+fn lowered(by: f64) -> String {
+    let mut pieces = program();
+    let heights: Vec<String> = pieces
+        .split(",Z ")
+        .skip(1)
+        .filter_map(|rest| rest.split([',', '}']).next().map(str::to_owned))
+        .collect();
+    let mut heights: Vec<(String, f64)> = heights
+        .into_iter()
+        .map(|text| (text.clone(), text.parse().unwrap()))
+        .collect();
+    // From the lowest on: what has been written is never above what is still to come.
+    heights.sort_by(|one, other| one.1.total_cmp(&other.1));
+    heights.dedup();
+    for (text, height) in heights {
+        pieces = pieces.replace(&format!(",Z {text},"), &format!(",Z {:.3} ,", height - by));
+    }
+    pieces.replace(" ,", ",")
+}
+
 /// What is written in the place of that pass, or how the whole program changes, and what is then wrong.
 fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
     let instead = |line: &str| program().replacen(PASS, &format!("{line}\n"), 1);
@@ -135,10 +156,140 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
             Code::NotFollowed,
         ),
         (
-            "a motion with words of its own",
-            instead("SLIN {X 30.560,Y -3.000,Z 45.600} WITH $VEL.CP=0.1"),
+            "a motion with a speed of its own",
+            instead(
+                "SLIN {X 30.560,Y -3.000,Z 45.600} WITH $VEL=SVEL_CP(0.1, , LCPDAT1), $ACC=SACC_CP(LCPDAT1) C_SPL",
+            ),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "a motion with an output of its own",
+            instead("SLIN {X 30.560,Y -3.000,Z 45.600} WITH $OUT[1]=TRUE"),
             WORDS,
             Code::NotFollowed,
+        ),
+        (
+            "a motion with a base of its own",
+            instead("SLIN {X 30.560,Y -3.000,Z 45.600} WITH $BASE=SBASE(FP7.BASE_NO)"),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a base by the data of a point",
+            instead(&format!(
+                "FDAT_ACT={{TOOL_NO 2,BASE_NO 1,IPO_FRAME #BASE}}\nBAS(#FRAMES)\n{PASS}"
+            )),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a relative motion from nowhere",
+            program().replacen(
+                "$VEL.CP=1.0\n",
+                "$VEL.CP=1.0\nLIN_REL {X 0.0,Y 0.0,Z -100.0} #BASE\n",
+                1,
+            ),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "frames that are joined",
+            instead("LIN OFFSET:XP1"),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "an arc that goes round by an angle from nowhere",
+            program().replacen(
+                "$VEL.CP=1.0\n",
+                "$VEL.CP=1.0\nCIRC {X 1,Y 0,Z 70},{X 2,Y 0,Z 60}, CA 180\n",
+                1,
+            ),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a turntable that turns",
+            instead(&PASS.replace("C 0.0}", "C 0.0,E1 250.0}")),
+            WORDS,
+            Code::ExternalAxis,
+        ),
+        (
+            "a routine whose file is missing",
+            instead(&format!("SPINDLE_ON(12000)\n{PASS}")),
+            WORDS,
+            Code::MissingRoutine,
+        ),
+        (
+            "a routine that nobody calls",
+            program() + "DEF SPARE( )\nLIN {Z 20.0}\nEND\n",
+            WORDS,
+            Code::LeftOut,
+        ),
+        (
+            "motions behind the end",
+            program() + "LIN {Z 20.0}\n",
+            WORDS,
+            Code::UnreadableStatement,
+        ),
+        ("no end", program().replace("END\n", ""), WORDS, Code::NotWhole),
+        (
+            "an end in the middle of a statement",
+            program().split_inclusive(',').take(200).collect(),
+            WORDS,
+            Code::UnreadableStatement,
+        ),
+        (
+            "passes on both sides of zero",
+            lowered(15.3),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "a pass below the blank",
+            lowered(15.3),
+            Words {
+                origin: Some("0,0,0"),
+                ..WORDS
+            },
+            Code::NoPass,
+        ),
+        (
+            "a pass that only skims the blank",
+            program().replacen(
+                "$VEL.CP=0.2\n",
+                "$VEL.CP=0.2\nLIN {Z 50.0}\nLIN {Y 53.0}\nLIN {Y -3.0}\n",
+                1,
+            ),
+            WORDS,
+            Code::AboveBlank,
+        ),
+        (
+            "a speed that changes within a pass",
+            program().replacen(
+                PASS,
+                &format!("LIN {{X 30.560,Y 25.0,Z 45.600}}\n$VEL.CP=0.1\n{PASS}"),
+                1,
+            ),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "noise",
+            program().replacen(PASS, &format!("LIN {{X 30.590,Y 25.0,Z 45.590}}\n{PASS}"), 1),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "interrupts",
+            program().replacen(
+                "$VEL.CP=1.0\n",
+                "GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )\nINTERRUPT ON 3\n$VEL.CP=1.0\n",
+                1,
+            ),
+            WORDS,
+            Code::LeftOut,
         ),
         (
             "no motion before the first",
@@ -221,7 +372,7 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
         (
             "outputs and waits",
             instead(&format!(
-                "$OUT[3]=TRUE\nWAIT SEC 1\n{PASS}$ANOUT[1]=0.5\nHALT\nTOOL_OFF( )\n$OUT[4]=FALSE"
+                "$OUT[3]=TRUE\nWAIT SEC 1\n{PASS}$ANOUT[1]=0.5\nHALT\nP00(#EXT_PGNO,#PGNO_ACKN,DMY[],0)\n$OUT[4]=FALSE"
             )),
             WORDS,
             Code::LeftOut,
@@ -327,6 +478,14 @@ fn options_that_cannot_be_understood_say_what_would_be() {
             thickness: Some("-1"),
             ..WORDS
         },
+        Words {
+            stock: "85,5x50x50",
+            ..WORDS
+        },
+        Words {
+            tolerance: Some("2mm"),
+            ..WORDS
+        },
     ];
     let shown: String = bad
         .iter()
@@ -345,5 +504,18 @@ fn lengths_are_in_mm_unless_a_unit_follows() {
     let asked = words.asked().unwrap();
     assert_eq!(asked.stock, [85.0, 50.0, 50.0]);
     assert!((asked.extension.to_mm() - 8.0).abs() < 1e-12);
-    assert_eq!(WORDS.asked().unwrap().stock, [85.0, 50.0, 50.0]);
+    for stock in [
+        "85x50x50",
+        "85X50X50",
+        "85 x 50 x 50",
+        "85mm x 50mm x 50mm",
+        "85 * 50 * 50 mm",
+        "85\u{d7}50\u{d7}50",
+    ] {
+        assert_eq!(
+            Words { stock, ..WORDS }.asked().unwrap().stock,
+            [85.0, 50.0, 50.0],
+            "{stock}"
+        );
+    }
 }

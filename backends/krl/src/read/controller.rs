@@ -77,6 +77,10 @@ impl<'a> Controller<'a> {
                 Some(input) => Says::Deed(Deed::AwaitInput(input)),
                 None => Says::Unknown,
             },
+            Phrase::Arc(_) => {
+                self.last = Coordinates::default();
+                Says::Unknown
+            }
             Phrase::Halt | Phrase::Other(_) | Phrase::Call { .. } => Says::Unknown,
             Phrase::Unreadable { expected } => unreadable(expected),
             Phrase::Mark(_)
@@ -175,7 +179,11 @@ impl<'a> Controller<'a> {
         if external.any(|value| value != 0.0) {
             return Err(Trouble::Unknown);
         }
-        let (need, end) = match (motion.word, motion.approximation) {
+        let tail = &motion.tail;
+        if tail.second.is_some() || tail.directions.is_some() || !tail.with.is_empty() {
+            return Err(Trouble::Unknown);
+        }
+        let (need, end) = match (motion.word, tail.approximation) {
             (MotionWord::Ptp | MotionWord::Sptp, None) => (Need::Axes, End::Exact),
             (MotionWord::Lin | MotionWord::Slin, None) => (Need::Straight, End::Exact),
             (MotionWord::Lin, Some(Approximation::Distance))

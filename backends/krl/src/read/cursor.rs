@@ -74,6 +74,11 @@ impl<'t> Cursor<'t> {
         self.text.get(self.at..).unwrap_or_default()
     }
 
+    /// The text from here to another place behind it, without the blanks around it.
+    pub(super) fn until(&self, other: Self) -> &'t str {
+        self.text.get(self.at..other.at).unwrap_or_default().trim_ascii()
+    }
+
     /// Goes over a sign.
     #[inline]
     pub(super) fn skip(&mut self, sign: u8) -> bool {
@@ -114,6 +119,25 @@ impl<'t> Cursor<'t> {
         let length = inner.bytes().position(|byte| byte == quote)?;
         self.at += length + 2;
         inner.get(..length)
+    }
+
+    /// What stands in round brackets, with the brackets within, blanks at its ends apart.
+    pub(super) fn bracketed(&mut self) -> Option<&'t str> {
+        if self.peek() != Some(b'(') {
+            return None;
+        }
+        let inner = self.text.get(self.at + 1..)?;
+        let mut open = 1_u32;
+        let length = inner.bytes().position(|byte| {
+            match byte {
+                b'(' => open += 1,
+                b')' => open -= 1,
+                _ => {}
+            }
+            open == 0
+        })?;
+        self.at += length + 2;
+        inner.get(..length).map(str::trim_ascii)
     }
 
     /// A number without sign and point, as places of arrays have it.

@@ -28,6 +28,7 @@
 mod controller;
 mod cursor;
 pub mod index;
+mod motions;
 mod parse;
 mod profile;
 mod run;

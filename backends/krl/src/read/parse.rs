@@ -1,25 +1,25 @@
 //! One line of KRL as a [`Phrase`].
 
 use super::cursor::{Cursor, Number};
+use super::motions;
 use super::syntax::{
-    Approximation, Component, Coordinates, Declaration, Field, Motion, MotionWord, Phrase, Scope, Span,
-    Target, Value, Variable, is_same_name,
+    Component, Coordinates, Declaration, Field, Phrase, Scope, Span, Value, Variable, is_same_name,
 };
 
 /// How deep structures lie within structures; `LOAD` needs two.
-const DEEPEST: u32 = 4;
+pub(super) const DEEPEST: u32 = 4;
 
 /// Why a line is no phrase of its kind.
-enum Trouble {
+pub(super) enum Trouble {
     /// Something else was expected.
     Expected(&'static str),
     /// It is KRL, but not of the part that is read.
     Other,
 }
 
-type Parsed<T> = Result<T, Trouble>;
+pub(super) type Parsed<T> = Result<T, Trouble>;
 
-const fn expected<T>(what: &'static str) -> Parsed<T> {
+pub(super) const fn expected<T>(what: &'static str) -> Parsed<T> {
     Err(Trouble::Expected(what))
 }
 
@@ -71,34 +71,13 @@ pub(super) fn phrase(code: &str) -> Phrase<'_> {
 
 #[inline]
 fn statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
-    if let Some(motion) = motion_word(word) {
-        return Ok(Phrase::Motion(Motion {
-            word: motion,
-            target: target(cursor)?,
-            approximation: approximation(cursor)?,
-        }));
+    if let Some(motion) = motions::phrase(word, cursor) {
+        return motion;
     }
     match Keyword::of(word) {
         Some(keyword) => keyword_statement(keyword, cursor),
         None => plain_statement(word, cursor),
     }
-}
-
-#[inline]
-fn motion_word(word: &str) -> Option<MotionWord> {
-    let words = [
-        ("LIN", MotionWord::Lin),
-        ("SLIN", MotionWord::Slin),
-        ("PTP", MotionWord::Ptp),
-        ("SPTP", MotionWord::Sptp),
-        ("LIN_REL", MotionWord::LinRel),
-        ("SLIN_REL", MotionWord::SlinRel),
-        ("PTP_REL", MotionWord::PtpRel),
-        ("SPTP_REL", MotionWord::SptpRel),
-    ];
-    words
-        .into_iter()
-        .find_map(|(name, motion)| is_same_name(word, name).then_some(motion))
 }
 
 /// Words that begin statements, motions apart.
@@ -144,12 +123,12 @@ impl Keyword {
 
 /// Words that begin statements which are not described [K-QG].
 #[rustfmt::skip]
-const OTHERS: [&str; 52] = [
-    "ANIN", "ANOUT", "BRAKE", "CASE", "CCLOSE", "CHANNEL", "CIRC", "CIRC_REL", "CONFIRM", "CONST", "CONTINUE", "COPEN",
-    "CREAD", "CWRITE", "DEFAULT", "DEFFCT", "DIGIN", "ELSE", "ENDFCT", "ENDFOR", "ENDIF", "ENDLOOP", "ENDSPLINE",
+const OTHERS: [&str; 56] = [
+    "ANIN", "ANOUT", "BRAKE", "CASE", "CCLOSE", "CHANNEL", "CIRC", "CIRC_REL", "CONFIRM", "CONST", "CONST_VEL", "CONTINUE",
+    "COPEN", "CREAD", "CWRITE", "DEFAULT", "DEFFCT", "DIGIN", "ELSE", "ENDFCT", "ENDFOR", "ENDIF", "ENDLOOP", "ENDSPLINE",
     "ENDSWITCH", "ENDWHILE", "ENUM", "ERR_RAISE", "EXIT", "EXTFCT", "EXTFCTP", "EXTP", "FOR", "GOTO", "IF", "IMPORT",
-    "INTERRUPT", "LOOP", "PULSE", "REPEAT", "RESUME", "RETURN", "SCIRC", "SCIRC_REL", "SIGNAL", "SPL", "SPL_REL",
-    "SPLINE", "STRUC", "SWITCH", "TRIGGER", "UNTIL", "WHILE",
+    "INTERRUPT", "LOOP", "ON_ERROR_PROCEED", "PTP_SPLINE", "PULSE", "REPEAT", "RESUME", "RETURN", "SCIRC", "SCIRC_REL",
+    "SIGNAL", "SPL", "SPL_REL", "SPLINE", "STRUC", "SWITCH", "TIME_BLOCK", "TRIGGER", "UNTIL", "WHILE",
 ];
 
 /// Types that need no `DECL`; files also leave it out before positions.
@@ -327,12 +306,12 @@ fn further_names(cursor: &mut Cursor<'_>) -> Parsed<()> {
     }
 }
 
-fn name<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {
+pub(super) fn name<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {
     cursor.word().ok_or(Trouble::Expected("a name"))
 }
 
 /// The place and the field behind a name.
-fn variable<'t>(name: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Variable<'t>> {
+pub(super) fn variable<'t>(name: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Variable<'t>> {
     let mut index = None;
     if cursor.skip(b'[') {
         // `TEXT[]`, `GRID[1,2]` and `POINTS[I]` are KRL as well.
@@ -352,43 +331,7 @@ fn variable<'t>(name: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Variable<'t>> 
     }
 }
 
-#[inline]
-fn target<'t>(cursor: &mut Cursor<'t>) -> Parsed<Target<'t>> {
-    if cursor.peek() == Some(b'{') {
-        return match coordinates(cursor)? {
-            Some(coordinates) => Ok(Target::Literal(coordinates)),
-            None => expected("X, Y, Z, A, B, C, S, T, or axes A1 to A6, E1 to E6"),
-        };
-    }
-    match cursor.word() {
-        Some(name) => Ok(Target::Variable(variable(name, cursor)?)),
-        None => expected("a target"),
-    }
-}
-
-#[inline]
-fn approximation(cursor: &mut Cursor<'_>) -> Parsed<Option<Approximation>> {
-    let words = [
-        ("C_DIS", Approximation::Distance),
-        ("C_ORI", Approximation::Orientation),
-        ("C_PTP", Approximation::Axes),
-        ("C_SPL", Approximation::Spline),
-        ("C_VEL", Approximation::Speed),
-    ];
-    let found = match cursor.word() {
-        None => None,
-        Some(word) => match words.into_iter().find(|(name, _)| is_same_name(word, name)) {
-            Some((_, approximation)) => Some(approximation),
-            None if is_same_name(word, "WITH") => return Err(Trouble::Other),
-            None => return expected("`C_DIS` or its like, or the end of the line"),
-        },
-    };
-    // `PTP ... C_PTP C_DIS`, `SLIN ... WITH $VEL.CP=...`, `LIN P1:P2`.
-    at_end(cursor)?;
-    Ok(found)
-}
-
-fn value<'t>(cursor: &mut Cursor<'t>, depth: u32) -> Parsed<Value<'t>> {
+pub(super) fn value<'t>(cursor: &mut Cursor<'t>, depth: u32) -> Parsed<Value<'t>> {
     let value = match cursor.peek() {
         Some(b'{') => match coordinates(cursor)? {
             Some(coordinates) => Value::Coordinates(coordinates),
@@ -434,7 +377,7 @@ fn bits(cursor: &mut Cursor<'_>) -> Option<f64> {
 
 /// `{E6POS: X 1.0,Y 2.0}` of known components only; none, and nothing read, when it is another structure.
 #[inline]
-fn coordinates(cursor: &mut Cursor<'_>) -> Parsed<Option<Coordinates>> {
+pub(super) fn coordinates(cursor: &mut Cursor<'_>) -> Parsed<Option<Coordinates>> {
     let mut inner = *cursor;
     inner.skip(b'{');
     let mut coordinates = Coordinates::default();
@@ -513,7 +456,7 @@ fn structure<'t>(cursor: &mut Cursor<'t>, depth: u32) -> Parsed<Value<'t>> {
 }
 
 /// Nothing may follow; an operator makes it arithmetic.
-fn at_end(cursor: &mut Cursor<'_>) -> Parsed<()> {
+pub(super) fn at_end(cursor: &mut Cursor<'_>) -> Parsed<()> {
     match cursor.peek() {
         None => Ok(()),
         Some(b'+' | b'-' | b'*' | b'/' | b'=' | b'<' | b'>' | b':') => Err(Trouble::Other),

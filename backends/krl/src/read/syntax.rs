@@ -2,7 +2,7 @@
 //!
 //! [`statements`] walks over a file line by line, for KRL has one statement a line, and borrows everything from the text.
 //! Names are as written; compare them without regard to case ([`is_same_name`]). What is KRL but not described here
-//! (control flow, circles, arithmetic, types of one's own) is [`Phrase::Other`]; what is no KRL is
+//! (control flow, splines, arithmetic, types of one's own) is [`Phrase::Other`]; what is no KRL is
 //! [`Phrase::Unreadable`]. Neither stops the walk.
 //!
 //! Sources: KUKA, Quickguide KRL-Syntax, KSS 8.x (2012); KUKA, KSS 8.3 Operating and Programming Instructions for System
@@ -128,6 +128,8 @@ pub enum Phrase<'t> {
     },
     /// `PTP`, `LIN` and their like.
     Motion(Motion<'t>),
+    /// `CIRC` and its like.
+    Arc(Arc<'t>),
     /// `BAS (#command,value)`: the controller's routine that sets up motions.
     Bas {
         /// What it is to do, without the `#`.
@@ -384,8 +386,79 @@ pub struct Motion<'t> {
     pub word: MotionWord,
     /// Where to.
     pub target: Target<'t>,
-    /// Where it may be rounded.
+    /// What stands behind it.
+    pub tail: Tail<'t>,
+}
+
+/// A motion on a circular arc from where the one before it ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arc<'t> {
+    /// How its points are given.
+    pub points: ArcPoints,
+    /// A point on the way.
+    pub through: Target<'t>,
+    /// Its end; with an angle, a second point of the circle.
+    pub target: Target<'t>,
+    /// `CA`: how far it goes round, in degrees; none where it ends at its target.
+    pub angle: Option<f64>,
+    /// What stands behind it.
+    pub tail: Tail<'t>,
+}
+
+/// How the points of an arc are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArcPoints {
+    /// `CIRC`, `SCIRC`: in the base.
+    Absolute,
+    /// `CIRC_REL`, `SCIRC_REL`: from where it begins.
+    Relative,
+}
+
+/// What stands behind the target of a motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tail<'t> {
+    /// Where its end may be rounded.
     pub approximation: Option<Approximation>,
+    /// A second such word: behind `PTP` the way back to a straight line, `C_PTP C_DIS`.
+    pub second: Option<Approximation>,
+    /// The directions of a motion that is relative, where they are said.
+    pub directions: Option<Directions>,
+    /// `WITH`: values that hold for this motion only.
+    pub with: Vec<Setting<'t>>,
+}
+
+/// Along which axes a relative motion goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Directions {
+    /// `#BASE`: those of the base, which is also what it is without a word.
+    Base,
+    /// `#TOOL`: those of the tool, as it is held where the motion begins.
+    Tool,
+}
+
+/// `$VEL.CP=0.2` behind `WITH`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting<'t> {
+    /// What gets a value.
+    pub to: Variable<'t>,
+    /// The value.
+    pub value: SettingValue<'t>,
+    /// The value as it is written.
+    pub text: &'t str,
+}
+
+/// A value behind `WITH`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SettingValue<'t> {
+    /// As in an assignment.
+    Plain(Value<'t>),
+    /// What a function of the controller gives, such as `SVEL_CP(0.2, , LCPDAT1)`.
+    Function {
+        /// Its name.
+        name: &'t str,
+        /// What it is given, blanks apart.
+        arguments: &'t str,
+    },
 }
 
 /// Words of motions to one point.

@@ -1,0 +1,148 @@
+//! A circular arc through three points, and the room that it takes.
+
+use core::f64::consts::TAU;
+
+/// An arc in space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CircularArc {
+    centre: [f64; 3],
+    /// From the centre to where it begins.
+    first: [f64; 3],
+    /// As long, a quarter further.
+    second: [f64; 3],
+    /// How far it goes round, in rad; above 0, below a full turn.
+    sweep: f64,
+}
+
+/// Least share of the product of two chords that their area is, for them not to lie on one line.
+const BENT: f64 = 1e-9;
+
+impl CircularArc {
+    /// From one point through another to a third; none where they lie on a line, or two of them in one place.
+    pub(super) fn through([from, through, to]: [[f64; 3]; 3]) -> Option<Self> {
+        let (a, b) = (minus(through, from), minus(to, from));
+        let normal = cross(a, b);
+        let (aa, bb, nn) = (dot(a, a), dot(b, b), dot(normal, normal));
+        if nn <= BENT * BENT * aa * bb || nn == 0.0 {
+            return None;
+        }
+        // The centre of the circle about a triangle, seen from one corner.
+        let to_centre = cross(minus(scaled(b, aa), scaled(a, bb)), normal).map(|value| value / (2.0 * nn));
+        let centre = plus(from, to_centre);
+        let first = to_centre.map(|value| -value);
+        let second = scaled(cross(normal, first), 1.0 / libm::sqrt(nn));
+        let end = minus(to, centre);
+        let angle = libm::atan2(dot(end, second), dot(end, first));
+        let sweep = if angle > 0.0 { angle } else { angle + TAU };
+        Some(Self {
+            centre,
+            first,
+            second,
+            sweep,
+        })
+    }
+
+    /// The point so far round from where it begins, in rad.
+    pub(super) fn at(&self, angle: f64) -> [f64; 3] {
+        let [x, y] = [libm::cos(angle), libm::sin(angle)];
+        plus(self.centre, plus(scaled(self.first, x), scaled(self.second, y)))
+    }
+
+    /// Points along it, its end among them.
+    pub(super) fn points(&self, count: u32) -> impl Iterator<Item = [f64; 3]> {
+        (1..=count).map(move |i| self.at(self.sweep * f64::from(i) / f64::from(count)))
+    }
+
+    /// The least and the greatest x, y and z on it.
+    pub(super) fn room(&self) -> [[f64; 3]; 2] {
+        let mut room = [self.at(0.0); 2];
+        let mut take = |[x, y, z]: [f64; 3]| {
+            let [[x0, y0, z0], [x1, y1, z1]] = room;
+            room = [
+                [x0.min(x), y0.min(y), z0.min(z)],
+                [x1.max(x), y1.max(y), z1.max(z)],
+            ];
+        };
+        take(self.at(self.sweep));
+        for (first, second) in self.first.into_iter().zip(self.second) {
+            let turning = libm::atan2(second, first);
+            for angle in [turning, turning + TAU / 2.0, turning + TAU] {
+                let angle = if angle < 0.0 { angle + TAU } else { angle };
+                if angle < self.sweep {
+                    take(self.at(angle));
+                }
+            }
+        }
+        room
+    }
+}
+
+fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn scaled(a: [f64; 3], by: f64) -> [f64; 3] {
+    a.map(|value| value * by)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = [f64; 3]> {
+        prop::array::uniform3(-100.0..100.0_f64)
+    }
+
+    fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+        let d = minus(a, b);
+        dot(d, d).sqrt()
+    }
+
+    #[test]
+    fn half_a_turn_over_the_top() {
+        let arc = CircularArc::through([[0.0, 0.0, 5.0], [10.0, 0.0, 15.0], [20.0, 0.0, 5.0]]).unwrap();
+        let [low, high] = arc.room();
+        assert!(
+            (low[2] - 5.0).abs() < 1e-9 && (high[2] - 15.0).abs() < 1e-9,
+            "{low:?} {high:?}"
+        );
+        assert!(CircularArc::through([[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]]).is_none());
+    }
+
+    proptest! {
+        #[test]
+        fn it_leads_through_its_points_and_stays_in_its_room(a in point(), b in point(), c in point()) {
+            let Some(arc) = CircularArc::through([a, b, c]) else { return Ok(()) };
+            let radius = distance(a, arc.centre);
+            prop_assume!(radius < 1e4);
+            prop_assert!(distance(arc.at(0.0), a) < 1e-6);
+            prop_assert!(distance(arc.at(arc.sweep), c) < 1e-5);
+            let steps = 4000;
+            let near_b = arc.points(steps).map(|point| distance(point, b)).fold(f64::INFINITY, f64::min);
+            prop_assert!(near_b <= 1e-5 + radius * TAU / f64::from(steps), "{near_b}");
+            let [low, high] = arc.room();
+            for point in arc.points(steps) {
+                for axis in 0..3 {
+                    prop_assert!(point[axis] >= low[axis] - 1e-6 && point[axis] <= high[axis] + 1e-6);
+                }
+            }
+        }
+    }
+}
