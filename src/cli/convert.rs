@@ -8,6 +8,7 @@ use super::output::{Placed, one_file};
 use super::{Exit, Targets};
 use crate::convert::{self, Conversion, Refused};
 use crate::driver::{Outcome, Request};
+use crate::memory::Memory;
 use crate::picture::Prefix;
 use crate::report::{Material, pictures};
 use crate::source::{LoadError, Loader};
@@ -126,6 +127,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         request,
         &product,
         Carried {
+            memory: &mut Memory::none(),
             placed,
             amend: &mut amend,
         },
