@@ -44,7 +44,8 @@ struct Example {
 }
 
 const IN_SPEEDS: (Option<&str>, &str, f64) = (Some("shop/speeds.vcut"), "let cutting     = ", -0.125);
-const IN_CELLS: Option<(Option<&str>, &str, f64)> = Some((Some("shop/cells.vcut"), "lines_per_part = ", 10.0));
+const IN_CELLS: Option<(Option<&str>, &str, f64)> =
+    Some((Some("shop/cells.vcut"), "lines_per_part = ", 10.0));
 
 const fn example(job: &'static str, profile: [&'static str; 2]) -> Example {
     Example {
@@ -91,7 +92,11 @@ impl Example {
             None if self.job == "block_cui" => own("machine", "ready      = input(", 1.0),
             None => own("machine", "ultrasonic = output(", 1.0),
         };
-        let mut edits = vec![own("comment", "// edited ", 1.0), machine, edit("speed", self.speed)];
+        let mut edits = vec![
+            own("comment", "// edited ", 1.0),
+            machine,
+            edit("speed", self.speed),
+        ];
         edits.extend(self.option.map(|option| edit("target", option)));
         let [first, second] = self.profile;
         edits.push(own("profile", first, 0.125));
@@ -249,7 +254,10 @@ impl Watch {
         let (sender, waiting) = channel();
         let stdout = child.stdout.take().expect("it is piped");
         let stderr = child.stderr.take().expect("it is piped");
-        for pipe in [Box::new(stdout) as Box<dyn std::io::Read + Send>, Box::new(stderr)] {
+        for pipe in [
+            Box::new(stdout) as Box<dyn std::io::Read + Send>,
+            Box::new(stderr),
+        ] {
             let sender = sender.clone();
             std::thread::spawn(move || {
                 for line in BufReader::new(pipe).lines().map_while(Result::ok) {
