@@ -2,6 +2,8 @@
 //!
 //! Every value that a later stage may have to complain about knows where it was written.
 
+mod places;
+
 use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::machine::Model;

@@ -19,6 +19,7 @@ pub mod lower;
 pub mod lsp;
 pub mod machine;
 pub mod manifest;
+pub mod memory;
 pub mod numbers;
 pub mod optimisation;
 pub mod pace;

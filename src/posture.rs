@@ -122,16 +122,48 @@ fn sweep(from: Orientation, to: Orientation, half_apex: Angle) -> f64 {
     let (from, to) = (quaternion(from), quaternion(to));
     // From the tip along either edge, in the blade frame.
     let edges = [-1.0, 1.0].map(|side| DVec3::new(side * half_apex.sin(), 0.0, -half_apex.cos()));
-    let at = |step: u32| {
+    let reach = |edge: DVec3, step: u32| {
         let held = from.slerp(to, f64::from(step) / f64::from(TURN_STEPS));
+        (held * edge).y.abs()
+    };
+    let at = |step: u32| {
         edges
-            .map(|edge| (held * edge).y.abs())
+            .map(|edge| reach(edge, step))
             .into_iter()
             .fold(0.0, f64::max)
     };
     let ends = at(0).max(at(TURN_STEPS));
-    let between = (1..TURN_STEPS).map(at).fold(0.0, f64::max);
+    let between = edges
+        .into_iter()
+        .flat_map(|edge| peaks(from, to, edge).map(move |step| reach(edge, step)))
+        .fold(0.0, f64::max);
     if between > ends { between + 1e-4 } else { ends }
+}
+
+/// Steps of a turn among which is the one, ends apart, where an edge reaches farthest along y, if it reaches farther there than at
+/// the ends: those about the places where its way along y turns round, or all.
+///
+/// About a fixed axis that way is `a + r cos(angle t - phase)`; it turns round where the cosine is 1 or -1.
+fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> impl Iterator<Item = u32> {
+    // The shorter way, as slerp goes it; both seen from where the turn begins.
+    let to = if from.dot(to) < 0.0 { -to } else { to };
+    let turn = from.conjugate() * to;
+    let along_y = from.conjugate() * DVec3::Y;
+    let sine = turn.xyz().length();
+    let axis = turn.xyz() / sine.max(f64::MIN_POSITIVE);
+    let angle = 2.0 * libm::atan2(sine, turn.w);
+    let on_cosine = along_y.dot(edge) - along_y.dot(axis) * axis.dot(edge);
+    let on_sine = along_y.dot(axis.cross(edge));
+    // Where next to nothing moves, rounding says which step is the farthest.
+    let is_plain = angle > 0.01 && libm::hypot(on_cosine, on_sine) > 1e-4;
+    let phase = libm::atan2(on_sine, on_cosine);
+    let near = move |step: u32| {
+        let at = angle * f64::from(step) / f64::from(TURN_STEPS) - phase;
+        let beside = 1.5 * angle / f64::from(TURN_STEPS);
+        let half_turns = at / core::f64::consts::PI;
+        (half_turns - half_turns.round()).abs() * core::f64::consts::PI <= beside
+    };
+    (1..TURN_STEPS).filter(move |&step| !is_plain || near(step))
 }
 
 /// `R0`: blade over the work, tip down, leading side towards +y.
@@ -165,6 +197,55 @@ mod tests {
         );
         let about_y = Rotation3::from_axis_angle(&Vector3::y_axis(), alpha);
         about_y.matrix() * about_x.matrix() * r0
+    }
+
+    /// As [`sweep`], by looking at every step.
+    fn sweep_by_all_steps(from: Orientation, to: Orientation, half_apex: Angle) -> f64 {
+        let quaternion = |o: Orientation| {
+            let [w, x, y, z] = o.quaternion();
+            DQuat::from_xyzw(x, y, z, w)
+        };
+        let at = |step: u32| {
+            let held = quaternion(from).slerp(quaternion(to), f64::from(step) / f64::from(TURN_STEPS));
+            [-1.0, 1.0]
+                .map(|side| {
+                    (held * DVec3::new(side * half_apex.sin(), 0.0, -half_apex.cos()))
+                        .y
+                        .abs()
+                })
+                .into_iter()
+                .fold(0.0, f64::max)
+        };
+        let ends = at(0).max(at(TURN_STEPS));
+        let between = (1..TURN_STEPS).map(at).fold(0.0, f64::max);
+        if between > ends { between + 1e-4 } else { ends }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn the_farthest_step_is_among_those_that_are_looked_at(
+            swing in 0.5..89.0_f64, rake in prop_oneof![10.0..=90.0_f64, Just(90.0), Just(60.0)],
+            half_apex in prop_oneof![0.0..20.0_f64, Just(0.0)], single: bool,
+        ) {
+            let edges = if single { Edges::Single } else { Edges::Double };
+            let holder = Holder { swing: Angle::deg(swing), rake: Angle::deg(rake), edges };
+            let half_apex = Angle::deg(half_apex);
+            let postures = [Flank::Left, Flank::Right]
+                .into_iter()
+                .flat_map(|flank| [Feed::Forward, Feed::Backward].map(|feed| holder.cutting(flank, feed)))
+                .chain([holder.between()]);
+            let postures: Vec<Orientation> = postures.collect();
+            for from in &postures {
+                for to in &postures {
+                    prop_assert_eq!(
+                        sweep(*from, *to, half_apex).to_bits(),
+                        sweep_by_all_steps(*from, *to, half_apex).to_bits()
+                    );
+                }
+            }
+        }
     }
 
     proptest! {

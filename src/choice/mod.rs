@@ -27,7 +27,8 @@ use crate::plan::residual::Strategies;
 use crate::plan::{LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations};
 use bench::Bench;
 use core::cmp::Ordering;
-use trial::FoundBy;
+use rayon::prelude::*;
+use trial::{Finalist, FoundBy};
 use vcutc_backend_api::units::{Area, Duration, Length};
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
@@ -213,11 +214,17 @@ fn best_on(
     {
         return best_residual(bench, asked, &only.parameters, cuts_left);
     }
+    let outcome = |finalist: &Finalist| {
+        let laid = best_residual(bench, asked, &finalist.parameters, cuts_left)?;
+        Ok((finalist.found, bench.weigh(laid).held_to(limit)))
+    };
+    let outcomes: Vec<Result<(FoundBy, Contender), Vec<Diagnostic>>> =
+        found.finalists.par_iter().map(outcome).collect();
     let mut compared: Vec<(FoundBy, Contender)> = Vec::new();
     let mut refused = Vec::new();
-    for finalist in found.finalists {
-        match best_residual(bench, asked, &finalist.parameters, cuts_left) {
-            Ok(laid) => compared.push((finalist.found, bench.weigh(laid).held_to(limit))),
+    for outcome in outcomes {
+        match outcome {
+            Ok(contender) => compared.push(contender),
             Err(told) => refused = told,
         }
     }
@@ -257,10 +264,7 @@ fn compare_lattices(
     asked: &RoughVcut,
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
-    let mut told = Vec::new();
-    // All lattices together: what is told of one alone would not be the job's.
-    let together = parameters::resolve(bench.job, asked, &mut told);
-    let mut refused = together.is_none().then_some(told);
+    let mut refused = None;
     let mut by_model: Vec<(Duration, Lattice)> = Vec::new();
     for lattice in parameters::open_lattices(asked) {
         // A lattice on which the operation cannot be had is no fault of the job while there is another.
@@ -298,7 +302,15 @@ fn compare_lattices(
     }
     match contest.finish("lattice") {
         Some(best) => Ok(best.laid),
-        None => Err(refused.unwrap_or_default()),
+        None => {
+            // All lattices together: what is told of one alone would not be the job's.
+            let mut told = Vec::new();
+            let together = parameters::resolve(bench.job, asked, &mut told);
+            Err(match together {
+                None => told,
+                Some(_) => refused.unwrap_or_default(),
+            })
+        }
     }
 }
 
@@ -329,24 +341,33 @@ fn best_residual(
             .insert(0, not_compared("residual", "mixed".to_owned()));
         return Ok(first);
     }
+    let along_other = |residual: Residual| -> Option<Contender> {
+        let mut asked = asked.clone();
+        asked.residual.value = Auto::Given(residual);
+        let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before).ok()?;
+        laid.vcut.asked.residual.value = Auto::Auto;
+        Some(bench.weigh(route::best(bench, laid)))
+    };
+    let (mixed, others): (Contender, Vec<(Residual, Option<Contender>)>) = rayon::join(
+        || bench.weigh(first),
+        || {
+            OTHERS
+                .into_par_iter()
+                .map(|residual| (residual, along_other(residual)))
+                .collect()
+        },
+    );
     let mut contest = Contest::new();
-    let mixed = bench.weigh(first);
     // Where the job sets no limit, none may leave more than `mixed` or the lattice itself does.
     let limit = match asked.limits.scallop {
         Some(limit) => limit.value,
         None => mixed.height.max(mixed.laid.vcut.parameters.scallop_bound(asked)),
     };
     contest.enter("mixed", mixed.held_to(Some(limit)));
-    for residual in OTHERS {
-        let mut asked = asked.clone();
-        asked.residual.value = Auto::Given(residual);
-        match lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before) {
-            Ok(mut laid) => {
-                laid.vcut.asked.residual.value = Auto::Auto;
-                let contender = bench.weigh(route::best(bench, laid));
-                contest.enter(residual.word(), contender.held_to(Some(limit)));
-            }
-            Err(_) => contest.rule_out(residual.word(), Standing::Impossible),
+    for (residual, other) in others {
+        match other {
+            Some(contender) => contest.enter(residual.word(), contender.held_to(Some(limit))),
+            None => contest.rule_out(residual.word(), Standing::Impossible),
         }
     }
     contest

@@ -5,6 +5,7 @@ use super::{Latitude, MOST_CUTS_COMPARED, not_compared};
 use crate::job::{Auto, Order, RoughVcut, Sequence};
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::{LaidOut, PlannedVcut};
+use rayon::prelude::*;
 use vcutc_backend_api::units::Duration;
 
 const ORDERS: [Order; 2] = [Order::Point, Order::Layer];
@@ -97,25 +98,31 @@ fn fastest(
     vcut: PlannedVcut,
     field: &'static str,
     routes: &[Route],
-    along: impl Fn(PlannedVcut, Route) -> PlannedVcut,
+    along: impl Fn(PlannedVcut, Route) -> PlannedVcut + Sync,
 ) -> PlannedVcut {
-    let mut timed: Vec<(Candidate, PlannedVcut, Duration)> = Vec::new();
-    for &route in routes {
-        let planned = along(vcut.clone(), route);
-        let same = |(_, known, _): &(Candidate, PlannedVcut, Duration)| {
-            (known.order, &known.runs) == (planned.order, &planned.runs)
-        };
-        if timed.iter().any(same) {
-            continue;
+    let planned: Vec<(Route, PlannedVcut)> = routes
+        .par_iter()
+        .map(|&route| (route, along(vcut.clone(), route)))
+        .collect();
+    let mut different: Vec<(Route, PlannedVcut)> = Vec::new();
+    for (route, planned) in planned {
+        let same =
+            |(_, known): &(Route, PlannedVcut)| (known.order, &known.runs) == (planned.order, &planned.runs);
+        if !different.iter().any(same) {
+            different.push((route, planned));
         }
-        if let Some(time) = bench.time(&planned) {
+    }
+    let mut timed: Vec<(Candidate, PlannedVcut, Duration)> = different
+        .into_par_iter()
+        .filter_map(|(route, planned)| {
+            let time = bench.time(&planned)?;
             let candidate = Candidate {
                 what: words(&vcut.asked, route),
                 standing: Standing::Takes(time),
             };
-            timed.push((candidate, planned, time));
-        }
-    }
+            Some((candidate, planned, time))
+        })
+        .collect();
     timed.sort_by(|(.., a), (.., b)| a.total_cmp(b));
     let mut timed = timed.into_iter();
     let Some((taken, planned, _)) = timed.next() else {

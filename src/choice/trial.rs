@@ -20,6 +20,7 @@ use crate::plan::decision::Standing;
 use crate::plan::lay_out;
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, ScallopBy, VcutParameters};
+use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// Most plans that are tried, by the number of cuts of the first one: below the first number the second.
@@ -181,7 +182,7 @@ pub(super) fn freest(bench: &Bench<'_>, asked: &RoughVcut, lattice: Lattice) -> 
     if is_searched(asked) {
         assumed.limits.scallop = None;
     }
-    parameters::resolve_on(bench.job, &assumed, vec![lattice], &mut Vec::new())
+    parameters::possible_on(bench.job, &assumed, vec![lattice])
 }
 
 /// Whether the same cuts come of both.
@@ -203,6 +204,25 @@ struct Tried {
     standing: Standing,
 }
 
+/// How many plans are made side by side, whatever the number of threads. Only those that are then weighed count, so what comes
+/// of the search is the same as one after the other.
+const AHEAD: usize = 2;
+
+/// What comes of parameters when they are planned.
+#[derive(Clone, Copy)]
+enum Outcome {
+    /// There are no cuts, or too many.
+    Impossible,
+    /// More cuts than are compared.
+    TooLarge { cuts: usize },
+    /// A plan.
+    Planned {
+        cuts: usize,
+        standing: Standing,
+        merit: f64,
+    },
+}
+
 struct Trials<'t> {
     bench: &'t Bench<'t>,
     asked: &'t RoughVcut,
@@ -213,6 +233,8 @@ struct Trials<'t> {
     /// How many plans there are in all, by the cuts of the first one.
     most_plans: &'static [(usize, usize)],
     tried: Vec<Tried>,
+    /// What was planned ahead and perhaps is asked for next.
+    ahead: Vec<(VcutParameters, Outcome)>,
     /// The best first.
     sound: Vec<Sound>,
     leaves_too_much: bool,
@@ -233,6 +255,7 @@ impl<'t> Trials<'t> {
             plans_left: None,
             most_plans: &PLANS,
             tried: Vec::new(),
+            ahead: Vec::new(),
             sound: Vec::new(),
             leaves_too_much: false,
         }
@@ -270,25 +293,24 @@ impl<'t> Trials<'t> {
             return None;
         }
         let model = self.model(&found);
-        let laid = lay_out(
-            self.bench.job,
-            self.asked,
-            found.clone(),
-            self.cuts_left,
-            &self.bench.before,
-        );
-        let Ok(laid) = laid else {
-            self.spend(MOST_CUTS_COMPARED - 1);
-            return Some(self.note(found, Standing::Impossible));
+        let known = self.ahead.iter().find(|(planned, _)| *planned == found);
+        let outcome = known.map_or_else(|| self.outcome(&found), |(_, outcome)| *outcome);
+        let (cuts, standing, merit) = match outcome {
+            Outcome::Impossible => {
+                self.spend(MOST_CUTS_COMPARED - 1);
+                return Some(self.note(found, Standing::Impossible));
+            }
+            Outcome::TooLarge { cuts } => {
+                self.spend(cuts);
+                return None;
+            }
+            Outcome::Planned {
+                cuts,
+                standing,
+                merit,
+            } => (cuts, standing, merit),
         };
-        let cuts = laid.vcut.cuts.len();
         self.spend(cuts);
-        if cuts > MOST_CUTS_COMPARED {
-            return None;
-        }
-        let limit = self.asked.limits.scallop.map(|limit| limit.value);
-        let Contender { standing, merit, .. } =
-            self.bench.weigh(route::usual(self.bench, laid)).held_to(limit);
         if standing.time().is_some() {
             self.keep(Sound {
                 parameters: found.clone(),
@@ -299,6 +321,48 @@ impl<'t> Trials<'t> {
         }
         self.leaves_too_much |= matches!(standing, Standing::Leaves { .. });
         Some(self.note(found, standing))
+    }
+
+    /// Plans parameters.
+    fn outcome(&self, found: &VcutParameters) -> Outcome {
+        let laid = lay_out(
+            self.bench.job,
+            self.asked,
+            found.clone(),
+            self.cuts_left,
+            &self.bench.before,
+        );
+        let Ok(laid) = laid else {
+            return Outcome::Impossible;
+        };
+        let cuts = laid.vcut.cuts.len();
+        if cuts > MOST_CUTS_COMPARED {
+            return Outcome::TooLarge { cuts };
+        }
+        let limit = self.asked.limits.scallop.map(|limit| limit.value);
+        let Contender { standing, merit, .. } =
+            self.bench.weigh(route::usual(self.bench, laid)).held_to(limit);
+        Outcome::Planned {
+            cuts,
+            standing,
+            merit,
+        }
+    }
+
+    /// Plans those that would be weighed next as far as can be seen, side by side.
+    fn plan_ahead<'f>(&mut self, next: impl IntoIterator<Item = &'f VcutParameters>) {
+        let is_new = |found: &&VcutParameters| {
+            !self.is_behind(found) && !self.tried.iter().any(|tried| alike(&tried.parameters, found))
+        };
+        let worth: Vec<&VcutParameters> = if self.may_go_on() {
+            next.into_iter().filter(is_new).collect()
+        } else {
+            Vec::new()
+        };
+        let planned = worth
+            .into_par_iter()
+            .map(|found| (found.clone(), self.outcome(found)));
+        self.ahead = planned.collect();
     }
 
     fn note(&mut self, parameters: VcutParameters, standing: Standing) -> Standing {
@@ -328,7 +392,7 @@ impl<'t> Trials<'t> {
     }
 
     fn resolve(&self, assumed: &RoughVcut) -> Option<VcutParameters> {
-        parameters::resolve_on(self.bench.job, assumed, self.lattices.to_vec(), &mut Vec::new())
+        parameters::possible_on(self.bench.job, assumed, self.lattices.to_vec())
     }
 
     /// The parameters under another limit on scallop.
@@ -384,11 +448,16 @@ impl<'t> Trials<'t> {
             while self.may_go_on() {
                 let Some(best) = self.sound.first() else { return };
                 let (from, merit) = (best.parameters.clone(), best.merit);
-                let is_better = MOVES.into_iter().any(|moved| {
-                    if let Some(found) = self.beside(&from, factor, moved) {
+                let is_better = MOVES.chunks(AHEAD).any(|moves| {
+                    let found: Vec<VcutParameters> = moves
+                        .par_iter()
+                        .filter_map(|&moved| self.beside(&from, factor, moved))
+                        .collect();
+                    self.plan_ahead(&found);
+                    found.into_iter().any(|found| {
                         self.weigh_if_promising(found);
-                    }
-                    self.sound.first().is_some_and(|best| best.merit < merit)
+                        self.sound.first().is_some_and(|best| best.merit < merit)
+                    })
                 });
                 if !is_better {
                     break;
@@ -398,13 +467,19 @@ impl<'t> Trials<'t> {
     }
 
     fn weigh_if_promising(&mut self, found: VcutParameters) {
-        let model = self.model(&found);
-        let is_behind = match self.asked.objective.value {
-            Objective::Time => self.sound.first().is_some_and(|best| model > best.model * BEHIND),
-            Objective::Cuts | Objective::Scallop | Objective::BladeLoad => false,
-        };
-        if !is_behind {
+        if !self.is_behind(&found) {
             self.weigh(found);
+        }
+    }
+
+    /// Whether the model says that it comes to nothing better.
+    fn is_behind(&self, found: &VcutParameters) -> bool {
+        match self.asked.objective.value {
+            Objective::Time => {
+                let best = self.sound.first();
+                best.is_some_and(|best| self.model(found) > best.model * BEHIND)
+            }
+            Objective::Cuts | Objective::Scallop | Objective::BladeLoad => false,
         }
     }
 
@@ -473,7 +548,7 @@ impl<'t> Trials<'t> {
         } else if overlap != 0 {
             return None;
         }
-        parameters::resolve_on(self.bench.job, &assumed, vec![from.lattice], &mut Vec::new())
+        parameters::possible_on(self.bench.job, &assumed, vec![from.lattice])
             .filter(|found| self.is_within(found))
     }
 }

@@ -12,6 +12,7 @@ use super::targets;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
 use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
+use crate::memory::Memory;
 use crate::source::Loader;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -174,6 +175,7 @@ impl<'a> Watched<'a> {
 pub(super) fn judge_again(
     watched: &Watched<'_>,
     loader: &dyn Loader,
+    memory: &mut Memory,
     console: &Console,
     see: &mut dyn FnMut(&Outcome),
 ) -> Exit {
@@ -183,6 +185,7 @@ pub(super) fn judge_again(
         ..watched.args.overrides.request(&disk, watched.targets)
     };
     let carried = Carried {
+        memory,
         placed: Vec::new(),
         amend: &mut |outcome| see(outcome),
     };
@@ -217,6 +220,7 @@ fn inner_destination(output: Option<&str>) -> Destination {
 fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product, console: &Console) -> Exit {
     let disk = Disk::around(job);
     let carried = Carried {
+        memory: &mut Memory::none(),
         placed: Vec::new(),
         amend: &mut |_| {},
     };
@@ -225,6 +229,8 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
 
 /// What a run brings along.
 pub(super) struct Carried<'a> {
+    /// What is kept of runs before.
+    pub(super) memory: &'a mut Memory,
     /// Files that have been written already.
     pub(super) placed: Vec<Placed>,
     /// Changes what is told of the outcome before anything is made of it.
@@ -244,7 +250,8 @@ pub(super) fn carried_out(
         ..request
     };
     let mut progress = Progress::start(console.shows_progress());
-    let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
+    let mut outcome = match driver::compile_again(request, carried.memory, &mut |stage| progress.enter(stage))
+    {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);

@@ -9,6 +9,7 @@ use super::{Exit, Targets};
 use crate::convert::write::{ProfileFile, ProfileForm};
 use crate::convert::{self, Conversion, Refused};
 use crate::driver::{Outcome, Request};
+use crate::memory::Memory;
 use crate::picture::Prefix;
 use crate::report::{Material, pictures};
 use crate::source::{LoadError, Loader};
@@ -129,6 +130,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         request,
         &product,
         Carried {
+            memory: &mut Memory::none(),
             placed,
             amend: &mut amend,
         },

@@ -7,6 +7,7 @@ use super::Targets;
 use super::files::{load_file, with_forward_slashes};
 use crate::lsp::wire::{self, Broken, Fault, Incoming};
 use crate::lsp::{Done, Ending, Server, Task, Workspace};
+use crate::memory::Memory;
 use crate::source::{LoadError, Loader};
 use serde_json::Value;
 use std::collections::VecDeque;
@@ -71,8 +72,9 @@ fn read_all(events: &Sender<Event>) {
 fn planner(targets: Vec<&'static dyn Backend>, events: Sender<Event>) -> Sender<Task> {
     let (tasks, given) = channel::<Task>();
     thread::spawn(move || {
+        let mut memory = Memory::of_some_runs();
         for task in given {
-            let done = task.run(&Disk, &targets);
+            let done = task.run(&Disk, &targets, &mut memory);
             if events.send(Event::Planned(Box::new(done))).is_err() {
                 return;
             }

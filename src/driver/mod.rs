@@ -8,13 +8,13 @@ mod yielding;
 
 pub use crate::sema::Typed;
 
-use crate::choice;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
+use crate::memory::Memory;
 use crate::numbers::Numbers;
 use crate::pace::{self, Paced};
 use crate::plan::PlannedJob;
-use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
+use crate::reach::solve::{Changes, Reached, Unreached};
 use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
 use crate::readback::{Astray, Written};
@@ -149,6 +149,18 @@ pub enum RequestError {
 /// # Errors
 /// When the job file itself cannot be read; everything else is in the outcome's diagnostics.
 pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<Outcome, RequestError> {
+    compile_again(request, &mut Memory::none(), progress)
+}
+
+/// As [`compile`], with what is kept of runs before: the outcome is the same, sooner.
+///
+/// # Errors
+/// As for [`compile`].
+pub fn compile_again(
+    request: Request<'_>,
+    memory: &mut Memory,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Outcome, RequestError> {
     progress(Stage::Reading);
     let mut outcome = Outcome::default();
     let Request {
@@ -173,7 +185,7 @@ pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<
     }
     outcome.job = job;
     if !has_errors(&outcome.diagnostics) {
-        plan_and_prove(&mut outcome, progress);
+        plan_and_prove(&mut outcome, memory, progress);
     }
     Ok(outcome)
 }
@@ -188,9 +200,9 @@ enum Ended {
     Compiled(PlannedJob, Vec<Diagnostic>, Box<Compiled>),
 }
 
-fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
+fn plan_and_prove(outcome: &mut Outcome, memory: &mut Memory, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
-    let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, progress) {
+    let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, memory, progress) {
         Ended::Refused(plan, told) => (plan, told, None),
         Ended::Unreached(plan, mut told, unreached) => {
             told.extend(unreached_in_words(job, &plan, &unreached));
@@ -203,12 +215,17 @@ fn plan_and_prove(outcome: &mut Outcome, progress: &mut dyn FnMut(Stage)) {
 }
 
 /// Along fewer routes and with narrower swings where the machine does not follow: the fastest ask the most of it.
-fn along_its_routes(job: &CheckedJob, sources: &SourceMap, progress: &mut dyn FnMut(Stage)) -> Ended {
+fn along_its_routes(
+    job: &CheckedJob,
+    sources: &SourceMap,
+    memory: &mut Memory,
+    progress: &mut dyn FnMut(Stage),
+) -> Ended {
     let mut yielding = Yielding::new(job);
     let mut refused: Option<Ended> = None;
     loop {
         progress(Stage::Planning);
-        let (plan, mut told) = choice::choose_within(job, yielding.leeway());
+        let (plan, mut told) = memory.choose(job, yielding.leeway());
         let Some(plan) = plan else {
             return refused.unwrap_or(Ended::Refused(None, told));
         };
@@ -226,7 +243,7 @@ fn along_its_routes(job: &CheckedJob, sources: &SourceMap, progress: &mut dyn Fn
             return refused.unwrap_or(Ended::Refused(Some(plan), told));
         }
         let changes = yielding.changes(&plan);
-        match reach(job, proven.program, changes, progress) {
+        match reach(job, proven.program, changes, memory, progress) {
             Ok(program) => {
                 let compiled = compiled(job, program, &plan, proven.report);
                 return Ended::Compiled(plan, told, Box::new(compiled));
@@ -276,13 +293,14 @@ fn reach(
     job: &CheckedJob,
     program: VerifiedProgram,
     changes: Changes,
+    memory: &mut Memory,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Finished, Unreached> {
     let Some(machine) = &job.machine else {
         return Ok(Finished::WithoutMachine(Box::new(program)));
     };
     progress(Stage::Reaching);
-    let reached = solve(program, &machine.model, &LEAST_CLEARANCE, changes)?;
+    let reached = memory.reach(program, &machine.model, changes)?;
     Ok(Finished::Reached(Box::new(reached)))
 }
 

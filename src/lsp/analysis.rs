@@ -7,6 +7,7 @@
 use super::text::Text;
 use crate::diag::Diagnostic;
 use crate::driver::{self, Request, Typed};
+use crate::memory::Memory;
 use crate::plan::PlannedJob;
 use crate::sema::study::{Study, study};
 use crate::sema::{Choices, Part};
@@ -174,9 +175,9 @@ pub struct Done {
 }
 
 impl Task {
-    /// Plans the job and proves the plan.
+    /// Plans the job and proves the plan, with what is kept of plans before.
     #[must_use]
-    pub fn run(self, files: &dyn Loader, targets: &[&'static dyn Backend]) -> Done {
+    pub fn run(self, files: &dyn Loader, targets: &[&'static dyn Backend], memory: &mut Memory) -> Done {
         let overlay = Overlay {
             open: &self.open,
             below: files,
@@ -189,7 +190,7 @@ impl Task {
             options: Typed::default(),
             targets,
         };
-        let outcome = driver::compile(request, &mut |_| ()).ok();
+        let outcome = driver::compile_again(request, memory, &mut |_| ()).ok();
         let planned = outcome.map(|outcome| Planned {
             sources: outcome.sources,
             diagnostics: outcome.diagnostics,

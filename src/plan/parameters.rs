@@ -13,7 +13,7 @@ pub use grid_forms::{largest_layer, largest_layer_at};
 
 use super::blade_reach::{self, Flanks};
 use super::grid;
-use super::optimum::{Bound, Infeasible, Problem};
+use super::optimum::{self, Bound, Problem};
 use super::time_model::TimeModel;
 use crate::diag::Diagnostic;
 use crate::job::{Auto, CheckedJob, Direction, Lattice, Objective, RoughVcut};
@@ -214,22 +214,37 @@ pub fn resolve_on(
     lattices: Vec<Lattice>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<VcutParameters> {
+    let resolution = consider(asked, lattices, diagnostics)?;
+    let chosen = match decide(job, asked, &resolution) {
+        Ok(chosen) => chosen,
+        Err(undecided) => {
+            diagnostics.push(in_words(job, asked, &resolution, undecided));
+            return None;
+        }
+    };
+    complete(asked, resolution.standoff, chosen, diagnostics)
+}
+
+/// As [`resolve_on`], for those who do not ask why there are none: the reasons take most of the time.
+#[must_use]
+pub fn possible_on(job: &CheckedJob, asked: &RoughVcut, lattices: Vec<Lattice>) -> Option<VcutParameters> {
+    let mut unread = Vec::new();
+    let resolution = consider(asked, lattices, &mut unread)?;
+    let chosen = decide(job, asked, &resolution).ok()?;
+    complete(asked, resolution.standoff, chosen, &mut unread)
+}
+
+/// What is known before. None when the operation contradicts itself.
+fn consider(
+    asked: &RoughVcut,
+    lattices: Vec<Lattice>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Resolution> {
     let before = diagnostics.len();
     complaints::check_rake(asked, diagnostics);
     complaints::check_given(asked, diagnostics);
     let standoff = resolve_standoff(asked, diagnostics);
-    if diagnostics.len() > before {
-        return None;
-    }
-    let resolution = Resolution { lattices, standoff };
-    let chosen = match decide(job, asked, &resolution) {
-        Ok(chosen) => chosen,
-        Err(complaint) => {
-            diagnostics.push(*complaint);
-            return None;
-        }
-    };
-    complete(asked, standoff, chosen, diagnostics)
+    (diagnostics.len() == before).then_some(Resolution { lattices, standoff })
 }
 
 /// The lattices that are open, in the order of the language reference.
@@ -249,30 +264,48 @@ pub fn problem(job: &CheckedJob, asked: &RoughVcut) -> Option<Problem> {
         .then(|| search::problem(job, asked, search::lattices(asked), standoff))
 }
 
+/// Why nothing was decided.
+enum Undecided {
+    /// What there is to tell.
+    Told(Box<Diagnostic>),
+    /// Not put into words yet.
+    Unchosen(Unchosen),
+}
+
 /// Lattice, swing, layer and step.
-fn decide(job: &CheckedJob, asked: &RoughVcut, resolution: &Resolution) -> Result<Chosen, Box<Diagnostic>> {
+fn decide(job: &CheckedJob, asked: &RoughVcut, resolution: &Resolution) -> Result<Chosen, Undecided> {
     if let Auto::Auto = asked.layer.value
         && let Some(complaint) =
             complaints::no_room_for_scallops(asked, least_drop(asked, resolution.standoff))
     {
-        return Err(Box::new(complaint));
+        return Err(Undecided::Told(Box::new(complaint)));
     }
     let unchosen = match search::choose(job, asked, resolution.lattices.clone(), resolution.standoff) {
         Ok(chosen) => return Ok(chosen),
         Err(unchosen) => unchosen,
     };
-    if let Some(chosen) = as_given(asked, resolution, &unchosen) {
-        return Ok(chosen);
-    }
-    Err(Box::new(match unchosen {
-        Unchosen::Infeasible(Infeasible::Conflict { bounds, nearest }) => {
+    as_given(asked, resolution, &unchosen).ok_or(Undecided::Unchosen(unchosen))
+}
+
+/// Why nothing was decided, in the user's words.
+fn in_words(
+    job: &CheckedJob,
+    asked: &RoughVcut,
+    resolution: &Resolution,
+    undecided: Undecided,
+) -> Diagnostic {
+    match undecided {
+        Undecided::Told(complaint) => *complaint,
+        Undecided::Unchosen(Unchosen::Conflict(problem)) => {
+            let bounds = optimum::conflicting(&problem);
+            let nearest = optimum::nearest(&problem, &bounds);
             infeasible::conflict(job, asked, resolution, &bounds, &nearest)
         }
-        Unchosen::Infeasible(Infeasible::Unbounded) => {
+        Undecided::Unchosen(Unchosen::Unbounded) => {
             complaints::nothing_holds_the_layer(asked, half_the_fastest_layer(job, asked, resolution))
         }
-        Unchosen::OffGrid => infeasible::off_grid(asked),
-    }))
+        Undecided::Unchosen(Unchosen::OffGrid) => infeasible::off_grid(asked),
+    }
 }
 
 /// The least that the standoff raises the tip by, whatever the swing.
@@ -292,10 +325,12 @@ fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Unchosen) -> Optio
         return None;
     };
     let is_for_the_proof = match why {
-        Unchosen::Infeasible(Infeasible::Conflict { bounds, .. }) => bounds
+        // What is not limited is not in the way.
+        Unchosen::Conflict(problem) if problem.time.is_none() && problem.cuts.is_none() => true,
+        Unchosen::Conflict(problem) => optimum::conflicting(problem)
             .iter()
             .all(|bound| !matches!(bound, Bound::Time | Bound::Cuts)),
-        Unchosen::Infeasible(Infeasible::Unbounded) => false,
+        Unchosen::Unbounded => false,
         Unchosen::OffGrid => true,
     };
     if !is_for_the_proof {

@@ -54,6 +54,24 @@ pub struct Reached {
     pub report: ReachReport,
 }
 
+impl Reached {
+    /// What was found, apart from the program.
+    #[must_use]
+    pub fn found(&self) -> Found {
+        Found {
+            motion: self.program.motion().clone(),
+            report: self.report.clone(),
+        }
+    }
+}
+
+/// How a machine carries out a program, apart from that program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    motion: Motion,
+    report: ReachReport,
+}
+
 /// What a program asks of its machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReachReport {
@@ -158,26 +176,48 @@ pub fn rig<'m>(model: &'m Model, cell: &Cell) -> Rig<'m> {
     Rig::new(model, cell.tool.frame, cell.base.frame)
 }
 
+/// Joins what was found for a program to the same one: the same ops, postures, speeds and cell. That the machine is then where
+/// each op ends is checked once more.
+///
+/// # Errors
+/// When the motion is that of another program.
+pub fn again(program: VerifiedProgram, model: &Model, found: Found) -> Result<Reached, Unreached> {
+    let Some(cell) = program.program().cell.clone() else {
+        return Err(Unreached::Motion(vec![MotionFault {
+            op: None,
+            what: MotionRule::Machine,
+        }]));
+    };
+    let program = changed(program, &found.report.changes)?;
+    joined_to(program, &rig(model, &cell), found)
+}
+
 /// Checks the motion and joins it to the program.
 fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Reached, Unreached> {
-    let program = if solved.report.changes.is_empty() {
-        program
-    } else {
-        let changed = with_changes(program.program(), &solved.report.changes);
-        verify(changed).map_err(Unreached::Rules)?
-    };
+    let program = changed(program, &solved.report.changes)?;
     let mut motion = Motion {
         ends: solved.ends.into_iter().map(AxisValues).collect(),
         stretches: solved.report.stretches.clone(),
         waypoints: Vec::new(),
     };
     motion.waypoints = waypoints(program.program(), &legs(program.program()), rig, &motion);
+    let report = solved.report;
+    joined_to(program, rig, Found { motion, report })
+}
+
+/// The program as it is carried out.
+fn changed(program: VerifiedProgram, changes: &[OpId]) -> Result<VerifiedProgram, Unreached> {
+    if changes.is_empty() {
+        return Ok(program);
+    }
+    verify(with_changes(program.program(), changes)).map_err(Unreached::Rules)
+}
+
+fn joined_to(program: VerifiedProgram, rig: &Rig<'_>, found: Found) -> Result<Reached, Unreached> {
+    let Found { motion, report } = found;
     let blade_in_work = |values: &AxisValues| Frame::from(rig.blade_in_work(&values.0));
     let program = ReachableProgram::assemble(program, motion, &blade_in_work).map_err(Unreached::Motion)?;
-    Ok(Reached {
-        program,
-        report: solved.report,
-    })
+    Ok(Reached { program, report })
 }
 
 /// The program with moves of all axes in place of some of its travels.

@@ -65,7 +65,7 @@ pub fn served_page(outcome: &Outcome, served: &Served) -> Option<String> {
 #[must_use]
 pub fn served_errors(job: &str, messages: &str, served: &Served) -> String {
     let body = format!(
-        "<main id=\"content\">\n<h1>{}</h1>\n<p>This job has errors.</p>\n<pre>{}</pre>\n</main>\n",
+        "<main id=\"content\" data-shows=\"errors\">\n<h1>{}</h1>\n<p>This job has errors.</p>\n<pre>{}</pre>\n</main>\n",
         escaped(job),
         escaped(messages)
     );

@@ -3,4 +3,5 @@
 //! `.ci/run` installs it. Where it is missing the tests are skipped and say so, unless `VCUTC_REFEREES` is `required`.
 
 mod browser;
+mod live;
 mod page;

@@ -23,7 +23,7 @@ pub(crate) mod report;
 mod snapshot;
 mod verify;
 #[cfg(unix)]
-mod watch;
+pub(crate) mod watch;
 
 use std::fs;
 use std::io::Write;

@@ -102,6 +102,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "verdict",
         &["choice", "diag", "geom", "job", "lower", "plan", "sim", "source"],
     ),
+    ("memory", &["choice", "diag", "job", "machine", "plan", "reach"]),
     (
         "driver",
         &[
@@ -110,6 +111,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "job",
             "lower",
             "machine",
+            "memory",
             "numbers",
             "pace",
             "plan",
@@ -129,7 +131,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "lsp",
         &[
-            "diag", "driver", "format", "machine", "plan", "sema", "source", "summary", "syntax",
+            "diag", "driver", "format", "machine", "memory", "plan", "sema", "source", "summary", "syntax",
         ],
     ),
     (
@@ -146,6 +148,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "lsp",
             "machine",
             "manifest",
+            "memory",
             "numbers",
             "picture",
             "optimisation",
@@ -168,7 +171,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diag/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
-    ("rayon::", &["src/pace/", "src/reach/"]),
+    ("rayon::", &["src/choice/", "src/pace/", "src/reach/"]),
     ("hmac_sha256::", &["src/report/page/policy.rs"]),
     ("strsim::", &["src/diag/suggest.rs"]),
     (

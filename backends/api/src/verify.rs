@@ -195,6 +195,29 @@ struct Walk<'p> {
     /// The passes of the operation at hand.
     passes: Vec<Pass>,
     current: OpId,
+    /// Angles between postures that were asked for.
+    turns: Known<[OrientationId; 2], Angle>,
+    /// How far the edges of an operation's blade lie along y in a posture.
+    overhangs: Known<(OperationId, OrientationId), [Length; 2]>,
+}
+
+/// Answers that are asked for again and again: a program has a handful of postures for all its ops.
+struct Known<K, V>(Vec<(K, V)>);
+
+impl<K: PartialEq, V: Copy> Known<K, V> {
+    /// Programs of more postures than a few compute the rest anew, so that looking never takes long.
+    const MOST: usize = 32;
+
+    fn of(&mut self, key: K, compute: impl FnOnce() -> V) -> V {
+        if let Some((_, value)) = self.0.iter().find(|(known, _)| *known == key) {
+            return *value;
+        }
+        let value = compute();
+        if self.0.len() < Self::MOST {
+            self.0.push((key, value));
+        }
+        value
+    }
 }
 
 impl<'p> Walk<'p> {
@@ -208,6 +231,8 @@ impl<'p> Walk<'p> {
             operation: None,
             passes: Vec::new(),
             current: OpId(0),
+            turns: Known(Vec::new()),
+            overhangs: Known(Vec::new()),
         }
     }
 
@@ -439,11 +464,14 @@ impl<'p> Walk<'p> {
 
     /// The blade is clear of the stock in all of the postures with its tip at that point.
     fn turns_clear(&mut self, site: Site, tip: Point3, postures: [OrientationId; 2]) {
-        let operation = site.operation().and_then(|id| self.operation(id));
+        let operation = site.operation().and_then(|id| Some((id, self.operation(id)?)));
         let clear = postures
             .into_iter()
             .all(|id| match (operation, self.orientation(id)) {
-                (Some(operation), Some(orientation)) => self.is_clear(tip, operation, orientation),
+                (Some((number, operation)), Some(held)) => {
+                    let overhangs = self.overhangs.of((number, id), || overhangs(operation, held));
+                    self.is_clear(tip, overhangs)
+                }
                 _ => true,
             });
         self.require(clear, Rule::TurnInStock);
@@ -511,7 +539,10 @@ impl<'p> Walk<'p> {
 
     fn rotation(&mut self, from: OrientationId, to: OrientationId) {
         match (self.orientation(from), self.orientation(to)) {
-            (Some(from), Some(to)) => self.require(from.angle_to(to) < LARGEST_TURN, Rule::AmbiguousTurn),
+            (Some(held), Some(next)) => {
+                let turn = self.turns.of([from, to], || held.angle_to(next));
+                self.require(turn < LARGEST_TURN, Rule::AmbiguousTurn);
+            }
             _ => self.fault(Rule::TableReference),
         }
     }
@@ -540,29 +571,30 @@ impl<'p> Walk<'p> {
         straight && low <= SAME && high >= depth - SAME
     }
 
-    /// Whether the blade, its edges lying over the work, is clear of the stock with its tip at `tip` [Cui 5].
-    fn is_clear(&self, tip: Point3, operation: &Operation, held: Orientation) -> bool {
+    /// Whether the blade, its edges lying that far along y, is clear of the stock with its tip at `tip` [Cui 5].
+    fn is_clear(&self, tip: Point3, overhangs: [Length; 2]) -> bool {
         let stock = self.program.stock;
         if tip.z >= stock.height.to_mm() - SAME {
             return true;
         }
-        // The tool axis makes this angle with +y; both edges lie half the apex angle off it, in the blade's plane.
-        let axis = libm::acos((-held.matrix()[1][2]).clamp(-1.0, 1.0));
-        let (length, half_apex) = (
-            operation.blade.cutting_length.to_mm(),
-            operation.blade.half_apex.to_rad(),
-        );
-        let edges = [axis - half_apex, axis + half_apex].map(|angle| length * libm::cos(angle));
         let (gap, towards_work) = if tip.y < 0.0 {
             (-tip.y, 1.0)
         } else {
             (tip.y - stock.depth.to_mm(), -1.0)
         };
         gap >= -SAME
-            && edges
+            && overhangs
                 .into_iter()
-                .all(|along_y| along_y * towards_work <= gap + SAME)
+                .all(|along_y| along_y.to_mm() * towards_work <= gap + SAME)
     }
+}
+
+/// How far the edges of an operation's blade lie along y in a posture.
+fn overhangs(operation: &Operation, held: Orientation) -> [Length; 2] {
+    // The tool axis makes this angle with +y; both edges lie half the apex angle off it, in the blade's plane.
+    let axis = libm::acos((-held.matrix()[1][2]).clamp(-1.0, 1.0));
+    let half_apex = operation.blade.half_apex.to_rad();
+    [axis - half_apex, axis + half_apex].map(|angle| operation.blade.cutting_length * libm::cos(angle))
 }
 
 /// Whether all numbers of a machine but those of its axes are ones that it can have.

@@ -5,12 +5,13 @@
 //! Walls steeper than the flanks are followed by small swings only, and a fine surface asks for small layers or overlaps;
 //! which of them a part needs, no formula says.
 
-use super::{FACTORS, MOVES, Trials, give_overlap, thousandths};
+use super::{AHEAD, FACTORS, MOVES, Trials, give_overlap, thousandths};
 use crate::choice::MOST_CUTS_COMPARED;
 use crate::job::Auto;
 use crate::plan::decision::Standing;
 use crate::plan::parameters::{self, VcutParameters};
 use core::cmp::Ordering;
+use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// Most plans of the spread, by the number of cuts of the first one: below the first number the second.
@@ -32,8 +33,10 @@ impl Trials<'_> {
     /// Goes over the spread as far as it may be better than what is known, and on until something is sound.
     pub(super) fn spread(&mut self) {
         (self.plans_left, self.most_plans) = (None, &PLANS);
-        for found in self.grid() {
-            self.weigh_if_promising(found);
+        for next in self.grid().chunks(AHEAD) {
+            self.plan_ahead(next);
+            next.iter()
+                .for_each(|found| self.weigh_if_promising(found.clone()));
         }
         while self.sound.is_empty() && self.may_go_on() {
             if !self.has_better_neighbour() {
@@ -52,10 +55,13 @@ impl Trials<'_> {
                 SWINGS.map(|share| Some(thousandths(widest * share))).to_vec()
             }
         };
-        let mut grid: Vec<(Duration, VcutParameters)> = swings
+        let places: Vec<(Option<Angle>, f64)> = swings
             .into_iter()
             .flat_map(|swing| self.overlaps().map(move |overlap| (swing, overlap)))
-            .flat_map(|(swing, overlap)| self.layers_at(swing, overlap))
+            .collect();
+        let mut grid: Vec<(Duration, VcutParameters)> = places
+            .into_par_iter()
+            .flat_map_iter(|(swing, overlap)| self.layers_at(swing, overlap))
             .map(|found| (self.model(&found), found))
             .collect();
         grid.sort_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -92,7 +98,7 @@ impl Trials<'_> {
             assumed.layer.value = Auto::Given(Length::mm(layer));
             (layer > 0.0).then(|| {
                 let lattices = vec![largest.lattice];
-                parameters::resolve_on(self.bench.job, &assumed, lattices, &mut Vec::new())
+                parameters::possible_on(self.bench.job, &assumed, lattices)
             })?
         };
         LAYERS
@@ -111,10 +117,16 @@ impl Trials<'_> {
         let Some(nearest) = nearest else { return false };
         let (from, standing) = (nearest.parameters.clone(), nearest.standing);
         FACTORS.into_iter().any(|factor| {
-            MOVES.into_iter().any(|moved| {
-                let found = self.beside(&from, factor, moved);
-                let came = found.and_then(|found| self.weigh(found));
-                came.is_some_and(|came| lack(came, standing) == Ordering::Less)
+            MOVES.chunks(AHEAD).any(|moves| {
+                let found: Vec<VcutParameters> = moves
+                    .par_iter()
+                    .filter_map(|&moved| self.beside(&from, factor, moved))
+                    .collect();
+                self.plan_ahead(&found);
+                found.into_iter().any(|found| {
+                    let came = self.weigh(found);
+                    came.is_some_and(|came| lack(came, standing) == Ordering::Less)
+                })
             })
         })
     }

@@ -15,6 +15,7 @@ use super::files::Disk;
 use super::{Exit, Targets};
 use crate::diag::render::{ColorChoice, render};
 use crate::driver::Outcome;
+use crate::memory::Memory;
 use crate::report::page::{Served, served_errors, served_page};
 use serde::Serialize;
 use server::Server;
@@ -127,11 +128,12 @@ struct Watch<'a> {
 
 impl Watch<'_> {
     fn run(&self, interrupt: &Interrupt, console: &Console) -> Exit {
+        let mut memory = Memory::of_some_runs();
         loop {
             console.clear_screen();
             interrupt.is_busy.store(true, Ordering::SeqCst);
             let start = Instant::now();
-            let stamps = self.once(console);
+            let stamps = self.once(&mut memory, console);
             interrupt.is_busy.store(false, Ordering::SeqCst);
             self.tell(&stamps, start.elapsed(), console);
             match changed(&stamps, interrupt) {
@@ -142,10 +144,10 @@ impl Watch<'_> {
     }
 
     /// Compiles the job and hands the page on. Returns the files that were asked for.
-    fn once(&self, console: &Console) -> Stamps {
+    fn once(&self, memory: &mut Memory, console: &Console) -> Stamps {
         let disk = Disk::around(self.watched.job());
         let recorder = Recorder::new(&disk);
-        judge_again(&self.watched, &recorder, console, &mut |outcome| {
+        judge_again(&self.watched, &recorder, memory, console, &mut |outcome| {
             if let Some(server) = &self.server {
                 server.show(|served| page(self.watched.job(), outcome, served));
             }
@@ -201,12 +203,7 @@ fn settled(before: &Stamps, first: Stamps, mut pause: Pause, interrupt: &Interru
     let mut last = first;
     let mut since = start;
     loop {
-        let needed = if last.lacks_a_file_of(before) {
-            SETTLED_WITHOUT_FILE
-        } else {
-            SETTLED
-        };
-        if since.elapsed() >= needed || start.elapsed() >= LONGEST_UNREST {
+        if is_over(needed(before, &last), since.elapsed(), start.elapsed()) {
             return Woken::Changed;
         }
         if interrupt.wait(pause.length()) {
@@ -217,5 +214,48 @@ fn settled(before: &Stamps, first: Stamps, mut pause: Pause, interrupt: &Interru
             last = now;
             since = Instant::now();
         }
+    }
+}
+
+/// How long files that are so now must stay so.
+fn needed(before: &Stamps, now: &Stamps) -> Duration {
+    if now.lacks_a_file_of(before) {
+        SETTLED_WITHOUT_FILE
+    } else {
+        SETTLED
+    }
+}
+
+/// Whether a change is over, of files that have been as they are for so long, so long after the change began.
+fn is_over(needed: Duration, unchanged: Duration, unrest: Duration) -> bool {
+    unchanged >= needed || unrest >= LONGEST_UNREST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Loader;
+
+    #[test]
+    fn files_are_read_when_they_rest_and_a_missing_one_is_waited_for() {
+        let ms = Duration::from_millis;
+        let folder = tempfile::tempdir().unwrap();
+        let job = folder.path().join("rib.vcut");
+        std::fs::write(&job, "one").unwrap();
+        let name = job.to_str().unwrap();
+        let disk = Disk::around(name);
+        let recorder = Recorder::new(&disk);
+        recorder.load(name).unwrap();
+        let before = recorder.stamps();
+        std::fs::write(&job, "two and more").unwrap();
+        assert_eq!(needed(&before, &before.now()), ms(15));
+        std::fs::remove_file(&job).unwrap();
+        assert_eq!(needed(&before, &before.now()), ms(400));
+
+        assert!(!is_over(ms(15), ms(14), ms(1999)));
+        assert!(is_over(ms(15), ms(15), ms(15)));
+        assert!(!is_over(ms(400), ms(399), ms(399)));
+        // Without rest, too, they are read some time.
+        assert!(is_over(ms(400), ms(0), ms(2000)));
     }
 }

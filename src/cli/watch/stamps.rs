@@ -126,15 +126,31 @@ impl Pause {
     pub(super) fn look(&mut self, stamps: &Stamps) -> Stamps {
         let start = Instant::now();
         let now = stamps.now();
-        self.length = start.elapsed().saturating_mul(IDLE).clamp(SHORTEST, LONGEST);
+        self.length = after(start.elapsed());
         now
     }
+}
+
+/// The pause behind a look that took so long.
+fn after(look: Duration) -> Duration {
+    look.saturating_mul(IDLE).clamp(SHORTEST, LONGEST)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::super::files::Disk;
     use super::*;
+
+    #[test]
+    fn a_twentieth_of_the_time_at_most_goes_into_looking() {
+        let ms = Duration::from_millis;
+        assert_eq!(after(Duration::ZERO), ms(15));
+        assert_eq!(after(Duration::from_micros(100)), ms(15));
+        assert_eq!(after(ms(4)), ms(80));
+        assert_eq!(after(ms(100)), ms(2000));
+        assert_eq!(after(Duration::MAX), ms(2000));
+        assert_eq!(Pause::new().length(), ms(15));
+    }
 
     #[test]
     fn every_way_to_change_a_file_is_seen() {

@@ -5,7 +5,7 @@
 //! nothing does.
 
 use super::ground::Measure;
-use super::problem::{Bound, Infeasible, Problem};
+use super::problem::{Bound, Problem};
 use super::{any, least, try_any};
 
 /// The order in which bounds are dropped: first those that people rarely set, so that what remains is what they know.
@@ -30,8 +30,9 @@ const FINE: f64 = 1e-7;
 /// Most halvings on the way to it.
 const MOST_HALVINGS: u32 = 120;
 
-/// Why a problem without parameters has none.
-pub(super) fn explain(problem: &Problem) -> Infeasible {
+/// The bounds that conflict in a problem without parameters.
+#[must_use]
+pub fn conflicting(problem: &Problem) -> Vec<Bound> {
     let said: Vec<Bound> = ORDER
         .into_iter()
         .filter(|bound| bound.value(problem).is_some())
@@ -39,8 +40,13 @@ pub(super) fn explain(problem: &Problem) -> Infeasible {
     let mut bounds = Vec::new();
     needed(problem.clone(), &said, &mut bounds);
     bounds.sort_unstable();
-    let nearest = bounds.iter().map(|&bound| nearest(problem, bound)).collect();
-    Infeasible::Conflict { bounds, nearest }
+    bounds
+}
+
+/// The nearest value of each of some conflicting bounds that all others allow.
+#[must_use]
+pub fn nearest(problem: &Problem, bounds: &[Bound]) -> Vec<Option<f64>> {
+    bounds.iter().map(|&bound| nearest_of(problem, bound)).collect()
 }
 
 /// Drops those of some bounds without which the rest still conflicts, in their order, and names the others. Neighbours are
@@ -65,7 +71,7 @@ fn needed(problem: Problem, bounds: &[Bound], named: &mut Vec<Bound>) -> Problem
 }
 
 /// The nearest value of a bound that all others allow.
-fn nearest(problem: &Problem, bound: Bound) -> Option<f64> {
+fn nearest_of(problem: &Problem, bound: Bound) -> Option<f64> {
     match bound {
         Bound::Time => within_least(problem, bound, Measure::Time),
         Bound::Cuts => within_least(problem, bound, Measure::Cuts),

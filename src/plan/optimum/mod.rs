@@ -30,7 +30,8 @@ pub mod published;
 mod search;
 mod trade;
 
-pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Sensitivity, Work};
+pub use conflict::{conflicting, nearest};
+pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Refused, Sensitivity, Work};
 pub use trade::{sensitivities, trade_off};
 
 use super::grid;
@@ -51,8 +52,23 @@ const PROVEN: f64 = 1e-7;
 /// # Errors
 /// When no parameters keep all bounds: which of them conflict. When the objective can be made as small as one likes.
 pub fn solve(problem: &Problem) -> Result<Optimum, Infeasible> {
+    best(problem).map_err(|refused| match refused {
+        Refused::Unbounded => Infeasible::Unbounded,
+        Refused::Conflict => {
+            let bounds = conflicting(problem);
+            let nearest = nearest(problem, &bounds);
+            Infeasible::Conflict { bounds, nearest }
+        }
+    })
+}
+
+/// As [`solve`], without the reasons: to find them takes many times as long as to see that there is nothing.
+///
+/// # Errors
+/// As for [`solve`].
+pub fn best(problem: &Problem) -> Result<Optimum, Refused> {
     if unbounded(problem) {
-        return Err(Infeasible::Unbounded);
+        return Err(Refused::Unbounded);
     }
     let best = match problem.objective {
         Objective::Time => least(problem, Measure::Time),
@@ -60,7 +76,7 @@ pub fn solve(problem: &Problem) -> Result<Optimum, Infeasible> {
         Objective::Scallop => tightest(problem, Bound::Scallop),
         Objective::BladeLoad => tightest(problem, Bound::Edge),
     };
-    best.ok_or_else(|| conflict::explain(problem))
+    best.ok_or(Refused::Conflict)
 }
 
 /// Whether thinner layers are ever better and nothing asks for thick ones.

@@ -171,6 +171,15 @@ pub struct Sensitivity {
     pub then: Optimum,
 }
 
+/// That there are no parameters, before anybody asks why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// Some bounds cannot be kept together.
+    Conflict,
+    /// As [`Infeasible::Unbounded`].
+    Unbounded,
+}
+
 /// Why there are no parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Infeasible {

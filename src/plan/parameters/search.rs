@@ -2,7 +2,7 @@
 
 use super::super::blade_reach;
 use super::super::grid;
-use super::super::optimum::{self, Bound, Extension, Infeasible, Optimum, Problem, Range, Work};
+use super::super::optimum::{self, Bound, Extension, Optimum, Problem, Range, Refused, Work};
 use super::grid_forms::{fits, tips_per_step, widest_step};
 use super::{edge_overhang, flanks_at};
 use crate::job::{Auto, Bounds, CheckedJob, Formulas, Lattice, Objective, RoughVcut};
@@ -50,8 +50,10 @@ pub(super) struct Chosen {
 /// Why nothing was chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Unchosen {
-    /// No parameters keep the limits.
-    Infeasible(Infeasible),
+    /// No parameters keep the limits of this problem.
+    Conflict(Box<Problem>),
+    /// Nothing keeps the objective from falling for ever.
+    Unbounded,
     /// Some do, but none on the grid.
     OffGrid,
 }
@@ -118,7 +120,7 @@ fn work(job: &CheckedJob, asked: &RoughVcut, swing: Range<Angle>, standoff: Leng
         (Auto::Given(extension), Formulas::Paper | Formulas::Exact) => Extension::Fixed(extension),
         (Auto::Auto, Formulas::Paper) => Extension::EdgeInUse,
         (Auto::Auto, Formulas::Exact) => Extension::Leaning {
-            edge: edge_overhang(asked, swing.least).max(edge_overhang(asked, swing.most)),
+            edge: widest_overhang(asked, swing),
             run_out: asked.run_out.value,
         },
     };
@@ -136,6 +138,16 @@ fn work(job: &CheckedJob, asked: &RoughVcut, swing: Range<Angle>, standoff: Leng
         cut_feed: asked.cut_feed.value,
         travel_feed: asked.travel_feed.value,
         reorient_rate: asked.reorient_rate.value,
+    }
+}
+
+/// How far the edge lies over the work at either end of some swings.
+fn widest_overhang(asked: &RoughVcut, swing: Range<Angle>) -> Length {
+    let least = edge_overhang(asked, swing.least);
+    if swing.least == swing.most {
+        least
+    } else {
+        least.max(edge_overhang(asked, swing.most))
     }
 }
 
@@ -174,7 +186,11 @@ pub(super) fn choose(
     standoff: Length,
 ) -> Result<Chosen, Unchosen> {
     let problem = problem(job, asked, lattices, standoff);
-    let best = optimum::solve(&problem).map_err(Unchosen::Infeasible)?;
+    let best = match optimum::best(&problem) {
+        Ok(best) => best,
+        Err(Refused::Conflict) => return Err(Unchosen::Conflict(Box::new(problem))),
+        Err(Refused::Unbounded) => return Err(Unchosen::Unbounded),
+    };
     let rounding = Rounding {
         asked,
         problem: &problem,

@@ -98,6 +98,11 @@ impl Browser {
 
     /// A tab of this size in CSS pixels with a page in it, loaded.
     pub(super) fn open(&self, page: &Path, width: u32, height: u32) -> Tab<'_> {
+        self.open_at(&format!("file://{}", page.display()), width, height)
+    }
+
+    /// A tab of this size with what is at an address, loaded.
+    pub(super) fn open_at(&self, url: &str, width: u32, height: u32) -> Tab<'_> {
         let target = self.call(None, "Target.createTarget", &json!({ "url": "about:blank" }));
         let attach = json!({ "targetId": target["targetId"], "flatten": true });
         let session = self.call(None, "Target.attachToTarget", &attach)["sessionId"].clone();
@@ -109,7 +114,6 @@ impl Browser {
             tab.call(&format!("{domain}.enable"), &json!({}));
         }
         tab.resize(width, height);
-        let url = format!("file://{}", page.display());
         tab.call("Page.navigate", &json!({ "url": url }));
         tab.wait_for_event("Page.loadEventFired");
         tab

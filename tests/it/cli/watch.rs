@@ -16,14 +16,14 @@ use tempfile::TempDir;
 const LIMIT: Duration = Duration::from_secs(120);
 
 /// A running watch, and the lines it has printed.
-struct Watch {
+pub(crate) struct Watch {
     folder: TempDir,
     child: Child,
     lines: Receiver<String>,
 }
 
 impl Watch {
-    fn start(more: &[&str]) -> Self {
+    pub(crate) fn start(more: &[&str]) -> Self {
         let folder = folder();
         let path = folder.path();
         fs::write(
@@ -45,7 +45,7 @@ impl Watch {
         Self { folder, child, lines }
     }
 
-    fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         self.folder.path()
     }
 
@@ -69,6 +69,13 @@ impl Watch {
             told.extend(self.until("watching"));
         }
         told.join("\n")
+    }
+
+    /// The address under which it shows its page, when it has compiled for the first time.
+    pub(crate) fn address(&self) -> String {
+        let told = self.told("watching");
+        let (_, rest) = told.split_once("http://").unwrap();
+        rest.split('/').next().unwrap().to_owned()
     }
 
     fn program(&self) -> String {
@@ -168,9 +175,7 @@ fn version(page: &str) -> &str {
 #[test]
 fn the_report_is_served_to_this_machine_and_follows_the_job() {
     let watch = Watch::start(&["--serve", "0"]);
-    let told = watch.told("watching");
-    let (_, rest) = told.split_once("http://").unwrap();
-    let address = rest.split('/').next().unwrap().to_owned();
+    let address = watch.address();
     assert!(address.starts_with("127.0.0.1:"), "{address}");
 
     let page = get(&address, "/");
@@ -225,6 +230,59 @@ fn the_report_is_served_to_this_machine_and_follows_the_job() {
         assert!(!body.contains("rib"), "{body}");
     }
     assert_eq!(watch.interrupt(), Some(0));
+}
+
+#[test]
+fn so_many_requests_are_answered_at_once_and_no_more() {
+    let watch = Watch::start(&["--serve", "0"]);
+    let address = watch.address();
+    let page = get(&address, "/");
+    let request = format!(
+        "GET /changes?{} HTTP/1.1\r\nHost: {address}\r\n\r\n",
+        version(&page)
+    );
+    let mut waiting = Vec::new();
+    while waiting.len() < 24 {
+        let mut stream = TcpStream::connect(&address).unwrap();
+        stream.set_read_timeout(Some(LIMIT)).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut first = [0; 12];
+        stream.read_exact(&mut first).unwrap();
+        match &first {
+            b"HTTP/1.1 200" => waiting.push(stream),
+            // The place of an answer before is given back a moment after that answer.
+            b"HTTP/1.1 503" => thread::sleep(Duration::from_millis(20)),
+            other => panic!("{:?}", String::from_utf8_lossy(other)),
+        }
+    }
+    assert!(get(&address, "/").starts_with("HTTP/1.1 503 "));
+
+    // All of them are told of a change, and make room.
+    fs::write(watch.path().join("size.vcut"), "let width = 44 mm\n").unwrap();
+    for mut stream in waiting {
+        let mut rest = String::new();
+        stream.read_to_string(&mut rest).unwrap();
+        assert!(rest.contains("data: "), "{rest}");
+    }
+    let start = Instant::now();
+    while !get(&address, "/").starts_with("HTTP/1.1 200 ") {
+        assert!(start.elapsed() < LIMIT);
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn a_request_that_does_not_end_is_given_up() {
+    let watch = Watch::start(&["--serve", "0"]);
+    let address = watch.address();
+    let mut stream = TcpStream::connect(&address).unwrap();
+    stream.set_read_timeout(Some(LIMIT)).unwrap();
+    stream.write_all(b"GET / HTTP/1.1\r\nHost: ").unwrap();
+    // It ends without the page, though this side has not ended it.
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).unwrap();
+    assert!(!answer.contains("200 OK"), "{answer}");
+    assert!(get(&address, "/").starts_with("HTTP/1.1 200 "));
 }
 
 #[test]

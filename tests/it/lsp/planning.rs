@@ -2,13 +2,14 @@
 
 use super::editor::{BLADES, Editor, RIB, uri};
 use serde_json::{Value, json};
+use vcutc::memory::Memory;
 use vcutc::registry;
 
 const PATH: &str = "/shop/rib.vcut";
 
 fn plan(editor: &mut Editor) {
     let task = editor.server.task().expect("a job to plan");
-    let done = task.run(&editor.files, &registry::backends());
+    let done = task.run(&editor.files, &registry::backends(), &mut Memory::none());
     let messages = editor.server.finish(done);
     editor.take(&messages);
 }
@@ -71,7 +72,7 @@ fn stale_plans_are_not_shown() {
     editor.open(PATH);
     let task = editor.server.task().unwrap();
     editor.replace(PATH, "swing <= 45 deg", "swing <= 30 deg");
-    let done = task.run(&editor.files, &registry::backends());
+    let done = task.run(&editor.files, &registry::backends(), &mut Memory::none());
     assert_eq!(editor.server.finish(done), [Value::Null; 0]);
     assert_eq!(hints(&mut editor), [""; 0]);
     plan(&mut editor);

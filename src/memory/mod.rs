@@ -1,0 +1,183 @@
+//! What a compiler that runs again and again keeps of its runs before.
+//!
+//! Between two runs of a job little changes: a comment, a speed, an option of the target. What takes nearly all the time are
+//! two pure functions, the choice of what the job leaves open and the proof that the machine follows. Their answers are kept
+//! with all that they were asked, but for the places in the text: a plan is for the same cuts wherever its job is written.
+//!
+//! A stale answer cannot be used. Questions are compared by value; only what is left out of them on purpose could mislead,
+//! and that is little: of a job the places and the options of targets, which `choice` does not read and which the plan is
+//! given anew, and of a program the places that its operations come from. A motion that was kept is besides held against its
+//! program once more before anybody gets the two ([`again`]).
+//!
+//! How much is kept is bounded by a number of cuts and ops in all. A memory without room keeps nothing, and costs nothing.
+
+mod shelf;
+#[cfg(test)]
+mod tests;
+
+use crate::choice::{self, Leeway};
+use crate::diag::Diagnostic;
+use crate::job::{CheckedJob, Operation};
+use crate::machine::Model;
+use crate::plan::{PlannedJob, PlannedOperation};
+use crate::reach::solve::{Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve};
+use crate::reach::trouble::Trouble;
+use shelf::Shelf;
+use std::sync::Arc;
+use vcutc_backend_api::ir::Program;
+use vcutc_backend_api::verify::VerifiedProgram;
+
+/// Most cuts and ops of all that is kept: some 100 MB.
+const ROOM: usize = 400_000;
+
+/// What a choice was asked.
+#[derive(Debug, PartialEq)]
+struct Open {
+    /// Without its places and targets.
+    job: CheckedJob,
+    leeway: Leeway,
+}
+
+/// What a machine was asked.
+#[derive(Debug, PartialEq)]
+struct Put {
+    /// Without its places.
+    program: Program,
+    model: Arc<Model>,
+    changes: Changes,
+}
+
+/// What is kept. Without room at first.
+#[derive(Debug)]
+pub struct Memory {
+    plans: Shelf<Open, PlannedJob>,
+    motions: Shelf<Put, Result<Found, Trouble>>,
+}
+
+impl Memory {
+    /// A memory that keeps nothing: for who compiles once.
+    #[must_use]
+    pub const fn none() -> Self {
+        Self::with_room(0)
+    }
+
+    /// A memory for who compiles again and again.
+    #[must_use]
+    pub const fn of_some_runs() -> Self {
+        Self::with_room(ROOM)
+    }
+
+    const fn with_room(room: usize) -> Self {
+        Self {
+            plans: Shelf::with_room(room),
+            motions: Shelf::with_room(room),
+        }
+    }
+
+    /// As [`choice::choose_within`].
+    pub(crate) fn choose(
+        &mut self,
+        job: &CheckedJob,
+        leeway: Leeway,
+    ) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+        if !self.plans.takes(0) {
+            return choice::choose_within(job, leeway);
+        }
+        let mut without_places = job.without_places();
+        if let Some(machine) = &mut without_places.machine {
+            machine.targets.clear();
+        }
+        let open = Open {
+            job: without_places,
+            leeway,
+        };
+        if let Some(plan) = self.plans.find(&open) {
+            return (Some(of(job, plan.clone())), Vec::new());
+        }
+        let (plan, told) = choice::choose_within(job, leeway);
+        // Complaints know their places, and are few: they are found anew.
+        if let Some(plan) = &plan
+            && told.is_empty()
+            && is_of(job, plan)
+        {
+            self.plans.keep(open, plan.clone(), size(plan));
+        }
+        (plan, told)
+    }
+
+    /// As [`solve`], nowhere nearer to singular poses than everywhere in the compiler.
+    ///
+    /// # Errors
+    /// As for [`solve`].
+    pub(crate) fn reach(
+        &mut self,
+        program: VerifiedProgram,
+        model: &Arc<Model>,
+        changes: Changes,
+    ) -> Result<Reached, Unreached> {
+        let size = program.program().ops.len();
+        if !self.motions.takes(size) {
+            return solve(program, model, &LEAST_CLEARANCE, changes);
+        }
+        let put = Put {
+            program: without_places(program.program()),
+            model: Arc::clone(model),
+            changes,
+        };
+        match self.motions.find(&put) {
+            Some(Ok(found)) => return again(program, model, found.clone()),
+            Some(Err(trouble)) => {
+                let trouble = *trouble;
+                return Err(Unreached::Unreachable(Box::new(Unreachable { program, trouble })));
+            }
+            None => {}
+        }
+        let reached = solve(program, model, &LEAST_CLEARANCE, changes);
+        match &reached {
+            Ok(reached) => self.motions.keep(put, Ok(reached.found()), size),
+            Err(Unreached::Unreachable(unreachable)) => {
+                self.motions.keep(put, Err(unreachable.trouble), size);
+            }
+            // A fault of the compiler: it is not to be covered up.
+            Err(Unreached::Rules(_) | Unreached::Motion(_)) => {}
+        }
+        reached
+    }
+}
+
+/// A plan for a job with the places and the targets of this one.
+fn of(job: &CheckedJob, mut plan: PlannedJob) -> PlannedJob {
+    plan.machine.clone_from(&job.machine);
+    for (planned, operation) in plan.operations.iter_mut().zip(&job.operations) {
+        let (PlannedOperation::RoughVcut(vcut), Operation::RoughVcut(asked)) = (planned, operation);
+        vcut.asked.clone_from(asked);
+    }
+    plan
+}
+
+/// Whether a plan repeats what its job asks, word for word, so that [`of`] may replace it.
+fn is_of(job: &CheckedJob, plan: &PlannedJob) -> bool {
+    let operations = plan.operations.iter().zip(&job.operations);
+    plan.machine == job.machine
+        && plan.operations.len() == job.operations.len()
+        && operations
+            .into_iter()
+            .all(|(PlannedOperation::RoughVcut(vcut), Operation::RoughVcut(asked))| vcut.asked == *asked)
+}
+
+/// How much room a plan takes, in cuts.
+fn size(plan: &PlannedJob) -> usize {
+    let operations = plan.operations.iter();
+    operations
+        .map(|PlannedOperation::RoughVcut(vcut)| 1 + vcut.cuts.len() + vcut.bound.points().len())
+        .sum()
+}
+
+fn without_places(program: &Program) -> Program {
+    let mut program = program.clone();
+    for operation in &mut program.operations {
+        operation.source.file.clear();
+        (operation.source.start, operation.source.end) = (0, 0);
+    }
+    program
+}
