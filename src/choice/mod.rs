@@ -27,7 +27,7 @@ use crate::plan::residual::Strategies;
 use crate::plan::{LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations};
 use bench::Bench;
 use core::cmp::Ordering;
-use trial::FoundBy;
+use trial::{Found, FoundBy};
 use vcutc_backend_api::units::{Area, Duration, Length};
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
@@ -207,6 +207,16 @@ fn best_on(
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
     let found = trial::parameters(bench, asked, lattices, cuts_left)?;
+    best_finalist(bench, asked, found, cuts_left)
+}
+
+/// The operation with the best of a few parameters.
+fn best_finalist(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    found: Found,
+    cuts_left: usize,
+) -> Result<LaidOut, Vec<Diagnostic>> {
     let limit = asked.limits.scallop.map(|limit| limit.value);
     if let [only] = &found.finalists[..]
         && only.found == FoundBy::Formulas
@@ -271,6 +281,8 @@ fn compare_lattices(
     }
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
+    // A lattice on which too many cuts are needed to compare them is the last resort.
+    let mut large: Option<(&'static str, Found)> = None;
     for &(time, lattice) in &by_model {
         let what = lattice.word();
         let best = contest.best.as_ref().map(|(_, best)| best);
@@ -278,27 +290,35 @@ fn compare_lattices(
             contest.rule_out(what, Standing::ByModel(time));
             continue;
         }
-        match best_on(bench, asked, &[lattice], cuts_left) {
-            Ok(laid) if laid.vcut.cuts.len() > MOST_CUTS_COMPARED => {
-                let mut laid = laid;
-                laid.vcut
-                    .decisions
-                    .insert(0, not_compared("lattice", what.to_owned()));
-                return Ok(laid);
+        match trial::parameters(bench, asked, &[lattice], cuts_left) {
+            Ok(found) if found.is_large(bench.job, asked) => {
+                contest.rule_out(what, Standing::NotCompared);
+                large.get_or_insert((what, found));
             }
-            Ok(laid) => {
-                let limit = asked.limits.scallop.map(|limit| limit.value);
-                contest.enter(what, bench.weigh(laid).held_to(limit));
-            }
-            Err(told) => {
-                contest.rule_out(what, Standing::Impossible);
-                refused.get_or_insert(told);
-            }
+            found => match found.and_then(|found| best_finalist(bench, asked, found, cuts_left)) {
+                Ok(laid) => {
+                    let limit = asked.limits.scallop.map(|limit| limit.value);
+                    contest.enter(what, bench.weigh(laid).held_to(limit));
+                }
+                Err(told) => {
+                    contest.rule_out(what, Standing::Impossible);
+                    refused.get_or_insert(told);
+                }
+            },
         }
     }
-    match contest.finish("lattice") {
-        Some(best) => Ok(best.laid),
-        None => Err(refused.unwrap_or_default()),
+    let best = contest.finish("lattice");
+    match (best, large) {
+        (Some(best), None) => Ok(best.laid),
+        (Some(best), Some(_)) if best.standing.time().is_some() => Ok(best.laid),
+        (_, Some((what, found))) => {
+            let mut laid = best_finalist(bench, asked, found, cuts_left)?;
+            laid.vcut
+                .decisions
+                .insert(0, not_compared("lattice", what.to_owned()));
+            Ok(laid)
+        }
+        (None, None) => Err(refused.unwrap_or_default()),
     }
 }
 

@@ -11,6 +11,7 @@
 pub mod blade_reach;
 mod complaints;
 pub mod decision;
+pub mod floor;
 pub mod given;
 pub mod grid;
 pub mod lattice;

@@ -8,8 +8,10 @@ mod complaints;
 mod grid_forms;
 mod infeasible;
 mod search;
+mod swung;
 
 pub use grid_forms::{largest_layer, largest_layer_at};
+pub use swung::Swung;
 
 use super::blade_reach::{self, Flanks};
 use super::grid;
