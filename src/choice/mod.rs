@@ -12,6 +12,7 @@
 
 mod bench;
 mod leeway;
+mod limits;
 mod route;
 #[cfg(test)]
 mod tests;
@@ -24,7 +25,9 @@ use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, Roug
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::parameters::VcutParameters;
 use crate::plan::residual::Strategies;
-use crate::plan::{LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations};
+use crate::plan::{
+    LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
+};
 use bench::Bench;
 use core::cmp::Ordering;
 use trial::{Found, FoundBy};
@@ -55,7 +58,7 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
     let mut cuts_left = MOST_CUTS;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
-        match best_lattice(&bench, &leeway::within(asked, leeway.swing), cuts_left) {
+        match within_limits(&bench, &leeway::within(asked, leeway.swing), cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
                     leeway::told(&mut vcut, asked.limits.swing, swing);
@@ -97,13 +100,17 @@ impl Contender {
         }
     }
 
-    /// Fails if it leaves more than that.
-    fn held_to(mut self, limit: Option<Length>) -> Self {
+    /// Fails if it leaves more than that, or breaks one of the operation's limits on time and cuts.
+    fn held_to(mut self, limit: Option<Length>, asked: &RoughVcut) -> Self {
         // The search for the highest point works in floating point; a micrometre over the limit is no excess.
         let excess = limit.filter(|&limit| self.height > limit + Length::mm(1e-3));
         if let (Standing::Takes(_), Some(limit)) = (self.standing, excess) {
             let height = self.height;
             self.standing = Standing::Leaves { height, limit };
+        } else if let Standing::Takes(time) = self.standing
+            && let Some(excess) = limits::excess(asked, time, self.laid.vcut.cuts.len())
+        {
+            self.standing = Standing::Exceeds(excess);
         }
         self
     }
@@ -188,6 +195,40 @@ fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
 /// The strategies beside `mixed`.
 const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shift];
 
+/// The best operation that keeps its limits on time and cuts when it is planned.
+fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
+    let excess = |laid: &LaidOut| {
+        let limits = &asked.limits;
+        if limits.time.is_none() && limits.cuts.is_none() {
+            return None;
+        }
+        let time = bench.time(&laid.vcut)?;
+        limits::excess(asked, time, laid.vcut.cuts.len())
+    };
+    let first = best_lattice(bench, asked, cuts_left)?;
+    let Some(broken) = excess(&first) else {
+        return Ok(first);
+    };
+    let (mut assumed, mut by) = (asked.clone(), broken);
+    let tries = if trial::is_searched(asked) {
+        0
+    } else {
+        limits::MOST_TIGHTENED
+    };
+    for _ in 0..tries {
+        assumed = limits::tightened(&assumed, by);
+        let Ok(mut laid) = best_lattice(bench, &assumed, cuts_left) else {
+            break;
+        };
+        laid.vcut.asked.limits = asked.limits;
+        match excess(&laid) {
+            Some(still) => by = still,
+            None => return Ok(laid),
+        }
+    }
+    Err(vec![limits::complaint(&first.vcut, broken)])
+}
+
 /// The operation on the best lattice, or on the one that it asks for.
 fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
     match (asked.lattice.value, asked.objective.value) {
@@ -227,7 +268,7 @@ fn best_finalist(
     let mut refused = Vec::new();
     for finalist in found.finalists {
         match best_residual(bench, asked, &finalist.parameters, cuts_left) {
-            Ok(laid) => compared.push((finalist.found, bench.weigh(laid).held_to(limit))),
+            Ok(laid) => compared.push((finalist.found, bench.weigh(laid).held_to(limit, asked))),
             Err(told) => refused = told,
         }
     }
@@ -243,7 +284,7 @@ fn best_finalist(
             let formulas = compared.find(|(by, _)| *by == FoundBy::Formulas);
             let standing = found.by_formulas.or(formulas.map(|(_, one)| one.standing));
             Some(Decision {
-                field: "parameters",
+                field: PARAMETERS,
                 taken: best.candidate(by.words()),
                 others: standing
                     .into_iter()
@@ -269,7 +310,7 @@ fn compare_lattices(
 ) -> Result<LaidOut, Vec<Diagnostic>> {
     let mut told = Vec::new();
     // All lattices together: what is told of one alone would not be the job's.
-    let together = parameters::resolve(bench.job, asked, &mut told);
+    let together = parameters::resolve(bench.job, &trial::of_model(asked), &mut told);
     let mut refused = together.is_none().then_some(told);
     let mut by_model: Vec<(Duration, Lattice)> = Vec::new();
     for lattice in parameters::open_lattices(asked) {
@@ -298,7 +339,7 @@ fn compare_lattices(
             found => match found.and_then(|found| best_finalist(bench, asked, found, cuts_left)) {
                 Ok(laid) => {
                     let limit = asked.limits.scallop.map(|limit| limit.value);
-                    contest.enter(what, bench.weigh(laid).held_to(limit));
+                    contest.enter(what, bench.weigh(laid).held_to(limit, asked));
                 }
                 Err(told) => {
                     contest.rule_out(what, Standing::Impossible);
@@ -356,7 +397,7 @@ fn best_residual(
         Some(limit) => limit.value,
         None => mixed.height.max(mixed.laid.vcut.parameters.scallop_bound(asked)),
     };
-    contest.enter("mixed", mixed.held_to(Some(limit)));
+    contest.enter("mixed", mixed.held_to(Some(limit), asked));
     for residual in OTHERS {
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
@@ -364,7 +405,7 @@ fn best_residual(
             Ok(mut laid) => {
                 laid.vcut.asked.residual.value = Auto::Auto;
                 let contender = bench.weigh(route::best(bench, laid));
-                contest.enter(residual.word(), contender.held_to(Some(limit)));
+                contest.enter(residual.word(), contender.held_to(Some(limit), &asked));
             }
             Err(_) => contest.rule_out(residual.word(), Standing::Impossible),
         }

@@ -1,6 +1,7 @@
 //! Random jobs along every route: the same surface, no cut before those it relies on, and the best of all taken.
 
 use super::choose;
+use crate::diag::Code;
 use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 use crate::plan::decision::Standing;
@@ -11,7 +12,7 @@ use crate::sim::surface::{Side, Surface, Vee};
 use crate::source::SourceMap;
 use crate::verdict::{self, Proven};
 use proptest::prelude::*;
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::{Angle, Duration, Length};
 
 const ROUTES: [(Sequence, Order); 6] = [
     (Sequence::Rows, Order::Point),
@@ -492,6 +493,34 @@ fn a_limit_that_only_the_bound_breaks_is_no_conflict() {
         span: None,
     });
     assert!(time_if_sound(&job).is_some());
+}
+
+#[test]
+fn plans_are_held_to_the_limits_on_time_and_cuts() {
+    let mut job = open_job(40.0, 6.0);
+    let (plan, proven) = planned_and_proven(&job).unwrap();
+    let (time, cuts) = (proven.report.times.all.total(), vcut(&plan).cuts.len());
+    let limited = |job: &mut CheckedJob, seconds: f64, most: f64| {
+        let limits = &mut operation(job).limits;
+        limits.time = Some(Sourced {
+            value: Duration::s(seconds),
+            span: None,
+        });
+        limits.cuts = Some(Sourced {
+            value: most,
+            span: None,
+        });
+    };
+    // What the model makes of the same parameters does not matter.
+    limited(&mut job, time.to_s() + 2.0, cuts as f64);
+    let (same, _) = planned_and_proven(&job).unwrap();
+    assert_eq!(vcut(&same).cuts, vcut(&plan).cuts);
+    limited(&mut job, time.to_s() / 2.0, cuts as f64);
+    let (none, told) = choose(&job);
+    assert!(none.is_none());
+    let codes: Vec<Code> = told.iter().map(|one| one.code).collect();
+    assert_eq!(codes, [Code::LimitsConflict]);
+    assert!(told[0].message.contains("takes"), "{}", told[0].message);
 }
 
 #[test]

@@ -13,14 +13,14 @@
 mod spread;
 
 use super::bench::Bench;
-use super::{Contender, MOST_CUTS_COMPARED, route};
+use super::{Contender, MOST_CUTS_COMPARED, limits, route};
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut, Sourced};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, ScallopBy, Swung, VcutParameters};
-use crate::plan::{grid, lay_out};
+use crate::plan::{LaidOut, grid, lay_out};
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// Most plans that are tried, by the number of cuts of the first one: below the first number the second.
@@ -114,7 +114,7 @@ pub(super) fn parameters(
     cuts_left: usize,
 ) -> Result<Found, Vec<Diagnostic>> {
     let mut told = Vec::new();
-    let by_bound = parameters::resolve_on(bench.job, asked, lattices.to_vec(), &mut told);
+    let by_bound = parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec(), &mut told);
     let is_conflict = told.iter().all(|one| one.code == Code::LimitsConflict);
     if !is_searched(asked) || (by_bound.is_none() && !(is_conflict && asked.limits.scallop.is_some())) {
         return plain(by_bound, told);
@@ -189,9 +189,18 @@ pub(super) fn is_searched(asked: &RoughVcut) -> bool {
     is_open && is_planned && asked.formulas.value == Formulas::Exact
 }
 
+/// What is asked of the model: where plans are searched, those are held to the limits on time and cuts.
+pub(super) fn of_model(asked: &RoughVcut) -> RoughVcut {
+    if is_searched(asked) {
+        limits::of_plans(asked)
+    } else {
+        asked.clone()
+    }
+}
+
 /// The parameters if nothing were known of the scallop.
 pub(super) fn freest(bench: &Bench<'_>, asked: &RoughVcut, lattice: Lattice) -> Option<VcutParameters> {
-    let mut assumed = asked.clone();
+    let mut assumed = of_model(asked);
     if is_searched(asked) {
         assumed.limits.scallop = None;
     }
@@ -306,8 +315,8 @@ impl<'t> Trials<'t> {
             return None;
         }
         let limit = self.asked.limits.scallop.map(|limit| limit.value);
-        let Contender { standing, merit, .. } =
-            self.bench.weigh(route::usual(self.bench, laid)).held_to(limit);
+        let weighed = self.bench.weigh(self.along_its_route(laid));
+        let Contender { standing, merit, .. } = weighed.held_to(limit, &self.held_to());
         if standing.time().is_some() {
             self.keep(Sound {
                 parameters: found.clone(),
@@ -324,6 +333,27 @@ impl<'t> Trials<'t> {
     fn is_too_large(&self, found: &VcutParameters) -> bool {
         let model = found.time_model(self.bench.job, self.asked);
         model.cuts(found.layer, found.step) > 1.5 * MOST_CUTS_COMPARED as f64
+    }
+
+    /// The operation along its usual route, or along the fastest one where its time is limited and something else made small.
+    fn along_its_route(&self, laid: LaidOut) -> LaidOut {
+        match (self.asked.objective.value, self.asked.limits.time) {
+            (Objective::Cuts, Some(_)) => route::best(self.bench, laid),
+            (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _) => {
+                route::usual(self.bench, laid)
+            }
+        }
+    }
+
+    /// What plans are held to: all but the limit on what is made small, which the best one keeps if any does.
+    fn held_to(&self) -> RoughVcut {
+        let mut held = self.asked.clone();
+        match held.objective.value {
+            Objective::Time => held.limits.time = None,
+            Objective::Cuts => held.limits.cuts = None,
+            Objective::Scallop | Objective::BladeLoad => {}
+        }
+        held
     }
 
     fn note(&mut self, parameters: VcutParameters, standing: Standing) -> Standing {
@@ -358,7 +388,7 @@ impl<'t> Trials<'t> {
 
     /// The parameters under another limit on scallop.
     fn under(&self, limit: Option<Length>) -> Option<VcutParameters> {
-        let mut assumed = self.asked.clone();
+        let mut assumed = limits::of_plans(self.asked);
         assumed.limits.scallop = limit.map(|value| Sourced { value, span: None });
         self.resolve(&assumed)
     }

@@ -288,17 +288,14 @@ fn least_drop(asked: &RoughVcut, standoff: Length) -> Length {
 }
 
 /// Swing and layer as they are given where what they conflict with is told better by the proof: which chip is not
-/// cut free, and how much the contour really leaves.
+/// cut free, how much the contour really leaves, and how long it takes.
 fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Unchosen) -> Option<Chosen> {
     let (Auto::Given(swing), Auto::Given(layer)) = (asked.swing.value, asked.layer.value) else {
         return None;
     };
     let is_for_the_proof = match why {
-        Unchosen::Infeasible(Infeasible::Conflict { bounds, .. }) => bounds
-            .iter()
-            .all(|bound| !matches!(bound, Bound::Time | Bound::Cuts)),
+        Unchosen::Infeasible(Infeasible::Conflict { .. }) | Unchosen::OffGrid => true,
         Unchosen::Infeasible(Infeasible::Unbounded) => false,
-        Unchosen::OffGrid => true,
     };
     if !is_for_the_proof {
         return None;

@@ -65,8 +65,8 @@ const CLOSER: f64 = 0.95;
 const MOST_STEPS: i32 = 40;
 
 /// Most steps of a swing that are tried, and how far apart they are at least.
-const STEPS: usize = 3;
-const APART: f64 = 0.9;
+const STEPS: usize = 4;
+const APART: f64 = 0.93;
 
 /// Whether a lattice of the spread is likely to leave no more than it may.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -232,8 +232,9 @@ impl Trials<'_> {
             return Vec::new();
         };
         let room = limit.value - self.asked.allowance.value - swung.drop();
-        // A level part between two tips on it stands half a step below their flanks.
-        let level = room * (2.0 / swung.flanks.slope) * WIDEST_STEP;
+        // Between two tips on a level part their flanks meet at half the way's rise. Interlaced tips are half a step apart.
+        let apart = room * (2.0 / swung.flanks.slope);
+        let level = apart * swung.tips_per_step() * WIDEST_STEP;
         let widest = level.min(self.bench.job.stock.width);
         if !self.may_pay(swung, widest) {
             return Vec::new();

@@ -2,7 +2,7 @@
 //! after here; which of them a job allows is for those who try.
 
 use super::super::blade_reach;
-use super::grid_forms::{fits, largest_fitting, widest_step};
+use super::grid_forms::{fits, largest_fitting, tips_per_step, widest_step};
 use super::search::Chosen;
 use super::{Flanks, VcutParameters, complete, flanks_at, resolve_standoff};
 use crate::job::{Lattice, RoughVcut};
@@ -37,6 +37,12 @@ impl<'s> Swung<'s> {
     #[must_use]
     pub fn drop(&self) -> Length {
         self.standoff / self.swing.sin()
+    }
+
+    /// How many columns there are in a step, those of all layers together.
+    #[must_use]
+    pub const fn tips_per_step(&self) -> f64 {
+        tips_per_step(self.lattice)
     }
 
     /// The largest layer that the blade reaches at an overlap.
