@@ -4,7 +4,7 @@ pub mod times;
 
 use crate::job::Order;
 use crate::pace::Basis;
-use crate::plan::decision::{Decision, Standing};
+use crate::plan::decision::{Decision, Excess, Standing};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach_summary::{self, ReachFigures};
@@ -106,6 +106,12 @@ pub fn compared(decision: &Decision) -> String {
 fn standing(standing: Standing) -> String {
     match standing {
         Standing::Takes(duration) => time(duration),
+        Standing::Exceeds(Excess::Time { time: taken, limit }) => {
+            format!("{} (limit {})", time(taken), time(limit))
+        }
+        Standing::Exceeds(Excess::Cuts { cuts, limit }) => {
+            format!("{cuts} cuts (limit {})", show(limit.floor()))
+        }
         Standing::Leaves { height, limit } => format!(
             "leaves {:.2} mm (limit {} mm)",
             height.to_mm(),

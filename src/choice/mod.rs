@@ -12,6 +12,7 @@
 
 mod bench;
 mod leeway;
+mod limits;
 mod route;
 #[cfg(test)]
 mod tests;
@@ -24,11 +25,13 @@ use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, Roug
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::parameters::VcutParameters;
 use crate::plan::residual::Strategies;
-use crate::plan::{LaidOut, MOST_CUTS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations};
+use crate::plan::{
+    LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
+};
 use bench::Bench;
 use core::cmp::Ordering;
 use rayon::prelude::*;
-use trial::{Finalist, FoundBy};
+use trial::{Finalist, Found, FoundBy};
 use vcutc_backend_api::units::{Area, Duration, Length};
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
@@ -56,7 +59,7 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
     let mut cuts_left = MOST_CUTS;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
-        match best_lattice(&bench, &leeway::within(asked, leeway.swing), cuts_left) {
+        match within_limits(&bench, &leeway::within(asked, leeway.swing), cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
                     leeway::told(&mut vcut, asked.limits.swing, swing);
@@ -98,13 +101,17 @@ impl Contender {
         }
     }
 
-    /// Fails if it leaves more than that.
-    fn held_to(mut self, limit: Option<Length>) -> Self {
+    /// Fails if it leaves more than that, or breaks one of the operation's limits on time and cuts.
+    fn held_to(mut self, limit: Option<Length>, asked: &RoughVcut) -> Self {
         // The search for the highest point works in floating point; a micrometre over the limit is no excess.
         let excess = limit.filter(|&limit| self.height > limit + Length::mm(1e-3));
         if let (Standing::Takes(_), Some(limit)) = (self.standing, excess) {
             let height = self.height;
             self.standing = Standing::Leaves { height, limit };
+        } else if let Standing::Takes(time) = self.standing
+            && let Some(excess) = limits::excess(asked, time, self.laid.vcut.cuts.len())
+        {
+            self.standing = Standing::Exceeds(excess);
         }
         self
     }
@@ -189,6 +196,40 @@ fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
 /// The strategies beside `mixed`.
 const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shift];
 
+/// The best operation that keeps its limits on time and cuts when it is planned.
+fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
+    let excess = |laid: &LaidOut| {
+        let limits = &asked.limits;
+        if limits.time.is_none() && limits.cuts.is_none() {
+            return None;
+        }
+        let time = bench.time(&laid.vcut)?;
+        limits::excess(asked, time, laid.vcut.cuts.len())
+    };
+    let first = best_lattice(bench, asked, cuts_left)?;
+    let Some(broken) = excess(&first) else {
+        return Ok(first);
+    };
+    let (mut assumed, mut by) = (asked.clone(), broken);
+    let tries = if trial::is_searched(asked) {
+        0
+    } else {
+        limits::MOST_TIGHTENED
+    };
+    for _ in 0..tries {
+        assumed = limits::tightened(&assumed, by);
+        let Ok(mut laid) = best_lattice(bench, &assumed, cuts_left) else {
+            break;
+        };
+        laid.vcut.asked.limits = asked.limits;
+        match excess(&laid) {
+            Some(still) => by = still,
+            None => return Ok(laid),
+        }
+    }
+    Err(vec![limits::complaint(&first.vcut, broken)])
+}
+
 /// The operation on the best lattice, or on the one that it asks for.
 fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
     match (asked.lattice.value, asked.objective.value) {
@@ -208,6 +249,16 @@ fn best_on(
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
     let found = trial::parameters(bench, asked, lattices, cuts_left)?;
+    best_finalist(bench, asked, found, cuts_left)
+}
+
+/// The operation with the best of a few parameters.
+fn best_finalist(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    found: Found,
+    cuts_left: usize,
+) -> Result<LaidOut, Vec<Diagnostic>> {
     let limit = asked.limits.scallop.map(|limit| limit.value);
     if let [only] = &found.finalists[..]
         && only.found == FoundBy::Formulas
@@ -216,7 +267,7 @@ fn best_on(
     }
     let outcome = |finalist: &Finalist| {
         let laid = best_residual(bench, asked, &finalist.parameters, cuts_left)?;
-        Ok((finalist.found, bench.weigh(laid).held_to(limit)))
+        Ok((finalist.found, bench.weigh(laid).held_to(limit, asked)))
     };
     let outcomes: Vec<Result<(FoundBy, Contender), Vec<Diagnostic>>> =
         found.finalists.par_iter().map(outcome).collect();
@@ -240,7 +291,7 @@ fn best_on(
             let formulas = compared.find(|(by, _)| *by == FoundBy::Formulas);
             let standing = found.by_formulas.or(formulas.map(|(_, one)| one.standing));
             Some(Decision {
-                field: "parameters",
+                field: PARAMETERS,
                 taken: best.candidate(by.words()),
                 others: standing
                     .into_iter()
@@ -275,6 +326,8 @@ fn compare_lattices(
     }
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
+    // A lattice on which too many cuts are needed to compare them is the last resort.
+    let mut large: Option<(&'static str, Found)> = None;
     for &(time, lattice) in &by_model {
         let what = lattice.word();
         let best = contest.best.as_ref().map(|(_, best)| best);
@@ -282,30 +335,38 @@ fn compare_lattices(
             contest.rule_out(what, Standing::ByModel(time));
             continue;
         }
-        match best_on(bench, asked, &[lattice], cuts_left) {
-            Ok(laid) if laid.vcut.cuts.len() > MOST_CUTS_COMPARED => {
-                let mut laid = laid;
-                laid.vcut
-                    .decisions
-                    .insert(0, not_compared("lattice", what.to_owned()));
-                return Ok(laid);
+        match trial::parameters(bench, asked, &[lattice], cuts_left) {
+            Ok(found) if found.is_large(bench.job, asked) => {
+                contest.rule_out(what, Standing::NotCompared);
+                large.get_or_insert((what, found));
             }
-            Ok(laid) => {
-                let limit = asked.limits.scallop.map(|limit| limit.value);
-                contest.enter(what, bench.weigh(laid).held_to(limit));
-            }
-            Err(told) => {
-                contest.rule_out(what, Standing::Impossible);
-                refused.get_or_insert(told);
-            }
+            found => match found.and_then(|found| best_finalist(bench, asked, found, cuts_left)) {
+                Ok(laid) => {
+                    let limit = asked.limits.scallop.map(|limit| limit.value);
+                    contest.enter(what, bench.weigh(laid).held_to(limit, asked));
+                }
+                Err(told) => {
+                    contest.rule_out(what, Standing::Impossible);
+                    refused.get_or_insert(told);
+                }
+            },
         }
     }
-    match contest.finish("lattice") {
-        Some(best) => Ok(best.laid),
-        None => {
+    let best = contest.finish("lattice");
+    match (best, large) {
+        (Some(best), None) => Ok(best.laid),
+        (Some(best), Some(_)) if best.standing.time().is_some() => Ok(best.laid),
+        (_, Some((what, found))) => {
+            let mut laid = best_finalist(bench, asked, found, cuts_left)?;
+            laid.vcut
+                .decisions
+                .insert(0, not_compared("lattice", what.to_owned()));
+            Ok(laid)
+        }
+        (None, None) => {
             // All lattices together: what is told of one alone would not be the job's.
             let mut told = Vec::new();
-            let together = parameters::resolve(bench.job, asked, &mut told);
+            let together = parameters::resolve(bench.job, &trial::of_model(asked), &mut told);
             Err(match together {
                 None => told,
                 Some(_) => refused.unwrap_or_default(),
@@ -363,10 +424,10 @@ fn best_residual(
         Some(limit) => limit.value,
         None => mixed.height.max(mixed.laid.vcut.parameters.scallop_bound(asked)),
     };
-    contest.enter("mixed", mixed.held_to(Some(limit)));
+    contest.enter("mixed", mixed.held_to(Some(limit), asked));
     for (residual, other) in others {
         match other {
-            Some(contender) => contest.enter(residual.word(), contender.held_to(Some(limit))),
+            Some(contender) => contest.enter(residual.word(), contender.held_to(Some(limit), asked)),
             None => contest.rule_out(residual.word(), Standing::Impossible),
         }
     }

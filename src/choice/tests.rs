@@ -1,6 +1,7 @@
 //! Random jobs along every route: the same surface, no cut before those it relies on, and the best of all taken.
 
 use super::choose;
+use crate::diag::Code;
 use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 use crate::plan::decision::Standing;
@@ -11,7 +12,7 @@ use crate::sim::surface::{Side, Surface, Vee};
 use crate::source::SourceMap;
 use crate::verdict::{self, Proven};
 use proptest::prelude::*;
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::{Angle, Duration, Length};
 
 const ROUTES: [(Sequence, Order); 6] = [
     (Sequence::Rows, Order::Point),
@@ -381,22 +382,105 @@ fn least_of_grid(open: &Open) -> Option<(f64, String)> {
 #[test]
 fn no_grid_beats_the_choice_by_much() {
     let jobs = [
-        (hill as fn(f64) -> f64, Some(40.0), Some(5.0), TOLERANCE),
-        (wall, None, Some(6.0), TOLERANCE),
+        (hill as fn(f64) -> f64, Some(40.0), Some(5.0)),
+        (wall, None, Some(6.0)),
         // Which tips happen to lie right at the wall decides here, and that changes with every step.
-        (wall, Some(40.0), Some(3.0), 1.2),
-        (gentle, None, Some(1.0), TOLERANCE),
-        (gentle, Some(30.0), Some(4.0), TOLERANCE),
-        (hollow, None, None, TOLERANCE),
+        (wall, Some(40.0), Some(3.0)),
+        (gentle, None, Some(1.0)),
+        (gentle, Some(30.0), Some(4.0)),
+        (hollow, None, None),
     ];
-    for (index, (part, swing, scallop, tolerance)) in jobs.into_iter().enumerate() {
+    for (index, (part, swing, scallop)) in jobs.into_iter().enumerate() {
         let open = Open { part, swing, scallop };
         let (by_hand, how) = least_of_grid(&open).unwrap();
         let chosen = time_if_sound(&open.job()).unwrap_or_else(|| panic!("{index}: {how} works"));
         assert!(
-            chosen <= by_hand * tolerance,
+            chosen <= by_hand * TOLERANCE,
             "{index}: {chosen} s, but {by_hand} s with {how}"
         );
+    }
+}
+
+/// A small block with a part, cut along one route, with a limit on scallop.
+fn small_job(corners: &[(f64, f64)], scallop: f64) -> CheckedJob {
+    let mut job = paper_job(corners.iter().map(|&(x, z)| Point2 { x, z }).collect());
+    let asked = operation(&mut job);
+    asked.lattice.value = Auto::Auto;
+    asked.swing.value = Auto::Auto;
+    asked.layer.value = Auto::Auto;
+    asked.step.value = Auto::Auto;
+    asked.residual.value = Auto::Given(Residual::Mixed);
+    asked.order.value = Auto::Given(Order::Point);
+    asked.sequence.value = Auto::Given(Sequence::Boustrophedon);
+    asked.limits.scallop = Some(Sourced {
+        value: Length::mm(scallop),
+        span: None,
+    });
+    job
+}
+
+/// A wave, as corners; gentle ones are nowhere steeper than 25 deg.
+fn a_wave() -> impl Strategy<Value = (Vec<(f64, f64)>, f64)> {
+    let heights = (0.5..4.0_f64, 55.0..120.0_f64, 0.0..6.0_f64, 25.0..42.0_f64);
+    (heights, 0.4..3.0_f64).prop_map(|((height, length, phase, middle), scallop)| {
+        let z = |x: f64| middle + height * libm::sin(x / length * core::f64::consts::TAU + phase);
+        let corners = (0..=85).map(f64::from).map(|x| (x, z(x)));
+        (corners.collect(), scallop)
+    })
+}
+
+/// A step with a steep wall.
+fn a_step() -> impl Strategy<Value = (Vec<(f64, f64)>, f64)> {
+    let shape = (10.0..30.0_f64, 5.0..18.0_f64, 20.0..60.0_f64, 65.0..88.0_f64);
+    (shape, 0.17..0.4_f64).prop_map(|((low, height, at, steep), share)| {
+        let width = height / libm::tan(steep.to_radians());
+        let corners = [
+            (0.0, low),
+            (at, low),
+            (at + width, low + height),
+            (85.0, low + height),
+        ];
+        (corners.to_vec(), share * height + 0.5)
+    })
+}
+
+/// The least time of a coarse grid of explicit parameters on two lattices.
+fn least_by_hand(job: &CheckedJob) -> Option<(f64, String)> {
+    let mut least: Option<(f64, String)> = None;
+    for lattice in [Lattice::Orthogonal, Lattice::Interlaced] {
+        for swing in [6.0, 10.0, 20.0, 35.0, 50.0, 65.0, 78.0] {
+            for layer in [1.5, 3.0, 6.0] {
+                for overlap in [0.0, 0.45] {
+                    let mut job = job.clone();
+                    let asked = operation(&mut job);
+                    asked.lattice.value = Auto::Given(lattice);
+                    asked.swing.value = Auto::Given(Angle::deg(swing));
+                    asked.layer.value = Auto::Given(Length::mm(layer));
+                    asked.overlap.value = Auto::Given(overlap);
+                    if let Some(time) = time_if_sound(&job)
+                        && least.as_ref().is_none_or(|(least, _)| time < *least)
+                    {
+                        let how = format!("{lattice:?}, swing {swing}, layer {layer}, overlap {overlap}");
+                        least = Some((time, how));
+                    }
+                }
+            }
+        }
+    }
+    least
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(10))]
+
+    #[test]
+    fn by_hand_nothing_is_clearly_better((corners, scallop) in prop_oneof![a_wave(), a_step()]) {
+        let job = small_job(&corners, scallop);
+        let Some((by_hand, how)) = least_by_hand(&job) else { return Ok(()) };
+        let chosen = time_if_sound(&job);
+        prop_assert!(chosen.is_some(), "{} works", how);
+        let chosen = chosen.unwrap_or_default();
+        prop_assert!(chosen <= by_hand * TOLERANCE, "{} s, but {} s with {}", chosen, by_hand, how);
     }
 }
 
@@ -409,6 +493,34 @@ fn a_limit_that_only_the_bound_breaks_is_no_conflict() {
         span: None,
     });
     assert!(time_if_sound(&job).is_some());
+}
+
+#[test]
+fn plans_are_held_to_the_limits_on_time_and_cuts() {
+    let mut job = open_job(40.0, 6.0);
+    let (plan, proven) = planned_and_proven(&job).unwrap();
+    let (time, cuts) = (proven.report.times.all.total(), vcut(&plan).cuts.len());
+    let limited = |job: &mut CheckedJob, seconds: f64, most: f64| {
+        let limits = &mut operation(job).limits;
+        limits.time = Some(Sourced {
+            value: Duration::s(seconds),
+            span: None,
+        });
+        limits.cuts = Some(Sourced {
+            value: most,
+            span: None,
+        });
+    };
+    // What the model makes of the same parameters does not matter.
+    limited(&mut job, time.to_s() + 2.0, cuts as f64);
+    let (same, _) = planned_and_proven(&job).unwrap();
+    assert_eq!(vcut(&same).cuts, vcut(&plan).cuts);
+    limited(&mut job, time.to_s() / 2.0, cuts as f64);
+    let (none, told) = choose(&job);
+    assert!(none.is_none());
+    let codes: Vec<Code> = told.iter().map(|one| one.code).collect();
+    assert_eq!(codes, [Code::LimitsConflict]);
+    assert!(told[0].message.contains("takes"), "{}", told[0].message);
 }
 
 #[test]

@@ -13,13 +13,14 @@
 mod spread;
 
 use super::bench::Bench;
-use super::{Contender, MOST_CUTS_COMPARED, route};
+use super::{Contender, MOST_CUTS_COMPARED, limits, route};
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Auto, Formulas, Lattice, Objective, RoughVcut, Sourced};
+use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut, Sourced};
 use crate::plan::decision::Standing;
-use crate::plan::lay_out;
+use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
-use crate::plan::parameters::{self, ScallopBy, VcutParameters};
+use crate::plan::parameters::{self, ScallopBy, Swung, VcutParameters};
+use crate::plan::{LaidOut, grid, lay_out};
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
@@ -92,6 +93,20 @@ pub(super) struct Found {
     pub(super) by_formulas: Option<Standing>,
 }
 
+impl Found {
+    /// Whether the formulas' choice stands, with more cuts by the model than are compared.
+    pub(super) fn is_large(&self, job: &CheckedJob, asked: &RoughVcut) -> bool {
+        match &self.finalists[..] {
+            [only] if only.found == FoundBy::Formulas => {
+                let found = &only.parameters;
+                let model = found.time_model(job, asked);
+                model.cuts(found.layer, found.step) > MOST_CUTS_COMPARED as f64
+            }
+            _ => false,
+        }
+    }
+}
+
 /// The best parameters on one of these lattices.
 pub(super) fn parameters(
     bench: &Bench<'_>,
@@ -100,17 +115,14 @@ pub(super) fn parameters(
     cuts_left: usize,
 ) -> Result<Found, Vec<Diagnostic>> {
     let mut told = Vec::new();
-    let by_bound = parameters::resolve_on(bench.job, asked, lattices.to_vec(), &mut told);
+    let by_bound = parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec(), &mut told);
     let is_conflict = told.iter().all(|one| one.code == Code::LimitsConflict);
     if !is_searched(asked) || (by_bound.is_none() && !(is_conflict && asked.limits.scallop.is_some())) {
         return plain(by_bound, told);
     }
     let mut trials = Trials::new(bench, asked, lattices, cuts_left);
-    let first = by_bound.clone().and_then(|found| trials.weigh(found));
-    trials.climb();
-    trials.spread();
-    trials.wander();
-    let (finalists, leaves_too_much) = (trials.finalists(), trials.leaves_too_much);
+    let first = trials.search(by_bound.as_ref());
+    let (finalists, leaves_too_much) = (trials.finalists(by_bound.as_ref()), trials.leaves_too_much);
     if finalists.is_empty() {
         return plain(by_bound, told);
     }
@@ -168,7 +180,9 @@ fn plain(by_bound: Option<VcutParameters>, told: Vec<Diagnostic>) -> Result<Foun
 pub(super) fn is_searched(asked: &RoughVcut) -> bool {
     let is_open = asked.swing.value == Auto::Auto
         || asked.layer.value == Auto::Auto
-        || (asked.step.value == Auto::Auto && asked.limits.scallop.is_some());
+        || (asked.step.value == Auto::Auto
+            && asked.overlap.value == Auto::Auto
+            && asked.limits.scallop.is_some());
     let is_planned = match asked.objective.value {
         Objective::Time | Objective::Cuts => true,
         Objective::Scallop | Objective::BladeLoad => false,
@@ -176,9 +190,18 @@ pub(super) fn is_searched(asked: &RoughVcut) -> bool {
     is_open && is_planned && asked.formulas.value == Formulas::Exact
 }
 
+/// What is asked of the model: where plans are searched, those are held to the limits on time and cuts.
+pub(super) fn of_model(asked: &RoughVcut) -> RoughVcut {
+    if is_searched(asked) {
+        limits::of_plans(asked)
+    } else {
+        asked.clone()
+    }
+}
+
 /// The parameters if nothing were known of the scallop.
 pub(super) fn freest(bench: &Bench<'_>, asked: &RoughVcut, lattice: Lattice) -> Option<VcutParameters> {
-    let mut assumed = asked.clone();
+    let mut assumed = of_model(asked);
     if is_searched(asked) {
         assumed.limits.scallop = None;
     }
@@ -228,6 +251,7 @@ struct Trials<'t> {
     asked: &'t RoughVcut,
     lattices: &'t [Lattice],
     cuts_left: usize,
+    floor: Floor<'t>,
     /// How many plans may still be made; not known before the first one.
     plans_left: Option<usize>,
     /// How many plans there are in all, by the cuts of the first one.
@@ -241,17 +265,13 @@ struct Trials<'t> {
 }
 
 impl<'t> Trials<'t> {
-    const fn new(
-        bench: &'t Bench<'t>,
-        asked: &'t RoughVcut,
-        lattices: &'t [Lattice],
-        cuts_left: usize,
-    ) -> Self {
+    fn new(bench: &'t Bench<'t>, asked: &'t RoughVcut, lattices: &'t [Lattice], cuts_left: usize) -> Self {
         Self {
             bench,
             asked,
             lattices,
             cuts_left,
+            floor: Floor::new(bench.job, asked, &bench.before),
             plans_left: None,
             most_plans: &PLANS,
             tried: Vec::new(),
@@ -261,19 +281,27 @@ impl<'t> Trials<'t> {
         }
     }
 
-    /// The best few, the best first, and the formulas' parameters if they are sound: those that were tried first.
-    fn finalists(&self) -> Vec<VcutParameters> {
+    /// The whole search; what came of the formulas' parameters.
+    fn search(&mut self, by_bound: Option<&VcutParameters>) -> Option<Standing> {
+        let first = by_bound.and_then(|found| self.weigh(found.clone()));
+        self.climb();
+        self.spread();
+        self.wander();
+        first
+    }
+
+    /// The best few, the best first, and the formulas' parameters if they are sound.
+    fn finalists(&self, by_bound: Option<&VcutParameters>) -> Vec<VcutParameters> {
         let Some(best) = self.sound.first() else {
             return Vec::new();
         };
         let most = FINALISTS.iter().find(|(below, _)| best.cuts < *below);
         let most = most.map_or(1, |&(_, count)| count);
-        let first = self.tried.first().map(|tried| &tried.parameters);
         self.sound
             .iter()
             .enumerate()
             .filter(|(rank, sound)| {
-                *rank < most || (most > 1 && first.is_some_and(|first| alike(first, &sound.parameters)))
+                *rank < most || (most > 1 && by_bound.is_some_and(|bound| alike(bound, &sound.parameters)))
             })
             .map(|(_, sound)| sound.parameters.clone())
             .collect()
@@ -289,7 +317,7 @@ impl<'t> Trials<'t> {
         if let Some(known) = known {
             return Some(known.standing);
         }
-        if !self.may_go_on() {
+        if !self.may_go_on() || !self.may_be_sound(&found) {
             return None;
         }
         let model = self.model(&found);
@@ -340,8 +368,8 @@ impl<'t> Trials<'t> {
             return Outcome::TooLarge { cuts };
         }
         let limit = self.asked.limits.scallop.map(|limit| limit.value);
-        let Contender { standing, merit, .. } =
-            self.bench.weigh(route::usual(self.bench, laid)).held_to(limit);
+        let weighed = self.bench.weigh(self.along_its_route(laid));
+        let Contender { standing, merit, .. } = weighed.held_to(limit, &self.held_to());
         Outcome::Planned {
             cuts,
             standing,
@@ -351,18 +379,52 @@ impl<'t> Trials<'t> {
 
     /// Plans those that would be weighed next as far as can be seen, side by side.
     fn plan_ahead<'f>(&mut self, next: impl IntoIterator<Item = &'f VcutParameters>) {
+        if !self.may_go_on() {
+            self.ahead.clear();
+            return;
+        }
         let is_new = |found: &&VcutParameters| {
-            !self.is_behind(found) && !self.tried.iter().any(|tried| alike(&tried.parameters, found))
+            !self.is_behind(self.model(found))
+                && !self.tried.iter().any(|tried| alike(&tried.parameters, found))
+                && self.may_be_sound(found)
         };
-        let worth: Vec<&VcutParameters> = if self.may_go_on() {
-            next.into_iter().filter(is_new).collect()
-        } else {
-            Vec::new()
-        };
+        let worth: Vec<&VcutParameters> = next.into_iter().filter(is_new).collect();
         let planned = worth
             .into_par_iter()
             .map(|found| (found.clone(), self.outcome(found)));
         self.ahead = planned.collect();
+    }
+
+    /// Whether parameters are worth a plan, as far as is known before.
+    fn may_be_sound(&self, found: &VcutParameters) -> bool {
+        !self.is_too_large(found) && !self.must_leave_too_much(found)
+    }
+
+    /// Whether there will be far more cuts than are compared, by the model: to lay them out takes long.
+    fn is_too_large(&self, found: &VcutParameters) -> bool {
+        let model = found.time_model(self.bench.job, self.asked);
+        model.cuts(found.layer, found.step) > 1.5 * MOST_CUTS_COMPARED as f64
+    }
+
+    /// The operation along its usual route, or along the fastest one where its time is limited and something else made small.
+    fn along_its_route(&self, laid: LaidOut) -> LaidOut {
+        match (self.asked.objective.value, self.asked.limits.time) {
+            (Objective::Cuts, Some(_)) => route::best(self.bench, laid),
+            (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _) => {
+                route::usual(self.bench, laid)
+            }
+        }
+    }
+
+    /// What plans are held to: all but the limit on what is made small, which the best one keeps if any does.
+    fn held_to(&self) -> RoughVcut {
+        let mut held = self.asked.clone();
+        match held.objective.value {
+            Objective::Time => held.limits.time = None,
+            Objective::Cuts => held.limits.cuts = None,
+            Objective::Scallop | Objective::BladeLoad => {}
+        }
+        held
     }
 
     fn note(&mut self, parameters: VcutParameters, standing: Standing) -> Standing {
@@ -397,7 +459,7 @@ impl<'t> Trials<'t> {
 
     /// The parameters under another limit on scallop.
     fn under(&self, limit: Option<Length>) -> Option<VcutParameters> {
-        let mut assumed = self.asked.clone();
+        let mut assumed = limits::of_plans(self.asked);
         assumed.limits.scallop = limit.map(|value| Sourced { value, span: None });
         self.resolve(&assumed)
     }
@@ -450,7 +512,7 @@ impl<'t> Trials<'t> {
                 let (from, merit) = (best.parameters.clone(), best.merit);
                 let is_better = MOVES.chunks(AHEAD).any(|moves| {
                     let found: Vec<VcutParameters> = moves
-                        .par_iter()
+                        .iter()
                         .filter_map(|&moved| self.beside(&from, factor, moved))
                         .collect();
                     self.plan_ahead(&found);
@@ -467,18 +529,15 @@ impl<'t> Trials<'t> {
     }
 
     fn weigh_if_promising(&mut self, found: VcutParameters) {
-        if !self.is_behind(&found) {
+        if !self.is_behind(self.model(&found)) {
             self.weigh(found);
         }
     }
 
-    /// Whether the model says that it comes to nothing better.
-    fn is_behind(&self, found: &VcutParameters) -> bool {
+    /// Whether a time by the model is far behind that of the best one.
+    fn is_behind(&self, model: Duration) -> bool {
         match self.asked.objective.value {
-            Objective::Time => {
-                let best = self.sound.first();
-                best.is_some_and(|best| self.model(found) > best.model * BEHIND)
-            }
+            Objective::Time => self.sound.first().is_some_and(|best| model > best.model * BEHIND),
             Objective::Cuts | Objective::Scallop | Objective::BladeLoad => false,
         }
     }
@@ -500,6 +559,19 @@ impl<'t> Trials<'t> {
             && self.asked.limits.scallop.is_some()
     }
 
+    /// The least that any plan of a lattice can leave with its tips in their columns, where that is no more than may stay.
+    fn least_left(&self, found: &VcutParameters) -> Option<Length> {
+        let limit = self.asked.limits.scallop?;
+        let followed = self.floor.followed(found.flanks.slope);
+        followed.of_lattice(found, limit.value)
+    }
+
+    /// Whether a plan must leave too much.
+    fn must_leave_too_much(&self, found: &VcutParameters) -> bool {
+        let moves_tips = self.asked.residual.value == Auto::Given(Residual::Shift);
+        !moves_tips && self.asked.limits.scallop.is_some() && self.least_left(found).is_none()
+    }
+
     /// The parameters with swing, layer and overlap changed by a factor.
     fn beside(
         &self,
@@ -507,64 +579,99 @@ impl<'t> Trials<'t> {
         factor: f64,
         [swing, layer, overlap]: Move,
     ) -> Option<VcutParameters> {
-        let mut assumed = self.asked.clone();
-        assumed.limits.scallop = None;
-        assumed.lattice.value = Auto::Given(from.lattice);
-        match self.asked.swing.value {
-            Auto::Auto => {
-                let bounds = self.asked.limits.swing;
-                let changed = thousandths(from.swing * libm::pow(factor, f64::from(swing)));
-                let changed =
-                    bounds.most.map_or(
-                        changed,
-                        |most| if changed > most.value { most.value } else { changed },
-                    );
-                if changed >= Angle::deg(89.0) || changed <= Angle::deg(1.0) {
-                    return None;
-                }
-                assumed.swing.value = Auto::Given(changed);
-            }
-            Auto::Given(_) if swing != 0 => return None,
-            Auto::Given(_) => {}
-        }
-        match self.asked.layer.value {
-            Auto::Auto => {
-                let changed = from.layer.to_mm() * libm::pow(factor, f64::from(layer));
-                let changed = Length::mm((changed * 1000.0).floor() / 1000.0);
-                if changed <= Length::ZERO {
-                    return None;
-                }
-                assumed.layer.value = Auto::Given(changed);
-            }
-            Auto::Given(_) if layer != 0 => return None,
-            Auto::Given(_) => {}
-        }
-        if self.has_open_overlap() {
-            if overlap < 0 && from.overlap <= 0.0 {
-                return None;
-            }
-            let by = (factor - 1.0) / 2.0 * f64::from(overlap);
-            give_overlap(&mut assumed, from.overlap + by);
-        } else if overlap != 0 {
+        let swing = changed(self.asked.swing.value, from.swing, swing, |way| {
+            let bounds = self.asked.limits.swing;
+            let changed = thousandths(from.swing * libm::pow(factor, f64::from(way)));
+            bounds.most.map_or(
+                changed,
+                |most| if changed > most.value { most.value } else { changed },
+            )
+        })?;
+        let layer = changed(self.asked.layer.value, from.layer, layer, |way| {
+            Length::mm(grid::down(from.layer.to_mm() * libm::pow(factor, f64::from(way))))
+        })?;
+        let is_angle = swing < Angle::deg(89.0) && swing > Angle::deg(1.0);
+        if !is_angle || layer <= Length::ZERO {
             return None;
         }
-        parameters::possible_on(self.bench.job, &assumed, vec![from.lattice])
+        let swung = Swung::new(self.asked, from.lattice, swing)?;
+        let by = (factor - 1.0) / 2.0 * f64::from(overlap);
+        let (step, overlap) = match (self.asked.step.value, overlap) {
+            (Auto::Given(step), 0) => (step, swung.overlap(layer, step)),
+            (Auto::Auto, 0) => (swung.widest_step(layer, from.overlap), from.overlap),
+            (Auto::Auto, _) if self.has_open_overlap() => {
+                let overlap = from.overlap + by;
+                if from.overlap <= 0.0 && by < 0.0 || from.overlap >= MOST_OVERLAP && by > 0.0 {
+                    return None;
+                }
+                let overlap = overlap.clamp(0.0, MOST_OVERLAP);
+                (swung.widest_step(layer, overlap), overlap)
+            }
+            (Auto::Given(_) | Auto::Auto, _) => return None,
+        };
+        swung
+            .parameters(layer, step, overlap)
             .filter(|found| self.is_within(found))
     }
 }
 
-/// Overlaps are tried up to this; larger ones cut most of what is cut twice.
-const MOST_OVERLAP: f64 = 0.8;
-
-/// Vs that overlap by this share; where they would just meet, that is what comes of an open overlap too.
-fn give_overlap(asked: &mut RoughVcut, overlap: f64) {
-    let overlap = (overlap * 1000.0).round() / 1000.0;
-    if overlap > 0.0 {
-        asked.overlap.value = Auto::Given(overlap.min(MOST_OVERLAP));
+/// A value that is open, changed; none where a given one is to be.
+fn changed<T>(asked: Auto<T>, from: T, way: i32, change: impl Fn(i32) -> T) -> Option<T> {
+    match (asked, way) {
+        (_, 0) => Some(from),
+        (Auto::Auto, way) => Some(change(way)),
+        (Auto::Given(_), _) => None,
     }
 }
+
+/// Overlaps are tried up to this, as the formulas do.
+const MOST_OVERLAP: f64 = 0.95;
 
 /// Swings are chosen to a thousandth of a degree.
 fn thousandths(swing: Angle) -> Angle {
     Angle::deg((swing.to_deg() * 1000.0).floor() / 1000.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::choice::Latitude;
+    use crate::geom::curve::Point2;
+    use crate::job::Operation;
+    use crate::plan::tests::{operation, paper_job};
+
+    /// Plans of the formulas' choice and laxer limits, of the spread, and of the changes.
+    const MOST: usize = 48 + 72 + 48;
+
+    #[test]
+    fn the_search_is_bounded() {
+        let heights: [fn(f64) -> f64; 3] = [
+            |x| 20.0 + 3.0 * libm::sin(x / 9.0),
+            |x| (30.0 - 8.0 * (x - 40.0)).clamp(10.0, 30.0),
+            |x| if x < 42.0 { 10.0 } else { 40.0 },
+        ];
+        for height in heights {
+            for scallop in [0.02, 0.4, 3.0, 20.0] {
+                let corners = (0..=85).map(f64::from).map(|x| Point2 { x, z: height(x) });
+                let mut job = paper_job(corners.collect());
+                let asked = operation(&mut job);
+                asked.swing.value = Auto::Auto;
+                asked.layer.value = Auto::Auto;
+                asked.step.value = Auto::Auto;
+                asked.limits.scallop = Some(Sourced {
+                    value: Length::mm(scallop),
+                    span: None,
+                });
+                let Operation::RoughVcut(asked) = job.operations[0].clone();
+                let bench = Bench::new(&job, Latitude::Full);
+                for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
+                    let by_bound = parameters::resolve_on(&job, &asked, vec![lattice], &mut Vec::new());
+                    let lattices = [lattice];
+                    let mut trials = Trials::new(&bench, &asked, &lattices, 1_000_000);
+                    trials.search(by_bound.as_ref());
+                    assert!(trials.tried.len() <= MOST, "{}", trials.tried.len());
+                }
+            }
+        }
+    }
 }

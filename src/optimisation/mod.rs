@@ -15,7 +15,7 @@ use crate::diag::Diagnostic;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut};
 use crate::picture::pareto::{self, Curve, Pareto};
-use crate::plan::optimum::{self, Infeasible, Optimum, Problem};
+use crate::plan::optimum::{self, Optimum, Problem};
 use crate::plan::parameters::{self, VcutParameters};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::source::SourceMap;
@@ -82,17 +82,29 @@ pub struct Row {
     pub formulas: Formulas,
     /// Whether these are the job's.
     pub role: Role,
-    /// The best parameters, or why there are none.
-    pub best: Result<Optimum, Infeasible>,
+    /// The best parameters, or why there are none, in words.
+    pub best: Result<Optimum, String>,
 }
 
 /// What a row is to the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// The job is cut with it, but for rounding to the grid.
+    /// What the job's formulas choose; the job is cut with it, but for rounding to the grid, unless simulation found better.
     Chosen,
     /// For comparison.
     Other,
+}
+
+/// How the parameters that an operation is cut with were found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FoundBy {
+    /// By the formulas: they are those of the chosen row, on the grid.
+    Formulas,
+    /// As the best of plans that were simulated, and what these came up against.
+    Simulation {
+        /// In words.
+        reasons: Vec<&'static str>,
+    },
 }
 
 /// What the plan of an operation comes to.
@@ -100,6 +112,8 @@ pub enum Role {
 pub struct Planned {
     /// What it is cut with, on the grid: the formulas' choice, or what simulation found better.
     pub parameters: VcutParameters,
+    /// How that was found.
+    pub found: FoundBy,
     /// Time of its moves.
     pub time: Duration,
     /// Time by the model, of the parameters on the grid.
@@ -248,6 +262,14 @@ const LATTICES: [Lattice; 3] = [Lattice::Orthogonal, Lattice::Interlaced, Lattic
 
 /// Every lattice by both formulas, all else as the job has it.
 fn rows(problem: &Problem, chosen: Lattice) -> Vec<Row> {
+    let best = |formulas, lattice| {
+        let alone = Problem {
+            formulas,
+            lattices: vec![lattice],
+            ..problem.clone()
+        };
+        optimum::solve(&alone).map_err(|infeasible| report::why_not(&alone, &infeasible))
+    };
     let kinds = LATTICES
         .into_iter()
         .flat_map(|lattice| [Formulas::Paper, Formulas::Exact].map(|formulas| (lattice, formulas)));
@@ -260,11 +282,7 @@ fn rows(problem: &Problem, chosen: Lattice) -> Vec<Row> {
             } else {
                 Role::Other
             },
-            best: optimum::solve(&Problem {
-                formulas,
-                lattices: vec![lattice],
-                ..problem.clone()
-            }),
+            best: best(formulas, lattice),
         })
         .collect()
 }
@@ -284,6 +302,13 @@ fn planned(vcut: &PlannedVcut, compiled: &Compiled, operation: OperationId) -> P
     let layers = compiled.report.layers.iter();
     Planned {
         parameters: vcut.parameters.clone(),
+        found: if vcut.is_found_by_simulation() {
+            FoundBy::Simulation {
+                reasons: vcut.parameters.reasons(&vcut.asked),
+            }
+        } else {
+            FoundBy::Formulas
+        },
         time: own.map(|(_, &time)| time).sum(),
         model: vcut.estimate,
         cuts: vcut.cuts.len(),

@@ -1,9 +1,9 @@
 //! What came of optimising, for people and for programs.
 
 use super::bounds::{Relaxed, name, value};
-use super::{GivenOperation, OperationOptimum, Optimisation, Planned, Role, Row};
+use super::{FoundBy, GivenOperation, OperationOptimum, Optimisation, Planned, Role, Row};
 use crate::job::Objective;
-use crate::plan::optimum::{Bound, Infeasible, Optimum};
+use crate::plan::optimum::{Bound, Infeasible, Optimum, Problem};
 use crate::plan::parameters::VcutParameters;
 use crate::plan::parameters::show;
 use serde::Serialize;
@@ -72,6 +72,7 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
         cut_words(&operation.planned.parameters),
         planned_words(&operation.planned, scallop)
     );
+    text += &line_text(&operation.planned);
     text += &proven_text(operation);
     text += &binding_text(operation.objective, &operation.binding);
     text += "\n  Least time by the model for other limits of the scallop:\n\n";
@@ -117,6 +118,23 @@ fn planned_words(planned: &Planned, scallop: Length) -> String {
         if planned.layers == 1 { "layer" } else { "layers" },
         scallop.to_mm()
     )
+}
+
+/// Of what the lines that follow speak, where the job is not cut with the marked line, and what bounds what it is cut with.
+fn line_text(planned: &Planned) -> String {
+    match &planned.found {
+        FoundBy::Formulas => String::new(),
+        FoundBy::Simulation { reasons } => {
+            let reasons = if reasons.is_empty() {
+                "nothing that was met".to_owned()
+            } else {
+                reasons.join(", ")
+            };
+            format!(
+                "  found      by simulation, bound by {reasons}\n\n  Of the line marked *, by the model (the job is not cut with it):\n\n"
+            )
+        }
+    }
 }
 
 /// How much better than the line the job is cut with others can be at most.
@@ -190,28 +208,40 @@ fn row_cells(row: &Row) -> Vec<String> {
             format!("{:.2} mm", best.scallop.to_mm()),
             format!("{:.2} mm", best.edge.to_mm()),
         ],
-        Err(infeasible) => vec![why_not(infeasible)],
+        Err(trouble) => vec![trouble.clone()],
     };
     head.into_iter().chain(rest).collect()
 }
 
-/// Why a lattice has no parameters: `none: scallop <= and step >= conflict`.
+/// Why a lattice has no parameters: `none: scallop <= 4 mm and step >= 9 mm conflict; scallop <= 5.2 mm would do`.
 #[must_use]
-pub fn why_not(infeasible: &Infeasible) -> String {
+pub fn why_not(problem: &Problem, infeasible: &Infeasible) -> String {
     match infeasible {
         Infeasible::Conflict { bounds, nearest } => {
-            let names: Vec<&str> = bounds.iter().map(|&bound| name(bound)).collect();
-            let works = bounds.iter().zip(nearest).find_map(|(&bound, nearest)| {
-                nearest.map(|nearest| format!("; {} {} would do", name(bound), value(bound, nearest)))
-            });
-            format!(
-                "none: {} conflict{}",
-                names.join(" and "),
-                works.unwrap_or_default()
-            )
+            let names: Vec<String> = bounds
+                .iter()
+                .map(|&bound| match bound.value(problem) {
+                    Some(now) => format!("{} {}", name(bound), value(bound, now)),
+                    None => name(bound).to_owned(),
+                })
+                .collect();
+            let parties = match &names[..] {
+                [] => "the limits".to_owned(),
+                [one] => return format!("none: {one} cannot be kept{}", would_do(bounds, nearest)),
+                [first @ .., last] => format!("{} and {last}", first.join(", ")),
+            };
+            format!("none: {parties} conflict{}", would_do(bounds, nearest))
         }
         Infeasible::Unbounded => "none: the objective falls with the layer for ever".to_owned(),
     }
+}
+
+/// The nearest value of the first bound that has one.
+fn would_do(bounds: &[Bound], nearest: &[Option<f64>]) -> String {
+    let works = bounds.iter().zip(nearest).find_map(|(&bound, nearest)| {
+        nearest.map(|nearest| format!("; {} {} would do", name(bound), value(bound, nearest)))
+    });
+    works.unwrap_or_default()
 }
 
 fn point_cells(best: &Optimum, chosen: Option<&Optimum>) -> Vec<String> {
@@ -355,6 +385,8 @@ struct PlannedBody {
     model_above: Option<f64>,
     cuts: usize,
     layers: usize,
+    /// Whether simulation found these parameters; `binding` then is that of the marked line alone.
+    simulated: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -409,6 +441,10 @@ fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
             model_above: planned.model_above(),
             cuts: planned.cuts,
             layers: planned.layers,
+            simulated: match planned.found {
+                FoundBy::Formulas => false,
+                FoundBy::Simulation { .. } => true,
+            },
         },
         binding: operation.binding.iter().map(binding_body).collect(),
         trade_off: operation.trade_off.points.iter().map(parameters_body).collect(),
@@ -421,7 +457,7 @@ fn row_body(row: &Row) -> RowBody {
         model: row.formulas.word(),
         chosen: row.role == Role::Chosen,
         parameters: row.best.as_ref().ok().map(parameters_body),
-        trouble: row.best.as_ref().err().map(why_not),
+        trouble: row.best.as_ref().err().cloned(),
     }
 }
 

@@ -28,6 +28,8 @@ pub struct Candidate {
 pub enum Standing {
     /// It takes this time, and nothing is wrong with it.
     Takes(Duration),
+    /// It takes longer, or has more cuts, than it may.
+    Exceeds(Excess),
     /// More stays on the part than may.
     Leaves {
         /// How much: the machined contour's largest distance from the part.
@@ -53,13 +55,44 @@ pub enum Standing {
     LeftOut,
 }
 
+/// A limit of a plan that is exceeded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Excess {
+    /// It takes longer than it may.
+    Time {
+        /// How long it takes.
+        time: Duration,
+        /// How long it may take.
+        limit: Duration,
+    },
+    /// It has more cuts than it may.
+    Cuts {
+        /// How many it has.
+        cuts: usize,
+        /// How many it may have.
+        limit: f64,
+    },
+}
+
+impl Excess {
+    /// What there is as a share of what may be: above 1.
+    #[must_use]
+    pub fn share(self) -> f64 {
+        match self {
+            Self::Time { time, limit } => time / limit,
+            Self::Cuts { cuts, limit } => cuts as f64 / limit,
+        }
+    }
+}
+
 impl Standing {
     /// How long it takes, if nothing is wrong with it.
     #[must_use]
     pub const fn time(&self) -> Option<Duration> {
         match self {
             Self::Takes(time) => Some(*time),
-            Self::Leaves { .. }
+            Self::Exceeds(_)
+            | Self::Leaves { .. }
             | Self::Fails(_)
             | Self::Impossible
             | Self::ByModel(_)
@@ -79,6 +112,7 @@ impl Standing {
                 time.total_cmp(than)
             }
             (Self::Leaves { height, .. }, Self::Leaves { height: than, .. }) => height.total_cmp(than),
+            (Self::Exceeds(excess), Self::Exceeds(than)) => excess.share().total_cmp(&than.share()),
             (one, other) => one.kind().cmp(&other.kind()),
         }
     }
@@ -86,15 +120,16 @@ impl Standing {
     const fn kind(&self) -> u8 {
         match self {
             Self::Takes(_) => 0,
-            Self::Leaves { .. } => 1,
-            Self::Fails(_) => 2,
-            Self::ByModel(_) => 3,
-            Self::NotCompared => 4,
-            Self::Last => 5,
-            Self::Narrowed => 6,
-            Self::NotFollowed => 7,
-            Self::LeftOut => 8,
-            Self::Impossible => 9,
+            Self::Exceeds(_) => 1,
+            Self::Leaves { .. } => 2,
+            Self::Fails(_) => 3,
+            Self::ByModel(_) => 4,
+            Self::NotCompared => 5,
+            Self::Last => 6,
+            Self::Narrowed => 7,
+            Self::NotFollowed => 8,
+            Self::LeftOut => 9,
+            Self::Impossible => 10,
         }
     }
 }

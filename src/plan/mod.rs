@@ -11,6 +11,7 @@
 pub mod blade_reach;
 mod complaints;
 pub mod decision;
+pub mod floor;
 pub mod given;
 pub mod grid;
 pub mod lattice;
@@ -126,6 +127,9 @@ pub enum TipOrigin {
     /// Raised because the blade does not reach the full depth at once.
     Relieved,
 }
+
+/// What is told of parameters that were compared as plans.
+pub const PARAMETERS: &str = "parameters";
 
 /// Most cuts that a job may have. A cut takes seconds, so a program of this size runs for weeks.
 pub const MOST_CUTS: usize = 4_000_000;
@@ -271,6 +275,12 @@ fn lay_out_given(
 }
 
 impl PlannedVcut {
+    /// Whether plans that were simulated decided the parameters, rather than formulas alone.
+    #[must_use]
+    pub fn is_found_by_simulation(&self) -> bool {
+        self.decisions.iter().any(|decision| decision.field == PARAMETERS)
+    }
+
     /// The same cuts in another order. Given tips keep their sequence.
     #[must_use]
     pub fn along(mut self, order: Order, sequence: Sequence, before: &Surface, stock: Stock) -> Self {

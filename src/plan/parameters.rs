@@ -8,8 +8,10 @@ mod complaints;
 mod grid_forms;
 mod infeasible;
 mod search;
+mod swung;
 
 pub use grid_forms::{largest_layer, largest_layer_at};
+pub use swung::Swung;
 
 use super::blade_reach::{self, Flanks};
 use super::grid;
@@ -319,19 +321,14 @@ fn least_drop(asked: &RoughVcut, standoff: Length) -> Length {
 }
 
 /// Swing and layer as they are given where what they conflict with is told better by the proof: which chip is not
-/// cut free, and how much the contour really leaves.
+/// cut free, how much the contour really leaves, and how long it takes.
 fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Unchosen) -> Option<Chosen> {
     let (Auto::Given(swing), Auto::Given(layer)) = (asked.swing.value, asked.layer.value) else {
         return None;
     };
     let is_for_the_proof = match why {
-        // What is not limited is not in the way.
-        Unchosen::Conflict(problem) if problem.time.is_none() && problem.cuts.is_none() => true,
-        Unchosen::Conflict(problem) => optimum::conflicting(problem)
-            .iter()
-            .all(|bound| !matches!(bound, Bound::Time | Bound::Cuts)),
+        Unchosen::Conflict(_) | Unchosen::OffGrid => true,
         Unchosen::Unbounded => false,
-        Unchosen::OffGrid => true,
     };
     if !is_for_the_proof {
         return None;

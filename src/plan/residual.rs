@@ -16,6 +16,7 @@ use crate::geom::curve::Point2;
 use crate::geom::profile::Profile;
 use crate::job::{Residual, RoughVcut};
 use crate::sim::surface::{Side, Surface, Vee};
+use vcutc_backend_api::units::Length;
 
 /// A tip of the lattice that would cut the part.
 #[derive(Clone, Copy)]
@@ -35,6 +36,18 @@ pub enum Strategies {
     Differing,
 }
 
+/// Smallest gain in depth for which `mixed` puts a tip onto the part: it does so only where more would stay than may, so under
+/// a limit that is finer than the layer it asks for less than is worth a cut otherwise.
+#[must_use]
+pub fn least_gain(asked: &RoughVcut, layer: Length) -> Length {
+    let worth = smallest_gain(layer);
+    let limit = asked.limits.scallop;
+    limit.map_or(worth, |limit| worth.min(limit.value * GAIN_OF_LIMIT))
+}
+
+/// As a share of the limit on scallop: a judgement, from no source.
+const GAIN_OF_LIMIT: f64 = 0.02;
+
 /// Decides one layer after the other.
 pub struct LayerPlanner<'p> {
     layout: &'p Layout<'p>,
@@ -45,6 +58,8 @@ pub struct LayerPlanner<'p> {
     /// Residual that `mixed` leaves standing.
     tolerated: f64,
     smallest_gain: f64,
+    /// Smallest gain in depth for which a tip is raised or moved onto the part.
+    least_gain: f64,
     /// Whether flanks that do not come out are to be mended by raising their tips. Not where the lattice as a whole needs
     /// more than the blade has: that is the user's to mend.
     relieves: bool,
@@ -78,6 +93,11 @@ impl<'p> LayerPlanner<'p> {
             surface,
             tolerated: tolerated.to_mm(),
             smallest_gain: smallest_gain(parameters.layer).to_mm(),
+            least_gain: match strategy {
+                Residual::Mixed => least_gain(asked, parameters.layer),
+                Residual::Discard | Residual::Lift | Residual::Shift => smallest_gain(parameters.layer),
+            }
+            .to_mm(),
             relieves,
             closed: [Vec::new(), Vec::new()],
             cuts: Vec::new(),
@@ -295,7 +315,7 @@ impl<'p> LayerPlanner<'p> {
     }
 
     fn gains(&mut self, tip: Point2) -> bool {
-        self.surface.height(tip.x) - tip.z >= self.smallest_gain
+        self.surface.height(tip.x) - tip.z >= self.least_gain
     }
 
     /// The most material standing on the part within half a step of x, along the part's normal.

@@ -40,7 +40,7 @@ pub(super) const fn tips_per_step(lattice: Lattice) -> f64 {
 
 /// The largest layer on the grid, starting from a closed form, that fits with the step it gets: rounding may cost a few
 /// spacings.
-fn largest_fitting(
+pub(super) fn largest_fitting(
     lattice: Lattice,
     closed_form: Length,
     flanks: &Flanks,

@@ -273,10 +273,10 @@ fn party(asked: &RoughVcut, bound: Bound) -> Party {
         Bound::Edge => return edge(asked),
         Bound::Time => limits
             .time
-            .map(|limit| format!("a time of at most {} s", show(limit.value.to_s()))),
+            .map(|limit| format!("a time of at most {} s by the model", show(limit.value.to_s()))),
         Bound::Cuts => limits.cuts.map(|limit| match limit.value {
-            most if most < 2.0 => "one cut at most".to_owned(),
-            most => format!("at most {} cuts", show(most.floor())),
+            most if most < 2.0 => "one cut at most by the model".to_owned(),
+            most => format!("at most {} cuts by the model", show(most.floor())),
         }),
     };
     Party {

@@ -170,7 +170,7 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<Row> {
         Row::of("objective", asked.objective, |objective| {
             objective.word().to_owned()
         }),
-        Row::of("formulas", asked.formulas, |formulas| formulas.word().to_owned()),
+        Row::of("model", asked.formulas, |formulas| formulas.word().to_owned()),
         Row::open(
             "lattice",
             &asked.lattice,
@@ -205,7 +205,7 @@ fn as_laid_out(asked: &RoughVcut, rows: Vec<Row>) -> Vec<Row> {
 fn without_lattice(asked: &RoughVcut, mut rows: Vec<Row>) -> Vec<Row> {
     const OF_A_LATTICE: [&str; 8] = [
         "objective",
-        "formulas",
+        "model",
         "lattice",
         "layer",
         "step",
@@ -369,15 +369,16 @@ fn best(asked: &RoughVcut, planned: &PlannedVcut) -> String {
         Objective::Cuts => "the fewest cuts",
         Objective::BladeLoad => "the shortest edge in use",
     };
-    let by = match asked.formulas.value {
-        Formulas::Paper => "the paper's formulas",
-        Formulas::Exact => "the exact formulas",
+    let by = match (planned.is_found_by_simulation(), asked.formulas.value) {
+        (true, Formulas::Paper | Formulas::Exact) => "as simulated",
+        (false, Formulas::Paper) => "by the paper's formulas",
+        (false, Formulas::Exact) => "by the exact formulas",
     };
     let bounds = planned.parameters.reasons(asked);
     if bounds.is_empty() {
-        return format!("{least} within the limits, by {by}");
+        return format!("{least} within the limits, {by}");
     }
-    format!("{least}, by {by}; bound by {}", bounds.join(", "))
+    format!("{least}, {by}; bound by {}", bounds.join(", "))
 }
 
 fn length(length: Length) -> String {
