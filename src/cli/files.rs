@@ -1,9 +1,11 @@
 //! Job files on the real file system.
 
 use crate::source::{LARGEST_FILE, LoadError, Loader};
-use std::fs::{File, Metadata};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How a job from standard input is called in messages.
 const STDIN_NAME: &str = "<stdin>";
@@ -12,6 +14,8 @@ const STDIN_NAME: &str = "<stdin>";
 pub(super) struct Disk {
     job: String,
     from_stdin: Option<Result<Vec<u8>, LoadError>>,
+    /// What was read so far.
+    read: RefCell<BTreeSet<PathBuf>>,
 }
 
 impl Disk {
@@ -21,11 +25,13 @@ impl Disk {
             Self {
                 job: STDIN_NAME.to_owned(),
                 from_stdin: Some(read_bounded(io::stdin().lock(), LARGEST_FILE)),
+                read: RefCell::default(),
             }
         } else {
             Self {
                 job: with_forward_slashes(job),
                 from_stdin: None,
+                read: RefCell::default(),
             }
         }
     }
@@ -34,13 +40,29 @@ impl Disk {
     pub(super) fn job(&self) -> &str {
         &self.job
     }
+
+    /// Refuses to write over a file that the job was made from.
+    pub(super) fn spares(&self, path: &Path) -> Result<(), String> {
+        // What is not there cannot be written over.
+        match fs::canonicalize(path) {
+            Ok(whole) if self.read.borrow().contains(&whole) => Err(format!(
+                "{} is a file that the job is made from: give what is written another name",
+                path.display()
+            )),
+            Ok(_) | Err(_) => Ok(()),
+        }
+    }
 }
 
 impl Loader for Disk {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
         match &self.from_stdin {
             Some(text) if path == STDIN_NAME => text.clone(),
-            Some(_) | None => load_file(Path::new(path)),
+            Some(_) | None => {
+                let path = Path::new(path);
+                self.read.borrow_mut().extend(fs::canonicalize(path));
+                load_file(path)
+            }
         }
     }
 }

@@ -30,7 +30,7 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
     let placed = placement::place(request, &asked, &mut |stage| progress.enter(stage));
     progress.finish();
     match placed {
-        Ok(placement) => tell(&placement, args.output.as_deref(), console),
+        Ok(placement) => tell(&placement, args.output.as_deref(), &disk, console),
         Err(Refusal::Unreadable(reason)) => console.failure(&Failure::new(format!(
             "cannot read the job {}: {reason}",
             args.job
@@ -43,8 +43,12 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
     }
 }
 
-fn tell(placement: &Placement, map: Option<&str>, console: &Console) -> Exit {
-    let write = |path| one_file(Path::new(path), placement.svg().as_bytes());
+fn tell(placement: &Placement, map: Option<&str>, disk: &Disk, console: &Console) -> Exit {
+    let write = |path| {
+        let path = Path::new(path);
+        disk.spares(path)?;
+        one_file(path, placement.svg().as_bytes())
+    };
     let written = match map.map(write).transpose() {
         Ok(files) => files.unwrap_or_default(),
         Err(reason) => return console.failure(&Failure::new(reason)),

@@ -38,7 +38,8 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
     let Some(path) = file else {
         return console.document(&svg);
     };
-    match one_file(Path::new(path), svg.as_bytes()) {
+    let path = Path::new(path);
+    match disk.spares(path).and_then(|()| one_file(path, svg.as_bytes())) {
         Ok(placed) => {
             tell(disk.job(), &outcome, &placed, None, console);
             Exit::Success

@@ -33,7 +33,10 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
     progress.enter(Stage::Emitting);
     let page = page(&outcome);
     let timings = progress.finish();
-    let placed = match page.as_deref().map(|page| write(page, &args.output, console)) {
+    let placed = match page
+        .as_deref()
+        .map(|page| write(page, &args.output, &disk, console))
+    {
         Some(Err(exit)) => return exit,
         Some(Ok(placed)) => placed,
         None => Vec::new(),
@@ -63,12 +66,15 @@ fn exit(outcome: &Outcome) -> Exit {
 }
 
 /// Writes the page, or tells why not.
-fn write(page: &str, to: &str, console: &Console) -> Result<Vec<Placed>, Exit> {
+fn write(page: &str, to: &str, disk: &Disk, console: &Console) -> Result<Vec<Placed>, Exit> {
     if to == "-" {
         return match console.document(page) {
             Exit::Success => Ok(Vec::new()),
             exit @ (Exit::JobHasErrors | Exit::CannotRun) => Err(exit),
         };
     }
-    one_file(Path::new(to), page.as_bytes()).map_err(|reason| console.failure(&Failure::new(reason)))
+    let to = Path::new(to);
+    disk.spares(to)
+        .and_then(|()| one_file(to, page.as_bytes()))
+        .map_err(|reason| console.failure(&Failure::new(reason)))
 }

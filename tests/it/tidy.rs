@@ -180,7 +180,14 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ),
     ("nalgebra::", &["src/kinematics/"]),
     ("roxmltree::", &["src/geom/import/svg/", "src/machine/urdf/"]),
-    ("pulp::", &["src/kinematics/lanes.rs", "src/kinematics/batch.rs"]),
+    (
+        "pulp::",
+        &[
+            "src/kinematics/lanes.rs",
+            "src/kinematics/batch.rs",
+            "src/reach/path/arm.rs",
+        ],
+    ),
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),

@@ -32,6 +32,7 @@ pub(super) struct Along {
 }
 
 impl Along {
+    #[inline(always)]
     pub(super) const fn constant(number: f64) -> Self {
         Self {
             here: Interval::exactly(number),
@@ -43,6 +44,7 @@ impl Along {
     }
 
     /// `middle + slope t`.
+    #[inline(always)]
     pub(super) fn line(middle: f64, slope: f64) -> Self {
         Self {
             here: Interval::exactly(middle),
@@ -54,26 +56,31 @@ impl Along {
     }
 
     /// On the whole span.
+    #[inline(always)]
     pub(super) const fn value(self) -> Interval {
         self.value
     }
 
     /// The derivative on the whole span.
+    #[inline(always)]
     pub(super) const fn rate(self) -> Interval {
         self.rate
     }
 
     /// The second derivative on the whole span.
+    #[inline(always)]
     pub(super) const fn bend(self) -> Interval {
         self.bend
     }
 
     /// At the beginning of the span.
+    #[inline(always)]
     pub(super) fn begin(self) -> Interval {
         (self.here - self.slope + self.bend * 0.5).and(self.value)
     }
 
     /// At the end of the span.
+    #[inline(always)]
     pub(super) fn end(self) -> Interval {
         (self.here + self.slope + self.bend * 0.5).and(self.value)
     }

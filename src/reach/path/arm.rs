@@ -6,11 +6,12 @@
 
 use super::along::Along;
 use super::bounds::Stretch;
-use super::course::{Flange, Span};
+use super::course::{Flange, Flight, Span};
 use super::{Clearance, Singularity, Violation};
 use crate::kinematics::opw::{Coupling, Opw};
 use core::f64::consts::PI;
 use glam::DVec3;
+use pulp::{Arch, NullaryFnOnce};
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 
 /// The branch of an arm.
@@ -47,6 +48,7 @@ pub(super) struct Posture {
 
 impl Posture {
     /// The same by parts of the course.
+    #[inline(always)]
     pub(super) fn stretch(&self, span: Span) -> Stretch {
         let by_course = 1.0 / span.half;
         Stretch {
@@ -62,8 +64,35 @@ impl Posture {
     }
 }
 
+/// An arm on a branch that carries the flange along a span, to be computed with what instructions the processor has. Which
+/// these are does not show in the answer: nothing is reordered or fused.
+pub(super) struct Carrying<'a> {
+    pub(super) arm: &'a Opw,
+    pub(super) branch: ArmBranch,
+    pub(super) flight: &'a Flight,
+    pub(super) span: Span,
+}
+
+impl Carrying<'_> {
+    /// What the arm does on the span.
+    pub(super) fn stretch(self) -> Result<Stretch, Violation> {
+        Arch::new().dispatch(self)
+    }
+}
+
+impl NullaryFnOnce for Carrying<'_> {
+    type Output = Result<Stretch, Violation>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let flange = self.flight.over(self.span);
+        Ok(posture(self.arm, self.branch, &flange)?.stretch(self.span))
+    }
+}
+
 /// The posture of the arm on a branch that carries the flange along a span.
-pub(super) fn posture(arm: &Opw, branch: ArmBranch, flange: &Flange) -> Result<Posture, Violation> {
+#[inline(always)]
+fn posture(arm: &Opw, branch: ArmBranch, flange: &Flange) -> Result<Posture, Violation> {
     let (q1, wrist_x, wrist_z) = shoulder(arm, branch.shoulder, flange)?;
     let (q2, q3, psi) = elbow(arm, branch.elbow, wrist_x, wrist_z)?;
     let (q4, q5, q6, bent) = wrist(arm, branch.wrist, q1, q2 + q3, flange)?;
@@ -79,6 +108,7 @@ pub(super) fn posture(arm: &Opw, branch: ArmBranch, flange: &Flange) -> Result<P
 }
 
 /// Axis 1, and the wrist centre in the frame that turns with it: forward of axis 1, and upward from the root.
+#[inline(always)]
 fn shoulder(arm: &Opw, side: Shoulder, flange: &Flange) -> Result<(Along, Along, Along), Violation> {
     let [x, y, z] = flange.point(DVec3::new(0.0, 0.0, -arm.c4));
     let square = (x.squared() + y.squared()).plus(-arm.b * arm.b);
@@ -95,6 +125,7 @@ fn shoulder(arm: &Opw, side: Shoulder, flange: &Flange) -> Result<(Along, Along,
 }
 
 /// Axes 2 and 3, and the angle between the upper arm and the line from axis 3 to the wrist centre, which is signed.
+#[inline(always)]
 fn elbow(arm: &Opw, side: Elbow, wrist_x: Along, wrist_z: Along) -> Result<(Along, Along, Along), Violation> {
     let (forward, up) = (wrist_x.plus(-arm.a1), wrist_z.plus(-arm.c1));
     let fore = libm::hypot(arm.a2, arm.c3);
@@ -119,6 +150,7 @@ fn elbow(arm: &Opw, side: Elbow, wrist_x: Along, wrist_z: Along) -> Result<(Alon
 }
 
 /// Axes 4, 5 and 6, and by how much the hand is bent.
+#[inline(always)]
 fn wrist(
     arm: &Opw,
     side: Wrist,
@@ -127,7 +159,9 @@ fn wrist(
     flange: &Flange,
 ) -> Result<(Along, Along, Along, Along), Violation> {
     let ((sin1, cos1), (sin23, cos23)) = (q1.sin_cos(), q23.sin_cos());
-    let [hand_x, hand_y, hand_z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| flange.direction(axis));
+    let hand_x = flange.direction(DVec3::X);
+    let hand_y = flange.direction(DVec3::Y);
+    let hand_z = flange.direction(DVec3::Z);
     // In the frame that turns with axis 1, then in the forearm's.
     let forward = |v: [Along; 3]| cos1 * v[0] + sin1 * v[1];
     let along_forearm = |v: [Along; 3]| sin23 * forward(v) + cos23 * v[2];
@@ -153,6 +187,7 @@ fn wrist(
     Ok((q4.ok_or_else(stretched)?, q5, q6.ok_or_else(stretched)?, bent))
 }
 
+#[inline(always)]
 fn controller_angles(arm: &Opw, q: [Along; 6]) -> [Along; 6] {
     let mut angles: [Along; 6] = core::array::from_fn(|i| q[i].plus(arm.offsets[i]) * arm.signs[i]);
     if arm.coupling == Coupling::Parallelogram {
@@ -171,6 +206,7 @@ fn singular(square: Along, singularity: Singularity) -> Violation {
 }
 
 /// How far an angle keeps from 0 and from half a turn.
+#[inline(always)]
 fn from_line(angle: Along) -> f64 {
     let value = angle.value();
     let (low, high) = if value.low >= 0.0 {
@@ -181,6 +217,7 @@ fn from_line(angle: Along) -> f64 {
     low.min(PI - high).max(0.0)
 }
 
+#[inline(always)]
 fn least_magnitude(quantity: Along) -> f64 {
     let value = quantity.value();
     value.low.max(-value.high).max(0.0)

@@ -89,6 +89,7 @@ impl Flight {
     }
 
     /// The flange on a span.
+    #[inline(always)]
     pub(super) fn over(&self, span: Span) -> Flange {
         let (sin, cos) = Along::line(self.angle * span.middle, self.angle * span.half).sin_cos();
         Flange {
@@ -111,29 +112,50 @@ pub(super) struct Flange {
 
 impl Flange {
     /// A direction that is fixed to the flange, seen from the root.
+    #[inline(always)]
     pub(super) fn direction(&self, in_flange: DVec3) -> [Along; 3] {
         self.turned(self.flight.start.rotation * in_flange)
     }
 
     /// A point that is fixed to the flange, seen from the root.
+    #[inline(always)]
     pub(super) fn point(&self, in_flange: DVec3) -> [Along; 3] {
         let start = &self.flight.start;
         let from_tip = start.rotation * in_flange + start.position - self.flight.tip;
         let turned = self.turned(from_tip);
         let tip = self.flight.tip + self.flight.way * self.span.middle;
         let slope = self.flight.way * self.span.half;
-        core::array::from_fn(|i| Along::line(tip[i], slope[i]) + turned[i])
+        let [x, y, z] = turned;
+        [
+            Along::line(tip.x, slope.x) + x,
+            Along::line(tip.y, slope.y) + y,
+            Along::line(tip.z, slope.z) + z,
+        ]
+    }
+
+    #[inline(always)]
+    fn rodrigues(&self, along: f64, square: f64, across: f64) -> Along {
+        Along::constant(along) + self.cos * square + self.sin * across
     }
 
     /// Rodrigues' formula.
+    #[inline(always)]
     fn turned(&self, vector: DVec3) -> [Along; 3] {
         let axis = self.flight.axis;
         if self.flight.angle == 0.0 {
-            return vector.to_array().map(Along::constant);
+            return [
+                Along::constant(vector.x),
+                Along::constant(vector.y),
+                Along::constant(vector.z),
+            ];
         }
         let (along, across) = (axis * axis.dot(vector), axis.cross(vector));
         let square = vector - along;
-        core::array::from_fn(|i| Along::constant(along[i]) + self.cos * square[i] + self.sin * across[i])
+        [
+            self.rodrigues(along.x, square.x, across.x),
+            self.rodrigues(along.y, square.y, across.y),
+            self.rodrigues(along.z, square.z, across.z),
+        ]
     }
 }
 

@@ -27,6 +27,7 @@ impl Interval {
     pub(super) const UNIT: Self = Self { low: -1.0, high: 1.0 };
 
     /// One number.
+    #[inline(always)]
     pub(super) const fn exactly(number: f64) -> Self {
         Self {
             low: number,
@@ -35,24 +36,29 @@ impl Interval {
     }
 
     /// All numbers no further from `centre` than `radius`.
+    #[inline(always)]
     pub(super) fn around(centre: f64, radius: f64) -> Self {
         outward(centre - radius, centre + radius)
     }
 
+    #[inline(always)]
     pub(super) fn middle(self) -> f64 {
         0.5 * (self.low + self.high)
     }
 
+    #[inline(always)]
     pub(super) fn width(self) -> f64 {
         self.high - self.low
     }
 
     /// The largest absolute value.
+    #[inline(always)]
     pub(super) const fn magnitude(self) -> f64 {
         greater(self.low.abs(), self.high.abs())
     }
 
     /// Its product with the interval from -1 to 1, exactly.
+    #[inline(always)]
     pub(super) const fn either_way(self) -> Self {
         let magnitude = self.magnitude();
         Self {
@@ -62,6 +68,7 @@ impl Interval {
     }
 
     /// Its product with the interval from 0 to 1/2, exactly.
+    #[inline(always)]
     pub(super) const fn up_to_half(self) -> Self {
         Self {
             low: lesser(0.5 * self.low, 0.0),
@@ -70,6 +77,7 @@ impl Interval {
     }
 
     /// What lies in both. Two enclosures of one number always have that number in common.
+    #[inline(always)]
     pub(super) const fn and(self, other: Self) -> Self {
         Self {
             low: greater(self.low, other.low),
@@ -78,6 +86,7 @@ impl Interval {
     }
 
     /// The least interval around both.
+    #[inline(always)]
     pub(super) const fn hull(self, other: Self) -> Self {
         Self {
             low: lesser(self.low, other.low),
@@ -86,6 +95,7 @@ impl Interval {
     }
 
     /// Whether it lies within, and is a proper interval.
+    #[inline(always)]
     pub(super) fn within(self, low: f64, high: f64) -> bool {
         low <= self.low && self.low <= self.high && self.high <= high
     }
@@ -113,6 +123,7 @@ impl Interval {
     }
 
     /// Roots of what is not negative in it.
+    #[inline(always)]
     pub(super) fn root(self) -> Self {
         let roots = outward(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
         Self {
@@ -122,6 +133,7 @@ impl Interval {
     }
 
     /// Sine and cosine of a narrow interval.
+    #[inline(always)]
     pub(super) fn sin_cos(self) -> (Self, Self) {
         let centre = self.middle();
         let (sin, cos) = libm::sincos(centre);
@@ -131,6 +143,7 @@ impl Interval {
     }
 
     /// The direction of a narrow box `(x, y)` that keeps the given distance from the origin.
+    #[inline(always)]
     pub(super) fn direction(y: Self, x: Self, distance: f64) -> Self {
         let centre = libm::atan2(y.middle(), x.middle());
         // A disc of radius r at a distance d is seen under asin(r / d) <= pi/2 r/d to either side.
@@ -140,11 +153,13 @@ impl Interval {
 }
 
 /// The lesser of two numbers. One instruction, where `f64::min` takes several to treat a NaN that cannot be.
+#[inline(always)]
 const fn lesser(one: f64, other: f64) -> f64 {
     if one < other { one } else { other }
 }
 
 /// The greater of two numbers.
+#[inline(always)]
 const fn greater(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
 }

@@ -87,7 +87,7 @@ use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Joints, Mechanism, newton};
-use arm::ArmBranch;
+use arm::{ArmBranch, Carrying};
 use bounds::{Bounds, Progress, Stretch};
 use course::{Flight, Span};
 use interval::Interval;
@@ -364,9 +364,13 @@ impl<'m> Way<'m> {
     /// What the axes do on a span that they enter at `begin`, proven.
     fn stretch(&self, span: Span, begin: &Joints) -> Result<Stretch, Violation> {
         match self.machine {
-            Machine::Arm(arm, branch) => {
-                Ok(arm::posture(arm, branch, &self.flight.over(span))?.stretch(span))
+            Machine::Arm(arm, branch) => Carrying {
+                arm,
+                branch,
+                flight: &self.flight,
+                span,
             }
+            .stretch(),
             Machine::Serial(arm) => serial::stretch(arm, &self.flight, span, begin),
         }
     }

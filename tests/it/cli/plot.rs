@@ -84,3 +84,31 @@ fn pictures_are_svg_and_axes_need_a_machine() {
     let run = vcutc_reading(root(), &["plot", "-", "--what", "time"], without_machine);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
 }
+
+#[test]
+fn a_drawing_that_the_job_is_made_from_is_not_written_over() {
+    let out = folder();
+    let drawing = r#"<svg xmlns="http://www.w3.org/2000/svg" width="85mm" height="50mm" viewBox="0 0 85 50">
+        <path d="M 0 45 L 40 35 L 85 45"/></svg>"#;
+    let job = read("examples/block_cui.vcut");
+    let (job, _) = job.split_once("machine cell").unwrap();
+    let (before, after) = job.split_once("profile {").unwrap();
+    let (_, after) = after.split_once("\n}\n").unwrap();
+    fs::write(out.path().join("rib.svg"), drawing).unwrap();
+    let job = format!("{before}profile = svg(\"rib.svg\")\n{after}");
+    fs::write(out.path().join("rib.vcut"), job).unwrap();
+    let run = |output: &str| {
+        vcutc(
+            out.path(),
+            &["plot", "rib.vcut", "--what", "lattice", "-o", output],
+        )
+    };
+    let over = run("./rib.svg");
+    assert_eq!(over.code, Some(2), "{}", over.stderr);
+    assert_eq!(
+        over.stderr,
+        "error: ./rib.svg is a file that the job is made from: give what is written another name\n"
+    );
+    assert_eq!(fs::read_to_string(out.path().join("rib.svg")).unwrap(), drawing);
+    assert_eq!(run("lattice.svg").code, Some(0));
+}
