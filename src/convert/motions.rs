@@ -179,11 +179,11 @@ impl Reader<'_, '_> {
         };
         let mut through = on_the_way.all(Component::TIP);
         if let Some(degrees) = arc.angle {
-            let points = (
+            let points = [
                 self.tool.last.all(Component::TIP),
                 through,
                 after.all(Component::TIP),
-            );
+            ];
             let Some(turned) = turned(points, degrees) else {
                 return self.push(complaints::unknown_arc(place));
             };
@@ -311,10 +311,7 @@ fn is_where_it_is(target: &Target<'_>) -> bool {
 }
 
 /// The middle and the end of an arc that goes round by an angle instead of ending at its point.
-fn turned(
-    (from, through, to): (Option<[f64; 3]>, Option<[f64; 3]>, Option<[f64; 3]>),
-    degrees: f64,
-) -> Option<[[f64; 3]; 2]> {
+fn turned([from, through, to]: [Option<[f64; 3]>; 3], degrees: f64) -> Option<[[f64; 3]; 2]> {
     let arc = CircularArc::through([from?, through?, to?])?;
     let sweep = Angle::deg(degrees).to_rad();
     Some([arc.at(sweep / 2.0), arc.at(sweep)])

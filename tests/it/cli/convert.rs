@@ -139,7 +139,12 @@ fn a_job_elsewhere_names_files_from_where_it_lies() {
     let out = folder();
     let shop = out.path().join("shop");
     fs::create_dir(&shop).unwrap();
-    fs::write(shop.join("cells.vcut"), read("examples/shop/cells.vcut")).unwrap();
+    for file in fs::read_dir(root().join("examples/shop")).unwrap() {
+        let file = file.unwrap();
+        if file.path().is_file() {
+            fs::copy(file.path(), shop.join(file.file_name())).unwrap();
+        }
+    }
     fs::write(
         shop.join("part.dxf"),
         "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n5\n\
