@@ -109,7 +109,7 @@ fn jobs_with_mistakes_do_not_keep_a_name() {
         changed[number] = line;
         process.write("other.vcut", &changed.join("\n"));
         process.notify("workspace/didChangeWatchedFiles", &json!({ "changes": [] }));
-        let id = i64::try_from(2000 + made + refused).unwrap();
+        let id = i64::from(2000 + made + refused);
         let answer = rename(&mut process, id, RIB, "dagger", "long_dagger");
         if let Some(error) = answer.get("error") {
             let message = error["message"].as_str().unwrap();
