@@ -282,7 +282,7 @@ fn margins_line(figures: &ReachFigures) -> String {
     let axes: Vec<String> = figures
         .axes
         .iter()
-        .map(|axis| format!("{} {:.0} %", axis.name, axis.margin * 100.0))
+        .map(|axis| format!("{} {}", axis.name, margin_words(axis.margin)))
         .collect();
     format!(
         "{}; least {} at {}",
@@ -333,18 +333,24 @@ pub fn table(figures: &ReachFigures) -> Vec<String> {
             .rate_limit
             .map_or_else(|| "unknown".to_owned(), |limit| format!("{limit:.1}"));
         format!(
-            "{:<5} {:>9.2} {:>9.2}   {:>9.2} {:>9.2} {:>6.1} %  {:>9.1} {limit:>9}  {}",
+            "{:<5} {:>9.2} {:>9.2}   {:>9.2} {:>9.2} {:>8}  {:>9.1} {limit:>9}  {}",
             axis.name,
             axis.low,
             axis.high,
             axis.min,
             axis.max,
-            axis.margin * 100.0,
+            margin_words(axis.margin),
             axis.rate,
             axis.margin_at.words
         )
     });
     core::iter::once(heading).chain(rows).collect()
+}
+
+/// A margin as a percentage, `12.3 %`, rounded down: no more is said to be left than there is.
+#[must_use]
+pub fn margin_words(share: f64) -> String {
+    format!("{:.1} %", (share * 1000.0).floor() / 10.0)
 }
 
 fn show_tenths(value: f64) -> String {

@@ -1,11 +1,11 @@
 //! What the job asks of its machine: angles, rates and margins.
 
 use super::figure::{Zoom, figure};
-use super::html::{Column, escaped, percent, table, terms};
+use super::html::{Column, escaped, table, terms};
 use super::{Section, Subject};
 use crate::picture::Prefix;
 use crate::plan::parameters::show;
-use crate::reach_summary::{self, AxisFigure, ReachFigures, SingularFigure};
+use crate::reach_summary::{self, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use crate::report::pictures;
 
 /// The section; none for a job without a machine.
@@ -60,7 +60,7 @@ fn axis(axis: &AxisFigure) -> Vec<String> {
         format!("{:.2} {unit}", axis.low),
         format!("{:.2} {unit}", axis.high),
         format!("{} to {} {unit}", show(axis.min), show(axis.max)),
-        percent(axis.margin),
+        margin_words(axis.margin),
         escaped(&axis.margin_at.words),
         format!("{:.1} {unit}/s", axis.rate),
         share,
@@ -86,7 +86,7 @@ fn singular(figures: &ReachFigures) -> String {
             vec![
                 (*kind).to_owned(),
                 format!("{distance:.1} {unit}"),
-                percent(*share),
+                margin_words(*share),
                 escaped(&at.words),
             ]
         },

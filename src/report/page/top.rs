@@ -1,10 +1,11 @@
 //! The top of the page: what was made, what is proven of it, and its key numbers.
 
 use super::Subject;
-use super::html::{escaped, percent};
+use super::html::escaped;
 use crate::diag::render::{ColorChoice, render};
 use crate::plan::PlannedOperation;
 use crate::plan::parameters::show;
+use crate::reach_summary::margin_words;
 use crate::summary::time;
 use vcutc_backend_api::units::Length;
 
@@ -98,7 +99,7 @@ fn rows(subject: Subject<'_>) -> Vec<(&'static str, String, String)> {
     if let Some(figures) = &compiled.figures {
         rows.push((
             "Least margin",
-            percent(figures.margin),
+            margin_words(figures.margin),
             format!("{} at {}", figures.least.of, figures.least.at.words),
         ));
     }

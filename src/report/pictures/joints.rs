@@ -11,7 +11,7 @@ use crate::picture::{Prefix, joints};
 use crate::reach::demand::axis_margin;
 use crate::reach::solve::rig;
 use crate::reach::trajectory::{Sample, Spacing, trajectory};
-use crate::reach_summary::AxisFigure;
+use crate::reach_summary::{AxisFigure, margin_words};
 use crate::report::Material;
 use crate::sim::timing::Kind;
 use core::convert::Infallible;
@@ -47,8 +47,8 @@ pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
     let (axes, margin) = curves.finish(figures.map_or(&[], |figures| &figures.axes));
     let least = figures.map_or(String::new(), |figures| {
         format!(
-            "; least margin {:.1} % ({})",
-            figures.margin * 100.0,
+            "; least margin {} ({})",
+            margin_words(figures.margin),
             figures.least.of
         )
     });
