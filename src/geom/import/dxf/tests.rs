@@ -431,7 +431,7 @@ fn weights_of_splines_are_heeded() {
     assert!(
         found
             .iter()
-            .all(|point| (point.0.hypot(point.1) - 10.0).abs() < 2e-6)
+            .all(|point| (libm::hypot(point.0, point.1) - 10.0).abs() < 2e-6)
     );
 }
 

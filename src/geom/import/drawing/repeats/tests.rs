@@ -85,7 +85,7 @@ proptest! {
     fn arcs_of_one_circle_are_compared_by_angle(
         first in (0.0..6.0f64, 0.1..3.0f64), second in (0.0..6.0f64, 0.1..3.0f64), backwards in any::<bool>(),
     ) {
-        let at = |angle: f64| Point2::new(20.0 + 50.0 * angle.cos(), 50.0 * angle.sin());
+        let at = |angle: f64| Point2::new(20.0 + 50.0 * libm::cos(angle), 50.0 * libm::sin(angle));
         let arc = |(start, sweep): (f64, f64), backwards: bool| {
             let (from, to) = (at(start), at(start + sweep));
             stroke(vec![if backwards {

@@ -93,7 +93,7 @@ fn star() -> impl Strategy<Value = Vec<Corner>> {
     prop::collection::vec(1..300i64, 3..40).prop_map(|distances| {
         let step = core::f64::consts::TAU / distances.len() as f64;
         let corner = |(i, &distance): (usize, &i64)| {
-            let (sin, cos) = (i as f64 * step).sin_cos();
+            let (sin, cos) = libm::sincos(i as f64 * step);
             let along = |part: f64| (1000.0 * distance as f64 * part) as i64;
             (along(cos), along(sin))
         };
