@@ -5,7 +5,8 @@ use super::analysis::Analysis;
 use super::hover::hover;
 use super::manual::{self, Table};
 use crate::registry;
-use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Leaving, Takes};
+use crate::sema::study::Meaning;
+use crate::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
 use crate::source::{LoadError, Loader};
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::OptionKind;
@@ -405,5 +406,28 @@ fn the_snippets_of_editors_are_right() {
         // The file that a drawing's snippet names is not there.
         let wrong: Vec<&str> = codes.filter(|code| *code != "VC0212").collect();
         assert!(wrong.is_empty(), "{name}: {wrong:?}\n{text}");
+    }
+}
+
+/// What editors are told of a function is what its example does.
+#[test]
+fn functions_take_and_give_what_their_signatures_say() {
+    for (name, example) in vocabulary::functions() {
+        let inside = &example[name.len() + 1..example.len() - 1];
+        let argument = inside.split(',').next().unwrap();
+        let text = format!("let given = {example}\nlet taken = {argument}\n");
+        let known = Analysis::of("/job.vcut", 1, &One(text)).unwrap();
+        let dimension = |name: &str| match known.study.definition(name).unwrap().meaning {
+            Meaning::Value(Some(value)) => value.dimension(),
+            Meaning::Value(None) | Meaning::Blade | Meaning::Machine => panic!("{example}"),
+        };
+        let (taken, given) = (dimension("taken"), dimension("given"));
+        match vocabulary::signature(name).unwrap() {
+            Signature::OfAngle => assert_eq!((taken, given), (Dimension::ANGLE, Dimension::PURE), "{name}"),
+            Signature::ToAngle => assert_eq!((taken, given), (Dimension::PURE, Dimension::ANGLE), "{name}"),
+            Signature::Bearing => assert_eq!((taken, given), (Dimension::LENGTH, Dimension::ANGLE), "{name}"),
+            Signature::Root => assert_eq!(Some(given), taken.root(), "{name}"),
+            Signature::Alike => assert_eq!(taken, given, "{name}"),
+        }
     }
 }

@@ -146,7 +146,7 @@ fn units_words_names_and_machines_that_fit_are_offered() {
     assert!(models.len() > 30 && models.contains(&"kuka/kr210_r3100_ultra".to_owned()));
     assert_eq!(
         labels(&mut editor, "frame(x = 0 mm, |)"),
-        ["a", "b", "c", "y", "z"]
+        ["a", "b", "c", "q", "y", "z"]
     );
     assert!(labels(&mut editor, "{ |tool").starts_with(&["base".to_owned()]));
     let top = labels(&mut editor, "}\n|machine");
