@@ -81,6 +81,38 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
     (planned, diagnostics)
 }
 
+/// The job with its operations' limits on time and cuts taken away; none where there are no such limits.
+#[must_use]
+pub fn unlimited(job: &CheckedJob) -> Option<CheckedJob> {
+    let is_limited =
+        |Operation::RoughVcut(asked): &Operation| asked.limits.time.is_some() || asked.limits.cuts.is_some();
+    job.operations.iter().any(is_limited).then(|| {
+        let mut free = job.clone();
+        for Operation::RoughVcut(asked) in &mut free.operations {
+            *asked = limits::of_plans(asked);
+        }
+        free
+    })
+}
+
+/// What there is to tell of a plan of the [`unlimited`] job that breaks limits of the job, with what the plan keeps.
+#[must_use]
+pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
+    let bench = Bench::new(job, Latitude::Full);
+    let told = |(asked, planned): (&Operation, &PlannedOperation)| {
+        let (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut)) = (asked, planned);
+        let excess = limits::excess(asked, bench.time(vcut)?, vcut.cuts.len())?;
+        let mut vcut = vcut.clone();
+        vcut.asked.limits = asked.limits;
+        Some(limits::complaint(&vcut, excess))
+    };
+    job.operations
+        .iter()
+        .zip(&plan.operations)
+        .filter_map(told)
+        .collect()
+}
+
 /// A way to cut an operation, and what came of it.
 struct Contender {
     laid: LaidOut,

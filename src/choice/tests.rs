@@ -332,6 +332,7 @@ impl Open {
         asked.swing.value = Auto::Auto;
         asked.layer.value = Auto::Auto;
         asked.step.value = Auto::Auto;
+        asked.overlap.value = Auto::Auto;
         asked.residual.value = Auto::Auto;
         asked.order.value = Auto::Auto;
         asked.sequence.value = Auto::Auto;
@@ -409,6 +410,7 @@ fn small_job(corners: &[(f64, f64)], scallop: f64) -> CheckedJob {
     asked.swing.value = Auto::Auto;
     asked.layer.value = Auto::Auto;
     asked.step.value = Auto::Auto;
+    asked.overlap.value = Auto::Auto;
     asked.residual.value = Auto::Given(Residual::Mixed);
     asked.order.value = Auto::Given(Order::Point);
     asked.sequence.value = Auto::Given(Sequence::Boustrophedon);

@@ -10,6 +10,7 @@
 //! Soundness does not grow or shrink steadily with a parameter, so this is a search, not a proof of least time: the best of a
 //! bounded number of plans.
 
+mod around;
 mod spread;
 
 use super::bench::Bench;
@@ -19,8 +20,8 @@ use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, Rough
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
-use crate::plan::parameters::{self, ScallopBy, Swung, VcutParameters};
-use crate::plan::{LaidOut, grid, lay_out};
+use crate::plan::parameters::{self, ScallopBy, VcutParameters};
+use crate::plan::{LaidOut, lay_out};
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
@@ -32,27 +33,6 @@ const RUNGS: u32 = 5;
 
 /// How often the way between a sound limit and an unsound one is halved.
 const HALVINGS: usize = 3;
-
-/// By which factors swing and layer are changed, the coarse ones first.
-const FACTORS: [f64; 3] = [1.3, 1.12, 1.04];
-
-/// Directions in which swing, layer and overlap are changed, those first that promise most.
-const MOVES: [Move; 11] = [
-    [0, 1, 0],
-    [1, 0, 0],
-    [-1, 1, 0],
-    [1, 1, 0],
-    [-1, 0, 0],
-    [1, -1, 0],
-    [0, 0, -1],
-    [0, 1, 1],
-    [0, 0, 1],
-    [0, -1, 0],
-    [-1, -1, 0],
-];
-
-/// A change of swing, layer and overlap: up, down or not at all.
-type Move = [i32; 3];
 
 /// A candidate that by the model takes this many times as long as the best one is not planned.
 const BEHIND: f64 = 1.15;
@@ -287,6 +267,7 @@ impl<'t> Trials<'t> {
         self.climb();
         self.spread();
         self.wander();
+        self.comb();
         first
     }
 
@@ -504,30 +485,6 @@ impl<'t> Trials<'t> {
             .is_some_and(|standing| standing.time().is_some())
     }
 
-    /// From the best on, changes swing and layer for as long as something better comes of it.
-    fn wander(&mut self) {
-        for factor in FACTORS {
-            while self.may_go_on() {
-                let Some(best) = self.sound.first() else { return };
-                let (from, merit) = (best.parameters.clone(), best.merit);
-                let is_better = MOVES.chunks(AHEAD).any(|moves| {
-                    let found: Vec<VcutParameters> = moves
-                        .iter()
-                        .filter_map(|&moved| self.beside(&from, factor, moved))
-                        .collect();
-                    self.plan_ahead(&found);
-                    found.into_iter().any(|found| {
-                        self.weigh_if_promising(found);
-                        self.sound.first().is_some_and(|best| best.merit < merit)
-                    })
-                });
-                if !is_better {
-                    break;
-                }
-            }
-        }
-    }
-
     fn weigh_if_promising(&mut self, found: VcutParameters) {
         if !self.is_behind(self.model(&found)) {
             self.weigh(found);
@@ -559,6 +516,13 @@ impl<'t> Trials<'t> {
             && self.asked.limits.scallop.is_some()
     }
 
+    /// Whether step and overlap are open, and as wide as the blade's reach allows.
+    fn is_step_of_the_blade(&self) -> bool {
+        self.asked.step.value == Auto::Auto
+            && self.asked.overlap.value == Auto::Auto
+            && self.asked.limits.scallop.is_none()
+    }
+
     /// The least that any plan of a lattice can leave with its tips in their columns, where that is no more than may stay.
     fn least_left(&self, found: &VcutParameters) -> Option<Length> {
         let limit = self.asked.limits.scallop?;
@@ -570,57 +534,6 @@ impl<'t> Trials<'t> {
     fn must_leave_too_much(&self, found: &VcutParameters) -> bool {
         let moves_tips = self.asked.residual.value == Auto::Given(Residual::Shift);
         !moves_tips && self.asked.limits.scallop.is_some() && self.least_left(found).is_none()
-    }
-
-    /// The parameters with swing, layer and overlap changed by a factor.
-    fn beside(
-        &self,
-        from: &VcutParameters,
-        factor: f64,
-        [swing, layer, overlap]: Move,
-    ) -> Option<VcutParameters> {
-        let swing = changed(self.asked.swing.value, from.swing, swing, |way| {
-            let bounds = self.asked.limits.swing;
-            let changed = thousandths(from.swing * libm::pow(factor, f64::from(way)));
-            bounds.most.map_or(
-                changed,
-                |most| if changed > most.value { most.value } else { changed },
-            )
-        })?;
-        let layer = changed(self.asked.layer.value, from.layer, layer, |way| {
-            Length::mm(grid::down(from.layer.to_mm() * libm::pow(factor, f64::from(way))))
-        })?;
-        let is_angle = swing < Angle::deg(89.0) && swing > Angle::deg(1.0);
-        if !is_angle || layer <= Length::ZERO {
-            return None;
-        }
-        let swung = Swung::new(self.asked, from.lattice, swing)?;
-        let by = (factor - 1.0) / 2.0 * f64::from(overlap);
-        let (step, overlap) = match (self.asked.step.value, overlap) {
-            (Auto::Given(step), 0) => (step, swung.overlap(layer, step)),
-            (Auto::Auto, 0) => (swung.widest_step(layer, from.overlap), from.overlap),
-            (Auto::Auto, _) if self.has_open_overlap() => {
-                let overlap = from.overlap + by;
-                if from.overlap <= 0.0 && by < 0.0 || from.overlap >= MOST_OVERLAP && by > 0.0 {
-                    return None;
-                }
-                let overlap = overlap.clamp(0.0, MOST_OVERLAP);
-                (swung.widest_step(layer, overlap), overlap)
-            }
-            (Auto::Given(_) | Auto::Auto, _) => return None,
-        };
-        swung
-            .parameters(layer, step, overlap)
-            .filter(|found| self.is_within(found))
-    }
-}
-
-/// A value that is open, changed; none where a given one is to be.
-fn changed<T>(asked: Auto<T>, from: T, way: i32, change: impl Fn(i32) -> T) -> Option<T> {
-    match (asked, way) {
-        (_, 0) => Some(from),
-        (Auto::Auto, way) => Some(change(way)),
-        (Auto::Given(_), _) => None,
     }
 }
 
@@ -640,8 +553,8 @@ mod tests {
     use crate::job::Operation;
     use crate::plan::tests::{operation, paper_job};
 
-    /// Plans of the formulas' choice and laxer limits, of the spread, and of the changes.
-    const MOST: usize = 48 + 72 + 48;
+    /// Plans of the formulas' choice and laxer limits, of the spread, of the changes, and of layers close to the best one.
+    const MOST: usize = 48 + 72 + 48 + 10;
 
     #[test]
     fn the_search_is_bounded() {

@@ -8,6 +8,7 @@ mod yielding;
 
 pub use crate::sema::Typed;
 
+use crate::choice;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
 use crate::memory::Memory;
@@ -203,6 +204,10 @@ enum Ended {
 fn plan_and_prove(outcome: &mut Outcome, memory: &mut Memory, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
     let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, memory, progress) {
+        Ended::Refused(None, told) => {
+            let told = with_limits_that_are_kept(job, told, &outcome.sources, memory, progress);
+            (None, told, None)
+        }
         Ended::Refused(plan, told) => (plan, told, None),
         Ended::Unreached(plan, mut told, unreached) => {
             told.extend(unreached_in_words(job, &plan, &unreached));
@@ -212,6 +217,27 @@ fn plan_and_prove(outcome: &mut Outcome, memory: &mut Memory, progress: &mut dyn
     };
     outcome.diagnostics.extend(told);
     (outcome.plan, outcome.compiled) = (plan, compiled);
+}
+
+/// What is told of a limit that no plan keeps offers what the fastest plan keeps; but its machine may follow only a slower one.
+/// So the job is compiled without these limits, and what is told is what that comes to.
+fn with_limits_that_are_kept(
+    job: &CheckedJob,
+    told: Vec<Diagnostic>,
+    sources: &SourceMap,
+    memory: &mut Memory,
+    progress: &mut dyn FnMut(Stage),
+) -> Vec<Diagnostic> {
+    let is_of_limits = told.iter().all(|one| one.code == Code::LimitsConflict);
+    let free = choice::unlimited(job).filter(|free| is_of_limits && free.machine.is_some());
+    let Some(free) = free else { return told };
+    match along_its_routes(&free, sources, memory, progress) {
+        Ended::Compiled(plan, ..) => match choice::broken_limits(job, &plan) {
+            broken if broken.is_empty() => told,
+            broken => broken,
+        },
+        Ended::Refused(..) | Ended::Unreached(..) => told,
+    }
 }
 
 /// Along fewer routes and with narrower swings where the machine does not follow: the fastest ask the most of it.

@@ -7,7 +7,8 @@
 //! least is cheap to know ([`Floor`](crate::plan::floor::Floor)). So swings and steps that leave too much even so are left out,
 //! and of each swing the widest steps that do not are found, before anything is planned.
 
-use super::{AHEAD, FACTORS, MOST_OVERLAP, MOVES, Trials, thousandths};
+use super::around::{FACTORS, MOVES};
+use super::{AHEAD, MOST_OVERLAP, Trials, thousandths};
 use crate::choice::MOST_CUTS_COMPARED;
 use crate::job::{Auto, Lattice};
 use crate::plan::decision::Standing;
@@ -119,8 +120,12 @@ impl Trials<'_> {
                 let Some(swung) = Swung::new(self.asked, lattice, swing) else {
                     continue;
                 };
-                self.spots_by_overlap(&swung, &mut spots);
-                self.spots_by_step(&swung, &mut spots);
+                if self.is_step_of_the_blade() {
+                    self.spots_by_reach(&swung, &mut spots);
+                } else {
+                    self.spots_by_overlap(&swung, &mut spots);
+                    self.spots_by_step(&swung, &mut spots);
+                }
             }
         }
         spots.sort_by(|one, other| one.model.total_cmp(&other.model));
@@ -186,11 +191,25 @@ impl Trials<'_> {
         can
     }
 
+    /// The largest layer that the blade reaches, and smaller ones, each with its widest step.
+    fn spots_by_reach(&self, swung: &Swung<'_>, spots: &mut Vec<Spot>) {
+        let layers: Vec<Length> = match self.asked.layer.value {
+            Auto::Given(layer) => vec![layer],
+            Auto::Auto => shares(swung.largest_layer()),
+        };
+        for layer in layers {
+            if let Some((step, overlap)) = swung.widest_fitting_step(layer) {
+                self.add(swung.parameters(layer, step, overlap), spots);
+            }
+        }
+    }
+
     /// The largest layers at some overlaps, and smaller ones.
     fn spots_by_overlap(&self, swung: &Swung<'_>, spots: &mut Vec<Spot>) {
         let overlaps: Vec<f64> = match self.asked.overlap.value {
             Auto::Given(overlap) => vec![overlap],
             Auto::Auto if self.has_open_overlap() => OVERLAPS.to_vec(),
+            // The step is given, and the overlap follows from it.
             Auto::Auto => vec![0.0],
         };
         for overlap in overlaps {

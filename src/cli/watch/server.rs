@@ -19,8 +19,24 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 const MOST_AT_ONCE: usize = 24;
 /// How long a request may take to arrive, and a piece of an answer to be taken.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Most pieces of a KiB that are read of what nobody asked for.
-const MOST_DRAINED: usize = 64;
+/// How much of what nobody asked for is read.
+#[derive(Clone, Copy)]
+struct Drained {
+    /// Most pieces of a KiB.
+    most: usize,
+    /// How long each may take to arrive.
+    each: Duration,
+}
+
+const ANSWERED: Drained = Drained {
+    most: 64,
+    each: Duration::from_millis(200),
+};
+/// Those that find no place are seen off one after the other, so none may take long.
+const BUSY: Drained = Drained {
+    most: 2,
+    each: Duration::from_millis(50),
+};
 /// How often a page that waits for changes is told that nothing has changed, which shows whether it is still there.
 const SIGN_OF_LIFE: Duration = Duration::from_secs(10);
 
@@ -130,8 +146,8 @@ fn listen(listener: &TcpListener, shared: &Arc<Shared>) {
         let shared = Arc::clone(shared);
         if is_full {
             let _place = Place(&shared.answering);
-            let _ = stream.set_write_timeout(Some(Duration::from_millis(50)));
-            let _ = refuse(&mut stream, Refused::Busy);
+            let _ = stream.set_write_timeout(Some(BUSY.each));
+            let _ = refuse(&mut stream, Refused::Busy).and_then(|()| drain(&mut stream, BUSY));
             continue;
         }
         thread::spawn(move || {
@@ -159,15 +175,15 @@ fn answer(mut stream: TcpStream, shared: &Shared) -> io::Result<()> {
             extent,
         }) => changes(&mut stream, extent, &version, shared)?,
     }
-    drain(&mut stream)
+    drain(&mut stream, ANSWERED)
 }
 
 /// Lets the other side read its answer: a connection that is closed with bytes unread is reset, and the answer with it.
-fn drain(stream: &mut TcpStream) -> io::Result<()> {
+fn drain(stream: &mut TcpStream, drained: Drained) -> io::Result<()> {
     stream.shutdown(Shutdown::Write)?;
-    stream.set_read_timeout(Some(Duration::from_millis(200)))?;
+    stream.set_read_timeout(Some(drained.each))?;
     let mut rest = [0; 1024];
-    for _ in 0..MOST_DRAINED {
+    for _ in 0..drained.most {
         if stream.read(&mut rest)? == 0 {
             break;
         }

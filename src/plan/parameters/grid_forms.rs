@@ -64,7 +64,7 @@ pub(super) fn scallop_room(asked: &RoughVcut, drop: Length) -> Option<Length> {
 
 /// The overlaps at which a layer's reach is looked at when the overlap is open: every twentieth, where the closed forms of
 /// the reach have their least values too.
-fn open_overlaps() -> impl Iterator<Item = f64> {
+pub(super) fn open_overlaps() -> impl Iterator<Item = f64> {
     (0..20).map(|twentieth| f64::from(twentieth) / 20.0)
 }
 

@@ -2,7 +2,7 @@
 //! after here; which of them a job allows is for those who try.
 
 use super::super::blade_reach;
-use super::grid_forms::{fits, largest_fitting, tips_per_step, widest_step};
+use super::grid_forms::{fits, largest_fitting, open_overlaps, tips_per_step, widest_step};
 use super::search::Chosen;
 use super::{Flanks, VcutParameters, complete, flanks_at, resolve_standoff};
 use crate::job::{Lattice, RoughVcut};
@@ -54,6 +54,14 @@ impl<'s> Swung<'s> {
         })
     }
 
+    /// The largest layer that the blade reaches at any overlap.
+    #[must_use]
+    pub fn largest_layer(&self) -> Length {
+        open_overlaps()
+            .map(|overlap| self.layer_at_overlap(overlap))
+            .fold(Length::ZERO, Length::max)
+    }
+
     /// The largest layer that the blade reaches at a step, if there is any.
     #[must_use]
     pub fn layer_at_step(&self, step: Length) -> Option<Length> {
@@ -73,6 +81,14 @@ impl<'s> Swung<'s> {
     #[must_use]
     pub fn widest_step(&self, layer: Length, overlap: f64) -> Length {
         widest_step(self.lattice, layer, overlap, &self.flanks)
+    }
+
+    /// The widest step of a layer that the blade reaches, and the overlap that goes with it.
+    #[must_use]
+    pub fn widest_fitting_step(&self, layer: Length) -> Option<(Length, f64)> {
+        open_overlaps()
+            .map(|overlap| (self.widest_step(layer, overlap), overlap))
+            .find(|&(step, _)| fits(self.lattice, layer, step, &self.flanks))
     }
 
     /// The share by which Vs overlap.
