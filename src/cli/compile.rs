@@ -187,6 +187,7 @@ pub(super) fn judge_again(
     let carried = Carried {
         memory,
         placed: Vec::new(),
+        disk: &disk,
         amend: &mut |outcome| see(outcome),
     };
     carried_out(request, &watched.product, carried, console)
@@ -222,6 +223,7 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
     let carried = Carried {
         memory: &mut Memory::none(),
         placed: Vec::new(),
+        disk: &disk,
         amend: &mut |_| {},
     };
     carried_out(overrides.request(&disk, targets), product, carried, console)
@@ -233,6 +235,8 @@ pub(super) struct Carried<'a> {
     pub(super) memory: &'a mut Memory,
     /// Files that have been written already.
     pub(super) placed: Vec<Placed>,
+    /// The files that nothing is written over.
+    pub(super) disk: &'a Disk,
     /// Changes what is told of the outcome before anything is made of it.
     pub(super) amend: &'a mut dyn FnMut(&mut Outcome),
 }
@@ -259,7 +263,7 @@ pub(super) fn carried_out(
         }
     };
     (carried.amend)(&mut outcome);
-    let made = make(product, &outcome, job, &mut progress);
+    let made = make(product, &outcome, carried.disk, &mut progress);
     let timings = progress.finish();
 
     match made {
@@ -343,23 +347,30 @@ fn remark(product: &Product, is_wrong: bool, made: &Made) -> Option<String> {
 }
 
 /// Makes the product of a job that got far enough for it.
-fn make(product: &Product, outcome: &Outcome, job: &str, progress: &mut Progress) -> Result<Made, Failure> {
+fn make(product: &Product, outcome: &Outcome, disk: &Disk, progress: &mut Progress) -> Result<Made, Failure> {
     match product {
         Product::Program(program) => {
             if outcome.compiled.is_none() {
                 return Ok(Made::default());
             }
             progress.enter(Stage::Emitting);
-            make_program(program, outcome)
+            make_program(program, outcome, disk)
         }
-        Product::Inner(form, destination) => write_inner(*form, destination, outcome, job),
+        Product::Inner(form, destination) => write_inner(*form, destination, outcome, disk.job()),
         Product::Verdict { .. } => Ok(Made::default()),
     }
 }
 
-fn make_program(program: &Program, outcome: &Outcome) -> Result<Made, Failure> {
+fn make_program(program: &Program, outcome: &Outcome, disk: &Disk) -> Result<Made, Failure> {
     match snapshot::make(outcome, program.backend, &program.to, program.fate) {
-        Ok(Some((ready, _))) => ready.settle().map_err(Failure::new),
+        Ok(Some((ready, names))) => {
+            if let (Destination::Folder(folder), Fate::Write) = (&program.to, program.fate) {
+                for name in &names {
+                    disk.spares(&folder.join(name)).map_err(Failure::new)?;
+                }
+            }
+            ready.settle().map_err(Failure::new)
+        }
         Ok(None) => Ok(Made::default()),
         Err(NotReady::Diagnostics(diagnostics)) => Ok(Made {
             diagnostics,

@@ -95,18 +95,22 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         Err(failure) => return console.failure(&failure),
     };
     let path = JobFile::of(args).path();
+    let shown = path.to_string_lossy().into_owned();
+    let disk = Disk::around(&shown);
+    for file in sources(args) {
+        disk.is_made_from(&file);
+    }
     let mut placed = Vec::new();
     if args.as_job {
-        match job_written(args, &path, &conversion, console) {
+        match job_written(args, &path, &conversion, &disk, console) {
             Ok(written) => placed.extend(written),
             Err(exit) => return exit,
         }
     }
-    let shown = path.to_string_lossy().into_owned();
     let overlaid = Overlaid {
         path: shown.clone(),
         text: conversion.job.text.clone(),
-        disk: Disk::around(&shown),
+        disk,
     };
     let request = Request {
         path: &overlaid.path,
@@ -124,7 +128,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
             &mut outcome.sources,
             &mut outcome.diagnostics,
         );
-        drawn = picture(args, &conversion, outcome);
+        drawn = picture(args, &conversion, outcome, &overlaid.disk);
     };
     let exit = compile::carried_out(
         request,
@@ -132,6 +136,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         Carried {
             memory: &mut Memory::none(),
             placed,
+            disk: &overlaid.disk,
             amend: &mut amend,
         },
         console,
@@ -150,6 +155,7 @@ fn job_written(
     args: &ConvertArgs,
     path: &Path,
     conversion: &Conversion,
+    disk: &Disk,
     console: &Console,
 ) -> Result<Vec<Placed>, Exit> {
     if args.output.as_deref() == Some("-") {
@@ -158,7 +164,9 @@ fn job_written(
             exit => Err(exit),
         };
     }
-    one_file(path, conversion.job.text.as_bytes()).map_err(|reason| console.failure(&Failure::new(reason)))
+    disk.spares(path)
+        .and_then(|()| one_file(path, conversion.job.text.as_bytes()))
+        .map_err(|reason| console.failure(&Failure::new(reason)))
 }
 
 fn product(args: &ConvertArgs, targets: &Targets) -> Result<Product, Failure> {
@@ -172,11 +180,17 @@ fn product(args: &ConvertArgs, targets: &Targets) -> Result<Product, Failure> {
 }
 
 /// The two paths as a picture, where it is asked for and there is a program.
-fn picture(args: &ConvertArgs, conversion: &Conversion, outcome: &Outcome) -> Result<Vec<Placed>, String> {
+fn picture(
+    args: &ConvertArgs,
+    conversion: &Conversion,
+    outcome: &Outcome,
+    disk: &Disk,
+) -> Result<Vec<Placed>, String> {
     let (Some(path), Some(material)) = (args.picture.as_deref(), Material::of(outcome)) else {
         return Ok(Vec::new());
     };
     let svg = pictures::paths(&material, &conversion.raster.path, Prefix::NONE);
+    disk.spares(Path::new(path))?;
     one_file(Path::new(path), svg.as_bytes())
 }
 
@@ -283,15 +297,31 @@ fn name(args: &ConvertArgs) -> &str {
     stem.unwrap_or("converted")
 }
 
+/// All files that a conversion is made from.
+fn sources(args: &ConvertArgs) -> Vec<PathBuf> {
+    let others = [&args.cell, &args.profile].into_iter().flatten();
+    let mut all = program_paths(&args.files);
+    all.extend(others.map(PathBuf::from));
+    all
+}
+
 /// The files of the program, with those `.dat` files that belong to its `.src` files.
-fn program(paths: &[String]) -> Result<Vec<ProgramFile>, Failure> {
+fn program_paths(paths: &[String]) -> Vec<PathBuf> {
     let mut all: Vec<PathBuf> = paths.iter().map(PathBuf::from).collect();
     for path in paths {
-        let data = Path::new(path).with_extension("dat");
-        if data.is_file() && !all.contains(&data) {
-            all.push(data);
+        for ending in ["dat", "DAT"] {
+            let data = Path::new(path).with_extension(ending);
+            if data.is_file() && !all.contains(&data) {
+                all.push(data);
+                break;
+            }
         }
     }
+    all
+}
+
+fn program(paths: &[String]) -> Result<Vec<ProgramFile>, Failure> {
+    let all = program_paths(paths);
     let mut files: Vec<ProgramFile> = Vec::with_capacity(all.len());
     for path in &all {
         let shown = path.display();
@@ -316,12 +346,19 @@ fn program(paths: &[String]) -> Result<Vec<ProgramFile>, Failure> {
 
 /// The text of a file of a program, which controllers read in one byte a character, line by line.
 fn text(bytes: &[u8], shown: &str) -> Result<String, Failure> {
-    let is_wide = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || bytes.contains(&0);
+    let is_wide =
+        bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || is_every_other_nul(bytes);
     if is_wide {
         return Err(Failure::new(format!(
             "cannot read the program {shown}: it is in UTF-16, which no controller reads"
         ))
         .help("save it as UTF-8 or ANSI in an editor, or with `iconv -f UTF-16 -t UTF-8`"));
+    }
+    if bytes.contains(&0) {
+        return Err(Failure::new(format!(
+            "cannot read the program {shown}: it holds bytes of 0, so it is damaged"
+        ))
+        .help("get it again from the CAM system or the controller"));
     }
     if bytes.contains(&b'\r') && !bytes.contains(&b'\n') {
         return Err(Failure::new(format!(
@@ -330,6 +367,19 @@ fn text(bytes: &[u8], shown: &str) -> Result<String, Failure> {
         .help("save it with the line ends of Windows (CR LF) or Unix (LF), or with `tr '\\r' '\\n'`"));
     }
     Ok(decoded(bytes))
+}
+
+/// Whether it looks like UTF-16 without a mark: Latin letters have a 0 beside them.
+fn is_every_other_nul(bytes: &[u8]) -> bool {
+    let count = |odd: usize| {
+        bytes
+            .iter()
+            .skip(odd)
+            .step_by(2)
+            .filter(|&&byte| byte == 0)
+            .count()
+    };
+    !bytes.is_empty() && 2 * count(0).max(count(1)) > bytes.len() / 2
 }
 
 /// The job of a conversion over the files that are there.

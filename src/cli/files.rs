@@ -41,6 +41,11 @@ impl Disk {
         &self.job
     }
 
+    /// Says that the job is made from a file that the compiler does not ask for.
+    pub(super) fn is_made_from(&self, path: &Path) {
+        self.read.borrow_mut().extend(fs::canonicalize(path));
+    }
+
     /// Refuses to write over a file that the job was made from.
     pub(super) fn spares(&self, path: &Path) -> Result<(), String> {
         // What is not there cannot be written over.

@@ -386,18 +386,14 @@ impl<'t> Reader<'t, '_> {
             | Value::Variable(_) => None,
         };
         if to.is_field("$VEL", "CP") {
-            match number {
-                Some(value) => self.speed = Some(Written { value, place }),
-                // Worked out while the program runs: whoever needs it has to say it.
-                None => self.speed = None,
-            }
+            self.drive(number, place);
         } else if let (true, Value::Structure(fields)) = (to.is("$VEL"), value) {
             for field in fields {
                 if let (true, Value::Number(value)) = (is_same_name(field.name, "CP"), &field.value) {
-                    self.speed = Some(Written { value: *value, place });
+                    self.drive(Some(*value), place);
                 }
             }
-        } else if to.is_field("$VEL", "ORI1") {
+        } else if to.is_field("$VEL", "ORI1") && self.forks.is_empty() {
             self.milling.turning = number.or(self.milling.turning);
         }
         self.framed(asker, to, value, place);
@@ -412,11 +408,18 @@ impl<'t> Reader<'t, '_> {
         }
     }
 
+    /// Takes a speed over. One that is worked out while the program runs, or set on one of several ways through it, is not
+    /// known: whoever needs it has to say it.
+    fn drive(&mut self, value: Option<f64>, place: Span) {
+        let value = value.filter(|_| self.forks.is_empty());
+        self.speed = value.map(|value| Written { value, place });
+    }
+
     /// `BAS (#command,value)`, a routine of every controller.
     fn bas(&mut self, command: &str, value: Option<f64>, place: Span) {
         let is = |name| is_same_name(command, name);
         match value {
-            Some(value) if is("VEL_CP") || is("CP_PARAMS") => self.speed = Some(Written { value, place }),
+            Some(value) if is("VEL_CP") || is("CP_PARAMS") => self.drive(Some(value), place),
             Some(number) => self.frame(command, &number.to_string(), place),
             None => {}
         }

@@ -74,7 +74,9 @@ pub(super) fn ask_again(number: u64) -> Value {
 
 /// Asks the client to tell when files that jobs name change on the disk.
 pub(super) fn watch_files() -> Value {
-    let watchers = json!([{ "globPattern": "**/*.{vcut,toml,urdf,csv,dat,dxf,svg}" }]);
+    // Drawings often come with endings in capitals, which some clients tell apart.
+    let endings = "vcut,toml,urdf,csv,dat,txt,dxf,svg,CSV,DAT,TXT,DXF,SVG";
+    let watchers = json!([{ "globPattern": format!("**/*.{{{endings}}}") }]);
     let registration = json!({
         "id": "files",
         "method": "workspace/didChangeWatchedFiles",

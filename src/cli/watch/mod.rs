@@ -17,6 +17,7 @@ use crate::diag::render::{ColorChoice, render};
 use crate::driver::Outcome;
 use crate::memory::Memory;
 use crate::report::page::{Served, served_errors, served_page};
+use crate::source::Loader as _;
 use serde::Serialize;
 use server::Server;
 use stamps::{Pause, Recorder, Stamps};
@@ -59,11 +60,14 @@ fn prepare<'a>(args: &'a WatchArgs, targets: &'a Targets) -> Result<Watch<'a>, F
         );
     }
     // Later a file that vanishes is waited for; a name that was wrong from the beginning is not.
-    if !Path::new(&args.job).exists() {
-        return Err(Failure::new(format!(
-            "cannot read the job {}: there is no such file",
-            args.job
-        )));
+    let path = Path::new(&args.job);
+    if !path.is_file() {
+        let why = if path.exists() {
+            "it is no file"
+        } else {
+            "there is no such file"
+        };
+        return Err(Failure::new(format!("cannot read the job {}: {why}", args.job)));
     }
     let watched = Watched::new(args, targets)?;
     let server = match args.serve {
@@ -147,11 +151,18 @@ impl Watch<'_> {
     fn once(&self, memory: &mut Memory, console: &Console) -> Stamps {
         let disk = Disk::around(self.watched.job());
         let recorder = Recorder::new(&disk);
+        let mut is_shown = false;
         judge_again(&self.watched, &recorder, memory, console, &mut |outcome| {
+            is_shown = true;
             if let Some(server) = &self.server {
                 server.show(|served| page(self.watched.job(), outcome, served));
             }
         });
+        if let (false, Some(server), Err(reason)) = (is_shown, &self.server, disk.load(disk.job())) {
+            let job = self.watched.job();
+            let message = format!("cannot read the job {job}: {reason}\n");
+            server.show(|served| served_errors(job, &message, served));
+        }
         recorder.stamps()
     }
 

@@ -8,7 +8,7 @@
 
 use super::request::{Asked, Extent, LONGEST_HEAD, Refused, Request, head, read};
 use crate::report::page::Served;
-use std::io::{self, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -202,9 +202,18 @@ fn request(stream: &mut TcpStream) -> io::Result<Result<String, Refused>> {
             return Ok(Err(Refused::TooLong));
         }
         stream.set_read_timeout(Some(left))?;
-        let length = stream.read(&mut piece)?;
+        let length = match stream.read(&mut piece) {
+            Ok(length) => length,
+            Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
+                return Ok(Err(Refused::TooLong));
+            }
+            Err(error) => return Err(error),
+        };
         head.extend_from_slice(piece.get(..length).unwrap_or_default());
         if let Some(at) = head.windows(4).position(|bytes| bytes == b"\r\n\r\n") {
+            if at > LONGEST_HEAD {
+                return Ok(Err(Refused::TooLong));
+            }
             head.truncate(at);
             return Ok(String::from_utf8(head).map_err(|_| Refused::Malformed));
         }

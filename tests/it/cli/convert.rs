@@ -180,6 +180,68 @@ fn a_job_elsewhere_names_files_from_where_it_lies() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
 }
 
+/// The program, the cells and the profile that a conversion is made from stay, whatever is to be written.
+#[test]
+fn nothing_that_is_read_is_written_over() {
+    let out = folder();
+    for file in ["examples/shop/cells.vcut", PANEL] {
+        let from = root().join(file);
+        fs::copy(&from, out.path().join(from.file_name().unwrap())).unwrap();
+    }
+    fs::write(
+        out.path().join("part.svg"),
+        "<svg xmlns='http://www.w3.org/2000/svg'/>",
+    )
+    .unwrap();
+    let inputs =
+        || ["panel.src", "cells.vcut", "part.svg"].map(|name| fs::read(out.path().join(name)).unwrap());
+    let before = inputs();
+    let convert = [&["convert", "panel.src"][..], &HOW].concat();
+    for more in [
+        &[
+            "--cell",
+            "cells.vcut",
+            "--machine",
+            "large_cell",
+            "--as-job",
+            "-o",
+            "cells.vcut",
+        ][..],
+        &[
+            "--profile",
+            "part.svg",
+            "--as-job",
+            "-o",
+            "x.vcut",
+            "--picture",
+            "part.svg",
+        ],
+    ] {
+        let run = vcutc(out.path(), &[&convert, more].concat());
+        assert_ne!(run.code, Some(0), "{more:?}: {}", run.stderr);
+        assert_eq!(inputs(), before, "{more:?}");
+    }
+
+    // The sheets of the cells are where they were, so that a program is made, in the folder of the milling program.
+    let panel = out.path().join("panel.src");
+    let (panel, here) = (panel.to_str().unwrap(), out.path().to_str().unwrap());
+    let arguments = [
+        &["convert", panel][..],
+        &HOW,
+        &CELL,
+        &["--target", "krl", "-o", here],
+    ]
+    .concat();
+    let run = vcutc(root(), &arguments);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("is a file that the job is made from"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(inputs(), before);
+}
+
 #[test]
 fn files_that_no_controller_reads_say_how_to_save_them() {
     let out = folder();

@@ -219,6 +219,13 @@ fn the_report_is_served_to_this_machine_and_follows_the_job() {
             ),
             "431",
         ),
+        (
+            format!(
+                "GET / HTTP/1.1\r\nHost: {address}\r\nX: {}\r\n\r\n",
+                "x".repeat(8_300)
+            ),
+            "431",
+        ),
     ] {
         let found = answer(&address, &request);
         assert!(
@@ -228,6 +235,15 @@ fn the_report_is_served_to_this_machine_and_follows_the_job() {
         let (head, body) = found.split_once("\r\n\r\n").unwrap();
         assert!(head.contains("frame-ancestors 'none'"), "{head}");
         assert!(!body.contains("rib"), "{body}");
+    }
+
+    // A job that is gone has no page.
+    fs::remove_file(watch.path().join("rib.vcut")).unwrap();
+    watch.told("cannot read the job");
+    let start = Instant::now();
+    while !get(&address, "/").contains("cannot read the job") {
+        assert!(start.elapsed() < LIMIT);
+        thread::sleep(Duration::from_millis(20));
     }
     assert_eq!(watch.interrupt(), Some(0));
 }
@@ -278,10 +294,10 @@ fn a_request_that_does_not_end_is_given_up() {
     let mut stream = TcpStream::connect(&address).unwrap();
     stream.set_read_timeout(Some(LIMIT)).unwrap();
     stream.write_all(b"GET / HTTP/1.1\r\nHost: ").unwrap();
-    // It ends without the page, though this side has not ended it.
+    // It is told so, though this side has not ended it.
     let mut answer = String::new();
     stream.read_to_string(&mut answer).unwrap();
-    assert!(!answer.contains("200 OK"), "{answer}");
+    assert!(answer.starts_with("HTTP/1.1 431 "), "{answer}");
     assert!(get(&address, "/").starts_with("HTTP/1.1 200 "));
 }
 
@@ -290,6 +306,7 @@ fn what_cannot_be_watched_is_refused() {
     let folder = folder();
     for (arguments, told) in [
         (["watch", "none.vcut"], "there is no such file"),
+        (["watch", "."], "it is no file"),
         (["watch", "-"], "takes a job from a file"),
     ] {
         let run = super::vcutc(folder.path(), &arguments);

@@ -71,6 +71,12 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
             Code::NoPass,
         ),
         (
+            "a speed on one of two ways through the program",
+            instead(&format!("IF $IN[1] THEN\n$VEL.CP=0.1\nENDIF\n{PASS}")),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
             "another tool axis",
             instead("LIN {X 30.560,Y -3.000,Z 45.600,A 0.0,B 0.0,C 0.0}"),
             WORDS,

@@ -20,6 +20,18 @@ const MOVES: &[&str] = &[
     "translate",
     "rotate",
     "scale",
+    "transform-origin",
+    "transform-box",
+    "offset-path",
+    // Geometry that a style gives instead of the attribute.
+    "d",
+    "cx",
+    "cy",
+    "r",
+    "rx",
+    "ry",
+    "x",
+    "y",
 ];
 
 /// What hides.

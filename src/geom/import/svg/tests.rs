@@ -260,6 +260,9 @@ fn what_styles_hide_is_left_out_unless_it_is_asked_for() {
         "<style>.q{transform:scale(2)}</style>",
         "<g style='fill:none;transform:scale(2)'/>",
         "<g style='rotate: 3deg'/>",
+        "<style>.q{d:path('M0 0H9')}</style>",
+        "<g style='transform-origin:3px 4px'/>",
+        "<g transform='scale(2)' transform-origin='3 4'/>",
     ] {
         let (_, message) = complaint(&page(refused));
         assert!(message.contains("not read"), "{refused}: {message}");

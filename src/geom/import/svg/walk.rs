@@ -166,7 +166,14 @@ impl<'d, 't> Walk<'d, 't, '_> {
     /// What an element makes of what it was handed.
     fn enter(&self, node: Node<'d, 't>, outer: State) -> Result<State, DataError> {
         let map = match attribute(node, "transform") {
-            Some(text) => outer.map.after(transform::transform(text)?),
+            Some(text) => {
+                if let Some(origin) = attribute(node, "transform-origin") {
+                    return Err(origin
+                        .place(0..origin.text.len())
+                        .error("`transform-origin` is not read: write the `transform` without it"));
+                }
+                outer.map.after(transform::transform(text)?)
+            }
             None => outer.map,
         };
         let is_named = self
