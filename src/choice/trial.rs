@@ -553,8 +553,8 @@ mod tests {
     use crate::job::Operation;
     use crate::plan::tests::{operation, paper_job};
 
-    /// Plans of the formulas' choice and laxer limits, of the spread, of the changes, and of layers close to the best one.
-    const MOST: usize = 48 + 72 + 48 + 10;
+    /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
+    const MOST: usize = 48 + 72 + 72 + 48 + 10;
 
     #[test]
     fn the_search_is_bounded() {

@@ -21,6 +21,9 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 /// Most plans of the spread, by the number of cuts of the first one: below the first number the second.
 const PLANS: [(usize, usize); 3] = [(500, 72), (2_000, 36), (MOST_CUTS_COMPARED, 12)];
 
+/// Most plans in turns where nothing of the spread is sound, in the same way.
+const IN_TURNS: [(usize, usize); 3] = [(500, 72), (2_000, 24), (MOST_CUTS_COMPARED, 6)];
+
 /// The widest swing to begin with where the job sets no limit.
 const WIDEST: Angle = Angle::deg(50.0);
 
@@ -104,12 +107,40 @@ impl Trials<'_> {
                 self.weigh_if_promising(spot.parameters.clone());
             }
         }
+        if self.sound.is_empty() {
+            self.in_turns(&spots);
+        }
         while self.sound.is_empty() && self.may_go_on() {
             if !self.has_better_neighbour() {
                 break;
             }
         }
         (self.plans_left, self.most_plans) = (None, &super::PLANS);
+    }
+
+    /// Swing after swing, the narrowest first, one plan of each and then the next of each, until something is sound: the fastest by
+    /// the model all have wide swings, and beside a wall none of those may do.
+    fn in_turns(&mut self, spots: &[Spot]) {
+        (self.plans_left, self.most_plans) = (None, &IN_TURNS);
+        let mut by_swing: Vec<(Angle, Vec<&VcutParameters>)> = Vec::new();
+        for Spot { parameters, .. } in spots {
+            match by_swing.iter_mut().find(|(swing, _)| *swing == parameters.swing) {
+                Some((_, of_swing)) => of_swing.push(parameters),
+                None => by_swing.push((parameters.swing, vec![parameters])),
+            }
+        }
+        by_swing.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let longest = by_swing.iter().map(|(_, of_swing)| of_swing.len()).max();
+        for turn in 0..longest.unwrap_or(0) {
+            for (_, of_swing) in &by_swing {
+                if !self.sound.is_empty() || !self.may_go_on() {
+                    return;
+                }
+                if let Some(&found) = of_swing.get(turn) {
+                    self.weigh(found.clone());
+                }
+            }
+        }
     }
 
     /// All parameters of the spread, the fastest by the model first.

@@ -82,6 +82,10 @@ impl Browser {
         loop {
             let answer = self.read();
             if answer["id"] == id {
+                // A page that goes on to another one answers nothing more.
+                if answer["error"]["message"] == "Inspected target navigated or closed" {
+                    return Value::Null;
+                }
                 assert_eq!(answer["error"], Value::Null, "{method}: {}", answer["error"]);
                 return answer["result"].clone();
             }
