@@ -42,6 +42,7 @@ impl Disk {
     }
 
     /// Says that the job is made from a file that the compiler does not ask for.
+    #[cfg(feature = "krl")]
     pub(super) fn is_made_from(&self, path: &Path) {
         self.read.borrow_mut().extend(fs::canonicalize(path));
     }

@@ -1,7 +1,7 @@
 //! What the open parameters come out as.
 //!
 //! This is the one place where `auto` is decided: lattice, swing, layer, step and overlap by optimisation
-//! ([`optimum`](super::optimum)), its result rounded to the grid ([`search`]); extension and standoff from the blade. What
+//! ([`optimum`]), its result rounded to the grid ([`search`]); extension and standoff from the blade. What
 //! a job gives is kept as it is, whatever comes of it: the proof says what is wrong with it.
 
 mod complaints;
