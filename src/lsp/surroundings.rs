@@ -183,35 +183,27 @@ impl Surroundings<'_> {
 
     /// The words directly between a bracket and its partner of which something holds.
     fn words_in(&self, bracket: usize, is_wanted: impl Fn(usize) -> bool) -> Vec<String> {
-        let mut depth = 0_usize;
-        let mut words = Vec::new();
-        for (number, token) in self.all.iter().enumerate().skip(bracket + 1) {
-            match token.kind {
-                TokenKind::Open(_) => depth += 1,
-                TokenKind::Close(_) if depth == 0 => break,
-                TokenKind::Close(_) => depth -= 1,
-                TokenKind::Word if depth == 0 && is_wanted(number) => {
-                    words.push(self.slice(*token).to_owned());
-                }
-                TokenKind::Word
-                | TokenKind::Number
-                | TokenKind::Text
-                | TokenKind::UnclosedText
-                | TokenKind::Comment
-                | TokenKind::UnclosedComment
-                | TokenKind::Symbol => {}
-            }
-        }
-        words
+        let (within, _) = self.within(bracket);
+        within
+            .into_iter()
+            .filter(|&number| is_wanted(number))
+            .filter_map(|number| self.word(number).map(str::to_owned))
+            .collect()
     }
 
     /// The partner of an open bracket; none if it is not closed.
     pub(super) fn partner(&self, bracket: usize) -> Option<usize> {
+        self.within(bracket).1
+    }
+
+    /// The tokens directly in a bracket, and its partner if it is closed.
+    fn within(&self, bracket: usize) -> (Vec<usize>, Option<usize>) {
         let mut depth = 0_usize;
+        let mut within = Vec::new();
         for (number, token) in self.all.iter().enumerate().skip(bracket + 1) {
             match token.kind {
                 TokenKind::Open(_) => depth += 1,
-                TokenKind::Close(_) if depth == 0 => return Some(number),
+                TokenKind::Close(_) if depth == 0 => return (within, Some(number)),
                 TokenKind::Close(_) => depth -= 1,
                 TokenKind::Word
                 | TokenKind::Number
@@ -219,10 +211,14 @@ impl Surroundings<'_> {
                 | TokenKind::UnclosedText
                 | TokenKind::Comment
                 | TokenKind::UnclosedComment
-                | TokenKind::Symbol => {}
+                | TokenKind::Symbol => {
+                    if depth == 0 {
+                        within.push(number);
+                    }
+                }
             }
         }
-        None
+        (within, None)
     }
 
     /// The tokens before a place, backwards, up to the bracket around it; what stands in brackets of its own is passed over.
