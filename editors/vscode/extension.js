@@ -1,4 +1,5 @@
 // The client: starts `vcutc lsp` for job files, and starts it anew when it is asked to or when its settings change.
+// Which files on the disk are watched is asked for by the server, which knows what jobs name.
 
 const vscode = require("vscode");
 const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
@@ -6,14 +7,13 @@ const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
 /** @type {LanguageClient | undefined} */
 let client;
 
-async function start(watcher) {
+async function start() {
   const settings = vscode.workspace.getConfiguration("vcut");
   const command = settings.get("server.path", "vcutc");
   const server = { command, args: ["lsp"], transport: TransportKind.stdio };
   const options = {
     documentSelector: [{ language: "vcut" }],
     initializationOptions: { planning: settings.get("planning", "whileTyping") },
-    synchronize: { fileEvents: watcher },
   };
   client = new LanguageClient("vcut", "vcut", server, options);
   try {
@@ -35,11 +35,9 @@ async function stop() {
 }
 
 async function activate(context) {
-  // Files that jobs name: a change on the disk may make a job right or wrong.
-  const watcher = vscode.workspace.createFileSystemWatcher("**/*.{vcut,toml,urdf,csv,dat,dxf,svg}");
   const restart = async () => {
     await stop();
-    await start(watcher);
+    await start();
   };
   const changed = async (event) => {
     if (event.affectsConfiguration("vcut")) {
@@ -47,11 +45,10 @@ async function activate(context) {
     }
   };
   context.subscriptions.push(
-    watcher,
     vscode.commands.registerCommand("vcut.restart", restart),
     vscode.workspace.onDidChangeConfiguration(changed),
   );
-  await start(watcher);
+  await start();
 }
 
 module.exports = { activate, deactivate: stop };

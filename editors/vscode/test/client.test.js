@@ -12,7 +12,7 @@ const manifest = JSON.parse(fs.readFileSync(path.join(root, "package.json"), "ut
 
 /** An editor with these settings, and a server that starts or fails. */
 function editor(settings, fault) {
-  const seen = { clients: [], commands: new Map(), errors: [], watchers: [], changed: undefined };
+  const seen = { clients: [], commands: new Map(), errors: [], changed: undefined };
   class LanguageClient {
     constructor(id, name, server, options) {
       Object.assign(this, { id, name, server, options, running: false });
@@ -37,10 +37,6 @@ function editor(settings, fault) {
       getConfiguration: (section) => ({
         get: (key, otherwise) => settings[`${section}.${key}`] ?? otherwise,
       }),
-      createFileSystemWatcher: (glob) => {
-        seen.watchers.push(glob);
-        return disposable;
-      },
       onDidChangeConfiguration: (listener) => {
         seen.changed = listener;
         return disposable;
@@ -91,7 +87,7 @@ test("the server is started with the settings, started anew, and stopped", async
   assert.strictEqual(seen.clients.length, 2, "settings of others change nothing");
   await seen.changed({ affectsConfiguration: (section) => section === "vcut" });
   assert.strictEqual(seen.clients[2].options.initializationOptions.planning, "whileTyping");
-  assert.strictEqual(seen.watchers.length, 1, "one watcher for all");
+  assert.ok(seen.clients.every((one) => one.options.synchronize === undefined), "the server asks for its watchers");
 
   await deactivate();
   assert.ok(seen.clients.every((client) => !client.running));
@@ -116,7 +112,4 @@ test("commands and settings are those of the manifest", async () => {
   const [client] = seen.clients;
   assert.strictEqual(client.server.command, configuration.properties["vcut.server.path"].default);
   assert.strictEqual(client.options.initializationOptions.planning, configuration.properties["vcut.planning"].default);
-  // What the server and the watcher look at are the same kinds of files.
-  const server = fs.readFileSync(path.join(root, "..", "..", "src", "lsp", "requests.rs"), "utf8");
-  assert.ok(server.includes(`"${seen.watchers[0]}"`), seen.watchers[0]);
 });
