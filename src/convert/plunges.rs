@@ -91,3 +91,72 @@ pub(super) fn sorted(plunges: &[Plunge], passes: &[Pass], blank: Blank, slope: f
     }
     sorted
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convert::milling::Way;
+    use crate::source::SourceMap;
+    use proptest::prelude::*;
+
+    const BLANK: Blank = Blank {
+        width: 80.0,
+        depth: 50.0,
+        height: 50.0,
+        corner: [0.0; 3],
+    };
+
+    fn place() -> Span {
+        let file = SourceMap::default().add("a.src".to_owned(), String::new());
+        Span::of_bytes(file, 0..0)
+    }
+
+    fn pass((x, z): (f64, f64)) -> Pass {
+        Pass {
+            x,
+            z,
+            y: [0.0, 50.0],
+            places: [place(); 2],
+            speed: None,
+            second_speed: None,
+            way: Way::Straight,
+        }
+    }
+
+    /// The height that Vs have left over x, by the definition: the lowest of the top and of all flanks.
+    fn left(passes: &[Pass], x: f64, slope: f64) -> f64 {
+        let flanks = passes.iter().map(|pass| pass.z + slope * (x - pass.x).abs());
+        flanks.fold(BLANK.height, f64::min)
+    }
+
+    proptest! {
+        #[test]
+        fn plunges_are_sorted_as_the_definition_says(
+            tips in prop::collection::vec((0.0..80.0_f64, 0.0..50.0_f64), 0..30),
+            lows in prop::collection::vec((0.0..80.0_f64, 0.0..50.0_f64, 0.0..1.0_f64), 0..20),
+            slope in 0.3..3.0_f64,
+        ) {
+            let passes: Vec<Pass> = tips.into_iter().map(pass).collect();
+            let mut plunges: Vec<Plunge> = lows
+                .into_iter()
+                .map(|(x, z, share)| Plunge {
+                    place: place(),
+                    start: Start::Above,
+                    low: [x, 25.0, z],
+                    before: (share * passes.len() as f64) as usize,
+                })
+                .collect();
+            plunges.sort_by_key(|plunge| plunge.before);
+            let sorted = sorted(&plunges, &passes, BLANK, slope);
+            for plunge in &plunges {
+                let [x, _, z] = plunge.low;
+                let (so_far, at_last) = (left(&passes[..plunge.before], x, slope), left(&passes, x, slope));
+                // Within a hair of a flank either answer is right.
+                prop_assume!((so_far - z - SAME).abs() > 1e-5 && (at_last - z - SAME).abs() > 1e-5);
+                let stands = |height: f64| height > z + SAME;
+                prop_assert_eq!(sorted.alone.contains(plunge), stands(at_last));
+                prop_assert_eq!(sorted.cut_later.contains(plunge), stands(so_far) && !stands(at_last));
+            }
+        }
+    }
+}

@@ -220,5 +220,5 @@ fn is_of_geometry((name, value): (&str, &str)) -> bool {
 }
 
 fn geometry(place: Place) -> DataError {
-    place.error("a style moves or shapes things here, which is not read: use attributes such as `transform`")
+    place.error("a style moves or shapes things here, which is not read: use the attribute `transform`, or those of the shape")
 }
