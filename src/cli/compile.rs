@@ -186,9 +186,11 @@ pub(super) fn judge_again(
     };
     let carried = Carried {
         memory,
-        placed: Vec::new(),
         disk: &disk,
-        amend: &mut |outcome| see(outcome),
+        amend: &mut |outcome| {
+            see(outcome);
+            Ok(Amended::default())
+        },
     };
     carried_out(request, &watched.product, carried, console)
 }
@@ -222,9 +224,8 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
     let disk = Disk::around(job);
     let carried = Carried {
         memory: &mut Memory::none(),
-        placed: Vec::new(),
         disk: &disk,
-        amend: &mut |_| {},
+        amend: &mut |_| Ok(Amended::default()),
     };
     carried_out(overrides.request(&disk, targets), product, carried, console)
 }
@@ -233,12 +234,19 @@ fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product,
 pub(super) struct Carried<'a> {
     /// What is kept of runs before.
     pub(super) memory: &'a mut Memory,
-    /// Files that have been written already.
-    pub(super) placed: Vec<Placed>,
     /// The files that nothing is written over.
     pub(super) disk: &'a Disk,
-    /// Changes what is told of the outcome before anything is made of it.
-    pub(super) amend: &'a mut dyn FnMut(&mut Outcome),
+    /// Changes what is told of the outcome before anything is made of it, and may write files of its own.
+    pub(super) amend: &'a mut dyn FnMut(&mut Outcome) -> Result<Amended, Failure>,
+}
+
+/// What is made of an outcome besides the product.
+#[derive(Default)]
+pub(super) struct Amended {
+    /// Files that have been written.
+    pub(super) placed: Vec<Placed>,
+    /// What needs saying of them.
+    pub(super) remark: Option<String>,
 }
 
 /// Takes a job through the pipeline, makes the product and tells what came of it.
@@ -262,15 +270,16 @@ pub(super) fn carried_out(
             return console.failure(&unreadable(job, &reason));
         }
     };
-    (carried.amend)(&mut outcome);
-    let made = make(product, &outcome, carried.disk, &mut progress);
+    let made = (carried.amend)(&mut outcome).and_then(|amended| {
+        let mut made = make(product, &outcome, carried.disk, &mut progress)?;
+        made.placed.splice(0..0, amended.placed);
+        made.remark = amended.remark;
+        Ok(made)
+    });
     let timings = progress.finish();
 
     match made {
-        Ok(mut made) => {
-            made.placed.splice(0..0, carried.placed);
-            tell(job, outcome, &made, &timings, product, console)
-        }
+        Ok(made) => tell(job, outcome, &made, &timings, product, console),
         Err(failure) => {
             console.diagnostics(&outcome.diagnostics, &outcome.sources);
             console.failure(&failure)
@@ -330,6 +339,14 @@ fn tell(
 
 /// What needs saying of files.
 fn remark(product: &Product, is_wrong: bool, made: &Made) -> Option<String> {
+    let words = [of_the_product(product, is_wrong, made), made.remark.clone()];
+    words
+        .into_iter()
+        .flatten()
+        .reduce(|one, other| format!("{one}; {other}"))
+}
+
+fn of_the_product(product: &Product, is_wrong: bool, made: &Made) -> Option<String> {
     match (product, &made.differences) {
         (Product::Program(program), _) if is_wrong => Some(match program.fate {
             Fate::Write => "nothing was written".to_owned(),

@@ -229,15 +229,6 @@ impl Console {
         }
     }
 
-    /// Prints which files were written beside what a summary tells.
-    #[cfg(feature = "krl")]
-    pub(super) fn placed(&self, files: &[Placed]) {
-        match (self.format, self.detail) {
-            (MessageFormat::Json, _) | (_, Detail::DiagnosticsOnly) => {}
-            (MessageFormat::Human | MessageFormat::Github, _) => self.stderr(&placed(files)),
-        }
-    }
-
     /// Prints why nothing could be judged.
     pub(super) fn failure(&self, failure: &Failure) -> Exit {
         match self.format {

@@ -1,13 +1,14 @@
 //! `vcutc convert FILE.src ...`: a milling program as V-cuts.
 
 use super::args::ConvertArgs;
-use super::compile::{self, Carried, Product};
+use super::compile::{self, Amended, Carried, Product};
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, load_program};
-use super::output::{Placed, one_file};
+use super::output::one_file;
 use super::{Exit, Targets};
 use crate::convert::write::{ProfileFile, ProfileForm};
 use crate::convert::{self, Conversion, Refused};
+use crate::diag::has_errors;
 use crate::driver::{Outcome, Request};
 use crate::memory::Memory;
 use crate::picture::Prefix;
@@ -100,13 +101,6 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
     for file in sources(args) {
         disk.is_made_from(&file);
     }
-    let mut placed = Vec::new();
-    if args.as_job {
-        match job_written(args, &path, &conversion, &disk, console) {
-            Ok(written) => placed.extend(written),
-            Err(exit) => return exit,
-        }
-    }
     let overlaid = Overlaid {
         path: shown.clone(),
         text: conversion.job.text.clone(),
@@ -120,7 +114,6 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         options: product.typed(),
         targets,
     };
-    let mut drawn = Ok(Vec::new());
     let mut amend = |outcome: &mut Outcome| {
         convert::point_back(
             &conversion,
@@ -128,45 +121,52 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
             &mut outcome.sources,
             &mut outcome.diagnostics,
         );
-        drawn = picture(args, &conversion, outcome, &overlaid.disk);
+        let job = job_written(args, &path, &conversion, outcome, &overlaid.disk, console)?;
+        let drawn = picture(args, &conversion, outcome, &overlaid.disk)?;
+        let remarks = job.remark.into_iter().chain(drawn.remark);
+        Ok(Amended {
+            placed: job.placed.into_iter().chain(drawn.placed).collect(),
+            remark: remarks.reduce(|one, other| format!("{one}; {other}")),
+        })
     };
-    let exit = compile::carried_out(
-        request,
-        &product,
-        Carried {
-            memory: &mut Memory::none(),
-            placed,
-            disk: &overlaid.disk,
-            amend: &mut amend,
-        },
-        console,
-    );
-    match drawn {
-        Ok(files) => {
-            console.placed(&files);
-            exit
-        }
-        Err(reason) => console.failure(&Failure::new(reason)),
-    }
+    let carried = Carried {
+        memory: &mut Memory::none(),
+        disk: &overlaid.disk,
+        amend: &mut amend,
+    };
+    compile::carried_out(request, &product, carried, console)
 }
 
-/// The job as a file, or on standard output.
+/// The job as a file, or on standard output, where it is asked for. One with errors is written too, for that is where they are
+/// mended, and what they point at.
 fn job_written(
     args: &ConvertArgs,
     path: &Path,
     conversion: &Conversion,
+    outcome: &Outcome,
     disk: &Disk,
     console: &Console,
-) -> Result<Vec<Placed>, Exit> {
-    if args.output.as_deref() == Some("-") {
-        return match console.document(&conversion.job.text) {
-            Exit::Success => Ok(Vec::new()),
-            exit => Err(exit),
-        };
+) -> Result<Amended, Failure> {
+    if !args.as_job {
+        return Ok(Amended::default());
     }
-    disk.spares(path)
-        .and_then(|()| one_file(path, conversion.job.text.as_bytes()))
-        .map_err(|reason| console.failure(&Failure::new(reason)))
+    let text = &conversion.job.text;
+    let (placed, name) = if args.output.as_deref() == Some("-") {
+        if console.document(text) != Exit::Success {
+            return Err(Failure::new("the job could not be written to standard output"));
+        }
+        (Vec::new(), "the job".to_owned())
+    } else {
+        let placed = disk
+            .spares(path)
+            .and_then(|()| one_file(path, text.as_bytes()))
+            .map_err(Failure::new)?;
+        (placed, path.to_string_lossy().into_owned())
+    };
+    let remark = has_errors(&outcome.diagnostics).then(|| {
+        format!("{name} is written with its errors, to be mended there; no program comes of it so far")
+    });
+    Ok(Amended { placed, remark })
 }
 
 fn product(args: &ConvertArgs, targets: &Targets) -> Result<Product, Failure> {
@@ -179,19 +179,28 @@ fn product(args: &ConvertArgs, targets: &Targets) -> Result<Product, Failure> {
     }
 }
 
-/// The two paths as a picture, where it is asked for and there is a program.
+/// The two paths as a picture, where it is asked for; a job that was not planned has only one.
 fn picture(
     args: &ConvertArgs,
     conversion: &Conversion,
     outcome: &Outcome,
     disk: &Disk,
-) -> Result<Vec<Placed>, String> {
-    let (Some(path), Some(material)) = (args.picture.as_deref(), Material::of(outcome)) else {
-        return Ok(Vec::new());
+) -> Result<Amended, Failure> {
+    let Some(path) = args.picture.as_deref() else {
+        return Ok(Amended::default());
+    };
+    let Some(material) = Material::of(outcome) else {
+        return Ok(Amended {
+            placed: Vec::new(),
+            remark: Some(format!("{path} was not drawn: there is no path of the blade yet")),
+        });
     };
     let svg = pictures::paths(&material, &conversion.raster.path, Prefix::NONE);
-    disk.spares(Path::new(path))?;
-    one_file(Path::new(path), svg.as_bytes())
+    let placed = disk
+        .spares(Path::new(path))
+        .and_then(|()| one_file(Path::new(path), svg.as_bytes()))
+        .map_err(Failure::new)?;
+    Ok(Amended { placed, remark: None })
 }
 
 /// Where the job lies, or would lie if it were written.

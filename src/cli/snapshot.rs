@@ -39,6 +39,8 @@ pub(super) struct Made {
     pub(super) placed: Vec<Placed>,
     /// What sets the folder apart from a program that was compared.
     pub(super) differences: Option<Differences>,
+    /// What else needs saying of files.
+    pub(super) remark: Option<String>,
 }
 
 /// A complete program that has not taken its place yet.
@@ -74,6 +76,7 @@ impl Ready {
                 diagnostics,
                 placed: output.publish()?,
                 differences: None,
+                remark: None,
             }),
             Self::Compared(differences) => Ok(Made {
                 differences: Some(differences),

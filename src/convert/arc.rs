@@ -1,16 +1,17 @@
-//! A circular arc through three points, and the room that it takes.
+//! A circular arc through three points, or round by an angle, and the room that it takes.
 
 use core::f64::consts::TAU;
+use vcutc_backend_api::units::Angle;
 
 /// An arc in space.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CircularArc {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CircularArc {
     centre: [f64; 3],
     /// From the centre to where it begins.
     first: [f64; 3],
     /// As long, a quarter further.
     second: [f64; 3],
-    /// How far it goes round, in rad; above 0, below a full turn.
+    /// How far it goes round, in rad; at least 0. A full turn and more where the program says so.
     sweep: f64,
 }
 
@@ -42,6 +43,39 @@ impl CircularArc {
         })
     }
 
+    /// The arc on its circle that goes round by an angle: the way it led for angles above 0, the other way for others.
+    pub(super) fn turned_by(self, angle: Angle) -> Self {
+        let sweep = angle.to_rad();
+        Self {
+            second: if sweep < 0.0 {
+                scaled(self.second, -1.0)
+            } else {
+                self.second
+            },
+            sweep: sweep.abs(),
+            ..self
+        }
+    }
+
+    /// As seen in other axes: where they put a direction, and where a point.
+    pub(super) fn seen(
+        self,
+        direction: impl Fn([f64; 3]) -> [f64; 3],
+        point: impl Fn([f64; 3]) -> [f64; 3],
+    ) -> Self {
+        Self {
+            centre: point(self.centre),
+            first: direction(self.first),
+            second: direction(self.second),
+            sweep: self.sweep,
+        }
+    }
+
+    /// Where it ends.
+    pub(super) fn end(&self) -> [f64; 3] {
+        self.at(self.sweep)
+    }
+
     /// The point so far round from where it begins, in rad.
     pub(super) fn at(&self, angle: f64) -> [f64; 3] {
         let [x, y] = [libm::cos(angle), libm::sin(angle)];
@@ -63,7 +97,7 @@ impl CircularArc {
                 [x1.max(x), y1.max(y), z1.max(z)],
             ];
         };
-        take(self.at(self.sweep));
+        take(self.end());
         for (first, second) in self.first.into_iter().zip(self.second) {
             let turning = libm::atan2(second, first);
             for angle in [turning, turning + TAU / 2.0, turning + TAU] {
@@ -124,6 +158,24 @@ mod tests {
             "{low:?} {high:?}"
         );
         assert!(CircularArc::through([[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]]).is_none());
+    }
+
+    #[test]
+    fn a_full_circle_takes_the_room_of_all_of_it() {
+        let arc = CircularArc::through([[10.0, 0.0, 5.0], [0.0, 10.0, 5.0], [-10.0, 0.0, 5.0]]).unwrap();
+        for turns in [360.0, 720.0, -360.0] {
+            let round = arc.turned_by(Angle::deg(turns));
+            assert!(distance(round.end(), [10.0, 0.0, 5.0]) < 1e-9);
+            let [low, high] = round.room();
+            assert!(
+                distance(low, [-10.0, -10.0, 5.0]) < 1e-9 && distance(high, [10.0, 10.0, 5.0]) < 1e-9,
+                "{low:?} {high:?}"
+            );
+        }
+        let back = arc.turned_by(Angle::deg(-90.0));
+        assert!(distance(back.end(), [0.0, -10.0, 5.0]) < 1e-9);
+        let [low, high] = back.room();
+        assert!(low[1] > -10.1 && high[1] < 0.1, "{low:?} {high:?}");
     }
 
     proptest! {

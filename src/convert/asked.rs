@@ -196,7 +196,7 @@ impl Asked {
 }
 
 /// Nothing in a cell is longer, in mm.
-const LONGEST: f64 = 100_000.0;
+pub(super) const LONGEST: f64 = 100_000.0;
 
 fn bad(option: &'static str, given: &str, why: String) -> BadOption {
     BadOption {

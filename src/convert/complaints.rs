@@ -2,6 +2,7 @@
 
 use super::axes::{Axes, Axis, Direction};
 use super::milling::{Milling, Move, Written};
+use super::plunges::{Plunge, Start};
 use super::raster::Pass;
 use super::runs::{Kind, Run, Stretch};
 use crate::diag::{Code, Diagnostic};
@@ -134,6 +135,16 @@ pub(super) fn unknown_end(place: Span, why: &str) -> Diagnostic {
     .help("give the `.dat` file with the positions too, or write X, Y and Z into the motion")
 }
 
+pub(super) fn too_far(place: Span, value: f64) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotFollowed,
+        format!("this motion leads to a coordinate of {value:e} mm, and no cell is larger than 100 m"),
+        place,
+        "beyond every cell",
+    )
+    .help("mend the number; coordinates are in mm")
+}
+
 pub(super) fn frame_changes(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
@@ -215,6 +226,8 @@ pub(super) fn speed_unknown(place: Span) -> Box<Diagnostic> {
     .into()
 }
 
+const COORDINATES: &str = "coordinates are those of the job: x across the passes, y along them, z up, from the blank's lowest corner";
+
 /// A motion in the material that is no pass.
 pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
     let ([x0, y0, z0], [x1, y1, z1]) = (stretch.from, stretch.to);
@@ -222,14 +235,16 @@ pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
         Kind::Across => "this motion cuts across the passes",
         Kind::Curve => "this motion cuts on an arc, and V-cuts are straight",
         Kind::Oblique if (z1 - z0).abs() > super::raster::SAME => "this motion cuts along a slope",
-        Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright => {
+        Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright | Kind::Landing => {
             "this motion cuts obliquely to the passes"
         }
     };
     let help = match stretch.kind {
-        Kind::Curve => "keep arcs above the blank or beside it, or say where the blank lies with `--origin`",
-        Kind::Across | Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright => {
-            "let the tool leave the blank before it goes to the next pass, or say where the blank lies with `--origin`"
+        Kind::Curve => {
+            "keep arcs above the blank or beside it, or say where the blank lies with `--origin X,Y,Z`"
+        }
+        Kind::Across | Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright | Kind::Landing => {
+            "let the tool leave the blank before it goes to the next pass, or say where the blank lies with `--origin X,Y,Z`"
         }
     };
     Diagnostic::new(
@@ -246,8 +261,24 @@ pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
             show(z1)
         ),
     )
-    .note("coordinates are those of the job: x across the passes, y along them, z up, from the blank's lowest corner")
+    .note(COORDINATES)
     .help(help)
+}
+
+/// A plunge into what no pass cuts.
+pub(super) fn plunge(plunge: &Plunge) -> Diagnostic {
+    let headline = match plunge.start {
+        Start::Above => {
+            "this motion goes straight into the blank where no pass cuts, and V-cuts run through it"
+        }
+        Start::Unknown => {
+            "this motion ends in the blank where no pass cuts, and from where it comes is not known"
+        }
+    };
+    let [x, y, z] = plunge.low.map(show);
+    Diagnostic::new(Code::NoPass, headline, plunge.place, format!("down to ({x}, {y}, {z})"))
+        .note(COORDINATES)
+        .help("let a pass run as deep there, keep the tool above the blank, or say where the blank lies with `--origin X,Y,Z`")
 }
 
 pub(super) fn leans(place: Span, earlier: Option<Span>) -> Diagnostic {
@@ -261,8 +292,9 @@ pub(super) fn leans(place: Span, earlier: Option<Span>) -> Diagnostic {
         Some(earlier) => diagnostic.and(earlier, "upright here"),
         None => diagnostic,
     };
-    diagnostic
-        .help("use a three-axis operation of the CAM system; if another axis points up, say so with `--up`")
+    diagnostic.help(
+        "use a three-axis operation of the CAM system; if another axis points up, say so with `--up AXIS`",
+    )
 }
 
 pub(super) fn too_short_pass(pass: &Pass, depth: f64) -> Box<Diagnostic> {
@@ -292,7 +324,7 @@ pub(super) fn below_the_blank(pass: &Pass) -> Box<Diagnostic> {
         pass.places[0],
         "below the bottom",
     )
-    .help("let the lowest passes end at the bottom of the blank; if it lies lower, say where with `--origin`")
+    .help("let the lowest passes end at the bottom of the blank")
     .into()
 }
 
@@ -313,7 +345,7 @@ pub(super) fn nothing_straight(milling: &Milling) -> Box<Diagnostic> {
         place,
         label,
     )
-    .help("passes have to run along x or y of the program's base; if another axis than z points up, say so with `--up`")
+    .help("passes have to run along x or y of the program's base; if another axis than z points up, say so with `--up AXIS`")
     .into()
 }
 
@@ -349,21 +381,17 @@ pub(super) fn too_low(lowest: &Run, height: f64) -> Box<Diagnostic> {
         lowest.places[0],
         "the lowest pass",
     )
-    .help("say where the blank's lowest corner lies in the file with `--origin X,Y,Z`, or mend `--stock`")
+    .help(SAY_WHERE)
     .into()
 }
 
 /// Passes on both sides of the file's zero.
-pub(super) fn both_sides(
-    [deepest, highest]: [&Run; 2],
-    [below, above]: [usize; 2],
-    height: f64,
-) -> Box<Diagnostic> {
+pub(super) fn both_sides([deepest, highest]: [&Run; 2], [below, above]: [usize; 2]) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         format!(
-            "passes lie on both sides of the file's zero, {below} below it and {above} above: whether it is at the bottom of the \
-             blank, which is cut through, or at its top is not clear"
+            "passes lie on both sides of the file's zero, {below} below it and {above} above: how high in the blank that lies \
+             is not clear"
         ),
         deepest.places[0],
         format!("the lowest pass, at z {} mm", show(deepest.height())),
@@ -372,39 +400,64 @@ pub(super) fn both_sides(
         highest.places[0],
         format!("as long as a pass, at z {} mm", show(highest.height())),
     )
-    .help(format!(
-        "say where the blank's lowest corner lies in the file with `--origin X,Y,Z`: Z is 0 if zero is at the bottom, {} if it \
-         is at the top",
-        show(-height)
-    ))
+    .help(SAY_WHERE)
     .into()
 }
 
+/// That nothing but the user says where the blank lies; offers follow.
+const SAY_WHERE: &str = "say where the blank's lowest corner lies in the file with `--origin X,Y,Z`";
+
+/// Passes over no blank of that width with its zero at an edge or in the middle.
 pub(super) fn unclear_place(
     milling: &Milling,
-    (axis, size): (Direction, f64),
+    axis: (Direction, f64),
+    range: [f64; 2],
+    ends: [Option<&Run>; 2],
+) -> Box<Diagnostic> {
+    let why = format!("where a blank {} mm wide lies there is not clear", show(axis.1));
+    over_a_range(milling, axis.0, range, ends, &why)
+}
+
+/// Passes over a blank with its zero at an edge, and over one with its zero in the middle.
+pub(super) fn two_places(
+    milling: &Milling,
+    axis: (Direction, f64),
+    range: [f64; 2],
+    ends: [Option<&Run>; 2],
+) -> Box<Diagnostic> {
+    let why = format!(
+        "a blank {} mm wide may have the file's zero at an edge or in its middle then",
+        show(axis.1)
+    );
+    over_a_range(milling, axis.0, range, ends, &why)
+}
+
+/// That passes lie over a range, and what follows from that.
+fn over_a_range(
+    milling: &Milling,
+    axis: Direction,
     [least, most]: [f64; 2],
     ends: [Option<&Run>; 2],
+    why: &str,
 ) -> Box<Diagnostic> {
     let is_turned = axis.of([1.0; 3]) < 0.0;
     let [low, high] = if is_turned { [-most, -least] } else { [least, most] };
     let [first, last] = if is_turned { [ends[1], ends[0]] } else { ends };
     let place = |run: Option<&Run>| run.map_or_else(|| at_the_program(milling), |run| run.places[0]);
-    let label = |value: f64| format!("a pass at {} {} mm", axis.axis.letter(), show(value));
+    let letter = axis.axis.letter();
+    let label = |value: f64| format!("a pass at {letter} {} mm", show(value));
     Diagnostic::new(
         Code::Unclear,
         format!(
-            "passes lie at {} from {} to {} mm of the file, and where a blank {} mm wide lies there is not clear",
-            axis.axis.letter(),
+            "passes lie at {letter} from {} to {} mm of the file, and {why}",
             show(low),
-            show(high),
-            show(size)
+            show(high)
         ),
         place(first),
         label(low),
     )
     .and(place(last), label(high))
-    .help("say where the blank's lowest corner lies in the file, for example `--origin 0,0,0`")
+    .help(SAY_WHERE)
     .into()
 }
 
@@ -450,7 +503,7 @@ pub(super) fn both_ways(
         label(one),
     )
     .and(place(second_run), label(other))
-    .help(format!("say it: `--along {}` or `--along {}`", one.letter(), other.letter()))
+    .help("say along which with `--along AXIS`")
     .into()
 }
 
@@ -491,11 +544,29 @@ pub(super) fn unclear_speed(fastest: Written) -> Box<Diagnostic> {
         fastest.place,
         "in which unit?",
     )
-    .help("say it: `--feed-unit mm/min` or `--feed-unit mm/s`")
+    .help("if it is in mm/min: `--feed-unit mm/min`")
+    .help("if it is in mm/s: `--feed-unit mm/s`")
     .into()
 }
 
-pub(super) fn no_clearance(milling: &Milling, axes: Axes) -> Box<Diagnostic> {
+pub(super) fn too_fast(fastest: Written) -> Box<Diagnostic> {
+    let value = fastest.value;
+    let value = if value < 1e9 {
+        show(value)
+    } else {
+        format!("{value:e}")
+    };
+    Diagnostic::new(
+        Code::Unclear,
+        format!("a speed of {value} is more than a robot has, in mm/min, too"),
+        fastest.place,
+        "what is it?",
+    )
+    .help("write the speed that is meant, or give the speeds with `--feed 200mm/s` and `--travel 200mm/s`")
+    .into()
+}
+
+pub(super) fn no_clearance(milling: &Milling, axes: Axes, top: f64) -> Box<Diagnostic> {
     let height = |step: &Move| step.to.map(|to| axes.point(to)[2]);
     let known = milling
         .moves
@@ -508,18 +579,13 @@ pub(super) fn no_clearance(milling: &Milling, axes: Axes) -> Box<Diagnostic> {
     };
     Diagnostic::new(
         Code::Unclear,
-        "the program never goes above the blank, so how high the safe plane lies is not clear",
+        format!(
+            "the program never goes above the blank, whose top is at z {} mm, so how high the safe plane lies is not clear",
+            show(top)
+        ),
         place,
         label,
     )
-    .help("give its height above the blank, for example `--clearance 10mm`")
+    .help("give its height above the blank with `--clearance LENGTH`, or say where the blank lies")
     .into()
-}
-
-/// A program whose passes are straight only if more noise is allowed.
-pub(super) fn noisy(diagnostic: Diagnostic, tolerance: f64, passes: usize) -> Diagnostic {
-    diagnostic.help(format!(
-        "if this is rounding noise: with `--tolerance {}mm` the program is a raster of {passes} passes",
-        show(tolerance)
-    ))
 }

@@ -142,6 +142,9 @@ fn unit(
     let Some(fastest) = fastest.filter(|fastest| fastest.value > FASTEST) else {
         return Ok(FeedUnit::MetresPerSecond);
     };
+    if fastest.value > FASTEST * 60_000.0 {
+        return Err(complaints::too_fast(fastest));
+    }
     // In mm/s it would still be faster than any robot.
     if fastest.value > FASTEST * 1000.0 {
         inferences.push(Inference::new(

@@ -1,6 +1,7 @@
 //! What a conversion does not carry over, and what may be missing: warnings, with every line of it.
 
 use super::milling::Milling;
+use super::plunges::Plunge;
 use super::raster::{Pass, Raster};
 use super::write::Numbered;
 use crate::diag::{Code, Diagnostic};
@@ -18,6 +19,7 @@ pub(super) fn warnings(milling: &Milling, raster: &Raster, sources: &SourceMap) 
         .collect();
     warnings.extend(left_out(&milling.left_out, &lines));
     warnings.extend(milling.uncalled.iter().map(|&place| uncalled(place)));
+    warnings.extend(plunges(&raster.plunges, &lines));
     warnings.extend(above(&raster.above, &lines));
     warnings.extend(beside(&raster.beside, &lines));
     warnings
@@ -108,6 +110,32 @@ fn beside(passes: &[Pass], lines: &dyn Fn(Span) -> usize) -> Option<Diagnostic> 
 fn above(passes: &[Pass], lines: &dyn Fn(Span) -> usize) -> Option<Diagnostic> {
     let lies = |pass: &Pass| format!("z {} mm", show(pass.z));
     passes_left_out(Code::AboveBlank, passes, ("above the blank", &lies), lines)
+}
+
+/// Plunges, which passes make good.
+fn plunges(plunges: &[Plunge], lines: &dyn Fn(Span) -> usize) -> Option<Diagnostic> {
+    let (first, rest) = plunges.split_first()?;
+    let headline = match rest.len() {
+        0 => "a motion goes straight into the uncut blank and is left out".to_owned(),
+        more => format!(
+            "{} motions go straight into the uncut blank and are left out",
+            more + 1
+        ),
+    };
+    let [x, y, z] = first.low.map(show);
+    let label = format!("down to ({x}, {y}, {z}) of the job");
+    let diagnostic = Diagnostic::new(Code::Plunge, headline, first.place, label).note(
+        "a pass cuts there later, and V-cuts come from beside the blank: nothing of the shape is missing",
+    );
+    let rest: Vec<Span> = rest.iter().map(|plunge| plunge.place).collect();
+    let diagnostic = match further(&rest, lines) {
+        Some(further) => diagnostic.note(format!("the others stand in {further}")),
+        None => diagnostic,
+    };
+    Some(
+        diagnostic
+            .help("let the tool go down beside the blank if the program is to be compared with its job"),
+    )
 }
 
 /// A routine that breaks off.

@@ -1,6 +1,7 @@
 //! What a milling program says, as far as a conversion needs it: motions with places, speeds and attitudes, and the
 //! statements that are none of these.
 
+use super::arc::CircularArc;
 use crate::source::Span;
 use vcutc_backend_api::geometry::Orientation;
 
@@ -65,10 +66,10 @@ pub struct Move {
 pub enum Way {
     /// On a straight line: `LIN`, `SLIN`.
     Straight,
-    /// On a circular arc through a point: `CIRC`, `SCIRC`.
+    /// On a circular arc: `CIRC`, `SCIRC`.
     Arc {
-        /// The point on the way, as the motion's end is told; none where nobody knows.
-        through: Option<[f64; 3]>,
+        /// The arc, told as the motion's end is; none where nobody knows.
+        course: Option<CircularArc>,
     },
     /// As all axes like it: `PTP`, `SPTP`.
     Joint,

@@ -8,14 +8,15 @@
 //! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate; `motions`
 //!    says where they lead, `frames` in which tool and base.
 //! 2. `runs` puts together what leads along one axis, [`place`] finds out along which one and where the blank lies, [`raster`]
-//!    which runs are passes; `left_out` tells what is none.
+//!    which runs are passes, [`plunges`] what goes into the blank without one; `left_out` tells what is none, `offers` tries the
+//!    options that would settle what is open.
 //! 3. `feeds` and `part` take speeds, the part and the least edge from the passes where the user gives none.
 //! 4. [`mod@write`] writes the job, and knows for every tip the line of the program that it stands for.
 //!
 //! What is not said by the user is taken from the program only where that leaves one possibility, and told
 //! ([`Inference`]).
 
-mod arc;
+pub mod arc;
 pub mod asked;
 mod attitude;
 pub mod axes;
@@ -25,8 +26,10 @@ mod frames;
 mod left_out;
 pub mod milling;
 mod motions;
+mod offers;
 mod part;
 pub mod place;
+pub mod plunges;
 pub mod raster;
 mod read;
 mod runs;
@@ -41,6 +44,7 @@ use asked::Asked;
 use axes::Axes;
 use core::fmt;
 use milling::Milling;
+use offers::{Choice, Offer, Unsettled};
 use place::Blank;
 use raster::{Raster, SAME};
 use read::Files;
@@ -167,17 +171,12 @@ pub fn point_back(
 /// What keeps it from being a raster of passes, and what the user has to say in its place.
 pub fn convert(request: Request<'_>) -> Result<Conversion, Refused> {
     let mut sources = SourceMap::default();
-    // A byte order mark is no statement.
     let stripped: Vec<ProgramFile> = request
         .files
         .iter()
         .map(|file| ProgramFile {
             name: file.name.clone(),
-            text: file
-                .text
-                .strip_prefix('\u{feff}')
-                .unwrap_or(&file.text)
-                .to_owned(),
+            text: without_marks(&file.text).to_owned(),
         })
         .collect();
     let Some(files) = Files::add(&stripped, &mut sources) else {
@@ -197,6 +196,21 @@ pub fn convert(request: Request<'_>) -> Result<Conversion, Refused> {
     }
 }
 
+/// A text without the mark of UTF-8 at its head, and without the marks of DOS (Ctrl-Z) at its end: they are no statements.
+fn without_marks(text: &str) -> &str {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let trimmed = text.trim_end_matches(|c: char| c == END_OF_FILE || c.is_whitespace());
+    let behind = text.get(trimmed.len()..).unwrap_or_default();
+    if behind.contains(END_OF_FILE) {
+        trimmed
+    } else {
+        text
+    }
+}
+
+/// Ctrl-Z, with which DOS ends texts.
+const END_OF_FILE: char = '\u{1a}';
+
 /// What a program came to.
 struct Found {
     job: JobText,
@@ -213,17 +227,17 @@ fn understood(
     let one = |diagnostic: Box<Diagnostic>| vec![*diagnostic];
     let asked = request.asked;
     let milling = read::read(files)?;
-    let Recognised {
-        axes,
+    let Settled {
         blank,
         raster,
         mut inferences,
-    } = recognised(&milling, asked, asked.tolerance).map_err(|found| noisy(found, &milling, asked))?;
+        clearance,
+    } = settled(&milling, asked).map_err(|unsettled| unsettled.tried(&milling, asked))?;
     inferences.push(in_passes(&milling, &raster));
     inferences.extend(noise(&raster, asked));
     inferences.extend(standing(&milling));
     let feeds = feeds::feeds(&milling, &raster, asked, &mut inferences).map_err(one)?;
-    let clearance = clearance(&milling, &raster, (axes, blank), asked, &mut inferences).map_err(one)?;
+    let clearance = clearance.said(&mut inferences);
     let blade = blade(request, &raster, blank, &mut inferences);
     let part = part(request, &raster, blank, &blade, &mut inferences);
     let job = write::job(&Material {
@@ -249,67 +263,63 @@ fn understood(
     })
 }
 
-/// A program as passes over a blank.
-struct Recognised {
-    axes: Axes,
+/// A program as passes over a blank, below a safe plane.
+struct Settled {
     blank: Blank,
     raster: Raster,
     inferences: Vec<Inference>,
+    clearance: Clearance,
 }
 
-fn recognised(milling: &Milling, asked: &Asked, tolerance: Length) -> Result<Recognised, Vec<Diagnostic>> {
-    let one = |diagnostic: Box<Diagnostic>| vec![*diagnostic];
-    let asked = &Asked {
-        tolerance,
-        ..asked.clone()
-    };
+fn settled(milling: &Milling, asked: &Asked) -> Result<Settled, Unsettled> {
     let mut inferences = Vec::new();
-    let axes = place::axes(milling, asked, &mut inferences).map_err(one)?;
-    let blank = place::blank(milling, axes, asked, &mut inferences).map_err(one)?;
-    if let Some(refused) = attitude::leaning(milling, axes, blank, tolerance.to_mm()) {
-        return Err(vec![refused]);
+    let axes = place::axes(milling, asked, &mut inferences)?;
+    let blank = place::blank(milling, axes, asked, &mut inferences)?;
+    let tolerance = asked.tolerance.to_mm();
+    if let Some(refused) = attitude::leaning(milling, axes, blank, tolerance) {
+        return Err(Unsettled::from(Box::new(refused)).offering(place::other_ways_up(asked)));
     }
-    let raster = raster::recognise(milling, axes, blank, tolerance.to_mm())?;
-    check(milling, &raster, blank).map_err(one)?;
-    Ok(Recognised {
-        axes,
+    let raster =
+        raster::recognise(milling, axes, blank, (tolerance, asked.swing)).map_err(|diagnostics| {
+            Unsettled {
+                diagnostics,
+                offers: Vec::new(),
+            }
+        })?;
+    check(milling, &raster, (axes, blank), asked)?;
+    let clearance = match asked.clearance {
+        Some(said) => Clearance::Said(said),
+        None => safe_plane(milling, &raster, (axes, blank), asked)?,
+    };
+    Ok(Settled {
         blank,
         raster,
         inferences,
+        clearance,
     })
 }
 
-/// Tolerances that are tried where a program is no raster, in mm.
-const COARSER: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
-
-/// What was found, with the least tolerance by which the program is a raster, if it is noise that keeps it from being one.
-fn noisy(found: Vec<Diagnostic>, milling: &Milling, asked: &Asked) -> Vec<Diagnostic> {
-    let mut coarser = COARSER
-        .into_iter()
-        .filter(|&coarser| coarser > asked.tolerance.to_mm());
-    let mended = coarser.find_map(|coarser| {
-        let recognised = recognised(milling, asked, Length::mm(coarser)).ok()?;
-        Some((coarser, recognised.raster.passes.len()))
-    });
-    let mut found = found.into_iter();
-    let first = found.next().map(|first| match mended {
-        Some((tolerance, passes)) => complaints::noisy(first, tolerance, passes),
-        None => first,
-    });
-    first.into_iter().chain(found).collect()
-}
-
 /// There are passes, and all of them run through the blank.
-fn check(milling: &Milling, raster: &Raster, blank: Blank) -> Result<(), Box<Diagnostic>> {
-    if raster.passes.is_empty() {
-        return Err(complaints::no_passes(milling, None, blank.height));
-    }
-    if let Some(pass) = raster.passes.iter().find(|pass| pass.z < 0.0) {
-        return Err(complaints::below_the_blank(pass));
+fn check(
+    milling: &Milling,
+    raster: &Raster,
+    (axes, blank): (Axes, Blank),
+    asked: &Asked,
+) -> Result<(), Unsettled> {
+    let Some(lowest) = raster
+        .passes
+        .iter()
+        .reduce(|one, other| if other.z < one.z { other } else { one })
+    else {
+        return Err(complaints::no_passes(milling, None, blank.corner[2] + blank.height).into());
+    };
+    if lowest.z < 0.0 {
+        let lower = place::lower(axes, blank, -lowest.z, asked);
+        return Err(Unsettled::from(complaints::below_the_blank(lowest)).offering(lower));
     }
     let ends_within = |pass: &&raster::Pass| pass.y[0] > SAME || pass.y[1] < blank.depth - SAME;
     match raster.passes.iter().find(ends_within) {
-        Some(pass) => Err(complaints::too_short_pass(pass, blank.depth)),
+        Some(pass) => Err(complaints::too_short_pass(pass, blank.depth).into()),
         None => Ok(()),
     }
 }
@@ -378,29 +388,61 @@ fn standing(milling: &Milling) -> Option<Inference> {
     })
 }
 
-/// The safe plane: as high above the blank as the program goes.
-fn clearance(
+/// How high the safe plane lies above the blank, and who says so.
+#[derive(Clone, Copy)]
+enum Clearance {
+    Said(Length),
+    /// As high as the program goes.
+    OfTheProgram(Length),
+}
+
+impl Clearance {
+    fn said(self, inferences: &mut Vec<Inference>) -> Length {
+        match self {
+            Self::Said(height) => height,
+            Self::OfTheProgram(height) => {
+                inferences.push(Inference::new(
+                    "clearance",
+                    format!("{} mm", show(height.to_mm())),
+                    "the highest place of the file, above the blank",
+                ));
+                height
+            }
+        }
+    }
+}
+
+/// Above the blank where only the safe plane is missing.
+const SAFE: Length = Length::mm(10.0);
+
+/// The safe plane: as high above the blank as the program goes. Where it never goes above the blank, that may lie lower.
+fn safe_plane(
     milling: &Milling,
     raster: &Raster,
     (axes, blank): (Axes, Blank),
     asked: &Asked,
-    inferences: &mut Vec<Inference>,
-) -> Result<Length, Box<Diagnostic>> {
-    if let Some(clearance) = asked.clearance {
-        return Ok(clearance);
-    }
+) -> Result<Clearance, Unsettled> {
     let above = raster
         .highest
         .map_or(0.0, |highest| grid::up(highest - blank.height));
-    if above <= SAME {
-        return Err(complaints::no_clearance(milling, axes));
+    if above > SAME {
+        return Ok(Clearance::OfTheProgram(Length::mm(above)));
     }
-    inferences.push(Inference::new(
-        "clearance",
-        format!("{} mm", show(above)),
-        "the highest place of the file, above the blank",
-    ));
-    Ok(Length::mm(above))
+    let (when, others) = match asked.origin {
+        Some(_) => ("to give its height above the blank", Vec::new()),
+        None => (
+            "if the blank lies there all the same, and the program goes around it",
+            place::other_heights(milling, axes, blank, asked),
+        ),
+    };
+    let anyway = Offer {
+        when: when.to_owned(),
+        option: Choice::Clearance(SAFE),
+    };
+    let top = blank.corner[2] + blank.height;
+    Err(Unsettled::from(complaints::no_clearance(milling, axes, top))
+        .offering(others)
+        .offering([anyway]))
 }
 
 /// The blade: one of the shop's, or what is said of it, with the shortest edge that frees all chips.

@@ -5,6 +5,7 @@
 //! stand still they are none of a job's business, and when they move the positions mean something else.
 
 use super::arc::CircularArc;
+use super::asked::LONGEST;
 use super::complaints;
 use super::frames::Framing;
 use super::milling::{Move, Way, Written};
@@ -161,7 +162,7 @@ impl Reader<'_, '_> {
         if self.depends(place) {
             return;
         }
-        self.frames_of(asker, &arc.tail, Way::Arc { through: None }, place);
+        self.frames_of(asker, &arc.tail, Way::Arc { course: None }, place);
         let telling = match arc.points {
             ArcPoints::Absolute => Telling::Absolute,
             ArcPoints::Relative => Telling::Relative(arc.tail.directions.unwrap_or(Directions::Base)),
@@ -177,22 +178,21 @@ impl Reader<'_, '_> {
                 "a point of this arc is not known: it has a name that is not declared in the files given, or leaves a coordinate out",
             ));
         };
-        let mut through = on_the_way.all(Component::TIP);
+        if let Some(far) = farthest(&on_the_way).or_else(|| farthest(&after)) {
+            return self.push(complaints::too_far(place, far));
+        }
+        let mut course = circle([&self.tool.last, &on_the_way, &after]);
         if let Some(degrees) = arc.angle {
-            let points = [
-                self.tool.last.all(Component::TIP),
-                through,
-                after.all(Component::TIP),
-            ];
-            let Some(turned) = turned(points, degrees) else {
+            let Some(circle) = course else {
                 return self.push(complaints::unknown_arc(place));
             };
-            through = Some(turned[0]);
-            for (component, value) in Component::TIP.into_iter().zip(turned[1]) {
+            let turned = circle.turned_by(Angle::deg(degrees));
+            for (component, value) in Component::TIP.into_iter().zip(turned.end()) {
                 after.set(component, value);
             }
+            course = Some(turned);
         }
-        self.arrive(after, Way::Arc { through }, &arc.tail, place);
+        self.arrive(after, Way::Arc { course }, &arc.tail, place);
     }
 
     /// Whether a motion is made is decided while the program runs: then it is told, once for what decides.
@@ -217,6 +217,9 @@ impl Reader<'_, '_> {
 
     /// The tool has been led to a point.
     fn arrive(&mut self, after: Coordinates, way: Way, tail: &Tail<'_>, place: Span) {
+        if let Some(far) = farthest(&after) {
+            return self.push(complaints::too_far(place, far));
+        }
         self.tool.last = after;
         let to = after.all(Component::TIP);
         match way {
@@ -310,11 +313,18 @@ fn is_where_it_is(target: &Target<'_>) -> bool {
     }
 }
 
-/// The middle and the end of an arc that goes round by an angle instead of ending at its point.
-fn turned([from, through, to]: [Option<[f64; 3]>; 3], degrees: f64) -> Option<[[f64; 3]; 2]> {
-    let arc = CircularArc::through([from?, through?, to?])?;
-    let sweep = Angle::deg(degrees).to_rad();
-    Some([arc.at(sweep / 2.0), arc.at(sweep)])
+/// A coordinate that no cell holds, in mm.
+fn farthest(place: &Coordinates) -> Option<f64> {
+    let mut known = Component::TIP
+        .into_iter()
+        .filter_map(|component| place.get(component));
+    known.find(|value| value.abs() > LONGEST)
+}
+
+/// The arc through three places, where all of them are known and lie on a circle.
+fn circle(places: [&Coordinates; 3]) -> Option<CircularArc> {
+    let [from, through, to] = places.map(|place| place.all(Component::TIP));
+    CircularArc::through([from?, through?, to?])
 }
 
 /// `$VEL.CP=0.2`, `$VEL={CP 0.2}`, `$VEL=SVEL_CP(0.2, , LCPDAT1)`.

@@ -2,16 +2,17 @@
 //!
 //! Programs do not say where their blank is. Three places are usual for their zero: a corner of the blank, the middle of it,
 //! and either at the bottom or at the top. Where the passes leave one of them only, that one is taken and told; where they
-//! leave several, the user is asked.
+//! leave several, the user is asked, and told which option says which of them.
 
 use super::Inference;
 use super::asked::Asked;
 use super::axes::{Axes, Axis, Direction, Sense};
 use super::complaints;
 use super::milling::{Milling, Way};
+use super::offers::{Choice, Offer, Unsettled};
 use super::raster::SAME;
 use super::runs::{Run, runs};
-use crate::diag::Diagnostic;
+
 use crate::plan::parameters::show;
 
 /// A blank in the axes of a job.
@@ -46,7 +47,7 @@ pub(super) fn axes(
     milling: &Milling,
     asked: &Asked,
     inferences: &mut Vec<Inference>,
-) -> Result<Axes, Box<Diagnostic>> {
+) -> Result<Axes, Unsettled> {
     let up = asked.up;
     let level: Vec<Axis> = Axis::ALL.into_iter().filter(|&axis| axis != up.axis).collect();
     let (one, other) = match level.as_slice() {
@@ -65,14 +66,15 @@ pub(super) fn axes(
         (other, second, first)
     };
     if longer <= 0.0 {
-        return Err(complaints::nothing_straight(milling));
+        return Err(Unsettled::from(complaints::nothing_straight(milling)).offering(other_ways_up(asked)));
     }
     if longer < shorter * CLEARLY {
-        return Err(complaints::both_ways(
+        let told = complaints::both_ways(
             milling,
             (one, first, longest(&ones)),
             (other, second, longest(&others)),
-        ));
+        );
+        return Err(Unsettled::from(told).offering([one, other].map(runs_along)));
     }
     let axes = Axes::new(along, up);
     if along != Axis::Y || up != Direction::along(Axis::Z) {
@@ -90,6 +92,27 @@ pub(super) fn axes(
     Ok(axes)
 }
 
+fn runs_along(axis: Axis) -> Offer {
+    Offer {
+        when: format!("if its passes run along {}", axis.letter()),
+        option: Choice::Along(axis),
+    }
+}
+
+/// Directions that may point up instead.
+pub(super) fn other_ways_up(asked: &Asked) -> Vec<Offer> {
+    let senses = [Sense::Positive, Sense::Negative];
+    let all = Axis::ALL
+        .into_iter()
+        .flat_map(|axis| senses.map(|sense| Direction { axis, sense }));
+    all.filter(|&up| up != asked.up && asked.along != Some(up.axis))
+        .map(|up| Offer {
+            when: "if another axis points up".to_owned(),
+            option: Choice::Up(up),
+        })
+        .collect()
+}
+
 /// Where the blank lies.
 ///
 /// # Errors
@@ -99,50 +122,203 @@ pub(super) fn blank(
     axes: Axes,
     asked: &Asked,
     inferences: &mut Vec<Inference>,
-) -> Result<Blank, Box<Diagnostic>> {
-    let [width, depth, height] = asked.stock;
-    let mut blank = Blank {
+) -> Result<Blank, Unsettled> {
+    if let Some(origin) = asked.origin {
+        return Ok(blank_at(origin, axes, asked.stock));
+    }
+    let along = runs(milling, axes, asked.tolerance.to_mm());
+    let field = Field {
+        axes,
+        sizes: asked.stock,
+        along: &along,
+    };
+    let [width, depth, height] = field.sizes;
+    let levels = Levels::of(milling, axes, &along, depth);
+    let bottom = bottom(milling, &levels, &field)?;
+    let passes = field.passes(bottom.low);
+    let (Some(xs), Some(ys)) = (sideways(&passes), lengthways(&passes)) else {
+        return Err(complaints::no_passes(milling, lowest(&along), bottom.low + height).into());
+    };
+    let front = match front(ys, (axes.along, depth)) {
+        Some(front) => front,
+        None => return Err(too_short(milling, &passes, ys, asked)),
+    };
+    let side = match sides(xs, (axes.across, width)).as_slice() {
+        [side] => *side,
+        _ => return Err(field.unclear_side(milling, &passes, xs, [front.low, bottom.low])),
+    };
+    inferences.push(placed((side, xs), (front, ys), &bottom));
+    Ok(Blank {
         width,
         depth,
         height,
-        corner: [0.0; 3],
+        corner: [side.low, front.low, bottom.low],
+    })
+}
+
+/// The blank with its lowest corner at a place of the file.
+fn blank_at(origin: [f64; 3], axes: Axes, [width, depth, height]: [f64; 3]) -> Blank {
+    let low = |direction: Direction, size: f64| match direction.sense {
+        Sense::Positive => direction.of(origin),
+        Sense::Negative => direction.of(origin) - size,
     };
-    if let Some(origin) = asked.origin {
-        let low = |direction: Direction, size: f64| match direction.sense {
-            Sense::Positive => direction.of(origin),
-            Sense::Negative => direction.of(origin) - size,
-        };
-        blank.corner = [
+    Blank {
+        width,
+        depth,
+        height,
+        corner: [
             low(axes.across, width),
             low(axes.along, depth),
             low(axes.up, height),
-        ];
-        return Ok(blank);
+        ],
     }
-    let along = runs(milling, axes, asked.tolerance.to_mm());
-    let levels = Levels::of(milling, axes, &along, depth);
-    let bottom = bottom(milling, &levels, height)?;
-    let passes: Vec<Run> = along
-        .iter()
-        .copied()
-        .filter(|run| run.height() < bottom.low + height - SAME)
-        .collect();
-    let (side, front) = match (sideways(&passes), lengthways(&passes)) {
-        (Some(xs), Some(ys)) => (
-            (side(milling, &passes, xs, (axes.across, width))?, xs),
-            (front(milling, &passes, ys, (axes.along, depth))?, ys),
-        ),
-        _ => {
-            return Err(complaints::no_passes(
-                milling,
-                lowest(&along),
-                bottom.low + height,
-            ));
+}
+
+/// The place in the file of the lowest corner of a blank that begins there in the axes of a job.
+fn origin_of(low: [f64; 3], axes: Axes, sizes: [f64; 3]) -> [f64; 3] {
+    let mut origin = [0.0; 3];
+    for ((direction, low), size) in [axes.across, axes.along, axes.up].into_iter().zip(low).zip(sizes) {
+        let value = match direction.sense {
+            Sense::Positive => low,
+            Sense::Negative => -(low + size),
+        };
+        for (slot, axis) in origin.iter_mut().zip(Axis::ALL) {
+            if axis == direction.axis {
+                *slot = value;
+            }
         }
+    }
+    origin
+}
+
+/// The same blank, so much lower.
+pub(super) fn lower(axes: Axes, blank: Blank, by: f64, asked: &Asked) -> Option<Offer> {
+    let [x, y, z] = blank.corner;
+    Some(Offer {
+        when: "if the blank lies lower, with its bottom at the lowest pass".to_owned(),
+        option: Choice::Origin(origin_of([x, y, z - by], axes, asked.stock)),
+    })
+}
+
+/// Other heights of a blank whose place was inferred.
+pub(super) fn other_heights(milling: &Milling, axes: Axes, blank: Blank, asked: &Asked) -> Vec<Offer> {
+    let along = runs(milling, axes, asked.tolerance.to_mm());
+    let field = Field {
+        axes,
+        sizes: asked.stock,
+        along: &along,
     };
-    blank.corner = [side.0.low, front.0.low, bottom.low];
-    inferences.push(placed(side, front, &bottom));
-    Ok(blank)
+    let others = field.usual_heights().into_iter();
+    let others: Vec<Height> = others
+        .filter(|height| (height.low - blank.corner[2]).abs() > SAME)
+        .collect();
+    field.offers(&others)
+}
+
+/// What is known before the blank is placed.
+#[derive(Clone, Copy)]
+struct Field<'r> {
+    axes: Axes,
+    sizes: [f64; 3],
+    /// All that runs along the cuts.
+    along: &'r [Run],
+}
+
+/// A height for the bottom of the blank, and when it is right.
+struct Height {
+    low: f64,
+    when: &'static str,
+}
+
+impl Field<'_> {
+    /// What lies below the top of a blank that begins at a height.
+    fn passes(&self, low: f64) -> Vec<Run> {
+        let top = low + self.sizes[2] - SAME;
+        let below = self.along.iter().filter(|run| run.height() < top);
+        below.copied().collect()
+    }
+
+    /// With the file's zero at the bottom of the blank, in the middle and at the top.
+    fn usual_heights(&self) -> [Height; 3] {
+        let height = self.sizes[2];
+        [
+            (-height, "if the file's zero lies at the blank's top"),
+            (
+                -height / 2.0,
+                "if the file's zero lies at half the blank's height",
+            ),
+            (0.0, "if the file's zero lies at the blank's bottom"),
+        ]
+        .map(|(low, when)| Height { low, when })
+    }
+
+    /// Places for the blank with its bottom at these heights, wherever it may lie across.
+    fn offers(&self, heights: &[Height]) -> Vec<Offer> {
+        let [width, depth, _] = self.sizes;
+        let mut offers = Vec::new();
+        for Height { low, when } in heights {
+            let passes = self.passes(*low);
+            let (Some(xs), Some(ys)) = (sideways(&passes), lengthways(&passes)) else {
+                continue;
+            };
+            let Some(front) = front(ys, (self.axes.along, depth)) else {
+                continue;
+            };
+            let sides = sides(xs, (self.axes.across, width));
+            let is_one = sides.len() == 1;
+            offers.extend(sides.into_iter().map(|side| Offer {
+                when: if is_one {
+                    (*when).to_owned()
+                } else {
+                    format!("{when}, and {} in {}", side.words, self.axes.across.axis.letter())
+                },
+                option: self.origin([side.low, front.low, *low]),
+            }));
+        }
+        offers
+    }
+
+    fn origin(&self, low: [f64; 3]) -> Choice {
+        Choice::Origin(origin_of(low, self.axes, self.sizes))
+    }
+
+    /// Passes that lie over a blank at several places, or at none.
+    fn unclear_side(
+        &self,
+        milling: &Milling,
+        passes: &[Run],
+        xs: [f64; 2],
+        [front, bottom]: [f64; 2],
+    ) -> Unsettled {
+        let axis = (self.axes.across, self.sizes[0]);
+        let ends = [most(passes, |run| -run.across()), most(passes, Run::across)];
+        let offer = |when: String, end: End| Offer {
+            when,
+            option: self.origin([end.low, front, bottom]),
+        };
+        let letter = self.axes.across.axis.letter();
+        let sides = sides(xs, axis);
+        if sides.is_empty() {
+            let when = format!("if the passes lie in the middle of the blank in {letter}");
+            let told = complaints::unclear_place(milling, axis, xs, ends);
+            return Unsettled::from(told).offering([offer(when, centred(xs, axis.1))]);
+        }
+        let offers = sides.into_iter().map(|end| {
+            let when = format!("if the file's zero lies {} in {letter}", end.words);
+            offer(when, end)
+        });
+        Unsettled::from(complaints::two_places(milling, axis, xs, ends)).offering(offers)
+    }
+}
+
+/// Passes that are shorter than the blank is deep.
+fn too_short(milling: &Milling, passes: &[Run], [least, most]: [f64; 2], asked: &Asked) -> Unsettled {
+    let [width, depth, height] = asked.stock;
+    let told = complaints::too_short(milling, longest(passes), most - least, depth);
+    Unsettled::from(told).offering([Offer {
+        when: "if width and depth are the other way round".to_owned(),
+        option: Choice::Stock([depth, width, height]),
+    }])
 }
 
 /// What is told of a place that was found.
@@ -261,18 +437,29 @@ struct Bottom {
 
 /// The height of the blank's bottom. Passes on one side of zero leave one place for it; on both sides they may be those of a
 /// program that cuts through a blank from the bottom up, or ways back in the air.
-fn bottom(milling: &Milling, levels: &Levels, height: f64) -> Result<Bottom, Box<Diagnostic>> {
+fn bottom(milling: &Milling, levels: &Levels, field: &Field<'_>) -> Result<Bottom, Unsettled> {
+    let [width, depth, height] = field.sizes;
     if let Some(deepest) = lowest(&levels.below) {
         if deepest.height() < -height - SAME {
-            return Err(complaints::too_low(deepest, height));
+            let offers = field.offers(&[Height {
+                low: deepest.height(),
+                when: "if the blank's bottom is at the lowest pass",
+            }]);
+            let taller = Offer {
+                when: "if the blank is that tall".to_owned(),
+                option: Choice::Stock([width, depth, libm::ceil(-deepest.height())]),
+            };
+            return Err(Unsettled::from(complaints::too_low(deepest, height))
+                .offering(offers)
+                .offering([taller]));
         }
         let returns = levels.returns();
         return match (returns, lowest(&levels.above)) {
-            (None, Some(above)) => Err(complaints::both_sides(
+            (None, Some(above)) => Err(Unsettled::from(complaints::both_sides(
                 [deepest, above],
                 [levels.below.len(), levels.above.len()],
-                height,
-            )),
+            ))
+            .offering(field.offers(&field.usual_heights()))),
             (Some(_), _) | (None, None) => Ok(Bottom {
                 low: -height,
                 words: "at its top in z",
@@ -281,7 +468,7 @@ fn bottom(milling: &Milling, levels: &Levels, height: f64) -> Result<Bottom, Box
         };
     }
     let Some(deepest) = lowest(&levels.above) else {
-        return Err(complaints::nothing_straight(milling));
+        return Err(complaints::nothing_straight(milling).into());
     };
     if deepest.height() < height - SAME {
         Ok(Bottom {
@@ -290,11 +477,12 @@ fn bottom(milling: &Milling, levels: &Levels, height: f64) -> Result<Bottom, Box
             returns: None,
         })
     } else {
-        Err(complaints::no_passes(milling, Some(deepest), height))
+        Err(complaints::no_passes(milling, Some(deepest), height).into())
     }
 }
 
 /// One end of the blank, and where the file's zero is on that axis.
+#[derive(Clone, Copy)]
 struct End {
     low: f64,
     words: &'static str,
@@ -318,59 +506,33 @@ fn ends((direction, size): (Direction, f64)) -> [End; 2] {
     ]
 }
 
-/// The side of the blank: from an edge where all passes lie over the blank then, else from the middle; passes that lie farther
-/// out on both sides are taken to run beside it.
-fn side(
-    milling: &Milling,
-    passes: &[Run],
-    [least, most]: [f64; 2],
-    axis: (Direction, f64),
-) -> Result<End, Box<Diagnostic>> {
-    let size = axis.1;
+/// Whether a blank that begins at an end lies within a range.
+fn covers([least, most]: [f64; 2], end: &End, size: f64) -> bool {
+    least <= end.low + SAME && most >= end.low + size - SAME
+}
+
+/// The sides that the blank may have: those from which on all passes lie over it. Where passes lie farther out on both sides,
+/// they are taken to run beside it.
+fn sides(xs: [f64; 2], axis: (Direction, f64)) -> Vec<End> {
+    let ([least, most], size) = (xs, axis.1);
     let holds = |end: &End| least >= end.low - SAME && most <= end.low + size + SAME;
-    let covers = |end: &End| least <= end.low + SAME && most >= end.low + size - SAME;
-    let [corner, middle] = ends(axis);
-    match (
-        holds(&corner) || covers(&corner),
-        holds(&middle) || covers(&middle),
-    ) {
-        (true, _) => Ok(corner),
-        (false, true) => Ok(middle),
-        (false, false) => {
-            let ends = [
-                self::most(passes, |run| -run.across()),
-                self::most(passes, Run::across),
-            ];
-            Err(complaints::unclear_place(milling, axis, [least, most], ends))
-        }
+    let fits = |end: &End| holds(end) || covers(xs, end, size);
+    ends(axis).into_iter().filter(fits).collect()
+}
+
+/// The blank with passes as far from one side of it as from the other.
+fn centred([least, most]: [f64; 2], size: f64) -> End {
+    End {
+        low: f64::midpoint(least, most) - size / 2.0,
+        words: "so that passes run out as far on either side",
     }
 }
 
-/// The front of the blank: passes run over all of it, and where the zero is not at an edge as far out on either side.
-fn front(
-    milling: &Milling,
-    passes: &[Run],
-    [least, most]: [f64; 2],
-    axis: (Direction, f64),
-) -> Result<End, Box<Diagnostic>> {
+/// The front of the blank: passes run over all of it, and where the zero is not at an edge as far out on either side. None where
+/// they are too short.
+fn front(ys: [f64; 2], axis: (Direction, f64)) -> Option<End> {
     let size = axis.1;
-    let covers = |end: &End| least <= end.low + SAME && most >= end.low + size - SAME;
-    let [corner, middle] = ends(axis);
-    if covers(&corner) {
-        Ok(corner)
-    } else if covers(&middle) {
-        Ok(middle)
-    } else if most - least >= size - SAME {
-        Ok(End {
-            low: f64::midpoint(least, most) - size / 2.0,
-            words: "so that passes run out as far on either side",
-        })
-    } else {
-        Err(complaints::too_short(
-            milling,
-            longest(passes),
-            most - least,
-            size,
-        ))
-    }
+    let at_zero = ends(axis).into_iter().find(|end| covers(ys, end, size));
+    let is_long = ys[1] - ys[0] >= size - SAME;
+    at_zero.or_else(|| is_long.then(|| centred(ys, size)))
 }

@@ -2,17 +2,19 @@
 //!
 //! What runs along y, however many points the program divides it into, is a run (the module `runs`). Runs below the top of the
 //! blank are passes, and those that follow one another in one place are one. Everything else has to be in the air or beside the
-//! blank: what cuts across, obliquely, along a slope or on an arc is no pass, and is refused.
+//! blank: what cuts across, obliquely, along a slope or on an arc is no pass, and is refused. What goes straight down into it is
+//! sorted by the passes around it (the module [`plunges`]).
 
-use super::arc::CircularArc;
 use super::axes::Axes;
 use super::complaints;
 use super::milling::{Milling, Way, Written};
 use super::place::Blank;
+use super::plunges::{self, Plunge, Start};
 use super::runs::{Course, Kind, Run, Stretch, courses};
 use crate::diag::Diagnostic;
 use crate::plan::grid;
 use crate::source::Span;
+use vcutc_backend_api::units::Angle;
 
 /// Coordinates this close, in mm, are the same: programs are printed with two or three decimals.
 pub(super) const SAME: f64 = 0.01;
@@ -45,6 +47,8 @@ pub struct Raster {
     pub beside: Vec<Pass>,
     /// What is as long as a pass and as slow, and lies above the blank.
     pub above: Vec<Pass>,
+    /// Motions straight down into material that a pass cuts later.
+    pub plunges: Vec<Plunge>,
     /// How many passes follow another one in the same place.
     pub repeated: usize,
     /// Of how many motions the passes are made.
@@ -63,7 +67,8 @@ pub struct Raster {
     pub path: Vec<Vec<[f64; 3]>>,
 }
 
-/// The passes of a program over a blank whose place is known, of which points lie so close to one line.
+/// The passes of a program over a blank whose place is known, of which points lie so close to one line, for V-cuts of that
+/// swing.
 ///
 /// # Errors
 /// Motions in the material that are no passes, told one by one.
@@ -71,12 +76,13 @@ pub(super) fn recognise(
     milling: &Milling,
     axes: Axes,
     blank: Blank,
-    tolerance: f64,
+    (tolerance, swing): (f64, Angle),
 ) -> Result<Raster, Vec<Diagnostic>> {
     let mut builder = Builder {
         blank,
         tolerance,
         raster: Raster::default(),
+        plunges: Vec::new(),
         complaints: Vec::new(),
     };
     builder.raster.path = path(milling, axes, blank);
@@ -86,6 +92,7 @@ pub(super) fn recognise(
         Course::Run(run) => builder.run(&run),
         Course::Other(stretch) => builder.other(stretch.seen_from(&blank)),
     });
+    builder.sort_plunges(1.0 / swing.tan());
     if builder.complaints.is_empty() {
         builder.raster.keep_slow();
         Ok(builder.raster)
@@ -98,26 +105,20 @@ pub(super) fn recognise(
 const POINTS_OF_ARC: u32 = 16;
 
 fn path(milling: &Milling, axes: Axes, blank: Blank) -> Vec<Vec<[f64; 3]>> {
-    let seen = |to: [f64; 3]| blank.seen_from_corner(axes.point(to));
+    let seen = |place: [f64; 3]| blank.seen_from_corner(axes.point(place));
     milling
         .moves
         .split(|step| step.to.is_none())
         .map(|known| {
             let mut points: Vec<[f64; 3]> = Vec::with_capacity(known.len());
             for step in known {
-                let Some(to) = step.to.map(seen) else { continue };
-                let arc = match (step.way, points.last()) {
-                    (
-                        Way::Arc {
-                            through: Some(through),
-                        },
-                        Some(&from),
-                    ) => CircularArc::through([from, seen(through), to]),
-                    (Way::Arc { .. } | Way::Straight | Way::Joint, _) => None,
-                };
-                match arc {
-                    Some(arc) => points.extend(arc.points(POINTS_OF_ARC)),
-                    None => points.push(to),
+                let Some(to) = step.to else { continue };
+                match step.way {
+                    Way::Arc { course: Some(arc) } => {
+                        let arc = arc.seen(|direction| axes.point(direction), seen);
+                        points.extend(arc.points(POINTS_OF_ARC));
+                    }
+                    Way::Arc { course: None } | Way::Straight | Way::Joint => points.push(seen(to)),
                 }
             }
             points
@@ -163,6 +164,8 @@ struct Builder {
     blank: Blank,
     tolerance: f64,
     raster: Raster,
+    /// Motions that end in the blank or begin there, and run along no axis but z.
+    plunges: Vec<Plunge>,
     complaints: Vec<Diagnostic>,
 }
 
@@ -180,6 +183,12 @@ impl Builder {
             return;
         }
         let raster = &mut self.raster;
+        let is_before_or_behind = pass.y[1] <= SAME || pass.y[0] >= self.blank.depth - SAME;
+        if is_before_or_behind {
+            raster.other_moves += run.pieces;
+            raster.note_travel(run.way, run.speed);
+            return;
+        }
         raster.pieces += run.pieces;
         raster.stray = raster.stray.max(run.stray());
         if !is_over {
@@ -217,22 +226,52 @@ impl Builder {
         self.raster.other_moves += 1;
         self.raster.note_travel(stretch.said.way, stretch.said.speed);
         let meets = match stretch.kind {
-            Kind::Still | Kind::Upright | Kind::Along => false,
+            Kind::Still | Kind::Along => false,
+            Kind::Upright => return self.plunge(&stretch, Start::Above),
+            Kind::Landing => return self.plunge(&stretch, Start::Unknown),
             Kind::Across | Kind::Oblique => self.meets_the_blank(&stretch),
             Kind::Curve => self.curve_meets_the_blank(&stretch),
         };
-        if meets && self.complaints.len() < MOST_COMPLAINTS {
-            self.complaints.push(complaints::no_pass(&stretch));
+        if meets {
+            self.complain(|| complaints::no_pass(&stretch));
+        }
+    }
+
+    fn complain(&mut self, words: impl FnOnce() -> Diagnostic) {
+        if self.complaints.len() < MOST_COMPLAINTS {
+            self.complaints.push(words());
+        }
+    }
+
+    fn plunge(&mut self, stretch: &Stretch<'_>, start: Start) {
+        if !self.meets_the_blank(stretch) {
+            return;
+        }
+        let is_down = stretch.to[2] <= stretch.from[2];
+        let plunge = Plunge {
+            place: stretch.said.place,
+            start,
+            low: if is_down { stretch.to } else { stretch.from },
+            before: self.raster.passes.len(),
+        };
+        if !self.plunges.last().is_some_and(|last| plunge.follows(last)) {
+            self.plunges.push(plunge);
+        }
+    }
+
+    fn sort_plunges(&mut self, slope: f64) {
+        let plunges = core::mem::take(&mut self.plunges);
+        let sorted = plunges::sorted(&plunges, &self.raster.passes, self.blank, slope);
+        self.raster.plunges = sorted.cut_later;
+        for plunge in &sorted.alone {
+            self.complain(|| complaints::plunge(plunge));
         }
     }
 
     /// Whether an arc comes near the blank; it does where nobody knows which way it takes.
     fn curve_meets_the_blank(&mut self, stretch: &Stretch<'_>) -> bool {
         self.raster.arcs += 1;
-        let Some(through) = stretch.through else {
-            return true;
-        };
-        let Some(arc) = CircularArc::through([stretch.from, through, stretch.to]) else {
+        let Some(arc) = stretch.course else {
             return true;
         };
         let [low, high] = arc.room();

@@ -3,18 +3,20 @@
 //! Posts divide a straight pass into many points, and round each of them by itself. So motions whose points lie within a
 //! tolerance of one another, across and in height, are one run, and its line is the middle of them.
 
+use super::arc::CircularArc;
 use super::axes::Axes;
 use super::milling::{Milling, Move, Way, Written};
 use super::place::Blank;
 use crate::source::Span;
 
-/// A motion between two known points, in the axes of the job.
+/// A motion to a known point, in the axes of the job.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<'m> {
     pub(super) said: &'m Move,
+    /// Where it begins; where it ends, if nobody knows.
     pub(super) from: [f64; 3],
-    /// A point on the way of an arc.
-    pub(super) through: Option<[f64; 3]>,
+    /// The way of an arc, where it is known.
+    pub(super) course: Option<CircularArc>,
     pub(super) to: [f64; 3],
     pub(super) kind: Kind,
 }
@@ -34,6 +36,8 @@ pub(super) enum Kind {
     Oblique,
     /// An arc.
     Curve,
+    /// From a place that nobody knows, as behind motions of all axes.
+    Landing,
 }
 
 impl Kind {
@@ -61,7 +65,9 @@ impl Stretch<'_> {
     pub(super) fn seen_from(self, blank: &Blank) -> Self {
         Self {
             from: blank.seen_from_corner(self.from),
-            through: self.through.map(|point| blank.seen_from_corner(point)),
+            course: self
+                .course
+                .map(|arc| arc.seen(|direction| direction, |point| blank.seen_from_corner(point))),
             to: blank.seen_from_corner(self.to),
             ..self
         }
@@ -73,24 +79,27 @@ impl Stretch<'_> {
     }
 }
 
-/// The motions between known points, in the axes of a job, from the program's origin.
+/// The motions to known points, in the axes of a job, from the program's origin.
 pub(super) fn stretches(milling: &Milling, axes: Axes, tolerance: f64) -> impl Iterator<Item = Stretch<'_>> {
-    milling.moves.windows(2).filter_map(move |pair| match pair {
-        [before, said] => {
-            let (from, to) = (axes.point(before.to?), axes.point(said.to?));
-            let through = match said.way {
-                Way::Arc { through } => through.map(|point| axes.point(point)),
-                Way::Straight | Way::Joint => None,
-            };
-            Some(Stretch {
-                said,
-                from,
-                through,
-                to,
-                kind: Kind::of(said.way, from, to, tolerance),
-            })
-        }
-        _ => None,
+    let befores = core::iter::once(None).chain(milling.moves.iter().map(|step| step.to));
+    let pairs = befores.zip(&milling.moves);
+    pairs.filter_map(move |(before, said)| {
+        let to = axes.point(said.to?);
+        let from = before.map(|from| axes.point(from));
+        let course = match said.way {
+            Way::Arc { course } => course.map(|arc| {
+                let seen = |place| axes.point(place);
+                arc.seen(seen, seen)
+            }),
+            Way::Straight | Way::Joint => None,
+        };
+        Some(Stretch {
+            said,
+            from: from.unwrap_or(to),
+            course,
+            to,
+            kind: from.map_or(Kind::Landing, |from| Kind::of(said.way, from, to, tolerance)),
+        })
     })
 }
 
@@ -219,7 +228,7 @@ pub(super) fn courses<'m>(
                     }
                 };
             }
-            Kind::Upright | Kind::Across | Kind::Oblique | Kind::Curve => {
+            Kind::Upright | Kind::Across | Kind::Oblique | Kind::Curve | Kind::Landing => {
                 if let Some(run) = open.take() {
                     take(Course::Run(run));
                 }

@@ -260,6 +260,8 @@ codes! {
     NotWhole = "VC1012", Warning, "a milling program without its end";
     /// Passes above the blank.
     AboveBlank = "VC1013", Warning, "passes above the blank";
+    /// Motions straight into the uncut blank.
+    Plunge = "VC1014", Warning, "motions straight into the uncut blank";
 }
 
 #[cfg(test)]

@@ -133,6 +133,12 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "what_is_no_raster_is_told_at_its_line",
         "it is about a milling program",
     ),
+    (
+        Code::Plunge,
+        "tests/it/convert/refusals.rs",
+        "what_is_no_raster_is_told_at_its_line",
+        "it is about a milling program",
+    ),
 ];
 
 #[test]

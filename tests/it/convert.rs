@@ -315,6 +315,33 @@ fn words_around_motions_change_no_pass() {
     }
 }
 
+/// Ways that pass no uncut material: full circles in the air, and ways down where V-cuts have been, or beside the blank.
+#[test]
+fn ways_in_the_air_stay_what_they_are() {
+    let ways = [
+        // A full circle, one the other way round, and two turns, all above the blank.
+        "LIN {X 20.0,Y 20.0,Z 65.0}\nCIRC {X 30.0,Y 30.0,Z 65.0},{X 40.0,Y 20.0,Z 65.0}, CA 360\n\
+         CIRC {X 30.0,Y 30.0,Z 65.0},{X 40.0,Y 20.0,Z 65.0}, CA -360\n\
+         SCIRC {X 30.0,Y 30.0,Z 65.0},{X 40.0,Y 20.0,Z 65.0}, CA 720\n",
+        // Down into the hollow that all passes have left, and up again.
+        "LIN {X 0.71,Y 25.0,Z 60.0}\nLIN {Z 14.8}\nLIN {Z 60.0}\nPTP HOME\nPTP {X 0.71,Y 25.0,Z 14.8}\nLIN {Z 60.0}\n",
+        // Along the passes, below the top, but before the blank.
+        "LIN {X 40.0,Y -30.0,Z 60.0}\nLIN {Z 20.0}\nLIN {Y -10.0}\nLIN {Y -3.0,Z 60.0}\n",
+    ];
+    for way in ways {
+        let conversion = converted(
+            &changed(|text| text.replace("\nEND\n", &format!("\n{way}END\n"))),
+            WORDS,
+        );
+        assert_eq!(tips(&conversion), paper().tips(), "{way}");
+        assert!(
+            conversion.warnings.is_empty(),
+            "{way}: {:#?}",
+            conversion.warnings
+        );
+    }
+}
+
 /// Noise up to the tolerance leaves the passes what they are, and is told.
 #[test]
 fn noise_of_posts_is_swallowed_up_to_the_tolerance() {

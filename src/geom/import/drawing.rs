@@ -134,6 +134,8 @@ pub enum Why {
     NoExtent,
     /// It stands in another file.
     OtherFile,
+    /// It hides a part of what is drawn, and that is read whole.
+    NotApplied,
 }
 
 impl Why {
@@ -149,6 +151,7 @@ impl Why {
             Self::Frozen => "on a layer that is frozen",
             Self::NoExtent => "without extent",
             Self::OtherFile => "in another file",
+            Self::NotApplied => "not applied, what it hides is read",
         }
     }
 }

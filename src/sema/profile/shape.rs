@@ -14,10 +14,14 @@ use vcutc_backend_api::ir::Stock;
 /// Places closer than this count as one, in mm: a nanometre.
 const SAME: f64 = 1e-6;
 
+/// How far from a side of the stock a profile may end and still reach it, in mm: where a curve touches the side, the polyline
+/// in its place may stay away from it by the tolerance of curves.
+const REACHES: f64 = super::TOLERANCE.to_mm();
+
 /// The profile of a trace across the stock.
 pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports) -> Checked<Profile> {
     let width = stock.node.width.to_mm();
-    let strip = Strip::cut(trace, width);
+    let strip = Strip::cut(trace, width).led_to_the_sides(width);
     if let Some(diagnostic) = gap(trace, &strip, stock) {
         return Err(reports.push(diagnostic));
     }
@@ -81,6 +85,22 @@ impl Strip {
         strip
     }
 
+    /// With the ends that are as near a side as a curve's polyline may be led to it.
+    fn led_to_the_sides(mut self, width: f64) -> Self {
+        let by_x = |one: &&mut Point2, other: &&mut Point2| one.x.total_cmp(&other.x);
+        if let Some(leftmost) = self.points.iter_mut().min_by(by_x)
+            && leftmost.x <= REACHES
+        {
+            leftmost.x = 0.0;
+        }
+        if let Some(rightmost) = self.points.iter_mut().max_by(by_x)
+            && rightmost.x >= width - REACHES
+        {
+            rightmost.x = width;
+        }
+        self
+    }
+
     fn push(&mut self, point: Point2, source: usize) {
         self.points.push(point);
         self.sources.push(source);
@@ -134,7 +154,7 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
         .fold((first.x, first.x), |(left, right), point| {
             (left.min(point.x), right.max(point.x))
         });
-    if leftmost <= SAME && rightmost >= width - SAME && !strip.points.is_empty() {
+    if leftmost <= REACHES && rightmost >= width - REACHES && !strip.points.is_empty() {
         return None;
     }
     let last_point = trace.points.len().saturating_sub(1);
@@ -145,7 +165,7 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
     };
     let piece_at = |end: usize| trace.piece_at(end).unwrap_or(stock.span);
     let sides = format!("the stock reaches from x = 0 mm to x = {}", mm(width));
-    let (span, label, help) = if leftmost > SAME {
+    let (span, label, help) = if leftmost > REACHES {
         let help = format!("let the profile begin at x = 0 mm, {} further left", mm(leftmost));
         (
             piece_at(left_end),
@@ -176,7 +196,7 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
         label,
     );
     let diagnostic = diagnostic.and(stock.span, sides);
-    let both = leftmost > SAME && rightmost < width - SAME;
+    let both = leftmost > REACHES && rightmost < width - REACHES;
     let diagnostic = if both {
         diagnostic.note(format!("it also ends too early, at x = {}", mm(rightmost)))
     } else {

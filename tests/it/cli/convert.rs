@@ -133,6 +133,46 @@ fn messages_about_tips_show_the_line_of_the_program() {
     );
 }
 
+/// A job with errors is where they are mended: it is written, and the run says that it has them, and what was not made.
+#[test]
+fn a_job_with_errors_is_written_as_such() {
+    let out = folder();
+    let (job, picture) = (out.path().join("x.vcut"), out.path().join("x.svg"));
+    let [named, drawn] = [&job, &picture].map(|path| path.to_str().unwrap());
+    let arguments = ["--as-job", "-o", named, "--picture", drawn];
+    let run = vcutc(root(), &convert(&[&["--edge", "9mm"][..], &arguments].concat()));
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("x.vcut is written with its errors"),
+        "{}",
+        run.stderr
+    );
+    assert!(run.stderr.contains("x.svg was not drawn"), "{}", run.stderr);
+    assert!(!picture.exists());
+    let again = vcutc(root(), &[named]);
+    assert_eq!(again.code, Some(1), "{}", again.stderr);
+    assert!(again.stderr.contains("error[VC0401]"), "{}", again.stderr);
+
+    let run = vcutc(root(), &convert(&arguments));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(!run.stderr.contains("errors,"), "{}", run.stderr);
+    assert!(picture.exists());
+}
+
+/// DOS ends texts with Ctrl-Z, and some posts fill a block with it.
+#[test]
+fn marks_at_the_end_of_a_file_are_no_statements() {
+    let out = folder();
+    let text = read(PANEL).replace("panel", "marked");
+    for marks in ["\u{1a}", "\r\n\u{1a}", "\u{1a}\u{1a}\u{1a}\n"] {
+        let path = out.path().join("marked.src");
+        fs::write(&path, format!("\u{feff}{text}{marks}")).unwrap();
+        let run = vcutc(root(), &[&["convert", path.to_str().unwrap()][..], &HOW].concat());
+        assert_eq!(run.code, Some(0), "{marks:?}: {}", run.stderr);
+        assert!(!run.stderr.contains("warning"), "{marks:?}: {}", run.stderr);
+    }
+}
+
 /// A job in another folder names the files of the shop from there, so that both can be moved together.
 #[test]
 fn a_job_elsewhere_names_files_from_where_it_lies() {

@@ -1,20 +1,24 @@
 //! What cannot be converted, what is left out, and what is said of it.
 
-use super::posts::{PASSES, Post, Style, Zero};
+use super::posts::{PASSES, Post, Raster, Style, Zero};
 use super::{WORDS, paper, request};
 use vcutc::convert::asked::Words;
 use vcutc::convert::convert;
-use vcutc::diag::{Code, Diagnostic, render};
+use vcutc::diag::{Code, Diagnostic, has_errors, render};
 use vcutc::source::SourceMap;
 use vcutc_backend_api::readback::ProgramFile;
 
 fn program() -> String {
+    written(&paper())
+}
+
+fn written(raster: &Raster) -> String {
     let post = Post {
         style: Style::Full,
         zero: Zero::Corner,
         passes: PASSES[0],
     };
-    let files = post.write(&paper());
+    let files = post.write(raster);
     files[0].text.replace("\r\n", "\n").replace(" C_DIS ; cut", "")
 }
 
@@ -33,25 +37,36 @@ fn told(text: &str, words: Words<'_>) -> (Vec<Diagnostic>, SourceMap) {
 /// A pass in the middle of the first row.
 const PASS: &str = "LIN {X 30.560,Y -3.000,Z 45.600,A 0.0,B 90.0,C 0.0}\n";
 
+/// A program with the numbers behind a word, such as `,Z `, so much larger.
+fn moved(program: &str, word: &str, by: f64) -> String {
+    let mut parts = program.split(word);
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (number, rest) = part.split_at(part.find([',', '}']).unwrap());
+        out += &format!("{word}{:.3}{rest}", number.parse::<f64>().unwrap() + by);
+    }
+    out
+}
+
 /// The program with its zero so much higher, in mm.
 fn lowered(by: f64) -> String {
-    let mut pieces = program();
-    let heights: Vec<String> = pieces
-        .split(",Z ")
-        .skip(1)
-        .filter_map(|rest| rest.split([',', '}']).next().map(str::to_owned))
-        .collect();
-    let mut heights: Vec<(String, f64)> = heights
-        .into_iter()
-        .map(|text| (text.clone(), text.parse().unwrap()))
-        .collect();
-    // From the lowest on: what has been written is never above what is still to come.
-    heights.sort_by(|one, other| one.1.total_cmp(&other.1));
-    heights.dedup();
-    for (text, height) in heights {
-        pieces = pieces.replace(&format!(",Z {text},"), &format!(",Z {:.3} ,", height - by));
+    moved(&program(), ",Z ", -by)
+}
+
+/// The program over the left half of a blank, which may have its zero at its edge, or in the middle of a blank twice as wide.
+fn on_one_half() -> String {
+    let mut raster = paper();
+    for (_, columns) in &mut raster.rows {
+        columns.retain(|&x| x < 40.0);
     }
-    pieces.replace(" ,", ",")
+    written(&raster)
+}
+
+/// The upper half of the program, with the zero at half the height of the blank.
+fn half_way() -> String {
+    let mut raster = paper();
+    raster.rows.retain(|(z, _)| *z > 26.0);
+    moved(&written(&raster), ",Z ", -25.0)
 }
 
 /// What is written in the place of that pass, or how the whole program changes, and what is then wrong.
@@ -327,7 +342,7 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
         ),
         (
             "a zero that is nowhere",
-            program().replace("X ", "X 3"),
+            moved(&program(), "{X ", 300.0),
             WORDS,
             Code::Unclear,
         ),
@@ -358,6 +373,12 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
             Code::Unclear,
         ),
         (
+            "a speed in no unit",
+            program().replace("CP=0.2", "CP=1e300"),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
             "a speed that is worked out",
             instead(&format!("$VEL.CP=CUTTING\n{PASS}")),
             WORDS,
@@ -374,6 +395,82 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
             instead("LIN {X 30.560,Y"),
             WORDS,
             Code::UnreadableStatement,
+        ),
+        (
+            "a hole beside the passes",
+            instead(&format!(
+                "LIN {{Z 60.0}}\nLIN {{X 33.5,Y 25.0,Z 60.0}}\nLIN {{Z 5.0}}\nLIN {{Z 60.0}}\nLIN {{X 30.560,Y 53.0,Z 60.0}}\nLIN {{Z 45.600}}\n{PASS}"
+            )),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "a hole after the passes",
+            program().replace(
+                "END\n",
+                "LIN {X 33.5,Y 25.0,Z 60.0}\nLIN {Z 14.9}\nLIN {Z 60.0}\nEND\n",
+            ),
+            WORDS,
+            Code::NoPass,
+        ),
+        (
+            "plunges where passes cut later",
+            instead(&format!(
+                "LIN {{Z 60.0}}\nLIN {{X 33.5,Y 25.0,Z 60.0}}\nLIN {{Z 45.0}}\nLIN {{Z 60.0}}\nLIN {{X 30.560,Y 53.0,Z 60.0}}\nLIN {{Z 45.600}}\n{PASS}"
+            )),
+            WORDS,
+            Code::Plunge,
+        ),
+        (
+            "a motion from an unknown place into the blank",
+            instead(&format!(
+                "PTP HOME\nPTP {{X 30.560,Y 25.0,Z 10.0}}\nLIN {{Z 60.0}}\nLIN {{Y 53.0}}\nLIN {{Z 45.6}}\n{PASS}"
+            )),
+            WORDS,
+            Code::NoPass,
+        ),
+        ("passes on one half only", on_one_half(), WORDS, Code::Unclear),
+        ("a zero at half the height", half_way(), WORDS, Code::Unclear),
+        (
+            "width and depth exchanged",
+            program(),
+            Words {
+                stock: "50x85x50",
+                along: Some("y"),
+                ..WORDS
+            },
+            Code::NoPass,
+        ),
+        (
+            "as far along as across",
+            program().replacen(
+                "$VEL.CP=1.0\n",
+                &format!(
+                    "$VEL.CP=1.0\nLIN {{X 0.0,Y -10.0,Z 70.0}}\n{}",
+                    "LIN {X 90.0}\nLIN {X 0.0}\n".repeat(30)
+                ),
+                1,
+            ),
+            WORDS,
+            Code::Unclear,
+        ),
+        (
+            "a coordinate beyond every cell",
+            instead("LIN {X 30.560,Y -3.000,Z 1e300}"),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "an arc through a point beyond every cell",
+            instead("CIRC {X 1e200,Y -3.000,Z 60.0},{X 30.560,Y -3.000,Z 60.0}, CA 90"),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
+            "a coordinate that is no number",
+            instead("LIN {X NaN,Y -3.000,Z 45.600}"),
+            WORDS,
+            Code::NotFollowed,
         ),
         (
             "outputs and waits",
@@ -410,6 +507,68 @@ fn what_is_no_raster_is_told_at_its_line() {
         shown += "\n";
     }
     insta::assert_snapshot!("refusals", shown);
+}
+
+/// Options that a help line tells to write, with their values; placeholders are in capitals.
+fn offered(help: &str) -> Vec<(&str, &str)> {
+    let quoted = help.split('`').skip(1).step_by(2);
+    let options = quoted.filter_map(|text| text.strip_prefix("--")?.split_once(' '));
+    options
+        .filter(|(_, value)| !value.contains(char::is_uppercase))
+        .collect()
+}
+
+fn with_offered<'a>(words: Words<'a>, options: &[(&'a str, &'a str)]) -> Words<'a> {
+    let mut words = words;
+    for &(option, value) in options {
+        match option {
+            "origin" => words.origin = Some(value),
+            "along" => words.along = Some(value),
+            "up" => words.up = Some(value),
+            "stock" => words.stock = value,
+            "clearance" => words.clearance = Some(value),
+            "tolerance" => words.tolerance = Some(value),
+            "feed" => words.feed = Some(value),
+            "travel" => words.travel = Some(value),
+            "feed-unit" => words.feed_unit = Some(value),
+            other => panic!("--{other} is offered, and nothing here tries it"),
+        }
+    }
+    words
+}
+
+/// Whoever writes what a message tells to write has no error left.
+#[test]
+fn options_that_messages_offer_work() {
+    let mut counted = 0;
+    for (what, text, words, _) in cases() {
+        let (diagnostics, _) = told(&text, words);
+        for help in diagnostics.iter().flat_map(|diagnostic| &diagnostic.help) {
+            let options = offered(help);
+            if options.is_empty() {
+                continue;
+            }
+            counted += 1;
+            let (left, _) = told(&text, with_offered(words, &options));
+            let messages: Vec<&str> = left.iter().map(|one| one.message.as_str()).collect();
+            assert!(!has_errors(&left), "{what}: {help}: {messages:?}");
+        }
+    }
+    assert!(counted >= 15, "{counted}");
+}
+
+/// Where the program leaves the place of its blank open, there is an option to say it.
+#[test]
+fn unclear_places_have_an_offer() {
+    let unclear = cases().into_iter().filter(|(.., code)| *code == Code::Unclear);
+    for (what, text, words, _) in unclear {
+        let (diagnostics, _) = told(&text, words);
+        let helps = diagnostics.iter().flat_map(|diagnostic| &diagnostic.help);
+        assert!(
+            helps.flat_map(|help| offered(help)).next().is_some(),
+            "{what}: {diagnostics:#?}"
+        );
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::cursor::{Cursor, Number};
 use super::parse::{DEEPEST, Parsed, Trouble, at_end, coordinates, expected, name, value, variable};
 use super::syntax::{
     Approximation, Arc, ArcPoints, Directions, Motion, MotionWord, Phrase, Setting, SettingValue, Tail,
-    Target, is_same_name,
+    Target, is_same_name, meaning,
 };
 
 /// A motion that begins with this word; none where the word begins something else.
@@ -30,9 +30,7 @@ fn motion_word(word: &str) -> Option<MotionWord> {
         ("PTP_REL", MotionWord::PtpRel),
         ("SPTP_REL", MotionWord::SptpRel),
     ];
-    words
-        .into_iter()
-        .find_map(|(name, motion)| is_same_name(word, name).then_some(motion))
+    meaning(word, &words)
 }
 
 fn arc_word(word: &str) -> Option<ArcPoints> {
@@ -42,9 +40,7 @@ fn arc_word(word: &str) -> Option<ArcPoints> {
         ("CIRC_REL", ArcPoints::Relative),
         ("SCIRC_REL", ArcPoints::Relative),
     ];
-    words
-        .into_iter()
-        .find_map(|(name, points)| is_same_name(word, name).then_some(points))
+    meaning(word, &words)
 }
 
 #[inline]
@@ -148,9 +144,7 @@ fn approximation(word: &str) -> Option<Approximation> {
         ("C_SPL", Approximation::Spline),
         ("C_VEL", Approximation::Speed),
     ];
-    words
-        .into_iter()
-        .find_map(|(name, approximation)| is_same_name(word, name).then_some(approximation))
+    meaning(word, &words)
 }
 
 /// `$VEL=SVEL_CP(0.2, , LCPDAT1), $BASE=BASE_DATA[1]`.

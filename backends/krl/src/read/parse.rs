@@ -3,7 +3,7 @@
 use super::cursor::{Cursor, Number};
 use super::motions;
 use super::syntax::{
-    Component, Coordinates, Declaration, Field, Phrase, Scope, Span, Value, Variable, is_same_name,
+    Component, Coordinates, Declaration, Field, Phrase, Scope, Span, Value, Variable, is_same_name, meaning,
 };
 
 /// How deep structures lie within structures; `LOAD` needs two.
@@ -111,9 +111,7 @@ impl Keyword {
             ("WAIT", Self::Wait),
             ("HALT", Self::Halt),
         ];
-        let described = words
-            .into_iter()
-            .find_map(|(name, keyword)| is_same_name(word, name).then_some(keyword));
+        let described = meaning(word, &words);
         described.or_else(|| {
             let is_known = OTHERS.iter().any(|name| is_same_name(word, name));
             is_known.then_some(Self::Other)

@@ -26,6 +26,13 @@ pub const fn is_same_name(one: &str, other: &str) -> bool {
     one.eq_ignore_ascii_case(other)
 }
 
+/// What a table of words says of a name.
+#[inline]
+pub(super) fn meaning<T: Copy>(name: &str, words: &[(&str, T)]) -> Option<T> {
+    let found = words.iter().find(|(word, _)| is_same_name(name, word));
+    found.map(|(_, meaning)| *meaning)
+}
+
 /// The walk over the statements of a text.
 #[derive(Clone, Debug)]
 pub struct Statements<'t> {

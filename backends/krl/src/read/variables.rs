@@ -1,6 +1,6 @@
 //! Named positions and frames, and who sees them.
 
-use super::syntax::{Component, Coordinates, Declaration, Scope, Value, Variable, is_same_name};
+use super::syntax::{Component, Coordinates, Declaration, Scope, Value, Variable, meaning};
 use std::collections::BTreeMap;
 
 /// Where a name is known. A controller looks in this order.
@@ -177,9 +177,7 @@ impl Shape {
             ("LDAT", Self::Other),
             ("LOAD", Self::Other),
         ];
-        kinds
-            .into_iter()
-            .find_map(|(name, shape)| is_same_name(kind, name).then_some(shape))
+        meaning(kind, &kinds)
     }
 
     const fn components(self) -> Option<&'static [Component]> {

@@ -43,6 +43,20 @@ fn what_is_no_dxf_is_told_so() {
     assert_eq!(page("ANSI_932"), Err(NoText::CodePage("ANSI_932".to_owned())));
 }
 
+/// Letters of names may be written by their numbers.
+#[test]
+fn codes_stand_for_letters() {
+    let text = |bytes: &str| dxf_text(bytes.as_bytes().to_vec()).unwrap();
+    assert_eq!(text(r"Au\U+00DFenh\u+00E4ut"), r"Außenh\u+00E4ut");
+    assert_eq!(text(r"\U+00E4\U+20AC"), "ä€");
+    assert_eq!(text("45%%d %%P2 %%c8 100%%%"), "45° ±2 ⌀8 100%");
+    for plain in [
+        r"\U+00E", r"\U+D800", r"\U+000A", r"\U+ 0E4", "%%x", "5 %", r"C:\", "%%",
+    ] {
+        assert_eq!(text(plain), plain);
+    }
+}
+
 #[test]
 fn files_that_were_cut_off_are_told_so() {
     let text = entities(LINE);

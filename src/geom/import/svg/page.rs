@@ -120,6 +120,35 @@ impl Fit {
     }
 }
 
+/// Where in a rectangle a view box lies that does not fill it: the share of what is left over that comes before it, and for
+/// one that is cut off of what stands out.
+#[derive(Clone, Copy)]
+struct Alignment {
+    /// From the left.
+    x: f64,
+    /// From above.
+    y: f64,
+}
+
+impl Alignment {
+    fn of(node: Node<'_, '_>) -> Self {
+        let words = attribute(node, "preserveAspectRatio").map_or("", |text| text.text);
+        let share = |least: &str, most: &str| {
+            if words.contains(least) {
+                0.0
+            } else if words.contains(most) {
+                1.0
+            } else {
+                0.5
+            }
+        };
+        Self {
+            x: share("xMin", "xMax"),
+            y: share("YMin", "YMax"),
+        }
+    }
+}
+
 /// The page.
 pub(super) struct Page {
     /// The unit of the drawing.
@@ -162,10 +191,18 @@ impl Page {
             (None, None) => None,
         };
         Ok(match factors {
-            Some((x, z)) => Self {
-                unit: Unit::Known(x),
-                map: Affine::stretch(1.0, z / x).after(upright),
-            },
+            Some((x, z)) => {
+                // What the page has beyond the view box, in its user units; upwards from below.
+                let aligned = Alignment::of(root);
+                let left = wide.map_or(0.0, |wide| (wide / x - view.width) * aligned.x);
+                let below = high.map_or(0.0, |high| (high / z - view.height) * (1.0 - aligned.y));
+                Self {
+                    unit: Unit::Known(x),
+                    map: Affine::stretch(1.0, z / x)
+                        .after(Affine::shift(left, below))
+                        .after(upright),
+                }
+            }
             None => Self {
                 unit: Unit::Unsaid(place(root)),
                 map: upright,
@@ -195,16 +232,11 @@ pub(super) fn viewport(node: Node<'_, '_>, used_by: Option<Node<'_, '_>>) -> Res
     if !(sx > 0.0 && sy > 0.0) {
         return Err(place(node).error("this is shown in a size of 0"));
     }
-    // What is left over is shared out evenly, as `xMidYMid` says; other alignments are refused.
-    if let Some(text) = attribute(node, "preserveAspectRatio") {
-        let is_even = text.text.contains("xMidYMid") || text.text.contains("none");
-        if !is_even {
-            return Err(text
-                .place(0..text.text.len())
-                .error("only `none` and `xMidYMid` are read here"));
-        }
-    }
-    let spare = Affine::shift((width - view.width * sx) / 2.0, (height - view.height * sy) / 2.0);
+    let aligned = Alignment::of(node);
+    let spare = Affine::shift(
+        (width - view.width * sx) * aligned.x,
+        (height - view.height * sy) * aligned.y,
+    );
     Ok(corner
         .after(spare)
         .after(Affine::stretch(sx, sy))

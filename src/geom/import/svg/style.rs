@@ -10,8 +10,8 @@ use super::tree::{attribute, place};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 
-/// Properties that move what they are given to.
-const MOVES: &[&str] = &[
+/// Properties that decide where things lie or what shape they have, in the place of attributes that are read.
+const OF_GEOMETRY: &[&str] = &[
     "transform",
     "-webkit-transform",
     "-moz-transform",
@@ -23,7 +23,6 @@ const MOVES: &[&str] = &[
     "transform-origin",
     "transform-box",
     "offset-path",
-    // Geometry that a style gives instead of the attribute.
     "d",
     "cx",
     "cy",
@@ -34,23 +33,38 @@ const MOVES: &[&str] = &[
     "y",
 ];
 
-/// What hides.
+/// What hides, all of a thing or a part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Property {
     Display,
     Visibility,
+    ClipPath,
+    Mask,
 }
 
 impl Property {
-    const fn name(self) -> &'static str {
+    const ALL: [Self; 4] = [Self::Display, Self::Visibility, Self::ClipPath, Self::Mask];
+
+    /// Its word.
+    pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Display => "display",
             Self::Visibility => "visibility",
+            Self::ClipPath => "clip-path",
+            Self::Mask => "mask",
+        }
+    }
+
+    /// Whether it hides all of a thing with this value.
+    fn hides(self, value: &str) -> bool {
+        match self {
+            Self::Display | Self::Visibility => matches!(value, "none" | "hidden" | "collapse"),
+            Self::ClipPath | Self::Mask => false,
         }
     }
 
     fn of(name: &str) -> Option<Self> {
-        [Self::Display, Self::Visibility]
+        Self::ALL
             .into_iter()
             .find(|property| name.eq_ignore_ascii_case(property.name()))
     }
@@ -60,6 +74,8 @@ impl Property {
 pub(super) struct Sheet<'d> {
     classes: BTreeMap<(&'d str, Property), (usize, &'d str)>,
     rules: usize,
+    /// Sheets in other files: how they are named, and where.
+    elsewhere: Vec<(&'static str, Place)>,
 }
 
 impl<'d> Sheet<'d> {
@@ -68,10 +84,11 @@ impl<'d> Sheet<'d> {
         let mut sheet = Self {
             classes: BTreeMap::new(),
             rules: 0,
+            elsewhere: document.descendants().filter_map(sheet_elsewhere).collect(),
         };
         for node in document.descendants().filter(Node::is_element) {
-            if attribute(node, "style").is_some_and(|style| declarations(style.text).any(moves)) {
-                return Err(moved(place(node)));
+            if attribute(node, "style").is_some_and(|style| declarations(style.text).any(is_of_geometry)) {
+                return Err(geometry(place(node)));
             }
             if node.tag_name().name() == "style" {
                 for text in node
@@ -79,11 +96,19 @@ impl<'d> Sheet<'d> {
                     .filter(Node::is_text)
                     .filter_map(|text| text.text())
                 {
+                    if text.contains(IMPORT) {
+                        sheet.elsewhere.push((IMPORT, place(node)));
+                    }
                     sheet.read(text, place(node))?;
                 }
             }
         }
         Ok(sheet)
+    }
+
+    /// Sheets in other files, which are not read.
+    pub(super) fn elsewhere(&self) -> &[(&'static str, Place)] {
+        &self.elsewhere
     }
 
     fn read(&mut self, text: &'d str, place: Place) -> Result<(), DataError> {
@@ -94,8 +119,8 @@ impl<'d> Sheet<'d> {
             self.rules += 1;
             // Rules without a block, such as `@import`, and comments stand before selectors.
             let selectors = prelude.rsplit([';', '/']).next().unwrap_or_default().trim();
-            if declarations(body).any(moves) {
-                return Err(moved(place));
+            if declarations(body).any(is_of_geometry) {
+                return Err(geometry(place));
             }
             for (property, value) in declarations(body).filter_map(|(name, value)| {
                 Some((Property::of(name.rsplit(['{', '}']).next()?.trim())?, value))
@@ -105,7 +130,7 @@ impl<'d> Sheet<'d> {
                         Some(class) => {
                             self.classes.insert((class, property), (self.rules, value));
                         }
-                        None if matches!(value, "none" | "hidden" | "collapse") => {
+                        None if property.hides(value) => {
                             return Err(place.error(format!(
                                 "the style sheet hides things by `{}`, which is not read: only single classes are",
                                 shortened(selector)
@@ -132,6 +157,20 @@ impl<'d> Sheet<'d> {
         };
         own.or_else(by_class)
             .or_else(|| node.attribute(property.name()).map(str::trim))
+    }
+}
+
+/// The rule with which a sheet takes in another.
+const IMPORT: &str = "@import";
+
+/// What a node that takes in a sheet of another file is called.
+fn sheet_elsewhere(node: Node<'_, '_>) -> Option<(&'static str, Place)> {
+    let is_processed = node.pi().is_some_and(|pi| pi.target == "xml-stylesheet");
+    let is_linked = node.tag_name().name() == "link" && node.attribute("rel") == Some("stylesheet");
+    match (is_processed, is_linked) {
+        (true, _) => Some(("xml-stylesheet", place(node))),
+        (false, true) => Some(("link", place(node))),
+        (false, false) => None,
     }
 }
 
@@ -172,11 +211,14 @@ fn declarations(style: &str) -> impl Iterator<Item = (&str, &str)> {
     })
 }
 
-fn moves((name, value): (&str, &str)) -> bool {
+fn is_of_geometry((name, value): (&str, &str)) -> bool {
     let name = name.rsplit(['{', '}', '/']).next().unwrap_or_default().trim();
-    value != "none" && MOVES.iter().any(|property| name.eq_ignore_ascii_case(property))
+    value != "none"
+        && OF_GEOMETRY
+            .iter()
+            .any(|property| name.eq_ignore_ascii_case(property))
 }
 
-fn moved(place: Place) -> DataError {
-    place.error("a style moves things here, which is not read: use the attribute `transform`")
+fn geometry(place: Place) -> DataError {
+    place.error("a style moves or shapes things here, which is not read: use the attribute `transform`, or those of the shape")
 }

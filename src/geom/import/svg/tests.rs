@@ -200,6 +200,88 @@ fn references_without_end_are_refused() {
     assert!(svg(&bomb, None).unwrap_err().message.contains("more than"));
 }
 
+/// What a page has beyond its view box lies on both sides of it, unless the file says otherwise.
+#[test]
+fn a_view_box_of_another_shape_is_placed_on_its_page() {
+    let ends = |size: &str, said: &str| {
+        let found = rounded(&format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' {size} viewBox='0 0 10 10' {said}><path d='M0 10 10 0'/></svg>"
+        ));
+        [found[0], found[found.len() - 1]]
+    };
+    // In user units: the wide page has 10 of them to spare from left to right, the tall one from above to below.
+    for (said, left, below) in [
+        ("", 5.0, 5.0),
+        ("preserveAspectRatio='xMidYMid meet'", 5.0, 5.0),
+        ("preserveAspectRatio='xMinYMin'", 0.0, 10.0),
+        ("preserveAspectRatio='xMaxYMax'", 10.0, 0.0),
+    ] {
+        let wide = [(left, 0.0), (left + 10.0, 10.0)];
+        assert_eq!(ends("width='100mm' height='50mm'", said), wide, "{said}");
+        let tall = [(0.0, below), (10.0, below + 10.0)];
+        assert_eq!(ends("width='50mm' height='100mm'", said), tall, "{said}");
+    }
+    let cut = ends(
+        "width='100mm' height='50mm'",
+        "preserveAspectRatio='xMidYMid slice'",
+    );
+    assert_eq!(cut, [(0.0, -2.5), (10.0, 7.5)]);
+    let stretched = ends("width='100mm' height='50mm'", "preserveAspectRatio='none'");
+    assert_eq!(stretched, [(0.0, 0.0), (10.0, 5.0)]);
+    let within = "<svg x='10' y='20' width='40' height='20' viewBox='0 0 20 20' preserveAspectRatio='xMaxYMin'>\
+        <path d='M0 20 20 0'/></svg>";
+    let found = rounded(&page(within));
+    assert_eq!([found[0], found[found.len() - 1]], [(30.0, 10.0), (50.0, 30.0)]);
+}
+
+/// Clips and masks hide parts of what is read whole, and sheets of other files may hide anything: both are listed.
+#[test]
+fn what_is_not_applied_is_listed() {
+    let listed = |text: &str| {
+        let drawing = svg(text, None).unwrap();
+        assert_eq!(drawing.strokes.len(), 1, "{text}");
+        let kinds = drawing.unread.into_iter().map(|unread| (unread.kind, unread.why));
+        kinds.collect::<Vec<_>>()
+    };
+    let drawn = "<path d='M0 0 9 9'/>";
+    for (inside, kind, why) in [
+        (
+            format!("<g clip-path='url(#a)'>{drawn}</g>"),
+            "clip-path",
+            Why::NotApplied,
+        ),
+        (
+            format!("<g style='mask:url(#a)'>{drawn}</g>"),
+            "mask",
+            Why::NotApplied,
+        ),
+        (
+            format!("<style>.c{{clip-path:url(#a)}}</style><g class='c'>{drawn}</g>"),
+            "clip-path",
+            Why::NotApplied,
+        ),
+        (
+            format!("<style>@import url('a.css'); .c{{fill:none}}</style>{drawn}"),
+            "@import",
+            Why::OtherFile,
+        ),
+        (
+            format!("<link xmlns='http://www.w3.org/1999/xhtml' rel='stylesheet' href='a.css'/>{drawn}"),
+            "link",
+            Why::OtherFile,
+        ),
+    ] {
+        assert_eq!(listed(&page(&inside)), [(kind.to_owned(), why)], "{inside}");
+    }
+    let processed = format!("<?xml-stylesheet href='a.css'?>{}", page(drawn));
+    assert_eq!(
+        listed(&processed),
+        [("xml-stylesheet".to_owned(), Why::OtherFile)]
+    );
+    let none = format!("<g clip-path='none' style='mask:none'>{drawn}</g>");
+    assert!(listed(&page(&none)).is_empty());
+}
+
 #[test]
 fn layers_are_groups_with_names_and_the_rest_is_listed() {
     let text = page(

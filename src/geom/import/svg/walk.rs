@@ -77,6 +77,10 @@ pub(super) fn drawing(
         shown: Shown::Yes,
         is_wanted: layer.is_none(),
     };
+    for &(name, place) in walk.sheet.elsewhere() {
+        walk.unread.add(name, Why::OtherFile, place);
+    }
+    walk.note_parts_hidden(document.root_element(), state);
     walk.children(document.root_element(), state)?;
     Ok(Drawing {
         unit: page.unit,
@@ -152,6 +156,7 @@ impl<'d, 't> Walk<'d, 't, '_> {
             return Ok(());
         }
         let mut state = self.enter(node, outer)?;
+        self.note_parts_hidden(node, state);
         match name {
             "g" | "a" | "switch" => self.group(node, state),
             "svg" => {
@@ -189,6 +194,19 @@ impl<'d, 't> Walk<'d, 't, '_> {
             },
             is_wanted: outer.is_wanted || is_named,
         })
+    }
+
+    /// Clips and masks, which are not applied.
+    fn note_parts_hidden(&mut self, node: Node<'d, 't>, state: State) {
+        for property in [Property::ClipPath, Property::Mask] {
+            let is_cut = self
+                .sheet
+                .said(node, property)
+                .is_some_and(|value| value != "none");
+            if is_cut && state.is_wanted && state.shown != Shown::No {
+                self.unread.add(property.name(), Why::NotApplied, place(node));
+            }
+        }
     }
 
     /// What a group holds. Only groups are layers, but the wanted one may be a shape.

@@ -54,7 +54,13 @@ impl Told<'_> {
         .help("move what is no part of the outline to another layer, or delete it");
         let is_dark = |unread: &Unread| match unread.why {
             Why::Off | Why::Frozen => true,
-            Why::Kind | Why::Tilted | Why::Paper | Why::Hidden | Why::NoExtent | Why::OtherFile => false,
+            Why::Kind
+            | Why::Tilted
+            | Why::Paper
+            | Why::Hidden
+            | Why::NoExtent
+            | Why::OtherFile
+            | Why::NotApplied => false,
         };
         let diagnostic = if self.layer.is_none() && drawing.unread.iter().any(is_dark) {
             diagnostic.help("a layer that is named is read though it is off or frozen")
