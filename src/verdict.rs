@@ -262,6 +262,7 @@ fn not_freed(attempts: &mut Attempts<'_>, job: &CheckedJob, vcut: &PlannedVcut, 
                 None => diagnostic.help("add `residual = mixed`, which mends such cuts"),
             }
         }
+        Some(Remedy::AllOpen(offer)) => diagnostic.fix_all(offer.title, &offer.edits),
         None => diagnostic.help("use a longer blade, a smaller `swing` or a smaller `step`"),
     }
 }

@@ -118,6 +118,7 @@ pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
     Refused {
         told,
         ladders: vec![ladder],
+        resort: Offer::all_open(asked),
         otherwise: Some("widen the limit, or leave more of the parameters `auto`".to_owned()),
     }
 }

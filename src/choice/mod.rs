@@ -150,6 +150,12 @@ impl From<Refused> for Unplanned {
     }
 }
 
+impl From<Box<Refused>> for Unplanned {
+    fn from(refused: Box<Refused>) -> Self {
+        Self::Refused(vec![*refused])
+    }
+}
+
 impl From<Refusal> for Unplanned {
     fn from(refusal: Refusal) -> Self {
         Self::Parameters(refusal)
@@ -274,13 +280,12 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
     let Some(broken) = limits::broken(bench, asked, &first.vcut) else {
         return Ok(first);
     };
+    if trial::is_searched(asked) {
+        let kept = any_within_limits(bench, asked, cuts_left);
+        return kept.ok_or_else(|| limits::complaint(&first.vcut, broken).into());
+    }
     let (mut assumed, mut by) = (asked.clone(), broken);
-    let tries = if trial::is_searched(asked) {
-        0
-    } else {
-        limits::MOST_TIGHTENED
-    };
-    for _ in 0..tries {
+    for _ in 0..limits::MOST_TIGHTENED {
         assumed = limits::tightened(&assumed, by);
         let Ok(mut laid) = best_lattice(bench, &assumed, cuts_left) else {
             break;
@@ -292,6 +297,23 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
         }
     }
     Err(limits::complaint(&first.vcut, broken).into())
+}
+
+/// The operation with any parameters whose plan keeps all limits: what is held to them from the start goes other ways than what
+/// becomes small first.
+fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Option<LaidOut> {
+    let lattices = parameters::open_lattices(asked);
+    let mut work = Work::OF_A_PROBE;
+    let (parameters, _) = offers::any(bench, asked, &lattices, cuts_left, &mut work, &mut Vec::new())?;
+    let found = Found {
+        finalists: vec![Finalist {
+            parameters,
+            found: FoundBy::Simulation,
+        }],
+        by_formulas: None,
+    };
+    let laid = best_finalist(bench, asked, found, cuts_left).ok()?;
+    limits::broken(bench, asked, &laid.vcut).is_none().then_some(laid)
 }
 
 /// The operation on the best lattice, or on the one that it asks for.

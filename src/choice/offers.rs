@@ -9,7 +9,7 @@ use super::{Contender, Unplanned, within_limits};
 use crate::diag::Diagnostic;
 use crate::job::{Lattice, RoughVcut};
 use crate::plan::parameters::{self, Refusal, VcutParameters};
-use crate::plan::refusal::{Offer, Refused};
+use crate::plan::refusal::{Ladder, Offer, Refused};
 use vcutc_backend_api::units::Duration;
 
 /// Longest times that are offered where nothing else holds the layer, as shares of the least time.
@@ -33,26 +33,61 @@ pub(super) fn told(
     };
     refused
         .into_iter()
-        .map(|refused| with_what_works(refused, |offer| is_sound(bench, &offer.changed, cuts_left, work)))
+        .map(|mut refused| {
+            // A machine that follows one swing need not follow another, and is not asked here.
+            refused.resort = refused.resort.filter(|_| bench.job.machine.is_none());
+            with_what_works(refused, work, |offer, work| {
+                is_sound(bench, &offer.changed, cuts_left, work)
+            })
+        })
         .collect()
 }
 
-/// The diagnostic with the first offer of each ladder that works, or with what to do instead.
-fn with_what_works(refused: Refused, mut works: impl FnMut(&Offer) -> bool) -> Diagnostic {
+/// The diagnostic with the first offer of each ladder that works, or with what to do instead. Each ladder may spend as much as
+/// every other, and on it each offer.
+fn with_what_works(
+    refused: Refused,
+    work: &mut Work,
+    mut works: impl FnMut(&Offer, &mut Work) -> bool,
+) -> Diagnostic {
     let Refused {
         mut told,
         ladders,
+        resort,
         otherwise,
     } = refused;
+    let mut rest = ladders.len() + 1;
     for ladder in ladders {
-        if let Some(offer) = ladder.into_iter().find(|offer| works(offer)) {
+        let mut part = work.part(rest);
+        rest -= 1;
+        if let Some(offer) = first_that_works(ladder, &mut part, &mut works) {
             told = told.fix_all(offer.title, &offer.edits);
         }
+        work.give_back(&part);
     }
-    match otherwise {
-        Some(help) if told.fixes.is_empty() => told.help(help),
-        Some(_) | None => told,
+    if !told.fixes.is_empty() {
+        return told;
     }
+    match (resort.filter(|offer| works(offer, work)), otherwise) {
+        (Some(offer), _) => told.fix_all(offer.title, &offer.edits),
+        (None, Some(help)) => told.help(help),
+        (None, None) => told,
+    }
+}
+
+fn first_that_works(
+    ladder: Ladder,
+    work: &mut Work,
+    works: &mut impl FnMut(&Offer, &mut Work) -> bool,
+) -> Option<Offer> {
+    let mut rest = ladder.len();
+    ladder.into_iter().find(|offer| {
+        let mut part = work.part(rest);
+        rest -= 1;
+        let is_good = works(offer, &mut part);
+        work.give_back(&part);
+        is_good
+    })
 }
 
 /// Whether an operation has a plan that keeps all its limits and has nothing wrong, as far as is seen with so much work. Where

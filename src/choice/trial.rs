@@ -11,15 +11,18 @@
 //! bounded number of plans.
 
 mod around;
+mod climb;
 mod met;
 mod spread;
+#[cfg(test)]
+mod tests;
 
 pub(super) use met::TurnedDown;
 
 use super::bench::{Bench, Figures};
 use super::work::Work;
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
-use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut, Sourced};
+use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
 use crate::plan::parameters::{self, Refusal, ScallopBy, VcutParameters};
@@ -29,12 +32,6 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// Most plans that are tried, by the number of cuts of the first one: below the first number the second.
 const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 24), (MOST_CUTS_COMPARED, 6)];
-
-/// Into how many equal ratios the way from the limit to the freest bound is divided.
-const RUNGS: u32 = 5;
-
-/// How often the way between a sound limit and an unsound one is halved.
-const HALVINGS: usize = 3;
 
 /// One that by the model takes this many times as long as it may is not planned where any plan within the limits will do: on
 /// small parts the model is far from what is planned.
@@ -509,48 +506,6 @@ impl<'t> Trials<'t> {
         parameters::resolve_on(self.bench.job, assumed, self.lattices.to_vec()).ok()
     }
 
-    /// The parameters under another limit on scallop.
-    fn under(&self, limit: Option<Length>) -> Option<VcutParameters> {
-        let mut assumed = limits::of_plans(self.asked);
-        assumed.limits.scallop = limit.map(|value| Sourced { value, span: None });
-        self.resolve(&assumed)
-    }
-
-    /// From the freest parameters down to a limit that is sound, and up again by halves.
-    fn climb(&mut self) {
-        let Some(limit) = self.asked.limits.scallop else {
-            return;
-        };
-        let Some(free) = self.under(None) else { return };
-        let most = free.scallop_bound(self.asked);
-        if self.is_sound(free) || most <= limit.value {
-            return;
-        }
-        let ratio = most.to_mm() / limit.value.to_mm();
-        let at = |share: f64| Some(limit.value * libm::pow(ratio, share));
-        let share = |rung: u32| f64::from(rung) / f64::from(RUNGS);
-        let mut unsound = 1.0;
-        let mut sound = 0.0;
-        for rung in (1..RUNGS).rev() {
-            if self
-                .under(at(share(rung)))
-                .is_some_and(|found| self.is_sound(found))
-            {
-                sound = share(rung);
-                break;
-            }
-            unsound = share(rung);
-        }
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(sound, unsound);
-            if self.under(at(middle)).is_some_and(|found| self.is_sound(found)) {
-                sound = middle;
-            } else {
-                unsound = middle;
-            }
-        }
-    }
-
     fn is_sound(&mut self, found: VcutParameters) -> bool {
         self.weigh(found)
             .is_some_and(|standing| standing.time().is_some())
@@ -618,48 +573,4 @@ const MOST_OVERLAP: f64 = 0.95;
 /// Swings are chosen to a thousandth of a degree.
 fn thousandths(swing: Angle) -> Angle {
     Angle::deg((swing.to_deg() * 1000.0).floor() / 1000.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::choice::Latitude;
-    use crate::geom::curve::Point2;
-    use crate::job::Operation;
-    use crate::plan::tests::{operation, paper_job};
-
-    /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
-    const MOST: usize = 48 + 72 + 72 + 48 + 10;
-
-    #[test]
-    fn the_search_is_bounded() {
-        let heights: [fn(f64) -> f64; 3] = [
-            |x| 20.0 + 3.0 * libm::sin(x / 9.0),
-            |x| (30.0 - 8.0 * (x - 40.0)).clamp(10.0, 30.0),
-            |x| if x < 42.0 { 10.0 } else { 40.0 },
-        ];
-        for height in heights {
-            for scallop in [0.02, 0.4, 3.0, 20.0] {
-                let corners = (0..=85).map(f64::from).map(|x| Point2 { x, z: height(x) });
-                let mut job = paper_job(corners.collect());
-                let asked = operation(&mut job);
-                asked.swing.value = Auto::Auto;
-                asked.layer.value = Auto::Auto;
-                asked.step.value = Auto::Auto;
-                asked.limits.scallop = Some(Sourced {
-                    value: Length::mm(scallop),
-                    span: None,
-                });
-                let Operation::RoughVcut(asked) = job.operations[0].clone();
-                let bench = Bench::new(&job, Latitude::Full);
-                for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
-                    let by_bound = parameters::resolve_on(&job, &asked, vec![lattice]).ok();
-                    let lattices = [lattice];
-                    let mut trials = Trials::new(&bench, &asked, &lattices, 1_000_000);
-                    trials.search(by_bound.as_ref());
-                    assert!(trials.tried.len() <= MOST, "{}", trials.tried.len());
-                }
-            }
-        }
-    }
 }

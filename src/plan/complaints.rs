@@ -58,6 +58,7 @@ pub(super) fn nothing_to_cut(
             show(parameters.layer.to_mm())
         )),
         ladders: vec![raised_tips(asked), thinner_layers(asked, depth)],
+        resort: Offer::all_open(asked),
         otherwise: Some(format!(
             "set `residual = lift`, or use a `layer` of at most {layer} mm"
         )),
@@ -151,6 +152,7 @@ pub(super) fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, coun
     Refused {
         told: diagnostic,
         ladders,
+        resort: Offer::all_open(asked),
         otherwise: Some(otherwise.to_owned()),
     }
 }

@@ -165,13 +165,13 @@ pub fn lay_out(
     parameters: VcutParameters,
     cuts_left: usize,
     before: &Surface,
-) -> Result<LaidOut, Refused> {
+) -> Result<LaidOut, Box<Refused>> {
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
     if let Some(tips) = &asked.tips {
         if tips.tips.len() > cuts_left || given::passed_corners(tips, &parameters) > MOST_PASSED {
-            return Err(given::too_many(tips).into());
+            return Err(Box::new(given::too_many(tips).into()));
         }
         let ground = Ground {
             layout: &layout,
@@ -181,7 +181,7 @@ pub fn lay_out(
         return lay_out_given(job, asked, tips, before, ground);
     }
     if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
-        return Err(too_many_cuts(asked, &parameters, layout.most_tips()));
+        return Err(Box::new(too_many_cuts(asked, &parameters, layout.most_tips())));
     }
     let strategy = asked.residual.value.or(Residual::Mixed);
     let mut after = before.clone();
@@ -196,10 +196,10 @@ pub fn lay_out(
     }
     let (cuts, strategies) = match decided {
         Ok((cuts, _)) if cuts.is_empty() => {
-            return Err(nothing_to_cut(job, asked, &parameters, &clearance));
+            return Err(Box::new(nothing_to_cut(job, asked, &parameters, &clearance)));
         }
         Ok(decided) => decided,
-        Err(count) => return Err(too_many_cuts(asked, &parameters, count)),
+        Err(count) => return Err(Box::new(too_many_cuts(asked, &parameters, count))),
     };
     let ground = Ground {
         layout: &layout,
@@ -254,14 +254,14 @@ fn lay_out_given(
     tips: &Tips,
     before: &Surface,
     ground: Ground<'_>,
-) -> Result<LaidOut, Refused> {
+) -> Result<LaidOut, Box<Refused>> {
     if let Some(refused) = given::in_the_part(job, tips, ground.layout) {
-        return Err(refused.into());
+        return Err(Box::new(refused.into()));
     }
     let mut after = before.clone();
     let (cuts, course) = given::cuts(tips, ground.parameters, &mut after);
     if cuts.is_empty() {
-        return Err(given::nothing_to_cut(job, tips).into());
+        return Err(Box::new(given::nothing_to_cut(job, tips).into()));
     }
     let vcut = PlannedVcut {
         cuts,

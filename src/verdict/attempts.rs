@@ -7,6 +7,7 @@ use super::{Proven, prove, scallop_excess};
 use crate::choice::{self, Latitude, Leeway, Work};
 use crate::job::{CheckedJob, Operation, RoughVcut};
 use crate::plan::PlannedJob;
+use crate::plan::refusal::Offer;
 use crate::sim::prove::Findings;
 use crate::source::SourceMap;
 use vcutc_backend_api::ir::OperationId;
@@ -24,6 +25,19 @@ pub(super) struct Attempts<'a> {
 impl<'a> Attempts<'a> {
     pub(super) const fn new(job: &'a CheckedJob, operation: OperationId, work: &'a mut Work) -> Self {
         Self { job, operation, work }
+    }
+
+    /// Whether swings may be changed: a machine that follows one need not follow another, and is not asked here.
+    pub(super) const fn may_change_swings(&self) -> bool {
+        self.job.machine.is_none()
+    }
+
+    /// All that the operation gives of its cuts left to the compiler, if that works.
+    pub(super) fn all_open(&mut self, asked: &RoughVcut) -> Option<Offer> {
+        if !self.may_change_swings() {
+            return None;
+        }
+        Offer::all_open(asked).filter(|offer| self.prove(|asked| asked.clone_from(&offer.changed)))
     }
 
     /// Whether the job plans and proves with a change, within all its limits.

@@ -3,6 +3,7 @@
 use super::attempts::Attempts;
 use crate::job::{Auto, Residual};
 use crate::plan::parameters::{self, Swung};
+use crate::plan::refusal::Offer;
 use crate::plan::{PlannedVcut, grid};
 use vcutc_backend_api::units::Length;
 
@@ -18,10 +19,12 @@ pub(super) enum Remedy {
     SmallerLayer(Length),
     /// `residual = mixed`.
     ResidualMixed,
+    /// All that is given of the cuts left to the compiler.
+    AllOpen(Box<Offer>),
 }
 
 /// The first change that makes the job prove: `residual = mixed` where the lattice itself fits the blade, else another
-/// step, else the largest layer by closed form, else smaller ones.
+/// step, else the largest layer by closed form, else smaller ones, else what the compiler chooses of all.
 pub(super) fn remedy(attempts: &mut Attempts<'_>, vcut: &PlannedVcut) -> Option<Remedy> {
     let asked = &vcut.asked;
     if vcut.strategy != Residual::Mixed
@@ -50,7 +53,12 @@ pub(super) fn remedy(attempts: &mut Attempts<'_>, vcut: &PlannedVcut) -> Option<
         .into_iter()
         .filter(|&layer| layer > 0.0)
         .map(Length::mm)
-        .find(|&layer| attempts.prove(|asked| asked.layer.value = Auto::Given(layer)))?;
+        .find(|&layer| attempts.prove(|asked| asked.layer.value = Auto::Given(layer)));
+    let Some(layer) = layer else {
+        return attempts
+            .all_open(asked)
+            .map(|offer| Remedy::AllOpen(Box::new(offer)));
+    };
     let is_largest = candidates
         .first()
         .is_some_and(|&first| layer == Length::mm(first));

@@ -135,11 +135,17 @@ fn limit_or_swing(
         };
     }
     if let (Auto::Given(swing), Some(span), None) = (asked.swing.value, asked.swing.span, &asked.tips)
+        && attempts.may_change_swings()
         && let Some(narrower) = swing_that_keeps_it(attempts, swing)
     {
         let value = format!("{} deg", show(narrower.to_deg()));
         let title = format!("use a `swing` of {value}, whose steeper flanks follow the part farther");
         return diagnostic.fix(title, span, value);
+    }
+    if asked.tips.is_none()
+        && let Some(offer) = attempts.all_open(asked)
+    {
+        diagnostic = diagnostic.fix_all(offer.title, &offer.edits);
     }
     if diagnostic.fixes.is_empty() {
         diagnostic = diagnostic.help("use a smaller `swing`, whose steeper flanks follow the part farther");

@@ -179,6 +179,7 @@ pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Re
     Some(Refused {
         told: diagnostic,
         ladders: vec![wider_scallops(asked, stays)],
+        resort: Offer::all_open(asked),
         otherwise: Some("use a larger `scallop`, a thinner blade or a smaller `allowance`".to_owned()),
     })
 }
@@ -224,6 +225,7 @@ pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> 
     Refused {
         told,
         ladders: vec![times.iter().map(offer).collect()],
+        resort: Offer::all_open(asked),
         otherwise: None,
     }
 }

@@ -5,6 +5,7 @@ use super::complaints::check_given;
 use super::show;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, RoughVcut, Sourced};
+use crate::plan::complaints::wider_scallops;
 use crate::plan::optimum::Bound;
 use crate::plan::refusal::{Ladder, Offer, Refused};
 use crate::source::Span;
@@ -12,7 +13,10 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// How much more than the nearest value may be needed, as shares of it: bounds that touch leave nothing to round, and plans
 /// come to other values than the model.
-const MARGINS: [f64; 7] = [0.0, 0.0005, 0.005, 0.02, 0.1, 0.25, 0.5];
+const MARGINS: [f64; 8] = [0.0, 0.0005, 0.005, 0.02, 0.1, 0.25, 0.5, 0.75];
+
+/// Most larger limits on scallop that are looked at beside another change.
+const MOST_WIDER: usize = 5;
 
 /// A bound in the job's words.
 struct Party {
@@ -72,8 +76,25 @@ pub(super) fn conflict(asked: &RoughVcut, bounds: &[Bound], nearest: &[Option<f6
         ladders: ladders
             .filter_map(|(&bound, nearest)| nearest.map(|nearest| ladder(asked, bound, nearest)))
             .collect(),
+        resort: Offer::all_open(asked),
         otherwise: Some("widen one of these, or leave more of the parameters `auto`".to_owned()),
     }
+}
+
+/// The nearest value of a bound with larger limits on scallop: on a steep part plans leave more than the model knows of.
+fn with_wider_scallops(nearest: &Offer) -> Ladder {
+    let wider = wider_scallops(&nearest.changed, Length::ZERO).into_iter();
+    wider
+        .take(MOST_WIDER)
+        .map(|wider| {
+            let values = wider.title.trim_start_matches("use ");
+            Offer {
+                title: format!("{} with {values}", nearest.title),
+                edits: nearest.edits.iter().cloned().chain(wider.edits).collect(),
+                changed: wider.changed,
+            }
+        })
+        .collect()
 }
 
 /// Limits that leave less between them than a micrometre, or a thousandth of a degree.
@@ -110,6 +131,11 @@ fn ladder(asked: &RoughVcut, bound: Bound, nearest: f64) -> Ladder {
             });
         }
     }
+    let wider = match (bound, ladder.first()) {
+        (Bound::Scallop, _) | (_, None) => Vec::new(),
+        (_, Some(nearest)) => with_wider_scallops(nearest),
+    };
+    ladder.extend(wider);
     ladder
 }
 
