@@ -180,9 +180,9 @@ pub struct Limits {
     pub scallop: Option<Sourced<Length>>,
     /// Longest edge that a cut may use.
     pub edge: Option<Sourced<Length>>,
-    /// Longest time of the operation, by the model.
+    /// Longest time of the operation, as planned.
     pub time: Option<Sourced<Duration>>,
-    /// Most V-cuts of the operation, by the model; at least 1.
+    /// Most V-cuts of the operation, as planned; at least 1.
     pub cuts: Option<Sourced<f64>>,
 }
 

@@ -2,21 +2,25 @@
 //!
 //! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
 
+mod attempts;
+mod chips;
 mod given;
+mod scallop;
 
-use crate::choice::{self, Latitude, Leeway};
+use crate::choice::{Latitude, Work};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
-use crate::job::{Auto, CheckedJob, Operation, Residual, RoughVcut};
+use crate::job::{CheckedJob, RoughVcut};
 use crate::lower;
-use crate::plan::grid;
-use crate::plan::parameters::{self, show};
+use crate::plan::parameters::show;
 use crate::plan::{self, PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
 use crate::sim::report::{Report, report};
 use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
 use crate::source::{SourceMap, Span};
+use attempts::Attempts;
+use chips::Remedy;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
@@ -83,6 +87,7 @@ pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
 /// Puts everything that is wrong with a proven program into words.
 #[must_use]
 pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Diagnostic> {
+    let mut work = Work::OF_A_REFUSAL;
     let mut diagnostics: Vec<Diagnostic> = proven
         .findings
         .iter()
@@ -90,7 +95,18 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
             let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(finding.operation.0))?;
             Some(match finding.fault {
                 CutFault::NotFreed { needed, available } => {
-                    not_freed(job, vcut, finding, count, [needed, available])
+                    let mut attempts = Attempts::new(job, finding.operation, &mut work);
+                    not_freed(
+                        &mut attempts,
+                        job,
+                        vcut,
+                        Chips {
+                            finding,
+                            count,
+                            needed,
+                            available,
+                        },
+                    )
                 }
                 CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
                 CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
@@ -98,7 +114,7 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
         })
         .collect();
     if diagnostics.is_empty() {
-        diagnostics.extend(scallop_over_limit(job, plan, &proven.report));
+        diagnostics.extend(scallop::over_limit(job, plan, &proven.report, &mut work));
     }
     diagnostics.extend(plan.operations.iter().filter_map(|operation| {
         let PlannedOperation::RoughVcut(vcut) = operation;
@@ -149,13 +165,22 @@ fn point(x: f64, z: f64) -> String {
     format!("x {} mm, z {} mm", show(x), show(z))
 }
 
-fn not_freed(
-    job: &CheckedJob,
-    vcut: &PlannedVcut,
+/// Chips that are not cut free: the one that needs the longest edge, and how many there are.
+#[derive(Clone, Copy)]
+struct Chips {
     finding: Finding,
     count: usize,
-    [needed, available]: [Length; 2],
-) -> Diagnostic {
+    needed: Length,
+    available: Length,
+}
+
+fn not_freed(attempts: &mut Attempts<'_>, job: &CheckedJob, vcut: &PlannedVcut, chips: Chips) -> Diagnostic {
+    let Chips {
+        finding,
+        count,
+        needed,
+        available,
+    } = chips;
     let asked = &vcut.asked;
     if let Some(tips) = &asked.tips {
         return given::not_freed(job, (asked, tips), finding, count, [needed, available]);
@@ -164,9 +189,9 @@ fn not_freed(
     // Rounded up: 10.003 mm is not 10 mm.
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
     let layer = show(vcut.parameters.layer.to_mm());
-    let remedy = remedy(job, vcut, finding.operation);
+    let remedy = chips::remedy(attempts, vcut);
     let (span, label) = match (&remedy, asked.step.span, asked.layer.span) {
-        (Some(Remedy::Step(_)), Some(span), _) => (
+        (Some(Remedy::Step(_) | Remedy::OpenStep), Some(span), _) => (
             span,
             format!("with this step, the blade cannot cut layers of {layer} mm free"),
         ),
@@ -198,14 +223,16 @@ fn not_freed(
     match remedy {
         Some(Remedy::Step(step)) => {
             let value = format!("{} mm", show(step.to_mm()));
-            let diagnostic = diagnostic.help(format!(
-                "use a `step` of {value} with these layers, or leave it `auto`"
-            ));
+            let advice = format!("use a `step` of {value} with these layers");
             match asked.step.span {
-                Some(span) => diagnostic.fix("let the compiler choose the step", span, "auto"),
-                None => diagnostic,
+                Some(span) => diagnostic.fix(advice, span, value),
+                None => diagnostic.help(advice),
             }
         }
+        Some(Remedy::OpenStep) => match asked.step.span {
+            Some(span) => diagnostic.fix("let the compiler choose the step: `auto`", span, "auto"),
+            None => diagnostic.help("leave the `step` `auto`"),
+        },
         Some(Remedy::LargestLayer(layer)) => {
             let value = format!("{} mm", show(layer.to_mm()));
             let advice = format!("use a `layer` of at most {value}");
@@ -235,6 +262,7 @@ fn not_freed(
                 None => diagnostic.help("add `residual = mixed`, which mends such cuts"),
             }
         }
+        Some(Remedy::AllOpen(offer)) => diagnostic.fix_all(offer.title, &offer.edits),
         None => diagnostic.help("use a longer blade, a smaller `swing` or a smaller `step`"),
     }
 }
@@ -269,111 +297,13 @@ impl UsableEdge {
     }
 }
 
-/// A change that mends a job.
-enum Remedy {
-    /// The step that the compiler would choose for the layer asked for.
-    Step(Length),
-    /// The largest layer.
-    LargestLayer(Length),
-    /// A smaller layer than closed form says: one that has been tried.
-    SmallerLayer(Length),
-    /// `residual = mixed`.
-    ResidualMixed,
-}
-
-/// The first change that makes the job prove: `residual = mixed` where the lattice itself fits the blade, else another
-/// step, else the largest layer by closed form, else smaller ones.
-fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Option<Remedy> {
-    let asked = &vcut.asked;
-    let works = |change: &dyn Fn(&mut RoughVcut)| proves_with(job, operation, change);
-    if vcut.strategy != Residual::Mixed
-        && vcut.parameters.lattice_fits()
-        && works(&|asked| asked.residual.value = Auto::Given(Residual::Mixed))
-    {
-        return Some(Remedy::ResidualMixed);
-    }
-    let largest = match asked.step.value {
-        Auto::Auto => parameters::largest_layer(asked, &vcut.parameters),
-        Auto::Given(step) => {
-            if works(&|asked| asked.step.value = Auto::Auto) {
-                return Some(Remedy::Step(vcut.parameters.step_for_layer()));
-            }
-            parameters::largest_layer_at(asked, &vcut.parameters, step).unwrap_or_default()
-        }
-    };
-    let start = largest.min(vcut.parameters.layer).to_mm();
-    let candidates = [1.0, 0.9, 0.75, 0.5].map(|share| grid::down(start * share * 0.1) * 10.0);
-    let layer = candidates
-        .into_iter()
-        .filter(|&layer| layer > 0.0)
-        .map(Length::mm)
-        .find(|&layer| works(&|asked| asked.layer.value = Auto::Given(layer)))?;
-    let is_largest = candidates
-        .first()
-        .is_some_and(|&first| layer == Length::mm(first));
-    // At another swing, larger layers than this one may do.
-    Some(match asked.swing.value {
-        Auto::Given(_) if is_largest => Remedy::LargestLayer(layer),
-        Auto::Given(_) | Auto::Auto => Remedy::SmallerLayer(layer),
-    })
-}
-
-/// Plans and proves the job with a change of one operation; nothing where the change makes it contradict itself.
-fn attempt(
-    job: &CheckedJob,
-    operation: OperationId,
-    change: impl Fn(&mut RoughVcut),
-) -> Option<(PlannedJob, Proven)> {
-    let mut changed = job.clone();
-    let Operation::RoughVcut(asked) = changed.operations.get_mut(usize::from(operation.0))?;
-    change(asked);
-    planned_and_proven(&changed, Latitude::Full)
-}
-
-fn planned_and_proven(job: &CheckedJob, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
-    let (plan, diagnostics) = choice::choose_within(job, Leeway::along(latitude));
-    let plan = plan.filter(|_| diagnostics.is_empty())?;
-    let proven = prove(&plan, &SourceMap::default()).ok()?;
-    (proven.findings == Findings::default()).then_some((plan, proven))
-}
-
 /// The plan and proof of a job that has nothing wrong with its cuts, along the route that any machine follows best, as the
 /// compiler takes it when the machine follows no other.
 #[must_use]
 pub fn sound(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
-    planned_and_proven(job, Latitude::RowsByPoint)
+    attempts::planned_and_proven(job, Latitude::RowsByPoint)
         .filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
 }
-
-/// Whether the job plans and proves with a change of one operation.
-fn proves_with(job: &CheckedJob, operation: OperationId, change: impl Fn(&mut RoughVcut)) -> bool {
-    attempt(job, operation, change)
-        .is_some_and(|(plan, proven)| scallop_excess(&plan, &proven.report).is_none())
-}
-
-/// A scallop limit that the job keeps. Layers that follow from the limit grow with it, so the height that stays now need
-/// not be one.
-fn limit_that_is_kept(job: &CheckedJob, operation: OperationId, height: Length) -> Option<Length> {
-    let mut limit = height;
-    for _ in 0..MOST_LIMITS {
-        // To a tenth of a millimetre, upwards.
-        limit = Length::mm((limit.to_mm() * 10.0).ceil() / 10.0);
-        let raise = |asked: &mut RoughVcut| {
-            if let Some(given) = &mut asked.limits.scallop {
-                given.value = limit;
-            }
-        };
-        let (plan, proven) = attempt(job, operation, raise)?;
-        if scallop_excess(&plan, &proven.report).is_none() {
-            return Some(limit);
-        }
-        limit = proven.report.scallop.height.max(limit * 1.1);
-    }
-    None
-}
-
-/// Most limits that are tried before giving up.
-const MOST_LIMITS: usize = 8;
 
 /// The operation with the tightest scallop limit, if the machined contour is above it.
 pub fn scallop_excess<'p>(
@@ -388,77 +318,4 @@ pub fn scallop_excess<'p>(
     let tightest = limits.min_by(|(.., a), (.., b)| a.total_cmp(b))?;
     // The search for the highest point works in floating point; a micrometre over the limit is no excess.
     (report.scallop.height > tightest.2 + Length::mm(1e-3)).then_some(tightest)
-}
-
-/// A residual strategy and a layer that keep the limit on scallop.
-fn residual_and_layer(
-    job: &CheckedJob,
-    operation: OperationId,
-    vcut: &PlannedVcut,
-) -> Option<(Residual, f64)> {
-    let layers = [1.0, 0.75, 0.5, 0.25].map(|share| vcut.parameters.layer.to_mm() * share);
-    [Residual::Mixed, Residual::Lift]
-        .into_iter()
-        .find_map(|residual| {
-            layers
-                .iter()
-                .copied()
-                .map(|layer| grid::down(layer * 0.1) * 10.0)
-                .filter(|&layer| layer > 0.0)
-                .find_map(|layer| {
-                    let works = proves_with(job, operation, |asked| {
-                        asked.residual.value = Auto::Given(residual);
-                        asked.layer.value = Auto::Given(Length::mm(layer));
-                    });
-                    works.then_some((residual, layer))
-                })
-        })
-}
-
-fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> Option<Diagnostic> {
-    let (operation, asked, limit) = scallop_excess(plan, report)?;
-    let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
-    let limit_mm = show(limit.to_mm());
-    let span = asked
-        .limits
-        .scallop
-        .and_then(|limit| limit.span)
-        .unwrap_or(asked.head_span);
-    let headline = format!(
-        "{height} mm of material stay on the part at x {} mm, the limit is {limit_mm} mm",
-        show(peak.x)
-    );
-    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit").and(
-        job.profile_span,
-        format!(
-            "the part lies {height} mm below the highest material, {}",
-            point(peak.x, peak.z)
-        ),
-    );
-    let planned = plan.operations.get(usize::from(operation.0))?;
-    let PlannedOperation::RoughVcut(vcut) = planned;
-    let works = match asked.tips {
-        // Nothing moves given tips.
-        Some(_) => None,
-        None => residual_and_layer(job, operation, vcut),
-    };
-    Some(match works {
-        Some((residual, layer)) => {
-            let word = residual.word();
-            diagnostic.help(format!(
-                "use `residual = {word}` with a `layer` of {} mm",
-                show(layer)
-            ))
-        }
-        None => {
-            let smaller = "use a smaller `swing`, whose steeper flanks follow the part farther";
-            let help = match limit_that_is_kept(job, operation, report.scallop.height) {
-                Some(limit) => format!("raise the limit to {} mm, or {smaller}", show(limit.to_mm())),
-                None => smaller.to_owned(),
-            };
-            diagnostic
-                .note("where the part is steeper than the flanks of the V, cuts cannot follow it whatever their size")
-                .help(help)
-        }
-    })
 }

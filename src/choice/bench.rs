@@ -14,6 +14,29 @@ use crate::source::SourceMap;
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 
+/// What a plan comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Figures {
+    pub(super) time: Duration,
+    pub(super) cuts: usize,
+    /// The most that is left: the machined contour's largest distance from the part.
+    pub(super) height: Length,
+    /// The longest edge in use.
+    pub(super) edge: Length,
+}
+
+impl Figures {
+    /// What an objective makes small: seconds, cuts, or millimetres.
+    pub(super) const fn merit(&self, objective: Objective) -> f64 {
+        match objective {
+            Objective::Time => self.time.to_s(),
+            Objective::Cuts => self.cuts as f64,
+            Objective::Scallop => self.height.to_mm(),
+            Objective::BladeLoad => self.edge.to_mm(),
+        }
+    }
+}
+
 /// A job, and what the operations decided so far leave of its stock.
 pub(super) struct Bench<'j> {
     pub(super) job: &'j CheckedJob,
@@ -50,13 +73,17 @@ impl<'j> Bench<'j> {
     /// What comes of an operation.
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
+        let cuts = vcut.cuts.len();
         let Some(program) = self.program(vcut) else {
             return Contender {
                 laid,
                 standing: Standing::Impossible,
-                time: Duration::ZERO,
-                merit: f64::INFINITY,
-                height: Length::ZERO,
+                figures: Figures {
+                    time: Duration::ZERO,
+                    cuts,
+                    height: Length::ZERO,
+                    edge: Length::ZERO,
+                },
                 residual: Area::ZERO,
             };
         };
@@ -71,21 +98,18 @@ impl<'j> Bench<'j> {
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
         let height = farthest(&corners, &self.job.profile).height;
-        let merit = match vcut.asked.objective.value {
-            Objective::Time => time.to_s(),
-            Objective::Cuts => vcut.cuts.len() as f64,
-            Objective::Scallop => height.to_mm(),
-            Objective::BladeLoad => replay.longest_edge.to_mm(),
-        };
         Contender {
             laid,
             standing: match failing {
                 0 => Standing::Takes(time),
                 _ => Standing::Fails(failing),
             },
-            time,
-            merit,
-            height,
+            figures: Figures {
+                time,
+                cuts,
+                height,
+                edge: replay.longest_edge,
+            },
             residual: Area::mm2(area_under(&corners)) - part,
         }
     }

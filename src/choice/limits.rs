@@ -5,11 +5,14 @@
 //! choose keeps them by the model, and is chosen again with tighter ones where its plan does not. What no plan keeps in the end
 //! is refused, with the value that the plan would keep.
 
+use super::bench::Bench;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Objective, RoughVcut};
 use crate::plan::PlannedVcut;
 use crate::plan::decision::Excess;
 use crate::plan::parameters::show;
+use crate::plan::refusal::{Offer, Refused};
+use crate::source::Span;
 use vcutc_backend_api::units::Duration;
 
 /// How often limits are tightened for the model.
@@ -24,6 +27,14 @@ pub(super) fn of_plans(asked: &RoughVcut) -> RoughVcut {
     asked.limits.time = None;
     asked.limits.cuts = None;
     asked
+}
+
+/// Which of an operation's limits on time and cuts a plan breaks.
+pub(super) fn broken(bench: &Bench<'_>, asked: &RoughVcut, vcut: &PlannedVcut) -> Option<Excess> {
+    if asked.limits.time.is_none() && asked.limits.cuts.is_none() {
+        return None;
+    }
+    excess(asked, bench.time(vcut)?, vcut.cuts.len())
 }
 
 /// Which of its limits a plan of so many cuts breaks that takes this time.
@@ -61,39 +72,99 @@ pub(super) fn tightened(assumed: &RoughVcut, excess: Excess) -> RoughVcut {
     tighter
 }
 
+/// How much wider than what the plan comes to a limit may have to be: what is searched for within limits may come out
+/// otherwise.
+const MARGINS: [f64; 4] = [1.0, 1.02, 1.1, 1.25];
+
 /// A plan that breaks a limit: what it comes to, and the limit that it keeps.
-pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Diagnostic {
+pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
     let asked = &vcut.asked;
     let limits = &asked.limits;
-    let (plan, limit, span, keeps) = match excess {
-        Excess::Time { time, limit } => {
-            let keeps = show((time.to_s() * 10.0 - 1e-6).ceil() / 10.0);
-            (
-                format!("takes {keeps} s"),
-                format!("{} s", show(limit.to_s())),
-                limits.time.and_then(|limit| limit.span),
-                format!("time <= {keeps} s"),
-            )
-        }
+    let (plan, limit, span) = match excess {
+        Excess::Time { time, limit } => (
+            format!("takes {} s", show(tenths(time.to_s()))),
+            format!("{} s", show(limit.to_s())),
+            limits.time.and_then(|limit| limit.span),
+        ),
         Excess::Cuts { cuts, limit } => (
             format!("has {cuts} cuts"),
             show(limit.floor()),
             limits.cuts.and_then(|limit| limit.span),
-            format!("cuts <= {cuts}"),
         ),
     };
-    let which = match (asked.objective.value, excess, super::trial::is_searched(asked)) {
-        (Objective::Time, Excess::Time { .. }, true) => "the fastest plan found",
-        (Objective::Cuts, Excess::Cuts { .. }, true) => "the plan of the fewest cuts found",
-        (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _, _) => "the plan",
+    // What is searched for without the limit on what is made small comes to the same under any that it keeps.
+    let (which, is_certain) = match (asked.objective.value, excess, super::trial::is_searched(asked)) {
+        (Objective::Time, Excess::Time { .. }, true) => ("the fastest plan found", true),
+        (Objective::Cuts, Excess::Cuts { .. }, true) => ("the plan of the fewest cuts found", true),
+        (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _, _) => {
+            ("the plan", false)
+        }
     };
-    let value = keeps.rsplit("<= ").next().unwrap_or_default().to_owned();
-    Diagnostic::new(
+    let span = span.unwrap_or(asked.head_span);
+    let told = Diagnostic::new(
         Code::LimitsConflict,
         format!("{which} {plan}, the limit is {limit}"),
-        span.unwrap_or(asked.head_span),
+        span,
         "the limit",
     )
-    .note("this is the operation as planned, at programmed speeds, not an estimate")
-    .fix(format!("use `{keeps}`"), span.unwrap_or(asked.head_span), value)
+    .note("this is the operation as planned, at programmed speeds, not an estimate");
+    let ladder: Vec<Offer> = MARGINS
+        .into_iter()
+        .map(|margin| wider(asked, excess, margin, span))
+        .collect();
+    if is_certain {
+        return kept_as_told(told, ladder).into();
+    }
+    Refused {
+        told,
+        ladders: vec![ladder],
+        resort: Offer::all_open(asked),
+        otherwise: Some("widen the limit, or leave more of the parameters `auto`".to_owned()),
+    }
+}
+
+/// In seconds, to a tenth, upwards.
+fn tenths(seconds: f64) -> f64 {
+    (seconds * 10.0 - 1e-6).ceil() / 10.0
+}
+
+/// The operation with the limit that a plan broke as wide as the plan needs it, and wider by a margin.
+fn wider(asked: &RoughVcut, excess: Excess, margin: f64, span: Span) -> Offer {
+    let mut changed = asked.clone();
+    let (name, text) = match excess {
+        Excess::Time { time, .. } => {
+            let kept = tenths(time.to_s() * margin);
+            if let Some(limit) = &mut changed.limits.time {
+                limit.value = Duration::s(kept);
+            }
+            ("time", format!("{} s", show(kept)))
+        }
+        Excess::Cuts { cuts, .. } => {
+            let kept = (cuts as f64 * margin).ceil();
+            if let Some(limit) = &mut changed.limits.cuts {
+                limit.value = kept;
+            }
+            ("cuts", show(kept))
+        }
+    };
+    Offer {
+        title: format!("use `{name} <= {text}`"),
+        edits: vec![(span, text)],
+        changed,
+    }
+}
+
+/// What is told of a plan that was made: it keeps the nearest of the wider limits, so that one need not be tried.
+fn kept_as_told(told: Diagnostic, ladder: Vec<Offer>) -> Diagnostic {
+    let nearest = ladder.into_iter().next();
+    nearest
+        .into_iter()
+        .fold(told, |told, offer| told.fix_all(offer.title, &offer.edits))
+}
+
+/// A plan that breaks a limit, told by who made it without that limit.
+pub(super) fn told(vcut: &PlannedVcut, excess: Excess) -> Diagnostic {
+    let refused = complaint(vcut, excess);
+    let ladder = refused.ladders.into_iter().flatten().collect();
+    kept_as_told(refused.told, ladder)
 }

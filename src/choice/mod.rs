@@ -11,24 +11,29 @@
 //! `boustrophedon` and by `point`.
 
 mod bench;
+mod finest;
 mod leeway;
 mod limits;
+mod offers;
 mod route;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod work;
 
 pub use leeway::{Latitude, Leeway, Narrowed, is_swing_open};
+pub use work::Work;
 
 use crate::diag::Diagnostic;
 use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
 use crate::plan::decision::{Candidate, Decision, Standing};
-use crate::plan::parameters::VcutParameters;
+use crate::plan::parameters::{Refusal, VcutParameters};
+use crate::plan::refusal::Refused;
 use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
 };
-use bench::Bench;
+use bench::{Bench, Figures};
 use core::cmp::Ordering;
 use rayon::prelude::*;
 use trial::{Finalist, Found, FoundBy};
@@ -57,9 +62,11 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
     let mut bench = Bench::new(job, leeway.routes);
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
+    let mut work = Work::OF_A_REFUSAL;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
-        match within_limits(&bench, &leeway::within(asked, leeway.swing), cuts_left) {
+        let within = leeway::within(asked, leeway.swing);
+        match within_limits(&bench, &within, cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
                     leeway::told(&mut vcut, asked.limits.swing, swing);
@@ -68,7 +75,9 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
                 bench.before = after;
                 operations.push(PlannedOperation::RoughVcut(vcut));
             }
-            Err(told) => diagnostics.extend(told),
+            Err(unplanned) => {
+                diagnostics.extend(offers::told(&bench, &within, cuts_left, unplanned, &mut work));
+            }
         }
     }
     let planned = (operations.len() == job.operations.len()).then(|| PlannedJob {
@@ -81,7 +90,20 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
     (planned, diagnostics)
 }
 
-/// The job with its operations' limits on time and cuts taken away; none where there are no such limits.
+/// Whether a job of one operation has a plan with nothing wrong that keeps all limits, as far as is seen with so much work.
+/// Where it has one, [`choose`] comes to one.
+#[must_use]
+pub fn is_sound(job: &CheckedJob, work: &mut Work) -> bool {
+    match &job.operations[..] {
+        [Operation::RoughVcut(asked)] => {
+            offers::is_sound(&Bench::new(job, Latitude::Full), asked, MOST_CUTS, work)
+        }
+        _ => false,
+    }
+}
+
+/// The job with its operations' limits on time and cuts taken away, and made fast where these hold what is to become small;
+/// none where there are no such limits.
 #[must_use]
 pub fn unlimited(job: &CheckedJob) -> Option<CheckedJob> {
     let is_limited =
@@ -89,7 +111,7 @@ pub fn unlimited(job: &CheckedJob) -> Option<CheckedJob> {
     job.operations.iter().any(is_limited).then(|| {
         let mut free = job.clone();
         for Operation::RoughVcut(asked) in &mut free.operations {
-            *asked = limits::of_plans(asked);
+            *asked = limits::of_plans(&finest::as_time(asked));
         }
         free
     })
@@ -101,10 +123,10 @@ pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
     let bench = Bench::new(job, Latitude::Full);
     let told = |(asked, planned): (&Operation, &PlannedOperation)| {
         let (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut)) = (asked, planned);
-        let excess = limits::excess(asked, bench.time(vcut)?, vcut.cuts.len())?;
+        let excess = limits::broken(&bench, asked, vcut)?;
         let mut vcut = vcut.clone();
         vcut.asked.limits = asked.limits;
-        Some(limits::complaint(&vcut, excess))
+        Some(limits::told(&vcut, excess))
     };
     job.operations
         .iter()
@@ -113,15 +135,38 @@ pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
         .collect()
 }
 
+/// Why an operation has no plan.
+#[derive(Debug)]
+enum Unplanned {
+    /// What there is to tell is known.
+    Refused(Vec<Refused>),
+    /// There are no parameters.
+    Parameters(Refusal),
+}
+
+impl From<Refused> for Unplanned {
+    fn from(refused: Refused) -> Self {
+        Self::Refused(vec![refused])
+    }
+}
+
+impl From<Box<Refused>> for Unplanned {
+    fn from(refused: Box<Refused>) -> Self {
+        Self::Refused(vec![*refused])
+    }
+}
+
+impl From<Refusal> for Unplanned {
+    fn from(refusal: Refusal) -> Self {
+        Self::Parameters(refusal)
+    }
+}
+
 /// A way to cut an operation, and what came of it.
 struct Contender {
     laid: LaidOut,
     standing: Standing,
-    time: Duration,
-    /// What the operation's objective makes small: seconds, cuts, or millimetres.
-    merit: f64,
-    /// The most that is left: the machined contour's largest distance from the part.
-    height: Length,
+    figures: Figures,
     residual: Area,
 }
 
@@ -136,9 +181,9 @@ impl Contender {
     /// Fails if it leaves more than that, or breaks one of the operation's limits on time and cuts.
     fn held_to(mut self, limit: Option<Length>, asked: &RoughVcut) -> Self {
         // The search for the highest point works in floating point; a micrometre over the limit is no excess.
-        let excess = limit.filter(|&limit| self.height > limit + Length::mm(1e-3));
+        let excess = limit.filter(|&limit| self.figures.height > limit + Length::mm(1e-3));
         if let (Standing::Takes(_), Some(limit)) = (self.standing, excess) {
-            let height = self.height;
+            let height = self.figures.height;
             self.standing = Standing::Leaves { height, limit };
         } else if let Standing::Takes(time) = self.standing
             && let Some(excess) = limits::excess(asked, time, self.laid.vcut.cuts.len())
@@ -154,15 +199,16 @@ impl Contender {
             return Ordering::Equal;
         }
         if let (Standing::Takes(_), Standing::Takes(_)) = (self.standing, other.standing) {
-            let by_merit = self.merit.total_cmp(&other.merit);
-            let by_time = self.time.total_cmp(&other.time);
+            let merit = |one: &Self| one.figures.merit(one.laid.vcut.asked.objective.value);
+            let by_merit = merit(self).total_cmp(&merit(other));
+            let by_time = self.figures.time.total_cmp(&other.figures.time);
             return by_merit
                 .then(by_time)
                 .then(self.residual.total_cmp(&other.residual));
         }
         self.standing
             .compare(&other.standing)
-            .then(self.time.total_cmp(&other.time))
+            .then(self.figures.time.total_cmp(&other.figures.time))
             .then(self.residual.total_cmp(&other.residual))
     }
 }
@@ -229,44 +275,55 @@ fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
 const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shift];
 
 /// The best operation that keeps its limits on time and cuts when it is planned.
-fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
-    let excess = |laid: &LaidOut| {
-        let limits = &asked.limits;
-        if limits.time.is_none() && limits.cuts.is_none() {
-            return None;
-        }
-        let time = bench.time(&laid.vcut)?;
-        limits::excess(asked, time, laid.vcut.cuts.len())
-    };
+fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
     let first = best_lattice(bench, asked, cuts_left)?;
-    let Some(broken) = excess(&first) else {
+    let Some(broken) = limits::broken(bench, asked, &first.vcut) else {
         return Ok(first);
     };
+    if trial::is_searched(asked) {
+        let kept = any_within_limits(bench, asked, cuts_left);
+        return kept.ok_or_else(|| limits::complaint(&first.vcut, broken).into());
+    }
     let (mut assumed, mut by) = (asked.clone(), broken);
-    let tries = if trial::is_searched(asked) {
-        0
-    } else {
-        limits::MOST_TIGHTENED
-    };
-    for _ in 0..tries {
+    for _ in 0..limits::MOST_TIGHTENED {
         assumed = limits::tightened(&assumed, by);
         let Ok(mut laid) = best_lattice(bench, &assumed, cuts_left) else {
             break;
         };
         laid.vcut.asked.limits = asked.limits;
-        match excess(&laid) {
+        match limits::broken(bench, asked, &laid.vcut) {
             Some(still) => by = still,
             None => return Ok(laid),
         }
     }
-    Err(vec![limits::complaint(&first.vcut, broken)])
+    Err(limits::complaint(&first.vcut, broken).into())
+}
+
+/// The operation with any parameters whose plan keeps all limits: what is held to them from the start goes other ways than what
+/// becomes small first.
+fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Option<LaidOut> {
+    let lattices = parameters::open_lattices(asked);
+    let mut work = Work::OF_A_PROBE;
+    let (parameters, _) = offers::any(bench, asked, &lattices, cuts_left, &mut work, &mut Vec::new())?;
+    let found = Found {
+        finalists: vec![Finalist {
+            parameters,
+            found: FoundBy::Simulation,
+        }],
+        by_formulas: None,
+    };
+    let laid = best_finalist(bench, asked, found, cuts_left).ok()?;
+    limits::broken(bench, asked, &laid.vcut).is_none().then_some(laid)
 }
 
 /// The operation on the best lattice, or on the one that it asks for.
-fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Vec<Diagnostic>> {
+fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
     match (asked.lattice.value, asked.objective.value) {
+        (_, Objective::Scallop | Objective::BladeLoad) if trial::is_searched(asked) => {
+            finest::finest(bench, asked, cuts_left)
+        }
         (Auto::Auto, Objective::Time) => compare_lattices(bench, asked, cuts_left),
-        // Other objectives are none of the route's: the lattice is the formulas' choice.
+        // The fewest cuts are none of the route's: all lattices are searched at once.
         (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {
             best_on(bench, asked, &parameters::open_lattices(asked), cuts_left)
         }
@@ -279,7 +336,7 @@ fn best_on(
     asked: &RoughVcut,
     lattices: &[Lattice],
     cuts_left: usize,
-) -> Result<LaidOut, Vec<Diagnostic>> {
+) -> Result<LaidOut, Unplanned> {
     let found = trial::parameters(bench, asked, lattices, cuts_left)?;
     best_finalist(bench, asked, found, cuts_left)
 }
@@ -290,7 +347,7 @@ fn best_finalist(
     asked: &RoughVcut,
     found: Found,
     cuts_left: usize,
-) -> Result<LaidOut, Vec<Diagnostic>> {
+) -> Result<LaidOut, Unplanned> {
     let limit = asked.limits.scallop.map(|limit| limit.value);
     if let [only] = &found.finalists[..]
         && only.found == FoundBy::Formulas
@@ -301,14 +358,14 @@ fn best_finalist(
         let laid = best_residual(bench, asked, &finalist.parameters, cuts_left)?;
         Ok((finalist.found, bench.weigh(laid).held_to(limit, asked)))
     };
-    let outcomes: Vec<Result<(FoundBy, Contender), Vec<Diagnostic>>> =
+    let outcomes: Vec<Result<(FoundBy, Contender), Unplanned>> =
         found.finalists.par_iter().map(outcome).collect();
     let mut compared: Vec<(FoundBy, Contender)> = Vec::new();
-    let mut refused = Vec::new();
+    let mut refused = Unplanned::Refused(Vec::new());
     for outcome in outcomes {
         match outcome {
             Ok(contender) => compared.push(contender),
-            Err(told) => refused = told,
+            Err(unplanned) => refused = unplanned,
         }
     }
     // A stable sort: among equals the first one stands.
@@ -342,11 +399,7 @@ fn best_finalist(
     Ok(laid)
 }
 
-fn compare_lattices(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    cuts_left: usize,
-) -> Result<LaidOut, Vec<Diagnostic>> {
+fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
     let mut refused = None;
     let mut by_model: Vec<(Duration, Lattice)> = Vec::new();
     for lattice in parameters::open_lattices(asked) {
@@ -397,11 +450,11 @@ fn compare_lattices(
         }
         (None, None) => {
             // All lattices together: what is told of one alone would not be the job's.
-            let mut told = Vec::new();
-            let together = parameters::resolve(bench.job, &trial::of_model(asked), &mut told);
-            Err(match together {
-                None => told,
-                Some(_) => refused.unwrap_or_default(),
+            let together = parameters::resolve(bench.job, &trial::of_model(asked));
+            Err(match (together, refused) {
+                (Err(refusal), _) => refusal.into(),
+                (Ok(_), Some(refused)) => refused,
+                (Ok(_), None) => Unplanned::Refused(Vec::new()),
             })
         }
     }
@@ -420,7 +473,7 @@ fn best_residual(
     asked: &RoughVcut,
     found: &VcutParameters,
     cuts_left: usize,
-) -> Result<LaidOut, Vec<Diagnostic>> {
+) -> Result<LaidOut, Unplanned> {
     let first = lay_out(bench.job, asked, found.clone(), cuts_left, &bench.before)?;
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
@@ -454,7 +507,10 @@ fn best_residual(
     // Where the job sets no limit, none may leave more than `mixed` or the lattice itself does.
     let limit = match asked.limits.scallop {
         Some(limit) => limit.value,
-        None => mixed.height.max(mixed.laid.vcut.parameters.scallop_bound(asked)),
+        None => {
+            let bound = mixed.laid.vcut.parameters.scallop_bound(asked);
+            mixed.figures.height.max(bound)
+        }
     };
     contest.enter("mixed", mixed.held_to(Some(limit), asked));
     for (residual, other) in others {
@@ -465,7 +521,8 @@ fn best_residual(
     }
     contest
         .finish("residual")
-        .map_or_else(|| Err(Vec::new()), |best| Ok(best.laid))
+        .map(|best| best.laid)
+        .ok_or(Unplanned::Refused(Vec::new()))
 }
 
 /// A choice for which nothing else was tried.

@@ -1,5 +1,7 @@
 //! Random jobs along every route: the same surface, no cut before those it relies on, and the best of all taken.
 
+mod finest;
+
 use super::choose;
 use crate::diag::Code;
 use crate::geom::curve::Point2;
@@ -321,30 +323,35 @@ fn hollow(x: f64) -> f64 {
     10.0 + (x - 42.5) * (x - 42.5) / 60.0
 }
 
+/// The paper's block with a part and everything left open within limits.
+fn all_open(corners: Vec<Point2>, swing: Option<f64>, scallop: Option<f64>) -> CheckedJob {
+    let mut job = paper_job(corners);
+    let asked = operation(&mut job);
+    asked.lattice.value = Auto::Auto;
+    asked.swing.value = Auto::Auto;
+    asked.layer.value = Auto::Auto;
+    asked.step.value = Auto::Auto;
+    asked.overlap.value = Auto::Auto;
+    asked.residual.value = Auto::Auto;
+    asked.order.value = Auto::Auto;
+    asked.sequence.value = Auto::Auto;
+    asked.limits.swing.most = swing.map(|most| Sourced {
+        value: Angle::deg(most),
+        span: None,
+    });
+    asked.limits.scallop = scallop.map(|most| Sourced {
+        value: Length::mm(most),
+        span: None,
+    });
+    job
+}
+
 impl Open {
     fn job(&self) -> CheckedJob {
         let corners = (0..=170)
             .map(|half| f64::from(half) / 2.0)
             .map(|x| Point2 { x, z: (self.part)(x) });
-        let mut job = paper_job(corners.collect());
-        let asked = operation(&mut job);
-        asked.lattice.value = Auto::Auto;
-        asked.swing.value = Auto::Auto;
-        asked.layer.value = Auto::Auto;
-        asked.step.value = Auto::Auto;
-        asked.overlap.value = Auto::Auto;
-        asked.residual.value = Auto::Auto;
-        asked.order.value = Auto::Auto;
-        asked.sequence.value = Auto::Auto;
-        asked.limits.swing.most = self.swing.map(|most| Sourced {
-            value: Angle::deg(most),
-            span: None,
-        });
-        asked.limits.scallop = self.scallop.map(|most| Sourced {
-            value: Length::mm(most),
-            span: None,
-        });
-        job
+        all_open(corners.collect(), self.swing, self.scallop)
     }
 }
 
@@ -402,22 +409,14 @@ fn no_grid_beats_the_choice_by_much() {
     }
 }
 
-/// A small block with a part, cut along one route, with a limit on scallop.
+/// A block with a part, cut along one route, with a limit on scallop.
 fn small_job(corners: &[(f64, f64)], scallop: f64) -> CheckedJob {
-    let mut job = paper_job(corners.iter().map(|&(x, z)| Point2 { x, z }).collect());
+    let corners = corners.iter().map(|&(x, z)| Point2 { x, z });
+    let mut job = all_open(corners.collect(), None, Some(scallop));
     let asked = operation(&mut job);
-    asked.lattice.value = Auto::Auto;
-    asked.swing.value = Auto::Auto;
-    asked.layer.value = Auto::Auto;
-    asked.step.value = Auto::Auto;
-    asked.overlap.value = Auto::Auto;
     asked.residual.value = Auto::Given(Residual::Mixed);
     asked.order.value = Auto::Given(Order::Point);
     asked.sequence.value = Auto::Given(Sequence::Boustrophedon);
-    asked.limits.scallop = Some(Sourced {
-        value: Length::mm(scallop),
-        span: None,
-    });
     job
 }
 

@@ -11,16 +11,21 @@
 //! bounded number of plans.
 
 mod around;
+mod climb;
+mod met;
 mod spread;
+#[cfg(test)]
+mod tests;
 
-use super::bench::Bench;
-use super::{Contender, MOST_CUTS_COMPARED, limits, route};
-use crate::diag::{Code, Diagnostic};
-use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut, Sourced};
+pub(super) use met::TurnedDown;
+
+use super::bench::{Bench, Figures};
+use super::work::Work;
+use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
+use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
-use crate::plan::optimum::Bound;
-use crate::plan::parameters::{self, ScallopBy, VcutParameters};
+use crate::plan::parameters::{self, Refusal, ScallopBy, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -28,11 +33,9 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 /// Most plans that are tried, by the number of cuts of the first one: below the first number the second.
 const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 24), (MOST_CUTS_COMPARED, 6)];
 
-/// Into how many equal ratios the way from the limit to the freest bound is divided.
-const RUNGS: u32 = 5;
-
-/// How often the way between a sound limit and an unsound one is halved.
-const HALVINGS: usize = 3;
+/// One that by the model takes this many times as long as it may is not planned where any plan within the limits will do: on
+/// small parts the model is far from what is planned.
+const BEYOND: f64 = 1.5;
 
 /// A candidate that by the model takes this many times as long as the best one is not planned.
 const BEHIND: f64 = 1.15;
@@ -93,34 +96,19 @@ pub(super) fn parameters(
     asked: &RoughVcut,
     lattices: &[Lattice],
     cuts_left: usize,
-) -> Result<Found, Vec<Diagnostic>> {
-    let mut told = Vec::new();
-    let by_bound = parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec(), &mut told);
-    let is_conflict = told.iter().all(|one| one.code == Code::LimitsConflict);
-    if !is_searched(asked) || (by_bound.is_none() && !(is_conflict && asked.limits.scallop.is_some())) {
-        return plain(by_bound, told);
-    }
-    let mut trials = Trials::new(bench, asked, lattices, cuts_left);
-    let first = trials.search(by_bound.as_ref());
-    let (finalists, leaves_too_much) = (trials.finalists(by_bound.as_ref()), trials.leaves_too_much);
-    if finalists.is_empty() {
-        return plain(by_bound, told);
-    }
-    let is_by_bound = |found: &VcutParameters| by_bound.as_ref().is_some_and(|bound| alike(bound, found));
-    let named = |parameters: VcutParameters| {
-        if is_by_bound(&parameters) {
-            Finalist {
-                parameters,
-                found: FoundBy::Formulas,
-            }
-        } else {
-            Finalist {
-                parameters: held_by_simulation(asked, parameters, leaves_too_much),
-                found: FoundBy::Simulation,
-            }
-        }
+) -> Result<Found, Unplanned> {
+    let by_bound = match parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec()) {
+        Ok(found) if !is_searched(asked) => return Ok(plain(found)),
+        Ok(found) => Ok(found),
+        Err(refusal) if goes_on(asked, &refusal) => Err(refusal),
+        Err(refusal) => return Err(refusal.into()),
     };
-    let finalists: Vec<Finalist> = finalists.into_iter().map(named).collect();
+    let mut trials = Trials::new(bench, asked, lattices, cuts_left);
+    let first = trials.search(by_bound.as_ref().ok());
+    let finalists = trials.finalists(by_bound.as_ref().ok());
+    if finalists.is_empty() {
+        return by_bound.map(plain).map_err(Unplanned::from);
+    }
     let is_in = finalists.iter().any(|one| one.found == FoundBy::Formulas);
     Ok(Found {
         finalists,
@@ -128,32 +116,72 @@ pub(super) fn parameters(
     })
 }
 
-/// Says of parameters by what the limit on scallop was held against them.
-fn held_by_simulation(
+/// Whether simulation may find something where the formulas find nothing.
+fn goes_on(asked: &RoughVcut, refusal: &Refusal) -> bool {
+    is_searched(asked) && refusal.is_conflict() && asked.limits.scallop.is_some()
+}
+
+/// What was found where any sound plan would do.
+pub(super) struct Any {
+    /// The first sound plan, if there was one.
+    pub(super) sound: Option<(VcutParameters, Figures)>,
+    /// Plans that broke limits before.
+    pub(super) turned_down: Vec<TurnedDown>,
+}
+
+/// The first parameters on one of these lattices whose plan keeps all limits, of those that are searched.
+pub(super) fn any(
+    bench: &Bench<'_>,
     asked: &RoughVcut,
-    mut parameters: VcutParameters,
-    leaves_too_much: bool,
-) -> VcutParameters {
-    parameters.binding.retain(|&bound| bound != Bound::Scallop);
-    if leaves_too_much {
-        parameters.binding.push(Bound::Scallop);
+    lattices: &[Lattice],
+    cuts_left: usize,
+    work: Work,
+) -> (Any, Work) {
+    let mut trials = Trials::new(bench, asked, lattices, cuts_left);
+    (trials.goal, trials.work) = (Goal::Any, work);
+    match parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec()) {
+        Ok(found) => {
+            trials.search(Some(&found));
+        }
+        Err(refusal) if goes_on(asked, &refusal) => {
+            trials.search(None);
+        }
+        Err(_) => {}
     }
-    let bound = parameters.scallop_bound(asked);
-    if asked.limits.scallop.is_some_and(|limit| bound > limit.value) {
-        parameters.scallop_by = ScallopBy::Simulation;
-    }
-    parameters
+    let first = trials.sound.into_iter().next();
+    let found = Any {
+        sound: first.map(|sound| (sound.parameters, sound.figures)),
+        turned_down: trials.turned_down,
+    };
+    (found, trials.work)
+}
+
+/// Parameters and the best that come of changing them, for as long as they become better by the objective.
+pub(super) fn from(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    start: &VcutParameters,
+    cuts_left: usize,
+    turned_down: Vec<TurnedDown>,
+) -> Vec<Finalist> {
+    let lattices = [start.lattice];
+    let mut trials = Trials::new(bench, asked, &lattices, cuts_left);
+    trials.turned_down = turned_down;
+    trials.weigh(start.clone());
+    trials.wander();
+    trials.comb();
+    trials.finalists(None)
 }
 
 /// What the formulas say.
-fn plain(by_bound: Option<VcutParameters>, told: Vec<Diagnostic>) -> Result<Found, Vec<Diagnostic>> {
-    by_bound.ok_or(told).map(|parameters| Found {
+fn plain(parameters: VcutParameters) -> Found {
+    Found {
         finalists: vec![Finalist {
             parameters,
             found: FoundBy::Formulas,
         }],
         by_formulas: None,
-    })
+    }
 }
 
 /// Whether the plan has a say in the parameters. The formulas of the paper stand as they are printed.
@@ -163,19 +191,15 @@ pub(super) fn is_searched(asked: &RoughVcut) -> bool {
         || (asked.step.value == Auto::Auto
             && asked.overlap.value == Auto::Auto
             && asked.limits.scallop.is_some());
-    let is_planned = match asked.objective.value {
-        Objective::Time | Objective::Cuts => true,
-        Objective::Scallop | Objective::BladeLoad => false,
-    };
-    is_open && is_planned && asked.formulas.value == Formulas::Exact
+    is_open && asked.formulas.value == Formulas::Exact
 }
 
-/// What is asked of the model: where plans are searched, those are held to the limits on time and cuts.
+/// What is asked of the model: where plans are searched, those are held to the limits on time and cuts. A scallop or an edge
+/// that is to be small needs them all the same: they hold the layer.
 pub(super) fn of_model(asked: &RoughVcut) -> RoughVcut {
-    if is_searched(asked) {
-        limits::of_plans(asked)
-    } else {
-        asked.clone()
+    match asked.objective.value {
+        Objective::Time | Objective::Cuts if is_searched(asked) => limits::of_plans(asked),
+        Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad => asked.clone(),
     }
 }
 
@@ -185,7 +209,7 @@ pub(super) fn freest(bench: &Bench<'_>, asked: &RoughVcut, lattice: Lattice) -> 
     if is_searched(asked) {
         assumed.limits.scallop = None;
     }
-    parameters::possible_on(bench.job, &assumed, vec![lattice])
+    parameters::resolve_on(bench.job, &assumed, vec![lattice]).ok()
 }
 
 /// Whether the same cuts come of both.
@@ -196,8 +220,7 @@ fn alike(one: &VcutParameters, two: &VcutParameters) -> bool {
 /// A plan with nothing wrong.
 struct Sound {
     parameters: VcutParameters,
-    merit: f64,
-    cuts: usize,
+    figures: Figures,
     model: Duration,
 }
 
@@ -219,11 +242,16 @@ enum Outcome {
     /// More cuts than are compared.
     TooLarge { cuts: usize },
     /// A plan.
-    Planned {
-        cuts: usize,
-        standing: Standing,
-        merit: f64,
-    },
+    Planned { standing: Standing, figures: Figures },
+}
+
+/// What the search is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Goal {
+    /// The best plans.
+    Best,
+    /// Any plan that keeps all limits.
+    Any,
 }
 
 struct Trials<'t> {
@@ -241,7 +269,9 @@ struct Trials<'t> {
     ahead: Vec<(VcutParameters, Outcome)>,
     /// The best first.
     sound: Vec<Sound>,
-    leaves_too_much: bool,
+    turned_down: Vec<TurnedDown>,
+    goal: Goal,
+    work: Work,
 }
 
 impl<'t> Trials<'t> {
@@ -257,39 +287,71 @@ impl<'t> Trials<'t> {
             tried: Vec::new(),
             ahead: Vec::new(),
             sound: Vec::new(),
-            leaves_too_much: false,
+            turned_down: Vec::new(),
+            goal: Goal::Best,
+            work: Work::UNBOUNDED,
         }
     }
 
     /// The whole search; what came of the formulas' parameters.
     fn search(&mut self, by_bound: Option<&VcutParameters>) -> Option<Standing> {
         let first = by_bound.and_then(|found| self.weigh(found.clone()));
-        self.climb();
-        self.spread();
-        self.wander();
-        self.comb();
+        for part in [Self::climb, Self::spread, Self::wander, Self::comb] {
+            if self.is_answered() {
+                break;
+            }
+            part(self);
+        }
         first
     }
 
+    /// Whether nothing more is to be known.
+    const fn is_answered(&self) -> bool {
+        let is_found = match self.goal {
+            Goal::Best => false,
+            Goal::Any => !self.sound.is_empty(),
+        };
+        is_found || self.work.is_spent()
+    }
+
     /// The best few, the best first, and the formulas' parameters if they are sound.
-    fn finalists(&self, by_bound: Option<&VcutParameters>) -> Vec<VcutParameters> {
+    fn finalists(&self, by_bound: Option<&VcutParameters>) -> Vec<Finalist> {
         let Some(best) = self.sound.first() else {
             return Vec::new();
         };
-        let most = FINALISTS.iter().find(|(below, _)| best.cuts < *below);
+        let most = FINALISTS.iter().find(|(below, _)| best.figures.cuts < *below);
         let most = most.map_or(1, |&(_, count)| count);
+        let is_by_bound = |sound: &Sound| by_bound.is_some_and(|bound| alike(bound, &sound.parameters));
         self.sound
             .iter()
             .enumerate()
-            .filter(|(rank, sound)| {
-                *rank < most || (most > 1 && by_bound.is_some_and(|bound| alike(bound, &sound.parameters)))
+            .filter(|(rank, sound)| *rank < most || (most > 1 && is_by_bound(sound)))
+            .map(|(_, sound)| match by_bound {
+                Some(bound) if alike(bound, &sound.parameters) => Finalist {
+                    parameters: bound.clone(),
+                    found: FoundBy::Formulas,
+                },
+                Some(_) | None => Finalist {
+                    parameters: self.held_by_simulation(sound),
+                    found: FoundBy::Simulation,
+                },
             })
-            .map(|(_, sound)| sound.parameters.clone())
             .collect()
     }
 
+    /// Parameters with what they came up against, and by what the limit on scallop was held against them.
+    fn held_by_simulation(&self, sound: &Sound) -> VcutParameters {
+        let mut parameters = sound.parameters.clone();
+        parameters.binding = met::binding(self.asked, sound, &self.turned_down);
+        let bound = parameters.scallop_bound(self.asked);
+        if self.asked.limits.scallop.is_some_and(|limit| bound > limit.value) {
+            parameters.scallop_by = ScallopBy::Simulation;
+        }
+        parameters
+    }
+
     fn may_go_on(&self) -> bool {
-        self.plans_left != Some(0)
+        self.plans_left != Some(0) && !self.is_answered()
     }
 
     /// What comes of parameters; none where no more plans may be made or none can be.
@@ -304,31 +366,26 @@ impl<'t> Trials<'t> {
         let model = self.model(&found);
         let known = self.ahead.iter().find(|(planned, _)| *planned == found);
         let outcome = known.map_or_else(|| self.outcome(&found), |(_, outcome)| *outcome);
-        let (cuts, standing, merit) = match outcome {
+        let (standing, figures) = match outcome {
             Outcome::Impossible => {
-                self.spend(MOST_CUTS_COMPARED - 1);
+                self.spend(MOST_CUTS_COMPARED - 1, 0);
                 return Some(self.note(found, Standing::Impossible));
             }
             Outcome::TooLarge { cuts } => {
-                self.spend(cuts);
+                self.spend(cuts, cuts);
                 return None;
             }
-            Outcome::Planned {
-                cuts,
-                standing,
-                merit,
-            } => (cuts, standing, merit),
+            Outcome::Planned { standing, figures } => (standing, figures),
         };
-        self.spend(cuts);
+        self.spend(figures.cuts, figures.cuts);
         if standing.time().is_some() {
             self.keep(Sound {
                 parameters: found.clone(),
-                merit,
-                cuts,
+                figures,
                 model,
             });
         }
-        self.leaves_too_much |= matches!(standing, Standing::Leaves { .. });
+        self.turned_down.extend(TurnedDown::of(standing, figures));
         Some(self.note(found, standing))
     }
 
@@ -350,12 +407,10 @@ impl<'t> Trials<'t> {
         }
         let limit = self.asked.limits.scallop.map(|limit| limit.value);
         let weighed = self.bench.weigh(self.along_its_route(laid));
-        let Contender { standing, merit, .. } = weighed.held_to(limit, &self.held_to());
-        Outcome::Planned {
-            cuts,
-            standing,
-            merit,
-        }
+        let Contender {
+            standing, figures, ..
+        } = weighed.held_to(limit, &self.held_to());
+        Outcome::Planned { standing, figures }
     }
 
     /// Plans those that would be weighed next as far as can be seen, side by side.
@@ -384,14 +439,22 @@ impl<'t> Trials<'t> {
     /// Whether there will be far more cuts than are compared, by the model: to lay them out takes long.
     fn is_too_large(&self, found: &VcutParameters) -> bool {
         let model = found.time_model(self.bench.job, self.asked);
-        model.cuts(found.layer, found.step) > 1.5 * MOST_CUTS_COMPARED as f64
+        let cuts = model.cuts(found.layer, found.step);
+        let most = match self.goal {
+            Goal::Best => 1.5,
+            Goal::Any => 1.0,
+        };
+        cuts > most * MOST_CUTS_COMPARED as f64 || self.work.is_less_than(cuts)
     }
 
     /// The operation along its usual route, or along the fastest one where its time is limited and something else made small.
     fn along_its_route(&self, laid: LaidOut) -> LaidOut {
-        match (self.asked.objective.value, self.asked.limits.time) {
-            (Objective::Cuts, Some(_)) => route::best(self.bench, laid),
-            (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _) => {
+        match (self.goal, self.asked.objective.value, self.asked.limits.time) {
+            (Goal::Any, _, Some(_))
+            | (Goal::Best, Objective::Cuts | Objective::Scallop | Objective::BladeLoad, Some(_)) => {
+                route::best(self.bench, laid)
+            }
+            (Goal::Best, Objective::Time, Some(_)) | (Goal::Best | Goal::Any, _, None) => {
                 route::usual(self.bench, laid)
             }
         }
@@ -400,6 +463,9 @@ impl<'t> Trials<'t> {
     /// What plans are held to: all but the limit on what is made small, which the best one keeps if any does.
     fn held_to(&self) -> RoughVcut {
         let mut held = self.asked.clone();
+        if self.goal == Goal::Any {
+            return held;
+        }
         match held.objective.value {
             Objective::Time => held.limits.time = None,
             Objective::Cuts => held.limits.cuts = None,
@@ -415,12 +481,14 @@ impl<'t> Trials<'t> {
 
     /// Puts a sound plan in its place; behind its equals.
     fn keep(&mut self, sound: Sound) {
-        let rank = self.sound.partition_point(|other| other.merit <= sound.merit);
+        let merit = |sound: &Sound| sound.figures.merit(self.asked.objective.value);
+        let rank = self.sound.partition_point(|other| merit(other) <= merit(&sound));
         self.sound.insert(rank, sound);
     }
 
-    /// Counts a plan.
-    fn spend(&mut self, cuts: usize) {
+    /// Counts a plan as one of an operation of so many cuts, of which so many were laid out.
+    fn spend(&mut self, cuts: usize, laid_out: usize) {
+        self.work.spend(laid_out);
         let left = self.plans_left.unwrap_or_else(|| {
             let fitting = self.most_plans.iter().find(|(below, _)| cuts < *below);
             fitting.map_or(1, |&(_, plans)| plans)
@@ -435,49 +503,7 @@ impl<'t> Trials<'t> {
     }
 
     fn resolve(&self, assumed: &RoughVcut) -> Option<VcutParameters> {
-        parameters::possible_on(self.bench.job, assumed, self.lattices.to_vec())
-    }
-
-    /// The parameters under another limit on scallop.
-    fn under(&self, limit: Option<Length>) -> Option<VcutParameters> {
-        let mut assumed = limits::of_plans(self.asked);
-        assumed.limits.scallop = limit.map(|value| Sourced { value, span: None });
-        self.resolve(&assumed)
-    }
-
-    /// From the freest parameters down to a limit that is sound, and up again by halves.
-    fn climb(&mut self) {
-        let Some(limit) = self.asked.limits.scallop else {
-            return;
-        };
-        let Some(free) = self.under(None) else { return };
-        let most = free.scallop_bound(self.asked);
-        if self.is_sound(free) || most <= limit.value {
-            return;
-        }
-        let ratio = most.to_mm() / limit.value.to_mm();
-        let at = |share: f64| Some(limit.value * libm::pow(ratio, share));
-        let share = |rung: u32| f64::from(rung) / f64::from(RUNGS);
-        let mut unsound = 1.0;
-        let mut sound = 0.0;
-        for rung in (1..RUNGS).rev() {
-            if self
-                .under(at(share(rung)))
-                .is_some_and(|found| self.is_sound(found))
-            {
-                sound = share(rung);
-                break;
-            }
-            unsound = share(rung);
-        }
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(sound, unsound);
-            if self.under(at(middle)).is_some_and(|found| self.is_sound(found)) {
-                sound = middle;
-            } else {
-                unsound = middle;
-            }
-        }
+        parameters::resolve_on(self.bench.job, assumed, self.lattices.to_vec()).ok()
     }
 
     fn is_sound(&mut self, found: VcutParameters) -> bool {
@@ -491,11 +517,15 @@ impl<'t> Trials<'t> {
         }
     }
 
-    /// Whether a time by the model is far behind that of the best one.
+    /// Whether a time by the model is far behind that of the best one, or beyond the limit where any plan will do.
     fn is_behind(&self, model: Duration) -> bool {
-        match self.asked.objective.value {
-            Objective::Time => self.sound.first().is_some_and(|best| model > best.model * BEHIND),
-            Objective::Cuts | Objective::Scallop | Objective::BladeLoad => false,
+        let limit = self.asked.limits.time;
+        match (self.goal, self.asked.objective.value) {
+            (Goal::Any, _) => limit.is_some_and(|limit| model > limit.value * BEYOND),
+            (Goal::Best, Objective::Time) => {
+                self.sound.first().is_some_and(|best| model > best.model * BEHIND)
+            }
+            (Goal::Best, Objective::Cuts | Objective::Scallop | Objective::BladeLoad) => false,
         }
     }
 
@@ -543,48 +573,4 @@ const MOST_OVERLAP: f64 = 0.95;
 /// Swings are chosen to a thousandth of a degree.
 fn thousandths(swing: Angle) -> Angle {
     Angle::deg((swing.to_deg() * 1000.0).floor() / 1000.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::choice::Latitude;
-    use crate::geom::curve::Point2;
-    use crate::job::Operation;
-    use crate::plan::tests::{operation, paper_job};
-
-    /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
-    const MOST: usize = 48 + 72 + 72 + 48 + 10;
-
-    #[test]
-    fn the_search_is_bounded() {
-        let heights: [fn(f64) -> f64; 3] = [
-            |x| 20.0 + 3.0 * libm::sin(x / 9.0),
-            |x| (30.0 - 8.0 * (x - 40.0)).clamp(10.0, 30.0),
-            |x| if x < 42.0 { 10.0 } else { 40.0 },
-        ];
-        for height in heights {
-            for scallop in [0.02, 0.4, 3.0, 20.0] {
-                let corners = (0..=85).map(f64::from).map(|x| Point2 { x, z: height(x) });
-                let mut job = paper_job(corners.collect());
-                let asked = operation(&mut job);
-                asked.swing.value = Auto::Auto;
-                asked.layer.value = Auto::Auto;
-                asked.step.value = Auto::Auto;
-                asked.limits.scallop = Some(Sourced {
-                    value: Length::mm(scallop),
-                    span: None,
-                });
-                let Operation::RoughVcut(asked) = job.operations[0].clone();
-                let bench = Bench::new(&job, Latitude::Full);
-                for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
-                    let by_bound = parameters::resolve_on(&job, &asked, vec![lattice], &mut Vec::new());
-                    let lattices = [lattice];
-                    let mut trials = Trials::new(&bench, &asked, &lattices, 1_000_000);
-                    trials.search(by_bound.as_ref());
-                    assert!(trials.tried.len() <= MOST, "{}", trials.tried.len());
-                }
-            }
-        }
-    }
 }

@@ -1,10 +1,12 @@
 //! What the planner has to say when there is no plan.
 
 use super::parameters::{VcutParameters, show};
+use super::refusal::{Ladder, Offer, Refused};
 use super::{MOST_CUTS, MOST_OPERATIONS, grid};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::profile::Profile;
-use crate::job::{Auto, CheckedJob, RoughVcut};
+use crate::job::{Auto, CheckedJob, Residual, RoughVcut};
+use crate::source::Span;
 use vcutc_backend_api::units::Length;
 
 pub(super) fn too_many_operations(asked: &RoughVcut, count: usize) -> Diagnostic {
@@ -22,7 +24,7 @@ pub(super) fn nothing_to_cut(
     asked: &RoughVcut,
     parameters: &VcutParameters,
     clearance: &Profile,
-) -> Diagnostic {
+) -> Refused {
     let lowest = clearance.lowest().z + parameters.drop.to_mm();
     let depth = job.stock.height.to_mm() - lowest;
     let message = "this operation leaves nothing to cut";
@@ -43,23 +45,65 @@ pub(super) fn nothing_to_cut(
         job.stock_span,
         format!("the stock ends at z {} mm", show(job.stock.height.to_mm())),
     );
-    if depth > 0.0 {
-        diagnostic
-            .note(format!(
-                "the depth of {} mm is less than one layer of {} mm, and tips are not raised",
-                show(depth),
-                show(parameters.layer.to_mm())
-            ))
-            .help(format!(
-                "set `residual = lift`, or use a `layer` of at most {} mm",
-                show(grid::down(depth))
-            ))
-    } else {
-        diagnostic.help("make the stock higher or the part lower, or reduce `allowance`")
+    if depth <= 0.0 {
+        return diagnostic
+            .help("make the stock higher or the part lower, or reduce `allowance`")
+            .into();
+    }
+    let layer = show(grid::down(depth));
+    Refused {
+        told: diagnostic.note(format!(
+            "the depth of {} mm is less than one layer of {} mm, and tips are not raised",
+            show(depth),
+            show(parameters.layer.to_mm())
+        )),
+        ladders: vec![raised_tips(asked), thinner_layers(asked, depth)],
+        resort: Offer::all_open(asked),
+        otherwise: Some(format!(
+            "set `residual = lift`, or use a `layer` of at most {layer} mm"
+        )),
     }
 }
 
-pub(super) fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, count: usize) -> Diagnostic {
+fn raised_tips(asked: &RoughVcut) -> Ladder {
+    let Some(span) = asked.residual.span else {
+        return Vec::new();
+    };
+    let with = |residual: Residual| {
+        let mut changed = asked.clone();
+        changed.residual.value = Auto::Given(residual);
+        Offer {
+            title: format!("let tips be raised: `residual = {}`", residual.word()),
+            edits: vec![(span, residual.word().to_owned())],
+            changed,
+        }
+    };
+    vec![with(Residual::Mixed), with(Residual::Lift)]
+}
+
+/// Layers that fit into a depth: its whole, and parts of it.
+fn thinner_layers(asked: &RoughVcut, depth: f64) -> Ladder {
+    let Some(span) = asked.layer.span else {
+        return Vec::new();
+    };
+    let layers = [1.0, 0.5, 0.25].map(|share| grid::down(depth * share));
+    layers
+        .into_iter()
+        .filter(|&layer| layer > 0.0)
+        .map(|layer| {
+            let mut changed = asked.clone();
+            changed.layer.value = Auto::Given(Length::mm(layer));
+            let text = format!("{} mm", show(layer));
+            Offer {
+                title: format!("use a `layer` of {text}"),
+                edits: vec![(span, text)],
+                changed,
+            }
+        })
+        .collect()
+}
+
+pub(super) fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, count: usize) -> Refused {
     let size = |length: Length| match length.to_mm() {
         mm if mm < 0.01 => format!("{} um", show(mm * 1000.0)),
         mm => format!("{} mm", show(mm)),
@@ -88,21 +132,101 @@ pub(super) fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, coun
     for (span, label) in labels {
         diagnostic = diagnostic.and(span, label);
     }
-    match (asked.layer.value, asked.step.value, asked.limits.scallop) {
+    let (ladders, otherwise) = match (asked.layer.value, asked.step.value, asked.limits.scallop) {
         (Auto::Auto, _, Some(limit)) => {
-            let least = show((asked.allowance.value + parameters.drop).to_mm());
-            diagnostic
-                .and(
-                    limit.span.unwrap_or(asked.head_span),
-                    "the layer follows from this limit",
-                )
-                .help(format!(
-                    "set the limit well above {least} mm: what is left of it decides the layer"
-                ))
+            let least = asked.allowance.value + parameters.drop;
+            diagnostic = diagnostic.and(
+                limit.span.unwrap_or(asked.head_span),
+                "the layer follows from this limit",
+            );
+            let otherwise =
+                "use a larger `scallop`: what allowance and standoff leave of it decides the layer";
+            (vec![wider_scallops(asked, least)], otherwise)
         }
-        (Auto::Auto, Auto::Auto, None) => diagnostic.help("use a longer blade or a smaller stock"),
-        (Auto::Given(_), _, _) | (Auto::Auto, Auto::Given(_), None) => {
-            diagnostic.help("use a larger `layer` and `step`, or leave both `auto`")
-        }
+        (Auto::Auto, Auto::Auto, None) => (Vec::new(), "use a longer blade or a smaller stock"),
+        (Auto::Given(_), _, _) | (Auto::Auto, Auto::Given(_), None) => (
+            vec![open_layer_and_step(asked)],
+            "use a larger `layer` and `step`, or leave both `auto`",
+        ),
+    };
+    Refused {
+        told: diagnostic,
+        ladders,
+        resort: Offer::all_open(asked),
+        otherwise: Some(otherwise.to_owned()),
     }
+}
+
+/// How much wider each limit on scallop that may do is than the one before, and how many there are: far enough from the
+/// finest surface to the coarsest.
+const WIDER: f64 = 1.6;
+const MOST_WIDER: i32 = 14;
+
+/// Larger limits on scallop than the job's, and than what stays on the part anyway.
+pub(super) fn wider_scallops(asked: &RoughVcut, stays: Length) -> Ladder {
+    let Some(limit) = asked.limits.scallop else {
+        return Vec::new();
+    };
+    let Some(span) = limit.span else {
+        return Vec::new();
+    };
+    let narrowest = limit.value.max(stays).to_mm();
+    (1..=MOST_WIDER)
+        .map(|count| {
+            let wide = narrowest * libm::pow(WIDER, f64::from(count));
+            let per_mm = if wide < 1.0 { 100.0 } else { 10.0 };
+            let wide = (wide * per_mm).ceil() / per_mm;
+            let mut changed = asked.clone();
+            if let Some(limit) = &mut changed.limits.scallop {
+                limit.value = Length::mm(wide);
+            }
+            let text = format!("{} mm", show(wide));
+            Offer {
+                title: format!("use `scallop <= {text}`"),
+                edits: vec![(span, text)],
+                changed,
+            }
+        })
+        .collect()
+}
+
+/// The step, the layer, or both as the compiler chooses them: whichever of them is far too small.
+fn open_layer_and_step(asked: &RoughVcut) -> Ladder {
+    let step = match asked.step.value {
+        Auto::Given(_) => asked.step.span,
+        Auto::Auto => None,
+    };
+    let layer = match asked.layer.value {
+        Auto::Given(_) => asked.layer.span,
+        Auto::Auto => None,
+    };
+    let open = |(layer, step): (Option<Span>, Option<Span>)| {
+        let mut changed = asked.clone();
+        let mut edits = Vec::new();
+        if let Some(span) = layer {
+            changed.layer.value = Auto::Auto;
+            edits.push((span, "auto".to_owned()));
+        }
+        if let Some(span) = step {
+            changed.step.value = Auto::Auto;
+            edits.push((span, "auto".to_owned()));
+        }
+        let names = match (layer, step) {
+            (Some(_), Some(_)) => "`layer = auto` and `step = auto`",
+            (Some(_), None) => "`layer = auto`",
+            (None, Some(_)) => "`step = auto`",
+            (None, None) => return None,
+        };
+        Some(Offer {
+            title: format!("let the compiler choose: {names}"),
+            edits,
+            changed,
+        })
+    };
+    let mut ladder: Ladder = [(None, step), (layer, None), (layer, step)]
+        .into_iter()
+        .filter_map(open)
+        .collect();
+    ladder.dedup_by(|later, earlier| later.edits == earlier.edits);
+    ladder
 }

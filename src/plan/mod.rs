@@ -17,6 +17,7 @@ pub mod grid;
 pub mod lattice;
 pub mod optimum;
 pub mod parameters;
+pub mod refusal;
 pub mod residual;
 pub mod route;
 pub mod time_model;
@@ -35,6 +36,7 @@ use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
 use decision::Decision;
 use given::Course;
 use parameters::VcutParameters;
+use refusal::Refused;
 use residual::Strategies;
 use route::Run;
 use vcutc_backend_api::ir::Stock;
@@ -163,13 +165,13 @@ pub fn lay_out(
     parameters: VcutParameters,
     cuts_left: usize,
     before: &Surface,
-) -> Result<LaidOut, Vec<Diagnostic>> {
+) -> Result<LaidOut, Box<Refused>> {
     let bound = offset_up(&job.profile, asked.allowance.value);
     let clearance = cone::clearance(&bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
     if let Some(tips) = &asked.tips {
         if tips.tips.len() > cuts_left || given::passed_corners(tips, &parameters) > MOST_PASSED {
-            return Err(vec![given::too_many(tips)]);
+            return Err(Box::new(given::too_many(tips).into()));
         }
         let ground = Ground {
             layout: &layout,
@@ -179,7 +181,7 @@ pub fn lay_out(
         return lay_out_given(job, asked, tips, before, ground);
     }
     if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
-        return Err(vec![too_many_cuts(asked, &parameters, layout.most_tips())]);
+        return Err(Box::new(too_many_cuts(asked, &parameters, layout.most_tips())));
     }
     let strategy = asked.residual.value.or(Residual::Mixed);
     let mut after = before.clone();
@@ -194,10 +196,10 @@ pub fn lay_out(
     }
     let (cuts, strategies) = match decided {
         Ok((cuts, _)) if cuts.is_empty() => {
-            return Err(vec![nothing_to_cut(job, asked, &parameters, &clearance)]);
+            return Err(Box::new(nothing_to_cut(job, asked, &parameters, &clearance)));
         }
         Ok(decided) => decided,
-        Err(count) => return Err(vec![too_many_cuts(asked, &parameters, count)]),
+        Err(count) => return Err(Box::new(too_many_cuts(asked, &parameters, count))),
     };
     let ground = Ground {
         layout: &layout,
@@ -252,14 +254,14 @@ fn lay_out_given(
     tips: &Tips,
     before: &Surface,
     ground: Ground<'_>,
-) -> Result<LaidOut, Vec<Diagnostic>> {
+) -> Result<LaidOut, Box<Refused>> {
     if let Some(refused) = given::in_the_part(job, tips, ground.layout) {
-        return Err(vec![refused]);
+        return Err(Box::new(refused.into()));
     }
     let mut after = before.clone();
     let (cuts, course) = given::cuts(tips, ground.parameters, &mut after);
     if cuts.is_empty() {
-        return Err(vec![given::nothing_to_cut(job, tips)]);
+        return Err(Box::new(given::nothing_to_cut(job, tips).into()));
     }
     let vcut = PlannedVcut {
         cuts,

@@ -16,13 +16,14 @@ pub use swung::Swung;
 use super::blade_reach::{self, Flanks};
 use super::grid;
 use super::optimum::{self, Bound, Problem};
+use super::refusal::Refused;
 use super::time_model::TimeModel;
 use crate::diag::Diagnostic;
-use crate::job::{Auto, CheckedJob, Direction, Lattice, Objective, RoughVcut};
+use crate::job::{Auto, CheckedJob, Direction, Lattice, RoughVcut};
 use crate::posture::Holder;
 use grid_forms::{fits, widest_step};
-use search::{Chosen, Unchosen};
-use vcutc_backend_api::units::{Angle, Length};
+use search::Chosen;
+use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// The parameters of one V-cutting operation, all decided.
 #[derive(Clone, Debug, PartialEq)]
@@ -198,55 +199,90 @@ struct Resolution {
     standoff: Length,
 }
 
-/// Decides what is open. None when the operation contradicts itself, which is then reported.
+/// Why nothing was decided, before anybody asks for the words: to find those takes many times as long.
+#[derive(Clone, Debug)]
+pub enum Refusal {
+    /// The operation contradicts itself.
+    Contradiction(Vec<Refused>),
+    /// No parameters keep the limits of this problem.
+    Conflict(Box<Problem>),
+    /// Nothing keeps the objective from falling for ever.
+    Unbounded,
+    /// Some do, but none on the grid.
+    OffGrid,
+}
+
+impl Refusal {
+    /// Whether it is limits that cannot be kept together.
+    #[must_use]
+    pub const fn is_conflict(&self) -> bool {
+        match self {
+            Self::Conflict(_) | Self::OffGrid => true,
+            Self::Contradiction(_) | Self::Unbounded => false,
+        }
+    }
+
+    /// In the user's words.
+    #[must_use]
+    pub fn in_words(self, asked: &RoughVcut) -> Vec<Refused> {
+        match self {
+            Self::Contradiction(refused) => refused,
+            Self::Conflict(problem) => {
+                let bounds = optimum::conflicting(&problem);
+                let nearest = optimum::nearest(&problem, &bounds);
+                vec![infeasible::conflict(asked, &bounds, &nearest)]
+            }
+            Self::Unbounded => vec![complaints::nothing_holds_the_layer(asked, &[])],
+            Self::OffGrid => vec![infeasible::off_grid(asked).into()],
+        }
+    }
+}
+
+/// That nothing holds the layer, with limits on time that are likely to be kept.
 #[must_use]
-pub fn resolve(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<VcutParameters> {
-    resolve_on(job, asked, search::lattices(asked), diagnostics)
+pub fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> Refused {
+    complaints::nothing_holds_the_layer(asked, times)
+}
+
+/// Decides what is open.
+///
+/// # Errors
+/// When the operation contradicts itself, or nothing keeps its limits.
+pub fn resolve(job: &CheckedJob, asked: &RoughVcut) -> Result<VcutParameters, Refusal> {
+    resolve_on(job, asked, search::lattices(asked))
 }
 
 /// Decides what is open, with the lattice one of these.
-#[must_use]
+///
+/// # Errors
+/// As for [`resolve`].
 pub fn resolve_on(
     job: &CheckedJob,
     asked: &RoughVcut,
     lattices: Vec<Lattice>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<VcutParameters> {
-    let resolution = consider(asked, lattices, diagnostics)?;
-    let chosen = match decide(job, asked, &resolution) {
-        Ok(chosen) => chosen,
-        Err(undecided) => {
-            diagnostics.push(in_words(job, asked, &resolution, undecided));
-            return None;
-        }
-    };
-    complete(asked, resolution.standoff, chosen, diagnostics)
+) -> Result<VcutParameters, Refusal> {
+    let contradiction =
+        |told: Vec<Diagnostic>| Refusal::Contradiction(told.into_iter().map(Refused::from).collect());
+    let resolution = consider(asked, lattices).map_err(contradiction)?;
+    let chosen = decide(job, asked, &resolution)?;
+    let mut told = Vec::new();
+    complete(asked, resolution.standoff, chosen, &mut told).ok_or_else(|| contradiction(told))
 }
 
-/// As [`resolve_on`], for those who do not ask why there are none: the reasons take most of the time.
-#[must_use]
-pub fn possible_on(job: &CheckedJob, asked: &RoughVcut, lattices: Vec<Lattice>) -> Option<VcutParameters> {
-    let mut unread = Vec::new();
-    let resolution = consider(asked, lattices, &mut unread)?;
-    let chosen = decide(job, asked, &resolution).ok()?;
-    complete(asked, resolution.standoff, chosen, &mut unread)
-}
-
-/// What is known before. None when the operation contradicts itself.
-fn consider(
-    asked: &RoughVcut,
-    lattices: Vec<Lattice>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Resolution> {
-    let before = diagnostics.len();
-    complaints::check_rake(asked, diagnostics);
-    complaints::check_given(asked, diagnostics);
-    let standoff = resolve_standoff(asked, diagnostics);
-    (diagnostics.len() == before).then_some(Resolution { lattices, standoff })
+/// What is known before.
+///
+/// # Errors
+/// What there is to tell where the operation contradicts itself.
+fn consider(asked: &RoughVcut, lattices: Vec<Lattice>) -> Result<Resolution, Vec<Diagnostic>> {
+    let mut told = Vec::new();
+    complaints::check_rake(asked, &mut told);
+    complaints::check_given(asked, &mut told);
+    let standoff = resolve_standoff(asked, &mut told);
+    if told.is_empty() {
+        Ok(Resolution { lattices, standoff })
+    } else {
+        Err(told)
+    }
 }
 
 /// The lattices that are open, in the order of the language reference.
@@ -266,48 +302,16 @@ pub fn problem(job: &CheckedJob, asked: &RoughVcut) -> Option<Problem> {
         .then(|| search::problem(job, asked, search::lattices(asked), standoff))
 }
 
-/// Why nothing was decided.
-enum Undecided {
-    /// What there is to tell.
-    Told(Box<Diagnostic>),
-    /// Not put into words yet.
-    Unchosen(Unchosen),
-}
-
 /// Lattice, swing, layer and step.
-fn decide(job: &CheckedJob, asked: &RoughVcut, resolution: &Resolution) -> Result<Chosen, Undecided> {
+fn decide(job: &CheckedJob, asked: &RoughVcut, resolution: &Resolution) -> Result<Chosen, Refusal> {
     if let Auto::Auto = asked.layer.value
         && let Some(complaint) =
             complaints::no_room_for_scallops(asked, least_drop(asked, resolution.standoff))
     {
-        return Err(Undecided::Told(Box::new(complaint)));
+        return Err(Refusal::Contradiction(vec![complaint]));
     }
-    let unchosen = match search::choose(job, asked, resolution.lattices.clone(), resolution.standoff) {
-        Ok(chosen) => return Ok(chosen),
-        Err(unchosen) => unchosen,
-    };
-    as_given(asked, resolution, &unchosen).ok_or(Undecided::Unchosen(unchosen))
-}
-
-/// Why nothing was decided, in the user's words.
-fn in_words(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    resolution: &Resolution,
-    undecided: Undecided,
-) -> Diagnostic {
-    match undecided {
-        Undecided::Told(complaint) => *complaint,
-        Undecided::Unchosen(Unchosen::Conflict(problem)) => {
-            let bounds = optimum::conflicting(&problem);
-            let nearest = optimum::nearest(&problem, &bounds);
-            infeasible::conflict(job, asked, resolution, &bounds, &nearest)
-        }
-        Undecided::Unchosen(Unchosen::Unbounded) => {
-            complaints::nothing_holds_the_layer(asked, half_the_fastest_layer(job, asked, resolution))
-        }
-        Undecided::Unchosen(Unchosen::OffGrid) => infeasible::off_grid(asked),
-    }
+    search::choose(job, asked, resolution.lattices.clone(), resolution.standoff)
+        .or_else(|refusal| as_given(asked, resolution, &refusal).ok_or(refusal))
 }
 
 /// The least that the standoff raises the tip by, whatever the swing.
@@ -322,15 +326,11 @@ fn least_drop(asked: &RoughVcut, standoff: Length) -> Length {
 
 /// Swing and layer as they are given where what they conflict with is told better by the proof: which chip is not
 /// cut free, how much the contour really leaves, and how long it takes.
-fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Unchosen) -> Option<Chosen> {
+fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Refusal) -> Option<Chosen> {
     let (Auto::Given(swing), Auto::Given(layer)) = (asked.swing.value, asked.layer.value) else {
         return None;
     };
-    let is_for_the_proof = match why {
-        Unchosen::Conflict(_) | Unchosen::OffGrid => true,
-        Unchosen::Unbounded => false,
-    };
-    if !is_for_the_proof {
+    if !why.is_conflict() {
         return None;
     }
     let overlap = asked.overlap.value.or(0.0);
@@ -346,20 +346,6 @@ fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Unchosen) -> Optio
     let needs =
         |chosen: &Chosen| blade_reach::needed_reach(chosen.lattice, chosen.layer, chosen.step, flanks.slope);
     choices.min_by(|one, two| needs(one).total_cmp(&needs(two)))
-}
-
-/// Half the layer that is fastest, in tenths of a millimetre where it has any: a layer that surely works.
-fn half_the_fastest_layer(job: &CheckedJob, asked: &RoughVcut, resolution: &Resolution) -> Length {
-    let mut fastest = asked.clone();
-    fastest.objective.value = Objective::Time;
-    let layer = search::choose(job, &fastest, resolution.lattices.clone(), resolution.standoff)
-        .map_or(Length::mm(1.0), |chosen| chosen.layer);
-    let tenths = (layer.to_mm() * 5.0).floor() / 10.0;
-    if tenths > 0.0 {
-        Length::mm(tenths)
-    } else {
-        Length::mm(grid::down(layer.to_mm() / 2.0).max(grid::SPACING))
-    }
 }
 
 /// The length of edge that may be used.

@@ -47,8 +47,8 @@ pub(crate) const COORDINATE: Range = range(Dimension::LENGTH, Low::AtLeast(-LONG
 pub(crate) const HALF_APEX: Range = range(Dimension::ANGLE, Low::AtLeast(0.0), High::Below(90.0));
 /// Rake: at 90 deg the blade stands square to the feed.
 pub(crate) const RAKE: Range = range(Dimension::ANGLE, Low::Above(0.0), High::AtMost(90.0));
-/// Swing: half the opening angle of a V.
-pub(crate) const SWING: Range = range(Dimension::ANGLE, Low::Above(0.0), High::Below(90.0));
+/// Swing: half the opening angle of a V. Swings are chosen to a thousandth of a degree; less than that is no V.
+pub(crate) const SWING: Range = range(Dimension::ANGLE, Low::AtLeast(0.001), High::Below(90.0));
 /// Angles of a frame.
 pub(crate) const FRAME_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-360.0), High::AtMost(360.0));
 /// Parts of a quaternion. Whether all four make a rotation is looked at together.

@@ -1,6 +1,7 @@
 //! Chips of given tips that do not come free: told at the tip, with a longer edge that was tried.
 
-use super::{UsableEdge, attempt, place};
+use super::attempts::attempt;
+use super::{UsableEdge, place};
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, CheckedJob, RoughVcut, Tips};
 use crate::plan::grid;

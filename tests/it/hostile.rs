@@ -236,6 +236,7 @@ fn absurd_values() {
         "-1 mm",
         "1e308 mm",
         "1e-308 mm",
+        "1e-100 mm",
         "1 um",
         "100 m",
         "0 deg",
@@ -244,6 +245,8 @@ fn absurd_values() {
         "90 deg",
         "1e300 deg",
         "1e-9 deg",
+        "1e-100 deg",
+        "1e-308 deg",
         "(0 mm / 0)",
         "1 mm / 0",
         "1 / 0",
@@ -275,6 +278,18 @@ fn absurd_values() {
             survive_text(lines.join("\n") + "\n");
         }
     }
+}
+
+/// A V of next to no width has no extension that could be said.
+#[test]
+fn swings_of_next_to_nothing_are_out_of_range() {
+    let sound = sound();
+    assert!(sound.contains("swing     = 45 deg"), "{sound}");
+    for swing in ["1e-308 deg", "1e-100 deg", "0.0009 deg"] {
+        let text = sound.replacen("swing     = 45 deg", &format!("swing     = {swing}"), 1);
+        assert_eq!(survive_text(text), ["VC0210"], "{swing}");
+    }
+    survive_text(sound.replacen("swing     = 45 deg", "swing     = 0.001 deg", 1));
 }
 
 #[test]

@@ -41,7 +41,8 @@ impl Trials<'_> {
         for factor in FACTORS {
             while self.may_go_on() {
                 let Some(best) = self.sound.first() else { return };
-                let (from, merit) = (best.parameters.clone(), best.merit);
+                let objective = self.asked.objective.value;
+                let (from, merit) = (best.parameters.clone(), best.figures.merit(objective));
                 let is_better = MOVES.chunks(AHEAD).any(|moves| {
                     let found: Vec<VcutParameters> = moves
                         .iter()
@@ -50,7 +51,9 @@ impl Trials<'_> {
                     self.plan_ahead(&found);
                     found.into_iter().any(|found| {
                         self.weigh_if_promising(found);
-                        self.sound.first().is_some_and(|best| best.merit < merit)
+                        self.sound
+                            .first()
+                            .is_some_and(|best| best.figures.merit(objective) < merit)
                     })
                 });
                 if !is_better {

@@ -98,7 +98,7 @@ impl Trials<'_> {
                 break;
             }
             if self.outlook(parameters) == Outlook::Good {
-                self.weigh(parameters.clone());
+                self.weigh_if_promising(parameters.clone());
             }
         }
         for next in spots.chunks(AHEAD) {
@@ -137,7 +137,7 @@ impl Trials<'_> {
                     return;
                 }
                 if let Some(&found) = of_swing.get(turn) {
-                    self.weigh(found.clone());
+                    self.weigh_if_promising(found.clone());
                 }
             }
         }

@@ -3,8 +3,10 @@
 use super::show;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, Bounds, Objective, RoughVcut, Sourced};
+use crate::plan::complaints::wider_scallops;
+use crate::plan::refusal::{Offer, Refused};
 use crate::source::Span;
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::{Angle, Duration, Length};
 
 pub(super) fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
     let (rake, half_apex) = (asked.rake.value, asked.blade.half_apex.value);
@@ -149,7 +151,7 @@ enum Side {
 }
 
 /// A scallop limit that allowance and standoff alone exceed, whatever the layer.
-pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Diagnostic> {
+pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Refused> {
     let limit = asked.limits.scallop?;
     let stays = asked.allowance.value + drop;
     if limit.value > stays {
@@ -174,14 +176,17 @@ pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Di
     } else {
         diagnostic
     };
-    Some(diagnostic.help(format!(
-        "set the limit well above {least} mm: what is left of it decides the layer"
-    )))
+    Some(Refused {
+        told: diagnostic,
+        ladders: vec![wider_scallops(asked, stays)],
+        resort: Offer::all_open(asked),
+        otherwise: Some("use a larger `scallop`, a thinner blade or a smaller `allowance`".to_owned()),
+    })
 }
 
-/// An objective that grows less and less with the layer, without anything that keeps the layer from vanishing. `layer` is
-/// one that works.
-pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, layer: Length) -> Diagnostic {
+/// An objective that grows less and less with the layer, without anything that keeps the layer from vanishing. Longest times
+/// hold it; which of these can be kept is for those who plan.
+pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> Refused {
     let what = match asked.objective.value {
         Objective::Scallop => "the scallop",
         Objective::BladeLoad => "the length of edge in use",
@@ -189,31 +194,40 @@ pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, layer: Length) -> Diagn
         Objective::Cuts => "the number of cuts",
     };
     let objective = asked.objective.span.unwrap_or(asked.head_span);
-    let limit = format!("layer >= {} mm", show(layer.to_mm()));
-    let diagnostic = Diagnostic::new(
+    let told = Diagnostic::new(
         Code::NoLeastLayer,
         format!("the thinner the layer, the less {what}: nothing here holds the layer"),
         objective,
         "needs a limit that holds the layer",
     )
     .help("limit `time` or `cuts` from above, or `layer` or `step` from below");
-    let (at, text) = match last_limit(asked) {
-        Some(last) => (
-            Span {
-                start: last.end,
-                ..last
-            },
-            format!(", {limit}"),
-        ),
-        None => (
-            Span {
-                start: objective.end,
-                ..objective
-            },
-            format!(" limits {{ {limit} }}"),
-        ),
+    let end = |span: Span| Span {
+        start: span.end,
+        ..span
     };
-    diagnostic.fix(format!("add `{limit}`"), at, text)
+    let offer = |&time: &Duration| {
+        let limit = format!("time <= {} s", show(time.to_s()));
+        let mut changed = asked.clone();
+        changed.limits.time = Some(Sourced {
+            value: time,
+            span: None,
+        });
+        let (span, text) = match last_limit(asked) {
+            Some(last) => (end(last), format!(", {limit}")),
+            None => (end(objective), format!(" limits {{ {limit} }}")),
+        };
+        Offer {
+            title: format!("add `{limit}`"),
+            edits: vec![(span, text)],
+            changed,
+        }
+    };
+    Refused {
+        told,
+        ladders: vec![times.iter().map(offer).collect()],
+        resort: Offer::all_open(asked),
+        otherwise: None,
+    }
 }
 
 /// Where the last of the limits stands.

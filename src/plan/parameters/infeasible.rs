@@ -1,17 +1,22 @@
 //! What is said when no parameters keep all that a job asks for: which bounds conflict, where they stand, and the nearest
-//! value that works. The value has been tried before it is offered.
+//! values that keep them by the model, for those who plan them before they are offered.
 
 use super::complaints::check_given;
-use super::search;
-use super::{Resolution, show};
+use super::show;
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Auto, CheckedJob, Lattice, RoughVcut, Sourced};
+use crate::job::{Auto, RoughVcut, Sourced};
+use crate::plan::complaints::wider_scallops;
 use crate::plan::optimum::Bound;
+use crate::plan::refusal::{Ladder, Offer, Refused};
 use crate::source::Span;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
-/// How much more than the nearest value is tried, as shares of it: bounds that touch leave nothing to round.
-const MARGINS: [f64; 5] = [0.0, 0.0005, 0.005, 0.02, 0.1];
+/// How much more than the nearest value may be needed, as shares of it: bounds that touch leave nothing to round, and plans
+/// come to other values than the model.
+const MARGINS: [f64; 8] = [0.0, 0.0005, 0.005, 0.02, 0.1, 0.25, 0.5, 0.75];
+
+/// Most larger limits on scallop that are looked at beside another change.
+const MOST_WIDER: usize = 5;
 
 /// A bound in the job's words.
 struct Party {
@@ -43,13 +48,7 @@ impl Party {
 }
 
 /// Bounds that cannot be kept together, with the nearest value of each that the others allow.
-pub(super) fn conflict(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    resolution: &Resolution,
-    bounds: &[Bound],
-    nearest: &[Option<f64>],
-) -> Diagnostic {
+pub(super) fn conflict(asked: &RoughVcut, bounds: &[Bound], nearest: &[Option<f64>]) -> Refused {
     let mut parties: Vec<(Party, Bound)> = bounds.iter().map(|&bound| (party(asked, bound), bound)).collect();
     parties.sort_by_key(|(party, _)| party.said);
     // A given value can bind from below and from above.
@@ -71,17 +70,31 @@ pub(super) fn conflict(
     for (span, label) in places {
         diagnostic = diagnostic.and(span, label);
     }
-    for (bound, nearest) in bounds.iter().zip(nearest) {
-        let offer = nearest.and_then(|nearest| offer(job, asked, resolution, *bound, nearest));
-        if let Some((span, text)) = offer {
-            let title = format!("use {}", relation(asked, *bound, &text));
-            diagnostic = diagnostic.fix(title, span, text);
-        }
+    let ladders = bounds.iter().zip(nearest);
+    Refused {
+        told: diagnostic,
+        ladders: ladders
+            .filter_map(|(&bound, nearest)| nearest.map(|nearest| ladder(asked, bound, nearest)))
+            .collect(),
+        resort: Offer::all_open(asked),
+        otherwise: Some("widen one of these, or leave more of the parameters `auto`".to_owned()),
     }
-    if diagnostic.fixes.is_empty() {
-        diagnostic = diagnostic.help("widen one of these, or leave more of the parameters `auto`");
-    }
-    diagnostic
+}
+
+/// The nearest value of a bound with larger limits on scallop: on a steep part plans leave more than the model knows of.
+fn with_wider_scallops(nearest: &Offer) -> Ladder {
+    let wider = wider_scallops(&nearest.changed, Length::ZERO).into_iter();
+    wider
+        .take(MOST_WIDER)
+        .map(|wider| {
+            let values = wider.title.trim_start_matches("use ");
+            Offer {
+                title: format!("{} with {values}", nearest.title),
+                edits: nearest.edits.iter().cloned().chain(wider.edits).collect(),
+                changed: wider.changed,
+            }
+        })
+        .collect()
 }
 
 /// Limits that leave less between them than a micrometre, or a thousandth of a degree.
@@ -95,32 +108,35 @@ pub(super) fn off_grid(asked: &RoughVcut) -> Diagnostic {
     .help("widen one of the limits by a few micrometres")
 }
 
-/// A value for a bound that works, and where it goes.
-fn offer(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    resolution: &Resolution,
-    bound: Bound,
-    nearest: f64,
-) -> Option<(Span, String)> {
+/// Values for a bound that may work, and where they go.
+fn ladder(asked: &RoughVcut, bound: Bound, nearest: f64) -> Ladder {
     let direction = outwards(bound);
-    MARGINS.into_iter().find_map(|margin| {
+    let mut ladder: Ladder = Vec::new();
+    for margin in MARGINS {
         let number = in_units(bound, nearest * (1.0 + direction * margin), direction);
         let mut changed = asked.clone();
-        let span = set(&mut changed, bound, number)?;
+        let Some(span) = set(&mut changed, bound, number) else {
+            break;
+        };
         // A given value also has to stay within the limit on it.
         let mut complaints = Vec::new();
         check_given(&changed, &mut complaints);
-        if !complaints.is_empty() {
-            return None;
+        let text = format!("{}{}", show(number), unit(bound));
+        let edits = vec![(span, text.clone())];
+        if complaints.is_empty() && ladder.iter().all(|offer: &Offer| offer.edits != edits) {
+            ladder.push(Offer {
+                title: format!("use {}", relation(asked, bound, &text)),
+                edits,
+                changed,
+            });
         }
-        let lattices: Vec<Lattice> = search::lattices(&changed)
-            .into_iter()
-            .filter(|lattice| resolution.lattices.contains(lattice))
-            .collect();
-        search::choose(job, &changed, lattices, resolution.standoff).ok()?;
-        Some((span, format!("{}{}", show(number), unit(bound))))
-    })
+    }
+    let wider = match (bound, ladder.first()) {
+        (Bound::Scallop, _) | (_, None) => Vec::new(),
+        (_, Some(nearest)) => with_wider_scallops(nearest),
+    };
+    ladder.extend(wider);
+    ladder
 }
 
 /// In which direction a bound is relaxed.

@@ -4,7 +4,7 @@ use super::super::blade_reach;
 use super::super::grid;
 use super::super::optimum::{self, Bound, Extension, Optimum, Problem, Range, Refused, Work};
 use super::grid_forms::{fits, tips_per_step, widest_step};
-use super::{edge_overhang, flanks_at};
+use super::{Refusal, edge_overhang, flanks_at};
 use crate::job::{Auto, Bounds, CheckedJob, Formulas, Lattice, Objective, RoughVcut};
 use vcutc_backend_api::units::{Angle, Length};
 
@@ -45,17 +45,6 @@ pub(super) struct Chosen {
     pub(super) overlap: f64,
     /// Bounds on open parameters that the optimum touches.
     pub(super) binding: Vec<Bound>,
-}
-
-/// Why nothing was chosen.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Unchosen {
-    /// No parameters keep the limits of this problem.
-    Conflict(Box<Problem>),
-    /// Nothing keeps the objective from falling for ever.
-    Unbounded,
-    /// Some do, but none on the grid.
-    OffGrid,
 }
 
 /// The lattices to choose from. The formulas of the paper are those of the orthogonal one.
@@ -184,12 +173,12 @@ pub(super) fn choose(
     asked: &RoughVcut,
     lattices: Vec<Lattice>,
     standoff: Length,
-) -> Result<Chosen, Unchosen> {
+) -> Result<Chosen, Refusal> {
     let problem = problem(job, asked, lattices, standoff);
     let best = match optimum::best(&problem) {
         Ok(best) => best,
-        Err(Refused::Conflict) => return Err(Unchosen::Conflict(Box::new(problem))),
-        Err(Refused::Unbounded) => return Err(Unchosen::Unbounded),
+        Err(Refused::Conflict) => return Err(Refusal::Conflict(Box::new(problem))),
+        Err(Refused::Unbounded) => return Err(Refusal::Unbounded),
     };
     let rounding = Rounding {
         asked,
@@ -204,7 +193,7 @@ pub(super) fn choose(
                 .filter_map(|swing| Some((swing, rounding.at(swing)?)))
                 .min_by(|(_, (.., one)), (_, (.., two))| measure(one).total_cmp(&measure(two)))
         })
-        .ok_or(Unchosen::OffGrid)?;
+        .ok_or(Refusal::OffGrid)?;
     Ok(Chosen {
         lattice: best.lattice,
         // Not that of the optimum, which went by way of its tangent and back.

@@ -1,0 +1,163 @@
+//! What is told of an operation that has no plan. Of the changes that may mend it those are offered whose plan has nothing
+//! wrong: they are planned, written down and replayed before anybody is told.
+
+use super::bench::{Bench, Figures};
+use super::finest::{as_time, limited};
+use super::trial::{self, TurnedDown};
+use super::work::Work;
+use super::{Contender, Unplanned, within_limits};
+use crate::diag::Diagnostic;
+use crate::job::{Lattice, RoughVcut};
+use crate::plan::parameters::{self, Refusal, VcutParameters};
+use crate::plan::refusal::{Ladder, Offer, Refused};
+use vcutc_backend_api::units::Duration;
+
+/// Longest times that are offered where nothing else holds the layer, as shares of the least time.
+const LONGER: [f64; 3] = [1.5, 2.5, 4.0];
+
+/// Puts into words why there is no plan, with what works of all that may.
+pub(super) fn told(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    cuts_left: usize,
+    unplanned: Unplanned,
+    work: &mut Work,
+) -> Vec<Diagnostic> {
+    let refused = match unplanned {
+        Unplanned::Refused(refused) => refused,
+        Unplanned::Parameters(Refusal::Unbounded) => {
+            let times = longer_than_the_least(bench, asked, cuts_left);
+            vec![parameters::nothing_holds_the_layer(asked, &times)]
+        }
+        Unplanned::Parameters(refusal) => refusal.in_words(asked),
+    };
+    refused
+        .into_iter()
+        .map(|mut refused| {
+            // A machine that follows one swing need not follow another, and is not asked here.
+            refused.resort = refused.resort.filter(|_| bench.job.machine.is_none());
+            with_what_works(refused, work, |offer, work| {
+                is_sound(bench, &offer.changed, cuts_left, work)
+            })
+        })
+        .collect()
+}
+
+/// The diagnostic with the first offer of each ladder that works, or with what to do instead. Each ladder may spend as much as
+/// every other, and on it each offer.
+fn with_what_works(
+    refused: Refused,
+    work: &mut Work,
+    mut works: impl FnMut(&Offer, &mut Work) -> bool,
+) -> Diagnostic {
+    let Refused {
+        mut told,
+        ladders,
+        resort,
+        otherwise,
+    } = refused;
+    let mut rest = ladders.len() + 1;
+    for ladder in ladders {
+        let mut part = work.part(rest);
+        rest -= 1;
+        if let Some(offer) = first_that_works(ladder, &mut part, &mut works) {
+            told = told.fix_all(offer.title, &offer.edits);
+        }
+        work.give_back(&part);
+    }
+    if !told.fixes.is_empty() {
+        return told;
+    }
+    match (resort.filter(|offer| works(offer, work)), otherwise) {
+        (Some(offer), _) => told.fix_all(offer.title, &offer.edits),
+        (None, Some(help)) => told.help(help),
+        (None, None) => told,
+    }
+}
+
+fn first_that_works(
+    ladder: Ladder,
+    work: &mut Work,
+    works: &mut impl FnMut(&Offer, &mut Work) -> bool,
+) -> Option<Offer> {
+    let mut rest = ladder.len();
+    ladder.into_iter().find(|offer| {
+        let mut part = work.part(rest);
+        rest -= 1;
+        let is_good = works(offer, &mut part);
+        work.give_back(&part);
+        is_good
+    })
+}
+
+/// Whether an operation has a plan that keeps all its limits and has nothing wrong, as far as is seen with so much work. Where
+/// there is one, the choice comes to one.
+pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, work: &mut Work) -> bool {
+    if work.is_spent() {
+        return false;
+    }
+    if !trial::is_searched(asked) {
+        if is_too_large(bench, asked, work) {
+            return false;
+        }
+        let Ok(laid) = within_limits(bench, asked, cuts_left) else {
+            work.spend(0);
+            return false;
+        };
+        work.spend(laid.vcut.cuts.len());
+        return keeps_all(bench.weigh(laid), asked);
+    }
+    let (assumed, lattices) = (as_time(asked), parameters::open_lattices(asked));
+    any(bench, &assumed, &lattices, cuts_left, work, &mut Vec::new()).is_some()
+}
+
+/// Whether an operation has more cuts by the model than may be planned.
+fn is_too_large(bench: &Bench<'_>, asked: &RoughVcut, work: &Work) -> bool {
+    let found = parameters::resolve(bench.job, asked);
+    found.is_ok_and(|found| {
+        let model = found.time_model(bench.job, asked);
+        work.is_less_than(model.cuts(found.layer, found.step))
+    })
+}
+
+/// The first sound plan on any of some lattices, and plans that broke limits before.
+pub(super) fn any(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    lattices: &[Lattice],
+    cuts_left: usize,
+    work: &mut Work,
+    turned_down: &mut Vec<TurnedDown>,
+) -> Option<(VcutParameters, Figures)> {
+    let rest = (1..=lattices.len()).rev();
+    lattices.iter().zip(rest).find_map(|(&lattice, rest)| {
+        let (found, left) = trial::any(bench, asked, &[lattice], cuts_left, work.part(rest));
+        work.give_back(&left);
+        turned_down.extend(found.turned_down);
+        found.sound
+    })
+}
+
+/// Whether a plan has nothing wrong and keeps the limits.
+fn keeps_all(contender: Contender, asked: &RoughVcut) -> bool {
+    let limit = asked.limits.scallop.map(|limit| limit.value);
+    contender.held_to(limit, asked).standing.time().is_some()
+}
+
+/// Times that leave more room than the least there is.
+fn longer_than_the_least(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Vec<Duration> {
+    let fastest = within_limits(bench, &limited(asked, None), cuts_left);
+    let least = fastest.ok().and_then(|laid| bench.time(&laid.vcut));
+    let longer = |least: Duration| LONGER.map(|share| rounded_up(least * share));
+    least.map(longer).into_iter().flatten().collect()
+}
+
+/// To whole seconds, to tens of them or to minutes.
+fn rounded_up(time: Duration) -> Duration {
+    let whole = match time.to_s() {
+        short if short < 60.0 => 1.0,
+        long if long < 600.0 => 10.0,
+        _ => 60.0,
+    };
+    Duration::s((time.to_s() / whole).ceil() * whole)
+}

@@ -1,0 +1,182 @@
+//! More material left standing than the limit allows: what to change, as far as it was tried and works.
+
+use super::attempts::Attempts;
+use super::{point, scallop_excess};
+use crate::choice::Work;
+use crate::diag::{Code, Diagnostic};
+use crate::job::{Auto, CheckedJob, Residual, RoughVcut};
+use crate::plan::parameters::show;
+use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, grid};
+use crate::sim::report::Report;
+use crate::source::Span;
+use vcutc_backend_api::units::{Angle, Length};
+
+/// Most limits that are tried before giving up, and how much wider each is than the one before.
+const MOST_LIMITS: usize = 8;
+const WIDER: f64 = 1.1;
+
+/// Narrower swings that are tried, as shares of the planned one.
+const NARROWER: [f64; 6] = [0.8, 0.65, 0.5, 0.35, 0.25, 0.15];
+
+/// A change of residual strategy and layer.
+struct Change {
+    residual: Option<(Residual, Span)>,
+    layer: Option<(Length, Span)>,
+}
+
+/// The complaint, if the machined contour is above a limit.
+pub(super) fn over_limit(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    report: &Report,
+    work: &mut Work,
+) -> Option<Diagnostic> {
+    let (operation, asked, limit) = scallop_excess(plan, report)?;
+    let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
+    let limit_mm = show(limit.to_mm());
+    let headline = format!(
+        "{height} mm of material stay on the part at x {} mm, the limit is {limit_mm} mm",
+        show(peak.x)
+    );
+    let span = limit_span(asked).unwrap_or(asked.head_span);
+    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit").and(
+        job.profile_span,
+        format!(
+            "the part lies {height} mm below the highest material, {}",
+            point(peak.x, peak.z)
+        ),
+    );
+    let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(operation.0))?;
+    let mut attempts = Attempts::new(job, operation, work);
+    let change = match asked.tips {
+        // Nothing moves given tips.
+        Some(_) => None,
+        None => residual_and_layer(&mut attempts, vcut),
+    };
+    Some(match change {
+        Some(change) => change.offered(diagnostic),
+        None => limit_or_swing(diagnostic, &mut attempts, vcut, report.scallop.height),
+    })
+}
+
+fn limit_span(asked: &RoughVcut) -> Option<Span> {
+    asked.limits.scallop.and_then(|limit| limit.span)
+}
+
+impl Change {
+    fn make(&self, asked: &mut RoughVcut) {
+        if let Some((residual, _)) = self.residual {
+            asked.residual.value = Auto::Given(residual);
+        }
+        if let Some((layer, _)) = self.layer {
+            asked.layer.value = Auto::Given(layer);
+        }
+    }
+
+    fn offered(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let residual = self.residual.map(|(residual, span)| (residual.word(), span));
+        let layer = self
+            .layer
+            .map(|(layer, span)| (format!("{} mm", show(layer.to_mm())), span));
+        let title = match (&residual, &layer) {
+            (Some((word, _)), Some((layer, _))) => {
+                format!("use `residual = {word}` with a `layer` of {layer}")
+            }
+            (Some((word, _)), None) => format!("use `residual = {word}`"),
+            (None, Some((layer, _))) => format!("use a `layer` of {layer}"),
+            (None, None) => return diagnostic,
+        };
+        let residual = residual.map(|(word, span)| (span, word.to_owned()));
+        let layer = layer.map(|(layer, span)| (span, layer));
+        let edits: Vec<(Span, String)> = residual.into_iter().chain(layer).collect();
+        diagnostic.fix_all(title, &edits)
+    }
+}
+
+/// A residual strategy and a layer in the place of those that the job gives, which keep the limit on scallop.
+fn residual_and_layer(attempts: &mut Attempts<'_>, vcut: &PlannedVcut) -> Option<Change> {
+    let asked = &vcut.asked;
+    let mut residuals = vec![None];
+    if let (Auto::Given(_), Some(span)) = (asked.residual.value, asked.residual.span) {
+        residuals.extend([Residual::Mixed, Residual::Lift].map(|residual| Some((residual, span))));
+    }
+    let mut layers = vec![None];
+    if let (Auto::Given(layer), Some(span)) = (asked.layer.value, asked.layer.span) {
+        let smaller = [0.75, 0.5, 0.25].map(|share| grid::down(layer.to_mm() * share * 0.1) * 10.0);
+        let smaller = smaller.into_iter().filter(|&layer| layer > 0.0);
+        layers.extend(smaller.map(|layer| Some((Length::mm(layer), span))));
+    }
+    let changes = layers
+        .iter()
+        .flat_map(|&layer| residuals.iter().map(move |&residual| Change { residual, layer }));
+    changes
+        // The first one changes nothing.
+        .skip(1)
+        .find(|change| attempts.prove(|asked| change.make(asked)))
+}
+
+/// A limit that is kept, and a swing that keeps this one.
+fn limit_or_swing(
+    diagnostic: Diagnostic,
+    attempts: &mut Attempts<'_>,
+    vcut: &PlannedVcut,
+    height: Length,
+) -> Diagnostic {
+    let asked = &vcut.asked;
+    let mut diagnostic = diagnostic.note(
+        "where the part is steeper than the flanks of the V, cuts cannot follow it whatever their size",
+    );
+    if let Some(limit) = limit_that_is_kept(attempts, height) {
+        let value = format!("{} mm", show(limit.to_mm()));
+        let title = format!("raise the limit: `scallop <= {value}`");
+        diagnostic = match limit_span(asked) {
+            Some(span) => diagnostic.fix(title, span, value),
+            None => diagnostic.help(title),
+        };
+    }
+    if let (Auto::Given(swing), Some(span), None) = (asked.swing.value, asked.swing.span, &asked.tips)
+        && attempts.may_change_swings()
+        && let Some(narrower) = swing_that_keeps_it(attempts, swing)
+    {
+        let value = format!("{} deg", show(narrower.to_deg()));
+        let title = format!("use a `swing` of {value}, whose steeper flanks follow the part farther");
+        return diagnostic.fix(title, span, value);
+    }
+    if asked.tips.is_none()
+        && let Some(offer) = attempts.all_open(asked)
+    {
+        diagnostic = diagnostic.fix_all(offer.title, &offer.edits);
+    }
+    if diagnostic.fixes.is_empty() {
+        diagnostic = diagnostic.help("use a smaller `swing`, whose steeper flanks follow the part farther");
+    }
+    diagnostic
+}
+
+fn swing_that_keeps_it(attempts: &mut Attempts<'_>, swing: Angle) -> Option<Angle> {
+    NARROWER
+        .into_iter()
+        .map(|share| Angle::deg((swing.to_deg() * share).floor()))
+        .filter(|narrower| narrower.to_deg() >= 2.0)
+        .find(|&narrower| attempts.prove(|asked| asked.swing.value = Auto::Given(narrower)))
+}
+
+/// A scallop limit that the job keeps. Layers that follow from the limit grow with it, so the height that stays now need
+/// not be one.
+fn limit_that_is_kept(attempts: &mut Attempts<'_>, height: Length) -> Option<Length> {
+    let mut limit = height;
+    for _ in 0..MOST_LIMITS {
+        // To a tenth of a millimetre, upwards.
+        limit = Length::mm((limit.to_mm() * 10.0).ceil() / 10.0);
+        let is_kept = attempts.prove(|asked| {
+            if let Some(given) = &mut asked.limits.scallop {
+                given.value = limit;
+            }
+        });
+        if is_kept {
+            return Some(limit);
+        }
+        limit = limit * WIDER;
+    }
+    None
+}
