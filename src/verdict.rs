@@ -17,6 +17,7 @@ use crate::sim::report::{Report, report};
 use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
 use crate::source::{SourceMap, Span};
+use crate::wanted::Wanted;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
@@ -83,6 +84,18 @@ pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
 /// Puts everything that is wrong with a proven program into words.
 #[must_use]
 pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Diagnostic> {
+    diagnose_while(job, plan, proven, &Wanted::ALWAYS)
+}
+
+/// As [`diagnose`] while that is wanted: no more changes are tried afterwards, which may then be missing ([`Wanted::answer`]).
+#[must_use]
+pub fn diagnose_while(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    proven: &Proven,
+    wanted: &Wanted,
+) -> Vec<Diagnostic> {
+    let case = Case { job, wanted };
     let mut diagnostics: Vec<Diagnostic> = proven
         .findings
         .iter()
@@ -90,7 +103,7 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
             let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(finding.operation.0))?;
             Some(match finding.fault {
                 CutFault::NotFreed { needed, available } => {
-                    not_freed(job, vcut, finding, count, [needed, available])
+                    not_freed(case, vcut, finding, count, [needed, available])
                 }
                 CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
                 CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
@@ -98,13 +111,21 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
         })
         .collect();
     if diagnostics.is_empty() {
-        diagnostics.extend(scallop_over_limit(job, plan, &proven.report));
+        diagnostics.extend(scallop_over_limit(case, plan, &proven.report));
     }
     diagnostics.extend(plan.operations.iter().filter_map(|operation| {
         let PlannedOperation::RoughVcut(vcut) = operation;
         plan::given::idle(vcut.course.as_ref()?, vcut.asked.tips.as_ref()?)
     }));
     diagnostics
+}
+
+/// A job of which changes are tried.
+#[derive(Clone, Copy)]
+struct Case<'c> {
+    job: &'c CheckedJob,
+    /// Whether anybody still waits for them.
+    wanted: &'c Wanted,
 }
 
 fn blocked(asked: &RoughVcut, finding: Finding, at: Point2) -> Diagnostic {
@@ -150,7 +171,7 @@ fn point(x: f64, z: f64) -> String {
 }
 
 fn not_freed(
-    job: &CheckedJob,
+    case: Case<'_>,
     vcut: &PlannedVcut,
     finding: Finding,
     count: usize,
@@ -158,13 +179,13 @@ fn not_freed(
 ) -> Diagnostic {
     let asked = &vcut.asked;
     if let Some(tips) = &asked.tips {
-        return given::not_freed(job, (asked, tips), finding, count, [needed, available]);
+        return given::not_freed(case, (asked, tips), finding, count, [needed, available]);
     }
     let edge = UsableEdge::of(asked, available);
     // Rounded up: 10.003 mm is not 10 mm.
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
     let layer = show(vcut.parameters.layer.to_mm());
-    let remedy = remedy(job, vcut, finding.operation);
+    let remedy = remedy(case, vcut, finding.operation);
     let (span, label) = match (&remedy, asked.step.span, asked.layer.span) {
         (Some(Remedy::Step(_)), Some(span), _) => (
             span,
@@ -283,9 +304,9 @@ enum Remedy {
 
 /// The first change that makes the job prove: `residual = mixed` where the lattice itself fits the blade, else another
 /// step, else the largest layer by closed form, else smaller ones.
-fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Option<Remedy> {
+fn remedy(case: Case<'_>, vcut: &PlannedVcut, operation: OperationId) -> Option<Remedy> {
     let asked = &vcut.asked;
-    let works = |change: &dyn Fn(&mut RoughVcut)| proves_with(job, operation, change);
+    let works = |change: &dyn Fn(&mut RoughVcut)| proves_with(case, operation, change);
     if vcut.strategy != Residual::Mixed
         && vcut.parameters.lattice_fits()
         && works(&|asked| asked.residual.value = Auto::Given(Residual::Mixed))
@@ -320,40 +341,41 @@ fn remedy(job: &CheckedJob, vcut: &PlannedVcut, operation: OperationId) -> Optio
 
 /// Plans and proves the job with a change of one operation; nothing where the change makes it contradict itself.
 fn attempt(
-    job: &CheckedJob,
+    case: Case<'_>,
     operation: OperationId,
     change: impl Fn(&mut RoughVcut),
 ) -> Option<(PlannedJob, Proven)> {
-    let mut changed = job.clone();
+    let mut changed = case.job.clone();
     let Operation::RoughVcut(asked) = changed.operations.get_mut(usize::from(operation.0))?;
     change(asked);
-    planned_and_proven(&changed, Latitude::Full)
+    planned_and_proven(&changed, Latitude::Full, case.wanted)
 }
 
-fn planned_and_proven(job: &CheckedJob, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
-    let (plan, diagnostics) = choice::choose_within(job, Leeway::along(latitude));
+fn planned_and_proven(job: &CheckedJob, latitude: Latitude, wanted: &Wanted) -> Option<(PlannedJob, Proven)> {
+    let choose = || choice::choose_while(job, Leeway::along(latitude), wanted);
+    let (plan, diagnostics) = wanted.answer(choose).ok()?;
     let plan = plan.filter(|_| diagnostics.is_empty())?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
     (proven.findings == Findings::default()).then_some((plan, proven))
 }
 
 /// The plan and proof of a job that has nothing wrong with its cuts, along the route that any machine follows best, as the
-/// compiler takes it when the machine follows no other.
+/// compiler takes it when the machine follows no other. None for who no longer wants it.
 #[must_use]
-pub fn sound(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
-    planned_and_proven(job, Latitude::RowsByPoint)
+pub fn sound(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob, Proven)> {
+    planned_and_proven(job, Latitude::RowsByPoint, wanted)
         .filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
 }
 
 /// Whether the job plans and proves with a change of one operation.
-fn proves_with(job: &CheckedJob, operation: OperationId, change: impl Fn(&mut RoughVcut)) -> bool {
-    attempt(job, operation, change)
+fn proves_with(case: Case<'_>, operation: OperationId, change: impl Fn(&mut RoughVcut)) -> bool {
+    attempt(case, operation, change)
         .is_some_and(|(plan, proven)| scallop_excess(&plan, &proven.report).is_none())
 }
 
 /// A scallop limit that the job keeps. Layers that follow from the limit grow with it, so the height that stays now need
 /// not be one.
-fn limit_that_is_kept(job: &CheckedJob, operation: OperationId, height: Length) -> Option<Length> {
+fn limit_that_is_kept(case: Case<'_>, operation: OperationId, height: Length) -> Option<Length> {
     let mut limit = height;
     for _ in 0..MOST_LIMITS {
         // To a tenth of a millimetre, upwards.
@@ -363,7 +385,7 @@ fn limit_that_is_kept(job: &CheckedJob, operation: OperationId, height: Length) 
                 given.value = limit;
             }
         };
-        let (plan, proven) = attempt(job, operation, raise)?;
+        let (plan, proven) = attempt(case, operation, raise)?;
         if scallop_excess(&plan, &proven.report).is_none() {
             return Some(limit);
         }
@@ -391,11 +413,7 @@ pub fn scallop_excess<'p>(
 }
 
 /// A residual strategy and a layer that keep the limit on scallop.
-fn residual_and_layer(
-    job: &CheckedJob,
-    operation: OperationId,
-    vcut: &PlannedVcut,
-) -> Option<(Residual, f64)> {
+fn residual_and_layer(case: Case<'_>, operation: OperationId, vcut: &PlannedVcut) -> Option<(Residual, f64)> {
     let layers = [1.0, 0.75, 0.5, 0.25].map(|share| vcut.parameters.layer.to_mm() * share);
     [Residual::Mixed, Residual::Lift]
         .into_iter()
@@ -406,7 +424,7 @@ fn residual_and_layer(
                 .map(|layer| grid::down(layer * 0.1) * 10.0)
                 .filter(|&layer| layer > 0.0)
                 .find_map(|layer| {
-                    let works = proves_with(job, operation, |asked| {
+                    let works = proves_with(case, operation, |asked| {
                         asked.residual.value = Auto::Given(residual);
                         asked.layer.value = Auto::Given(Length::mm(layer));
                     });
@@ -415,7 +433,7 @@ fn residual_and_layer(
         })
 }
 
-fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> Option<Diagnostic> {
+fn scallop_over_limit(case: Case<'_>, plan: &PlannedJob, report: &Report) -> Option<Diagnostic> {
     let (operation, asked, limit) = scallop_excess(plan, report)?;
     let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
     let limit_mm = show(limit.to_mm());
@@ -429,7 +447,7 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
         show(peak.x)
     );
     let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit").and(
-        job.profile_span,
+        case.job.profile_span,
         format!(
             "the part lies {height} mm below the highest material, {}",
             point(peak.x, peak.z)
@@ -440,7 +458,7 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
     let works = match asked.tips {
         // Nothing moves given tips.
         Some(_) => None,
-        None => residual_and_layer(job, operation, vcut),
+        None => residual_and_layer(case, operation, vcut),
     };
     Some(match works {
         Some((residual, layer)) => {
@@ -452,7 +470,7 @@ fn scallop_over_limit(job: &CheckedJob, plan: &PlannedJob, report: &Report) -> O
         }
         None => {
             let smaller = "use a smaller `swing`, whose steeper flanks follow the part farther";
-            let help = match limit_that_is_kept(job, operation, report.scallop.height) {
+            let help = match limit_that_is_kept(case, operation, report.scallop.height) {
                 Some(limit) => format!("raise the limit to {} mm, or {smaller}", show(limit.to_mm())),
                 None => smaller.to_owned(),
             };

@@ -28,6 +28,7 @@ use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
 };
+use crate::wanted::Wanted;
 use bench::Bench;
 use core::cmp::Ordering;
 use rayon::prelude::*;
@@ -50,11 +51,24 @@ pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
 /// Makes every choice, with some routes and swings left out.
 #[must_use]
 pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    choose_while(job, leeway, &Wanted::ALWAYS)
+}
+
+/// As [`choose_within`] while the plan is wanted. What comes out afterwards is nobody's plan ([`Wanted::answer`]).
+#[must_use]
+pub fn choose_while(
+    job: &CheckedJob,
+    leeway: Leeway,
+    wanted: &Wanted,
+) -> (Option<PlannedJob>, Vec<Diagnostic>) {
     if let Some(refused) = refuse_operations(job) {
         return (None, vec![refused]);
     }
     let mut diagnostics = Vec::new();
-    let mut bench = Bench::new(job, leeway.routes);
+    let mut bench = Bench {
+        wanted: wanted.clone(),
+        ..Bench::new(job, leeway.routes)
+    };
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
     for operation in &job.operations {
@@ -421,6 +435,9 @@ fn best_residual(
     found: &VcutParameters,
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
+    if bench.wanted.is_needless() {
+        return Err(Vec::new());
+    }
     let first = lay_out(bench.job, asked, found.clone(), cuts_left, &bench.before)?;
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
@@ -435,6 +452,9 @@ fn best_residual(
         return Ok(first);
     }
     let along_other = |residual: Residual| -> Option<Contender> {
+        if bench.wanted.is_needless() {
+            return None;
+        }
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
         let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before).ok()?;

@@ -289,7 +289,7 @@ impl<'t> Trials<'t> {
     }
 
     fn may_go_on(&self) -> bool {
-        self.plans_left != Some(0)
+        self.plans_left != Some(0) && !self.bench.wanted.is_needless()
     }
 
     /// What comes of parameters; none where no more plans may be made or none can be.
@@ -334,6 +334,9 @@ impl<'t> Trials<'t> {
 
     /// Plans parameters.
     fn outcome(&self, found: &VcutParameters) -> Outcome {
+        if self.bench.wanted.is_needless() {
+            return Outcome::Impossible;
+        }
         let laid = lay_out(
             self.bench.job,
             self.asked,

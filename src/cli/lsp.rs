@@ -1,7 +1,8 @@
 //! `vcutc lsp`: messages between standard input, the language server, and a thread that plans.
 //!
 //! Messages are taken in the order in which they come. When none waits, what has changed is looked at and told; when none
-//! comes for a moment, a job that is right so far goes to the thread that plans, one at a time.
+//! comes for a moment, a job that is right so far goes to the thread that plans, one at a time. A job whose text changes
+//! meanwhile is planned no further.
 
 use super::Targets;
 use super::files::{load_file, with_forward_slashes};
@@ -135,17 +136,19 @@ impl Conversation {
         self.server.handle(message, &Disk)
     }
 
-    /// Waits for the next event; a job is planned meanwhile if none comes soon.
+    /// Waits for the next event; if none comes soon, a job is planned meanwhile, before others the one that was changed last.
     fn wait(&mut self, events: &Receiver<Event>) -> Option<Event> {
-        if self.planner == Planner::Idle {
-            match events.recv_timeout(PAUSE) {
-                Ok(event) => return Some(event),
-                Err(RecvTimeoutError::Disconnected) => return None,
-                Err(RecvTimeoutError::Timeout) => {
-                    if let Some(task) = self.server.task() {
-                        self.planner = Planner::Busy;
-                        self.tasks.send(task).ok()?;
-                    }
+        match events.recv_timeout(PAUSE) {
+            Ok(event) => return Some(event),
+            Err(RecvTimeoutError::Disconnected) => return None,
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        match self.planner {
+            Planner::Busy => self.server.put_off(),
+            Planner::Idle => {
+                if let Some(task) = self.server.task() {
+                    self.planner = Planner::Busy;
+                    self.tasks.send(task).ok()?;
                 }
             }
         }

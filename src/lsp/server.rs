@@ -1,13 +1,14 @@
 //! The server as a machine of states: from a message to messages.
 
 use super::Workspace;
-use super::analysis::{Analysis, Done, Planning, Task};
+use super::analysis::{Analysis, Done, Finding, Planning, Task};
 use super::diagnostics::{Lines, in_protocol};
 use super::documents::{Called, Documents, Language};
 use super::requests;
 use super::text::Encoding;
 use super::uri::path_of;
 use super::wire::{Fault, Incoming, answer, notification, refusal};
+use crate::wanted::Wanted;
 use lsp_types::{
     DidChangeTextDocumentParams, DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams,
     DidOpenTextDocumentParams, InitializeParams, PositionEncodingKind, PublishDiagnosticsParams,
@@ -368,30 +369,49 @@ impl Server {
         told
     }
 
-    /// A job to be planned, if there is one. The caller lets it run when and where it likes, and hands back what it gives.
+    /// A job to be planned, if there is one: the one that was changed last. The caller lets it run when and where it likes, one
+    /// at a time, and hands back what it gives.
     pub fn task(&mut self) -> Option<Task> {
         if self.stage != Stage::Running || self.planning == PlanningWish::Never {
             return None;
         }
         let is_due = |known: &&mut Analysis| matches!(known.planning, Planning::Due);
-        let known = self.documents.analyses.values_mut().find(is_due)?;
-        known.planning = Planning::UnderWay;
+        let due = self.documents.analyses.values_mut().filter(is_due);
+        let known = due.max_by_key(|known| known.stamp)?;
+        let (wanted, interest) = Wanted::while_held();
+        known.planning = Planning::UnderWay(interest);
         Some(Task {
             root: known.root.clone(),
             stamp: known.stamp,
             open: self.documents.texts.clone(),
+            wanted,
         })
+    }
+
+    /// Puts off a job that is being planned if another one was changed after it: its task ends early, and there will be another.
+    pub fn put_off(&mut self) {
+        let all = self.documents.analyses.values();
+        let due = all.filter(|known| matches!(known.planning, Planning::Due));
+        let Some(latest) = due.map(|known| known.stamp).max() else {
+            return;
+        };
+        for known in self.documents.analyses.values_mut() {
+            if matches!(known.planning, Planning::UnderWay(_)) && known.stamp < latest {
+                known.planning = Planning::Due;
+            }
+        }
     }
 
     /// Takes back what came of a task, and tells it if it is about the text as it is now.
     pub fn finish(&mut self, done: Done) -> Vec<Value> {
-        let known = self.documents.analyses.get_mut(&done.root);
-        let Some(known) = known.filter(|known| known.stamp == done.stamp) else {
+        let Some(known) = self.documents.numbered(&done.root, done.stamp) else {
             return Vec::new();
         };
-        known.planning = match done.planned {
-            Some(planned) => Planning::Done(Box::new(planned)),
-            None => Planning::Needless,
+        known.planning = match done.result {
+            Finding::Planned(planned) => Planning::Done(planned),
+            Finding::Unreadable => Planning::Needless,
+            // Put off: it is due again.
+            Finding::Needless => return Vec::new(),
         };
         self.publish()
     }
