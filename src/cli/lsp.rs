@@ -5,6 +5,7 @@
 //! meanwhile is planned no further.
 
 use super::Targets;
+use super::console::{Console, Failure};
 use super::files::{load_file, with_forward_slashes};
 use crate::lsp::wire::{self, Broken, Fault, Incoming};
 use crate::lsp::{Done, Ending, Server, Task, Workspace};
@@ -38,7 +39,7 @@ enum Planner {
 }
 
 /// Serves an editor until it says good-bye. By the protocol the end is 0 if it did so as agreed, and else 1.
-pub(super) fn serve(targets: &Targets) -> ExitCode {
+pub(super) fn serve(targets: &Targets, console: &Console) -> ExitCode {
     let (sender, events) = channel();
     let tasks = planner(targets.to_vec(), sender.clone());
     thread::spawn(move || read_all(&sender));
@@ -47,10 +48,15 @@ pub(super) fn serve(targets: &Targets) -> ExitCode {
         waiting: VecDeque::new(),
         tasks,
         planner: Planner::Idle,
+        console,
     };
     match conversation.hold(&events) {
         Ok(Ending::Agreed) => ExitCode::SUCCESS,
-        Ok(Ending::Abrupt) | Err(_) => ExitCode::from(1),
+        Ok(Ending::Abrupt) => ExitCode::from(1),
+        Err(why) => {
+            console.failure(&Failure::new(format!("the conversation cannot go on: {why}")));
+            ExitCode::from(1)
+        }
     }
 }
 
@@ -84,15 +90,17 @@ fn planner(targets: Vec<&'static dyn Backend>, events: Sender<Event>) -> Sender<
     tasks
 }
 
-struct Conversation {
+struct Conversation<'c> {
     server: Server,
     /// What has come in and is still to be looked at, the oldest first.
     waiting: VecDeque<Event>,
     tasks: Sender<Task>,
     planner: Planner,
+    /// Standard error, which editors keep in a log.
+    console: &'c Console,
 }
 
-impl Conversation {
+impl Conversation<'_> {
     /// Holds it to its end.
     fn hold(&mut self, events: &Receiver<Event>) -> io::Result<Ending> {
         loop {
@@ -132,6 +140,10 @@ impl Conversation {
             if is_taken_back {
                 return vec![wire::refusal(id, Fault::RequestCancelled, "taken back")];
             }
+        }
+        if let Incoming::Malformed { why, .. } = &message {
+            let failure = Failure::new(format!("a message of the editor cannot be read: {why}"));
+            self.console.failure(&failure);
         }
         self.server.handle(message, &Disk)
     }
