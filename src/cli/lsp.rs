@@ -1,7 +1,7 @@
 //! `vcutc lsp`: messages between standard input, the language server, and a thread that plans.
 //!
-//! Messages are taken in the order in which they come. When none waits, what has changed is looked at and told; when none
-//! comes for a moment, a job that is right so far goes to the thread that plans, one at a time. A job whose text changes
+//! Messages are taken in the order in which they come. When none waits, what has changed is looked at and told; when nothing
+//! changes for a moment, a job that is right so far goes to the thread that plans, one at a time. A job whose text changes
 //! meanwhile is planned no further.
 
 use super::Targets;
@@ -18,10 +18,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use vcutc_backend_api::backend::Backend;
 
-/// How long nobody must have typed before a job is planned.
+/// How long nothing must have been told, such as a change of a text, before a job is planned. Questions are no reason to wait.
 const PAUSE: Duration = Duration::from_millis(250);
 
 /// Something that the server has to look at.
@@ -48,6 +48,7 @@ pub(super) fn serve(targets: &Targets, console: &Console) -> ExitCode {
         waiting: VecDeque::new(),
         tasks,
         planner: Planner::Idle,
+        told: Instant::now(),
         console,
     };
     match conversation.hold(&events) {
@@ -96,6 +97,8 @@ struct Conversation<'c> {
     waiting: VecDeque<Event>,
     tasks: Sender<Task>,
     planner: Planner,
+    /// When something was told last.
+    told: Instant,
     /// Standard error, which editors keep in a log.
     console: &'c Console,
 }
@@ -145,12 +148,15 @@ impl Conversation<'_> {
             let failure = Failure::new(format!("a message of the editor cannot be read: {why}"));
             self.console.failure(&failure);
         }
+        if let Incoming::Notification { .. } = &message {
+            self.told = Instant::now();
+        }
         self.server.handle(message, &Disk)
     }
 
-    /// Waits for the next event; if none comes soon, a job is planned meanwhile, before others the one that was changed last.
+    /// Waits for the next event; if nothing is told for a moment, a job is planned meanwhile, before others the one that was changed last.
     fn wait(&mut self, events: &Receiver<Event>) -> Option<Event> {
-        match events.recv_timeout(PAUSE) {
+        match events.recv_timeout(PAUSE.saturating_sub(self.told.elapsed())) {
             Ok(event) => return Some(event),
             Err(RecvTimeoutError::Disconnected) => return None,
             Err(RecvTimeoutError::Timeout) => {}

@@ -233,7 +233,7 @@ enum Ended {
 fn plan_and_prove(outcome: &mut Outcome, kept: &mut Kept<'_>, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
     let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, kept, progress) {
-        Ended::Refused(None, told) => {
+        Ended::Refused(None, told) if !kept.wanted.is_needless() => {
             let told = with_limits_that_are_kept(job, told, &outcome.sources, kept, progress);
             (None, told, None)
         }
@@ -304,6 +304,7 @@ fn along_its_routes(
                 let compiled = compiled(job, program, &plan, proven.report);
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
+            Err(_) if wanted.is_needless() => return Ended::Refused(Some(plan), told),
             Err(unreached) => {
                 let is_usual = yielding.is_usual();
                 let goes_on = yielding.narrow(&plan, &unreached);

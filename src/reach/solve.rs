@@ -169,6 +169,8 @@ pub fn solve_while(
     let bounds = screen(&survey);
     let solved = match on_one_branch(&survey, &bounds, home) {
         Some(solved) => Ok(solved),
+        // What is wrong with it takes its time to find out, too.
+        None if wanted.is_needless() => Err(Box::new(Trouble::Nowhere)),
         None => match trouble::too_fast(&survey, &bounds) {
             Some(trouble) => Err(Box::new(trouble)),
             None => match changes {
@@ -394,6 +396,9 @@ fn by_changes(
     let mut carried = Vec::with_capacity(stations.len());
     let mut failed: Vec<Vec<(Branch, Vec<Failure>)>> = Vec::with_capacity(stations.len());
     for (index, station) in stations.iter().enumerate() {
+        if survey.wanted.is_needless() {
+            return Err(Box::new(Trouble::Nowhere));
+        }
         let (mut carrying, mut failing) = (Vec::new(), Vec::new());
         if station.kind != StationKind::Home {
             for &(branch, _) in bounds {
