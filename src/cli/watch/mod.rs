@@ -161,7 +161,9 @@ impl Watch<'_> {
         let mut pause = FIRST_RETRY;
         loop {
             let most = match &came {
-                Came::Told | Came::Needless => None,
+                Came::Told => None,
+                // What overtook it may have been taken back: it is owed an answer all the same.
+                Came::Needless => Some(Duration::ZERO),
                 Came::Unwritten(_) => Some(pause),
             };
             match signals.changed(stamps, most) {
@@ -169,15 +171,16 @@ impl Watch<'_> {
                 Woken::Interrupted => return Attended::Interrupted,
                 Woken::Due => {}
             }
+            let Came::Unwritten(unwritten) = came else {
+                return Attended::Ended;
+            };
             pause = (pause * 2).min(LONGEST_RETRY);
-            if let Came::Unwritten(unwritten) = came {
-                let start = Instant::now();
-                came = self
-                    .watched
-                    .write_again(unwritten, console, &|seen| self.show(seen));
-                if let Came::Told = &came {
-                    self.tell(stamps, start.elapsed(), console);
-                }
+            let start = Instant::now();
+            came = self
+                .watched
+                .write_again(unwritten, console, &|seen| self.show(seen));
+            if let Came::Told = &came {
+                self.tell(stamps, start.elapsed(), console);
             }
         }
     }

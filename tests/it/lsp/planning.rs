@@ -143,10 +143,12 @@ fn what_says_the_same_is_planned_on() {
     let task = editor.server.task().unwrap();
     let saved = json!({ "textDocument": { "uri": uri(PATH) } });
     editor.tell("textDocument/didSave", saved.clone());
+    editor.settle();
     assert!(editor.server.task().is_none(), "it is being planned");
     assert_ne!(reads(&mut editor, task), 0);
     assert_eq!(hints(&mut editor).len(), 2);
     editor.tell("textDocument/didSave", saved);
+    editor.settle();
     assert_eq!(hints(&mut editor).len(), 2, "it stays planned");
     assert!(editor.server.task().is_none());
 
@@ -154,6 +156,7 @@ fn what_says_the_same_is_planned_on() {
     assert_ne!(longer, BLADES);
     editor.files.0.insert("/shop/blades.vcut".to_owned(), longer);
     editor.tell("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
+    editor.settle();
     assert!(editor.server.task().is_some());
 }
 
