@@ -40,3 +40,4 @@ pub mod source;
 pub mod summary;
 pub mod syntax;
 pub mod verdict;
+pub mod wanted;

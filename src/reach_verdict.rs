@@ -14,11 +14,18 @@ use crate::reach::trouble::{Count, Failing, Leads, Trouble};
 use crate::reach::way::Obstacle;
 use crate::remedy;
 use crate::source::Span;
+use crate::wanted::Wanted;
 use vcutc_backend_api::ir::{Action, Axis, OpId, OrientationId, Program, Site};
 
-/// Puts into words why a program is not carried out, and offers changes of the job that mend it.
+/// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
+/// they were wanted.
 #[must_use]
-pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) -> Vec<Diagnostic> {
+pub fn diagnose(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    unreachable: &Unreachable,
+    wanted: &Wanted,
+) -> Vec<Diagnostic> {
     let Some(machine) = &job.machine else {
         return Vec::new();
     };
@@ -27,7 +34,7 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         return vec![diagnostic];
     }
     let diagnostic = scene.trouble(&unreachable.trouble);
-    let remedies = remedy::remedies(job, plan, unreachable);
+    let remedies = remedy::remedies(job, plan, unreachable, wanted);
     vec![remedy::offer(diagnostic, &remedies, general(unreachable))]
 }
 

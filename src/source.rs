@@ -101,7 +101,7 @@ impl<T: fmt::Debug> fmt::Debug for Spanned<T> {
 }
 
 /// One source text.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceFile {
     /// The name people see, such as `shop/blades.vcut` or `--set width=90mm`.
     pub name: String,
@@ -110,7 +110,7 @@ pub struct SourceFile {
 }
 
 /// All source texts of a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceMap {
     files: Vec<SourceFile>,
 }

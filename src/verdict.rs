@@ -19,7 +19,8 @@ use crate::sim::report::{Report, report};
 use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
 use crate::source::{SourceMap, Span};
-use attempts::Attempts;
+use crate::wanted::Wanted;
+use attempts::{Attempts, Case};
 use chips::Remedy;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
@@ -87,6 +88,18 @@ pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
 /// Puts everything that is wrong with a proven program into words.
 #[must_use]
 pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Diagnostic> {
+    diagnose_while(job, plan, proven, &Wanted::ALWAYS)
+}
+
+/// As [`diagnose`] while that is wanted: no more changes are tried afterwards, which may then be missing ([`Wanted::answer`]).
+#[must_use]
+pub fn diagnose_while(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    proven: &Proven,
+    wanted: &Wanted,
+) -> Vec<Diagnostic> {
+    let case = Case { job, wanted };
     let mut work = Work::OF_A_REFUSAL;
     let mut diagnostics: Vec<Diagnostic> = proven
         .findings
@@ -95,17 +108,16 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
             let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(finding.operation.0))?;
             Some(match finding.fault {
                 CutFault::NotFreed { needed, available } => {
-                    let mut attempts = Attempts::new(job, finding.operation, &mut work);
+                    let chips = Chips {
+                        finding,
+                        count,
+                        needed,
+                        available,
+                    };
                     not_freed(
-                        &mut attempts,
-                        job,
+                        &mut Attempts::new(case, finding.operation, &mut work),
                         vcut,
-                        Chips {
-                            finding,
-                            count,
-                            needed,
-                            available,
-                        },
+                        chips,
                     )
                 }
                 CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
@@ -114,7 +126,7 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
         })
         .collect();
     if diagnostics.is_empty() {
-        diagnostics.extend(scallop::over_limit(job, plan, &proven.report, &mut work));
+        diagnostics.extend(scallop::over_limit(case, plan, &proven.report, &mut work));
     }
     diagnostics.extend(plan.operations.iter().filter_map(|operation| {
         let PlannedOperation::RoughVcut(vcut) = operation;
@@ -174,7 +186,7 @@ struct Chips {
     available: Length,
 }
 
-fn not_freed(attempts: &mut Attempts<'_>, job: &CheckedJob, vcut: &PlannedVcut, chips: Chips) -> Diagnostic {
+fn not_freed(attempts: &mut Attempts<'_>, vcut: &PlannedVcut, chips: Chips) -> Diagnostic {
     let Chips {
         finding,
         count,
@@ -183,7 +195,13 @@ fn not_freed(attempts: &mut Attempts<'_>, job: &CheckedJob, vcut: &PlannedVcut, 
     } = chips;
     let asked = &vcut.asked;
     if let Some(tips) = &asked.tips {
-        return given::not_freed(job, (asked, tips), finding, count, [needed, available]);
+        return given::not_freed(
+            attempts.case(),
+            (asked, tips),
+            finding,
+            count,
+            [needed, available],
+        );
     }
     let edge = UsableEdge::of(asked, available);
     // Rounded up: 10.003 mm is not 10 mm.
@@ -298,10 +316,10 @@ impl UsableEdge {
 }
 
 /// The plan and proof of a job that has nothing wrong with its cuts, along the route that any machine follows best, as the
-/// compiler takes it when the machine follows no other.
+/// compiler takes it when the machine follows no other. None for who no longer wants it.
 #[must_use]
-pub fn sound(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
-    attempts::planned_and_proven(job, Latitude::RowsByPoint)
+pub fn sound(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob, Proven)> {
+    attempts::planned_and_proven(Case { job, wanted }, Latitude::RowsByPoint)
         .filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
 }
 

@@ -11,6 +11,7 @@ use crate::sim::report::area_under;
 use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
 use crate::source::SourceMap;
+use crate::wanted::Wanted;
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 
@@ -42,6 +43,8 @@ pub(super) struct Bench<'j> {
     pub(super) job: &'j CheckedJob,
     pub(super) before: Surface,
     pub(super) latitude: Latitude,
+    /// Plans that nobody wants any more are not made.
+    pub(super) wanted: Wanted,
 }
 
 impl<'j> Bench<'j> {
@@ -50,6 +53,7 @@ impl<'j> Bench<'j> {
             job,
             before: Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm()),
             latitude,
+            wanted: Wanted::ALWAYS,
         }
     }
 

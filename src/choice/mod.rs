@@ -33,6 +33,7 @@ use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
 };
+use crate::wanted::Wanted;
 use bench::{Bench, Figures};
 use core::cmp::Ordering;
 use rayon::prelude::*;
@@ -55,11 +56,24 @@ pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
 /// Makes every choice, with some routes and swings left out.
 #[must_use]
 pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    choose_while(job, leeway, &Wanted::ALWAYS)
+}
+
+/// As [`choose_within`] while the plan is wanted. What comes out afterwards is nobody's plan ([`Wanted::answer`]).
+#[must_use]
+pub fn choose_while(
+    job: &CheckedJob,
+    leeway: Leeway,
+    wanted: &Wanted,
+) -> (Option<PlannedJob>, Vec<Diagnostic>) {
     if let Some(refused) = refuse_operations(job) {
         return (None, vec![refused]);
     }
     let mut diagnostics = Vec::new();
-    let mut bench = Bench::new(job, leeway.routes);
+    let mut bench = Bench {
+        wanted: wanted.clone(),
+        ..Bench::new(job, leeway.routes)
+    };
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
     let mut work = Work::OF_A_REFUSAL;
@@ -93,11 +107,13 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
 /// Whether a job of one operation has a plan with nothing wrong that keeps all limits, as far as is seen with so much work.
 /// Where it has one, [`choose`] comes to one.
 #[must_use]
-pub fn is_sound(job: &CheckedJob, work: &mut Work) -> bool {
+pub fn is_sound(job: &CheckedJob, work: &mut Work, wanted: &Wanted) -> bool {
+    let bench = Bench {
+        wanted: wanted.clone(),
+        ..Bench::new(job, Latitude::Full)
+    };
     match &job.operations[..] {
-        [Operation::RoughVcut(asked)] => {
-            offers::is_sound(&Bench::new(job, Latitude::Full), asked, MOST_CUTS, work)
-        }
+        [Operation::RoughVcut(asked)] => offers::is_sound(&bench, asked, MOST_CUTS, work),
         _ => false,
     }
 }
@@ -474,6 +490,9 @@ fn best_residual(
     found: &VcutParameters,
     cuts_left: usize,
 ) -> Result<LaidOut, Unplanned> {
+    if bench.wanted.is_needless() {
+        return Err(Unplanned::Refused(Vec::new()));
+    }
     let first = lay_out(bench.job, asked, found.clone(), cuts_left, &bench.before)?;
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
@@ -488,6 +507,9 @@ fn best_residual(
         return Ok(first);
     }
     let along_other = |residual: Residual| -> Option<Contender> {
+        if bench.wanted.is_needless() {
+            return None;
+        }
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
         let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before).ok()?;

@@ -93,7 +93,7 @@ fn first_that_works(
 /// Whether an operation has a plan that keeps all its limits and has nothing wrong, as far as is seen with so much work. Where
 /// there is one, the choice comes to one.
 pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, work: &mut Work) -> bool {
-    if work.is_spent() {
+    if work.is_spent() || bench.wanted.is_needless() {
         return false;
     }
     if !trial::is_searched(asked) {

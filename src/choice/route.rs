@@ -39,7 +39,7 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
                 beyond_the_rest(along(vcut, *only), field, *only)
             }
         },
-        (Open::Something(field), _) if vcut.cuts.len() > MOST_CUTS_COMPARED => {
+        (Open::Something(field), _) if vcut.cuts.len() > MOST_CUTS_COMPARED || bench.wanted.is_needless() => {
             let decision = not_compared(field, words(&vcut.asked, usual));
             remembering(along(vcut, usual), decision)
         }

@@ -305,13 +305,13 @@ impl<'t> Trials<'t> {
         first
     }
 
-    /// Whether nothing more is to be known.
-    const fn is_answered(&self) -> bool {
+    /// Whether nothing more is to be known, or nobody wants to know.
+    fn is_answered(&self) -> bool {
         let is_found = match self.goal {
             Goal::Best => false,
             Goal::Any => !self.sound.is_empty(),
         };
-        is_found || self.work.is_spent()
+        is_found || self.work.is_spent() || self.bench.wanted.is_needless()
     }
 
     /// The best few, the best first, and the formulas' parameters if they are sound.
@@ -391,6 +391,9 @@ impl<'t> Trials<'t> {
 
     /// Plans parameters.
     fn outcome(&self, found: &VcutParameters) -> Outcome {
+        if self.bench.wanted.is_needless() {
+            return Outcome::Impossible;
+        }
         let laid = lay_out(
             self.bench.job,
             self.asked,

@@ -1,6 +1,6 @@
-//! `vcutc JOB`, `vcutc check JOB...`, and each run of `vcutc watch JOB`: jobs through the pipeline.
+//! `vcutc JOB` and `vcutc check JOB...`: jobs through the pipeline.
 
-use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides, WatchArgs};
+use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::batch::{self, Unit};
 use super::console::{Console, Failure, Summary};
 use super::files::Disk;
@@ -13,7 +13,6 @@ use super::{Exit, Targets};
 use crate::diag::has_errors;
 use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
-use crate::source::Loader;
 use std::path::PathBuf;
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
@@ -99,8 +98,7 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
         .unwrap_or(Exit::Success)
 }
 
-/// The program of a job that has no file of its own.
-#[cfg(feature = "krl")]
+/// A program for a target, to be written.
 pub(super) fn program_of(
     target: &str,
     output: Option<&str>,
@@ -129,70 +127,14 @@ fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
     }
 }
 
-fn nothing(targets: &Targets) -> Product {
+/// A verdict alone, and how to get more.
+pub(super) fn nothing(targets: &Targets) -> Product {
     Product::Verdict {
         remark: Some(format!(
             "no --target was given (targets: {}), so nothing was written",
             targets::names(targets)
         )),
     }
-}
-
-/// A job that is compiled again and again.
-pub(super) struct Watched<'a> {
-    args: &'a WatchArgs,
-    targets: &'a Targets,
-    product: Product,
-}
-
-impl<'a> Watched<'a> {
-    /// What the command line asks for.
-    pub(super) fn new(args: &'a WatchArgs, targets: &'a Targets) -> Result<Self, Failure> {
-        let product = match &args.target {
-            Some(target) => Product::Program(Program {
-                backend: targets::find(targets, target)?,
-                to: program_destination(args.output.as_deref()),
-                fate: Fate::Write,
-                options: args.options.option.clone(),
-            }),
-            None if args.serve.is_some() => Product::Verdict { remark: None },
-            None => nothing(targets),
-        };
-        Ok(Self {
-            args,
-            targets,
-            product,
-        })
-    }
-
-    /// The job's path as given.
-    pub(super) fn job(&self) -> &'a str {
-        &self.args.job
-    }
-}
-
-/// Compiles a job once more, with files by `loader`. `see` gets to see what came of it before it is told.
-pub(super) fn judge_again(
-    watched: &Watched<'_>,
-    loader: &dyn Loader,
-    memory: &mut Memory,
-    console: &Console,
-    see: &mut dyn FnMut(&Outcome),
-) -> Exit {
-    let disk = Disk::around(watched.job());
-    let request = Request {
-        loader,
-        ..watched.args.overrides.request(&disk, watched.targets)
-    };
-    let carried = Carried {
-        memory,
-        disk: &disk,
-        amend: &mut |outcome| {
-            see(outcome);
-            Ok(Amended::default())
-        },
-    };
-    carried_out(request, &watched.product, carried, console)
 }
 
 fn fate(check: bool, output: Option<&str>) -> Result<Fate, Failure> {
@@ -279,7 +221,7 @@ pub(super) fn carried_out(
     let timings = progress.finish();
 
     match made {
-        Ok(made) => tell(job, outcome, &made, &timings, product, console),
+        Ok(made) => tell(job, &outcome, &made, &timings, product, console),
         Err(failure) => {
             console.diagnostics(&outcome.diagnostics, &outcome.sources);
             console.failure(&failure)
@@ -302,22 +244,22 @@ impl Product {
 }
 
 /// Tells what came of a job.
-fn tell(
+pub(super) fn tell(
     job: &str,
-    mut outcome: Outcome,
+    outcome: &Outcome,
     made: &Made,
     timings: &[(&'static str, Duration)],
     product: &Product,
     console: &Console,
 ) -> Exit {
-    outcome.diagnostics.extend_from_slice(&made.diagnostics);
-    let is_wrong = has_errors(&outcome.diagnostics);
+    let diagnostics = [outcome.diagnostics.as_slice(), &made.diagnostics].concat();
+    let is_wrong = has_errors(&diagnostics);
     let exit = match &made.differences {
         Some(differences) if !differences.changes.is_empty() => Exit::JobHasErrors,
         Some(_) | None if is_wrong => Exit::JobHasErrors,
         Some(_) | None => Exit::Success,
     };
-    console.diagnostics(&outcome.diagnostics, &outcome.sources);
+    console.diagnostics(&diagnostics, &outcome.sources);
     if let Some(found) = &made.differences {
         console.differences(job, found);
     }
@@ -325,7 +267,7 @@ fn tell(
     let compiled = outcome.compiled.as_ref().filter(|_| made.differences.is_none());
     console.summary(&Summary {
         job,
-        diagnostics: &outcome.diagnostics,
+        diagnostics: &diagnostics,
         lines: compiled.map_or(&[], |compiled| &compiled.summary),
         numbers: compiled.map(|compiled| &compiled.numbers),
         times: compiled.map(|compiled| &compiled.times),
@@ -364,7 +306,12 @@ fn of_the_product(product: &Product, is_wrong: bool, made: &Made) -> Option<Stri
 }
 
 /// Makes the product of a job that got far enough for it.
-fn make(product: &Product, outcome: &Outcome, disk: &Disk, progress: &mut Progress) -> Result<Made, Failure> {
+pub(super) fn make(
+    product: &Product,
+    outcome: &Outcome,
+    disk: &Disk,
+    progress: &mut Progress,
+) -> Result<Made, Failure> {
     match product {
         Product::Program(program) => {
             if outcome.compiled.is_none() {

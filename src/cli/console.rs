@@ -16,6 +16,7 @@ use crate::summary::times::{self, TimeFigures};
 use anstream::AutoStream;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Version of the JSON objects this module writes.
@@ -29,6 +30,8 @@ pub(super) struct Console {
     format: MessageFormat,
     color: render::ColorChoice,
     detail: Detail,
+    /// Whether the reader of standard error has gone away.
+    is_unheard: AtomicBool,
 }
 
 /// How much is told besides diagnostics.
@@ -56,6 +59,11 @@ impl Failure {
             message: message.into(),
             help: Vec::new(),
         }
+    }
+
+    /// What failed.
+    pub(super) fn message(&self) -> &str {
+        &self.message
     }
 
     /// Says what to do.
@@ -99,6 +107,8 @@ struct Line<T> {
 #[derive(Serialize)]
 struct SummaryBody<'a> {
     job: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<&'a str>,
     errors: usize,
     warnings: usize,
     lines: &'a [String],
@@ -130,12 +140,18 @@ impl Console {
                 (false, false) => Detail::Summary,
                 (false, true) => Detail::Everything,
             },
+            is_unheard: AtomicBool::new(false),
         }
     }
 
     /// Whether a passing progress line may be drawn (if standard error is a terminal).
     pub(super) fn shows_progress(&self) -> bool {
         self.format != MessageFormat::Json && self.detail != Detail::DiagnosticsOnly
+    }
+
+    /// Whether the reader of messages went away, as far as writing has shown it.
+    pub(super) fn is_unheard(&self) -> bool {
+        self.is_unheard.load(Ordering::SeqCst)
     }
 
     /// Whether what is asked for goes to a program, as JSON.
@@ -243,31 +259,46 @@ impl Console {
         Exit::CannotRun
     }
 
-    /// Prints what came of a job.
-    pub(super) fn summary(&self, summary: &Summary<'_>) {
-        let (errors, warnings) = count(summary.diagnostics);
+    /// Prints why a run that others follow came to nothing. Programs get its summary, too, which says so.
+    pub(super) fn fruitless(&self, failure: &Failure, summary: &Summary<'_>) {
+        self.failure(failure);
         match self.format {
-            MessageFormat::Json => self.json_line(
-                "summary",
-                SummaryBody {
-                    job: summary.job,
-                    errors,
-                    warnings,
-                    lines: summary.lines,
-                    numbers: summary.numbers,
-                    times: summary.times,
-                    reach: summary.reach,
-                    files: summary.placed.iter().map(Placed::path).collect(),
-                    unchanged: unchanged(summary.placed),
-                    stages: self.stage_bodies(summary.timings),
-                },
-            ),
-            MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
-            MessageFormat::Human | MessageFormat::Github => self.human_summary(summary, errors, warnings),
+            MessageFormat::Json => {
+                let summary = self.summary_body(summary, Some(&failure.message));
+                self.json_line("summary", summary);
+            }
+            MessageFormat::Human | MessageFormat::Github => {}
         }
     }
 
-    fn human_summary(&self, summary: &Summary<'_>, errors: usize, warnings: usize) {
+    /// Prints what came of a job.
+    pub(super) fn summary(&self, summary: &Summary<'_>) {
+        match self.format {
+            MessageFormat::Json => self.json_line("summary", self.summary_body(summary, None)),
+            MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
+            MessageFormat::Human | MessageFormat::Github => self.human_summary(summary),
+        }
+    }
+
+    fn summary_body<'a>(&self, summary: &'a Summary<'_>, failure: Option<&'a str>) -> SummaryBody<'a> {
+        let (errors, warnings) = count(summary.diagnostics);
+        SummaryBody {
+            job: summary.job,
+            failure,
+            errors,
+            warnings,
+            lines: summary.lines,
+            numbers: summary.numbers,
+            times: summary.times,
+            reach: summary.reach,
+            files: summary.placed.iter().map(Placed::path).collect(),
+            unchanged: unchanged(summary.placed),
+            stages: self.stage_bodies(summary.timings),
+        }
+    }
+
+    fn human_summary(&self, summary: &Summary<'_>) {
+        let (errors, warnings) = count(summary.diagnostics);
         let mut text: String = summary.lines.iter().map(|line| format!("{line}\n")).collect();
         if self.detail == Detail::Everything {
             let mut table = summary.reach.map(reach_summary::table).unwrap_or_default();
@@ -311,11 +342,14 @@ impl Console {
 
     /// The text holds escape sequences exactly when colours were chosen, so they go through as they are (or become
     /// console calls on an old Windows console).
-    #[allow(clippy::unused_self, reason = "a console is what may write to standard error")]
     fn stderr(&self, text: &str) {
         let mut stderr = AutoStream::always(io::stderr().lock());
         // Nobody is left to tell when standard error itself is gone.
-        let _ = stderr.write_all(text.as_bytes());
+        if let Err(error) = stderr.write_all(text.as_bytes())
+            && error.kind() == io::ErrorKind::BrokenPipe
+        {
+            self.is_unheard.store(true, Ordering::SeqCst);
+        }
     }
 }
 

@@ -1,9 +1,11 @@
 //! `vcutc lsp`: messages between standard input, the language server, and a thread that plans.
 //!
-//! Messages are taken in the order in which they come. When none waits, what has changed is looked at and told; when none
-//! comes for a moment, a job that is right so far goes to the thread that plans, one at a time.
+//! Messages are taken in the order in which they come. When none waits, what has changed is looked at and told; when nothing
+//! changes for a moment, a job that is right so far goes to the thread that plans, one at a time. A job whose text changes
+//! meanwhile is planned no further.
 
 use super::Targets;
+use super::console::{Console, Failure};
 use super::files::{load_file, with_forward_slashes};
 use crate::lsp::wire::{self, Broken, Fault, Incoming};
 use crate::lsp::{Done, Ending, Server, Task, Workspace};
@@ -16,10 +18,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use vcutc_backend_api::backend::Backend;
 
-/// How long nobody must have typed before a job is planned.
+/// How long nothing must have been told, such as a change of a text, before a job is planned. Questions are no reason to wait.
 const PAUSE: Duration = Duration::from_millis(250);
 
 /// Something that the server has to look at.
@@ -37,7 +39,7 @@ enum Planner {
 }
 
 /// Serves an editor until it says good-bye. By the protocol the end is 0 if it did so as agreed, and else 1.
-pub(super) fn serve(targets: &Targets) -> ExitCode {
+pub(super) fn serve(targets: &Targets, console: &Console) -> ExitCode {
     let (sender, events) = channel();
     let tasks = planner(targets.to_vec(), sender.clone());
     thread::spawn(move || read_all(&sender));
@@ -46,10 +48,16 @@ pub(super) fn serve(targets: &Targets) -> ExitCode {
         waiting: VecDeque::new(),
         tasks,
         planner: Planner::Idle,
+        told: Instant::now(),
+        console,
     };
     match conversation.hold(&events) {
         Ok(Ending::Agreed) => ExitCode::SUCCESS,
-        Ok(Ending::Abrupt) | Err(_) => ExitCode::from(1),
+        Ok(Ending::Abrupt) => ExitCode::from(1),
+        Err(why) => {
+            console.failure(&Failure::new(format!("the conversation cannot go on: {why}")));
+            ExitCode::from(1)
+        }
     }
 }
 
@@ -83,15 +91,19 @@ fn planner(targets: Vec<&'static dyn Backend>, events: Sender<Event>) -> Sender<
     tasks
 }
 
-struct Conversation {
+struct Conversation<'c> {
     server: Server,
     /// What has come in and is still to be looked at, the oldest first.
     waiting: VecDeque<Event>,
     tasks: Sender<Task>,
     planner: Planner,
+    /// When something was told last.
+    told: Instant,
+    /// Standard error, which editors keep in a log.
+    console: &'c Console,
 }
 
-impl Conversation {
+impl Conversation<'_> {
     /// Holds it to its end.
     fn hold(&mut self, events: &Receiver<Event>) -> io::Result<Ending> {
         loop {
@@ -132,20 +144,29 @@ impl Conversation {
                 return vec![wire::refusal(id, Fault::RequestCancelled, "taken back")];
             }
         }
+        if let Incoming::Malformed { why, .. } = &message {
+            let failure = Failure::new(format!("a message of the editor cannot be read: {why}"));
+            self.console.failure(&failure);
+        }
+        if let Incoming::Notification { .. } = &message {
+            self.told = Instant::now();
+        }
         self.server.handle(message, &Disk)
     }
 
-    /// Waits for the next event; a job is planned meanwhile if none comes soon.
+    /// Waits for the next event; if nothing is told for a moment, a job is planned meanwhile, before others the one that was changed last.
     fn wait(&mut self, events: &Receiver<Event>) -> Option<Event> {
-        if self.planner == Planner::Idle {
-            match events.recv_timeout(PAUSE) {
-                Ok(event) => return Some(event),
-                Err(RecvTimeoutError::Disconnected) => return None,
-                Err(RecvTimeoutError::Timeout) => {
-                    if let Some(task) = self.server.task() {
-                        self.planner = Planner::Busy;
-                        self.tasks.send(task).ok()?;
-                    }
+        match events.recv_timeout(PAUSE.saturating_sub(self.told.elapsed())) {
+            Ok(event) => return Some(event),
+            Err(RecvTimeoutError::Disconnected) => return None,
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        match self.planner {
+            Planner::Busy => self.server.put_off(),
+            Planner::Idle => {
+                if let Some(task) = self.server.task() {
+                    self.planner = Planner::Busy;
+                    self.tasks.send(task).ok()?;
                 }
             }
         }

@@ -117,7 +117,7 @@ pub fn run(linked: &Targets) -> ExitCode {
             quaternion,
         }) => kinematics::inverse(cell, pose, quaternion.as_deref(), &console),
         #[cfg(feature = "lsp")]
-        Some(Command::Lsp { stdio: _ }) => return lsp::serve(targets),
+        Some(Command::Lsp { stdio: _ }) => return lsp::serve(targets, &console),
         Some(Command::Machines { machine }) => machines::machines(machine.as_deref(), &console),
         Some(Command::Plot(plot)) => plot::plot(plot, targets, &console),
         Some(Command::Report(report)) => report::report(report, targets, &console),

@@ -27,6 +27,7 @@ use crate::summary::summary;
 use crate::summary::times::{TimeFigures, figures as time_figures};
 use crate::syntax::ast::Ast;
 use crate::verdict;
+use crate::wanted::{Needless, Wanted};
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
 use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_backend_api::ir::OpId;
@@ -162,6 +163,34 @@ pub fn compile_again(
     memory: &mut Memory,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Outcome, RequestError> {
+    let wanted = &Wanted::ALWAYS;
+    as_far_as_wanted(request, Kept { memory, wanted }, progress)
+}
+
+/// As [`compile_again`], for who may lose interest meanwhile. What was found by then is kept as far as it is complete.
+///
+/// # Errors
+/// When the outcome is no longer wanted; within, as for [`compile`].
+pub fn compile_while(
+    request: Request<'_>,
+    memory: &mut Memory,
+    wanted: &Wanted,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Result<Outcome, RequestError>, Needless> {
+    wanted.answer(|| as_far_as_wanted(request, Kept { memory, wanted }, progress))
+}
+
+/// What a run knows of others: what they found, and whether a later one has made it needless.
+struct Kept<'k> {
+    memory: &'k mut Memory,
+    wanted: &'k Wanted,
+}
+
+fn as_far_as_wanted(
+    request: Request<'_>,
+    mut kept: Kept<'_>,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Outcome, RequestError> {
     progress(Stage::Reading);
     let mut outcome = Outcome::default();
     let Request {
@@ -186,7 +215,7 @@ pub fn compile_again(
     }
     outcome.job = job;
     if !has_errors(&outcome.diagnostics) {
-        plan_and_prove(&mut outcome, memory, progress);
+        plan_and_prove(&mut outcome, &mut kept, progress);
     }
     Ok(outcome)
 }
@@ -201,16 +230,16 @@ enum Ended {
     Compiled(PlannedJob, Vec<Diagnostic>, Box<Compiled>),
 }
 
-fn plan_and_prove(outcome: &mut Outcome, memory: &mut Memory, progress: &mut dyn FnMut(Stage)) {
+fn plan_and_prove(outcome: &mut Outcome, kept: &mut Kept<'_>, progress: &mut dyn FnMut(Stage)) {
     let Some(job) = &outcome.job else { return };
-    let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, memory, progress) {
-        Ended::Refused(None, told) => {
-            let told = with_limits_that_are_kept(job, told, &outcome.sources, memory, progress);
+    let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, kept, progress) {
+        Ended::Refused(None, told) if !kept.wanted.is_needless() => {
+            let told = with_limits_that_are_kept(job, told, &outcome.sources, kept, progress);
             (None, told, None)
         }
         Ended::Refused(plan, told) => (plan, told, None),
         Ended::Unreached(plan, mut told, unreached) => {
-            told.extend(unreached_in_words(job, &plan, &unreached));
+            told.extend(unreached_in_words(job, &plan, &unreached, kept.wanted));
             (Some(plan), told, None)
         }
         Ended::Compiled(plan, told, compiled) => (Some(plan), told, Some(*compiled)),
@@ -225,13 +254,13 @@ fn with_limits_that_are_kept(
     job: &CheckedJob,
     told: Vec<Diagnostic>,
     sources: &SourceMap,
-    memory: &mut Memory,
+    kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Vec<Diagnostic> {
     let is_of_limits = told.iter().all(|one| one.code == Code::LimitsConflict);
     let free = choice::unlimited(job).filter(|free| is_of_limits && free.machine.is_some());
     let Some(free) = free else { return told };
-    match along_its_routes(&free, sources, memory, progress) {
+    match along_its_routes(&free, sources, kept, progress) {
         Ended::Compiled(plan, ..) => match choice::broken_limits(job, &plan) {
             broken if broken.is_empty() => told,
             broken => broken,
@@ -244,15 +273,16 @@ fn with_limits_that_are_kept(
 fn along_its_routes(
     job: &CheckedJob,
     sources: &SourceMap,
-    memory: &mut Memory,
+    kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Ended {
-    let mut yielding = Yielding::new(job);
+    let wanted = kept.wanted;
+    let mut yielding = Yielding::new(job, wanted);
     let mut refused: Option<Ended> = None;
     loop {
         progress(Stage::Planning);
-        let (plan, mut told) = memory.choose(job, yielding.leeway());
-        let Some(plan) = plan else {
+        let (plan, mut told) = kept.memory.choose(job, yielding.leeway(), wanted);
+        let Some(plan) = plan.filter(|_| !wanted.is_needless()) else {
             return refused.unwrap_or(Ended::Refused(None, told));
         };
         progress(Stage::Proving);
@@ -263,17 +293,18 @@ fn along_its_routes(
                 return Ended::Refused(Some(plan), told);
             }
         };
-        told.extend(verdict::diagnose(job, &plan, &proven));
+        told.extend(verdict::diagnose_while(job, &plan, &proven, wanted));
         if has_errors(&told) {
             // What the machine did not follow was sound, and is what there is to tell.
             return refused.unwrap_or(Ended::Refused(Some(plan), told));
         }
         let changes = yielding.changes(&plan);
-        match reach(job, proven.program, changes, memory, progress) {
+        match reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
                 let compiled = compiled(job, program, &plan, proven.report);
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
+            Err(_) if wanted.is_needless() => return Ended::Refused(Some(plan), told),
             Err(unreached) => {
                 let is_usual = yielding.is_usual();
                 let goes_on = yielding.narrow(&plan, &unreached);
@@ -319,20 +350,25 @@ fn reach(
     job: &CheckedJob,
     program: VerifiedProgram,
     changes: Changes,
-    memory: &mut Memory,
+    kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Finished, Unreached> {
     let Some(machine) = &job.machine else {
         return Ok(Finished::WithoutMachine(Box::new(program)));
     };
     progress(Stage::Reaching);
-    let reached = memory.reach(program, &machine.model, changes)?;
+    let reached = kept.memory.reach(program, &machine.model, changes, kept.wanted)?;
     Ok(Finished::Reached(Box::new(reached)))
 }
 
-fn unreached_in_words(job: &CheckedJob, plan: &PlannedJob, unreached: &Unreached) -> Vec<Diagnostic> {
+fn unreached_in_words(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    unreached: &Unreached,
+    wanted: &Wanted,
+) -> Vec<Diagnostic> {
     match unreached {
-        Unreached::Unreachable(unreachable) => reach_verdict::diagnose(job, plan, unreachable),
+        Unreached::Unreachable(unreachable) => reach_verdict::diagnose(job, plan, unreachable, wanted),
         Unreached::Rules(faults) => vec![internal(job, &rules_broken(faults))],
         Unreached::Motion(faults) => vec![internal(job, &motions_broken(faults))],
     }

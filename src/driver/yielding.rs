@@ -14,6 +14,7 @@ use crate::reach::solve::{Changes, Unreached};
 use crate::reach::trouble::Trouble;
 use crate::sim::surface::Surface;
 use crate::source::SourceMap;
+use crate::wanted::Wanted;
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::verify;
 
@@ -31,14 +32,16 @@ pub(super) struct Yielding<'j> {
     job: &'j CheckedJob,
     leeway: Leeway,
     plans: usize,
+    wanted: &'j Wanted,
 }
 
 impl<'j> Yielding<'j> {
-    pub(super) const fn new(job: &'j CheckedJob) -> Self {
+    pub(super) const fn new(job: &'j CheckedJob, wanted: &'j Wanted) -> Self {
         Self {
             job,
             leeway: Leeway::along(Latitude::Full),
             plans: 0,
+            wanted,
         }
     }
 
@@ -67,7 +70,7 @@ impl<'j> Yielding<'j> {
     /// Goes on to what is considered where the machine does not follow a plan. Without effect where there is nothing left.
     pub(super) fn narrow(&mut self, plan: &PlannedJob, unreached: &Unreached) -> bool {
         self.plans += 1;
-        if self.plans >= MOST_PLANS {
+        if self.plans >= MOST_PLANS || self.wanted.is_needless() {
             return false;
         }
         let next = self.other_routes(plan).or_else(|| match trouble(unreached)? {
@@ -106,7 +109,7 @@ impl<'j> Yielding<'j> {
         let mut swing = now;
         loop {
             swing = Angle::deg((swing.to_deg() * NARROWER * 10.0).floor() / 10.0);
-            if swing < least {
+            if swing < least || self.wanted.is_needless() {
                 return None;
             }
             let orders = [Order::Point, Order::Layer];

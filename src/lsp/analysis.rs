@@ -1,18 +1,20 @@
 //! What is known of a root file: a job, or a library that no open job uses.
 //!
 //! Text and meaning are looked at as soon as a text changes. What `auto` becomes and whether the machine follows takes
-//! longer, so it is a [`Task`] that is done beside and handed back; an answer for a text that has changed since is thrown
-//! away, because the analysis it belongs to is no longer there.
+//! longer, so it is a [`Task`] that is done beside and handed back. The analysis holds the interest in it: a text that changes
+//! has another analysis, and the task for the one before ends early. An answer that came all the same is thrown away, because
+//! the analysis it belongs to is no longer there.
 
 use super::text::Text;
 use crate::diag::Diagnostic;
-use crate::driver::{self, Request, Typed};
+use crate::driver::{self, Request, RequestError, Typed};
 use crate::memory::Memory;
 use crate::plan::PlannedJob;
 use crate::sema::study::{Study, study};
 use crate::sema::{Choices, Part};
 use crate::source::{FileId, LoadError, Loader, SourceMap};
 use crate::syntax::ast::{Ast, Item};
+use crate::wanted::{Interest, Needless, Wanted};
 use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
 
@@ -60,8 +62,8 @@ pub(super) enum Planning {
     Needless,
     /// To be done.
     Due,
-    /// Being done.
-    UnderWay,
+    /// Being done, for as long as this is held.
+    UnderWay(#[expect(dead_code, reason = "it is held, and ends when it is dropped")] Interest),
     /// Done.
     Done(Box<Planned>),
 }
@@ -121,6 +123,16 @@ impl Analysis {
         })
     }
 
+    /// Takes over what is known, or is being found out, of a job that says the same: its number, too.
+    pub(super) fn inheriting(mut self, earlier: Option<Self>) -> Self {
+        let is_same = |earlier: &Self| earlier.sources == self.sources && earlier.study.job == self.study.job;
+        if let Some(earlier) = earlier.filter(is_same) {
+            self.stamp = earlier.stamp;
+            self.planning = earlier.planning;
+        }
+        self
+    }
+
     /// Whether a file of that path was looked at, or looked for.
     pub(super) fn concerns(&self, path: &str) -> bool {
         self.sources.iter().any(|(_, file)| file.name == path)
@@ -137,7 +149,7 @@ impl Analysis {
     pub(super) fn told(&self) -> (&SourceMap, &[Diagnostic]) {
         match &self.planning {
             Planning::Done(planned) => (&planned.sources, &planned.diagnostics),
-            Planning::Needless | Planning::Due | Planning::UnderWay => (&self.sources, &self.diagnostics),
+            Planning::Needless | Planning::Due | Planning::UnderWay(_) => (&self.sources, &self.diagnostics),
         }
     }
 
@@ -145,7 +157,7 @@ impl Analysis {
     pub(super) fn planned(&self) -> Option<&Planned> {
         match &self.planning {
             Planning::Done(planned) => Some(planned),
-            Planning::Needless | Planning::Due | Planning::UnderWay => None,
+            Planning::Needless | Planning::Due | Planning::UnderWay(_) => None,
         }
     }
 }
@@ -164,18 +176,30 @@ pub struct Task {
     pub(super) root: String,
     pub(super) stamp: u64,
     pub(super) open: OpenTexts,
+    pub(super) wanted: Wanted,
 }
 
-/// A job that was planned.
+/// A task that is over.
 #[derive(Debug)]
 pub struct Done {
     pub(super) root: String,
     pub(super) stamp: u64,
-    pub(super) planned: Option<Planned>,
+    pub(super) result: Finding,
+}
+
+/// What came of a task.
+#[derive(Debug)]
+pub(super) enum Finding {
+    /// The job was planned.
+    Planned(Box<Planned>),
+    /// It could not be read.
+    Unreadable,
+    /// Nobody wanted to know any more.
+    Needless,
 }
 
 impl Task {
-    /// Plans the job and proves the plan, with what is kept of plans before.
+    /// Plans the job and proves the plan, with what is kept of plans before. It ends early when the text has changed.
     #[must_use]
     pub fn run(self, files: &dyn Loader, targets: &[&'static dyn Backend], memory: &mut Memory) -> Done {
         let overlay = Overlay {
@@ -190,20 +214,23 @@ impl Task {
             options: Typed::default(),
             targets,
         };
-        let outcome = driver::compile_again(request, memory, &mut |_| ()).ok();
-        let planned = outcome.map(|outcome| Planned {
-            sources: outcome.sources,
-            diagnostics: outcome.diagnostics,
-            plan: outcome.plan,
-            summary: outcome
-                .compiled
-                .map(|compiled| compiled.summary)
-                .unwrap_or_default(),
-        });
+        let result = match driver::compile_while(request, memory, &self.wanted, &mut |_| ()) {
+            Ok(Ok(outcome)) => Finding::Planned(Box::new(Planned {
+                sources: outcome.sources,
+                diagnostics: outcome.diagnostics,
+                plan: outcome.plan,
+                summary: outcome
+                    .compiled
+                    .map(|compiled| compiled.summary)
+                    .unwrap_or_default(),
+            })),
+            Ok(Err(RequestError::Unreadable(_))) => Finding::Unreadable,
+            Err(Needless) => Finding::Needless,
+        };
         Done {
             root: self.root,
             stamp: self.stamp,
-            planned,
+            result,
         }
     }
 }

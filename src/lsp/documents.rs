@@ -36,6 +36,8 @@ pub(super) struct Documents {
     pub(super) called: BTreeMap<String, Called>,
     /// What is known of root files, by their paths.
     pub(super) analyses: BTreeMap<String, Analysis>,
+    /// What was known before something changed that they may depend on. What still says the same goes on from there.
+    earlier: BTreeMap<String, Analysis>,
     /// Roots that are no open documents: a job of the workspace for an open library.
     homes: BTreeSet<String>,
     /// Whether it must be found out anew which roots there are.
@@ -76,14 +78,14 @@ impl Documents {
         };
         called.version = version;
         self.texts.insert(path.to_owned(), text);
-        self.analyses
-            .retain(|root, known| root != path && !known.concerns(path));
+        let is_touched = |root: &String, known: &mut Analysis| root == path || known.concerns(path);
+        self.earlier.extend(self.analyses.extract_if(.., is_touched));
         self.roots = Roots::Unknown;
     }
 
-    /// Forgets everything that is known: files may have changed.
+    /// Everything that is known has to be looked at again: files may have changed.
     pub(super) fn forget_all(&mut self) {
-        self.analyses.clear();
+        self.earlier.append(&mut self.analyses);
         self.homes.clear();
         self.roots = Roots::Unknown;
     }
@@ -99,12 +101,16 @@ impl Documents {
         for path in open.iter().chain(&self.homes.clone()) {
             self.look_at(path, files);
         }
-        if self.roots == Roots::Known {
-            return;
+        if self.roots == Roots::Unknown {
+            self.look_for_roots(&open, files);
         }
+        self.earlier.clear();
+    }
+
+    fn look_for_roots(&mut self, open: &[String], files: &dyn Workspace) {
         self.roots = Roots::Known;
         self.homes = BTreeSet::new();
-        for path in &open {
+        for path in open {
             if self.is_library(path) && self.jobs_of(path).next().is_none() {
                 self.find_home(path, files);
             }
@@ -119,8 +125,20 @@ impl Documents {
             return;
         }
         if let Some(known) = self.study(path, files) {
-            self.analyses.insert(path.to_owned(), known);
+            self.keep(known);
         }
+    }
+
+    fn keep(&mut self, known: Analysis) {
+        let earlier = self.earlier.remove(&known.root);
+        let known = known.inheriting(earlier);
+        self.analyses.insert(known.root.clone(), known);
+    }
+
+    /// The analysis of that number, unless its text has changed meanwhile.
+    pub(super) fn numbered(&mut self, root: &str, stamp: u64) -> Option<&mut Analysis> {
+        let known = self.analyses.get_mut(root).or(self.earlier.get_mut(root));
+        known.filter(|known| known.stamp == stamp)
     }
 
     /// What is known of a root file now.
@@ -154,8 +172,8 @@ impl Documents {
                 && known.part == Part::Job
                 && known.file(library).is_some()
             {
-                self.homes.insert(path.clone());
-                self.analyses.insert(path, known);
+                self.homes.insert(path);
+                self.keep(known);
                 return;
             }
         }

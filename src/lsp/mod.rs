@@ -29,6 +29,7 @@ mod requests;
 mod server;
 mod sites;
 mod slots;
+mod spelling;
 mod surroundings;
 mod symbols;
 mod text;

@@ -16,7 +16,7 @@ use super::symbols::symbols;
 use super::text::Text;
 use super::tokens::{legend, modifiers, semantic_tokens};
 use super::uri::{path_of, uri_of};
-use super::wire::Fault;
+use super::wire::{Fault, notification};
 use crate::machine::Origin;
 use crate::source::Span;
 use lsp_types::{
@@ -70,6 +70,12 @@ pub(super) fn introduction(server: &Server) -> Value {
 pub(super) fn ask_again(number: u64) -> Value {
     let id = format!("diagnostics-{number}");
     json!({ "jsonrpc": "2.0", "id": id, "method": "workspace/diagnostic/refresh" })
+}
+
+/// Tells the user of the client, in its log.
+pub(super) fn warning(text: &str) -> Value {
+    const WARNING: u8 = 2;
+    notification("window/logMessage", &json!({ "type": WARNING, "message": text }))
 }
 
 /// Asks the client to tell when files that jobs name change on the disk.

@@ -1,13 +1,15 @@
 //! The server as a machine of states: from a message to messages.
 
 use super::Workspace;
-use super::analysis::{Analysis, Done, Planning, Task};
+use super::analysis::{Analysis, Done, Finding, Planning, Task};
 use super::diagnostics::{Lines, in_protocol};
 use super::documents::{Called, Documents, Language};
 use super::requests;
+use super::spelling::Spellings;
 use super::text::Encoding;
 use super::uri::path_of;
 use super::wire::{Fault, Incoming, answer, notification, refusal};
+use crate::wanted::Wanted;
 use lsp_types::{
     DidChangeTextDocumentParams, DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams,
     DidOpenTextDocumentParams, InitializeParams, PositionEncodingKind, PublishDiagnosticsParams,
@@ -93,6 +95,7 @@ pub struct Server {
     watching: Watching,
     pub(super) telling: Telling,
     refreshes: u64,
+    spellings: Spellings,
 }
 
 impl Server {
@@ -109,6 +112,7 @@ impl Server {
             watching: Watching::Unasked,
             telling: Telling::default(),
             refreshes: 0,
+            spellings: Spellings::default(),
         }
     }
 
@@ -123,12 +127,17 @@ impl Server {
 
     /// Takes a message and gives those that answer it.
     pub fn handle(&mut self, message: Incoming, files: &dyn Workspace) -> Vec<Value> {
-        match message {
-            Incoming::Request { id, method, params } => {
+        let messages = match message {
+            Incoming::Request {
+                id,
+                method,
+                mut params,
+            } => {
+                self.spellings.read(&mut params);
                 let mut messages = Vec::new();
                 // Questions are about the text as it is now.
                 if self.stage == Stage::Running {
-                    messages = self.settle(files);
+                    messages = self.settled(files);
                 }
                 messages.push(match self.request(&method, params, files) {
                     Ok(result) => answer(&id, &result),
@@ -136,10 +145,25 @@ impl Server {
                 });
                 messages
             }
-            Incoming::Notification { method, params } => self.notification(&method, params),
+            Incoming::Notification { method, mut params } => {
+                self.spellings.read(&mut params);
+                self.notification(&method, params).unwrap_or_else(|(_, why)| {
+                    // Nobody waits for an answer to it, but what it tells is lost.
+                    vec![requests::warning(&format!("`{method}` cannot be read: {why}"))]
+                })
+            }
             Incoming::Response => Vec::new(),
-            Incoming::Malformed(refusal) => vec![refusal],
+            Incoming::Malformed { refusal, .. } => vec![refusal],
+        };
+        self.spelled(messages)
+    }
+
+    /// Messages with URIs as the client spells them.
+    fn spelled(&self, mut messages: Vec<Value>) -> Vec<Value> {
+        for message in &mut messages {
+            self.spellings.write(message);
         }
+        messages
     }
 
     fn request(&mut self, method: &str, params: Value, files: &dyn Workspace) -> requests::Answer {
@@ -209,32 +233,28 @@ impl Server {
         }
     }
 
-    fn notification(&mut self, method: &str, params: Value) -> Vec<Value> {
+    fn notification(&mut self, method: &str, params: Value) -> Result<Vec<Value>, (Fault, String)> {
         match (self.stage, method) {
             (Stage::Running, "initialized") if self.watching == Watching::OnRequest => {
-                return vec![requests::watch_files()];
+                return Ok(vec![requests::watch_files()]);
             }
             (Stage::Stopping, "exit") => self.stage = Stage::Over(Ending::Agreed),
             (_, "exit") => self.stage = Stage::Over(Ending::Abrupt),
             (Stage::Running, "textDocument/didOpen") => {
-                if let Ok(params) = parsed::<DidOpenTextDocumentParams>(params) {
-                    self.opened(params);
-                }
+                let params = parsed::<DidOpenTextDocumentParams>(params)?;
+                self.opened(params);
             }
             (Stage::Running, "textDocument/didChange") => {
-                if let Ok(params) = parsed::<DidChangeTextDocumentParams>(params) {
-                    self.changed(&params);
-                }
+                let params = parsed::<DidChangeTextDocumentParams>(params)?;
+                self.changed(&params);
             }
             (Stage::Running, "textDocument/didClose") => {
-                if let Ok(params) = parsed::<DidCloseTextDocumentParams>(params) {
-                    self.documents.close(&path_of(&params.text_document.uri));
-                }
+                let params = parsed::<DidCloseTextDocumentParams>(params)?;
+                self.documents.close(&path_of(&params.text_document.uri));
             }
             (Stage::Running, "workspace/didChangeWorkspaceFolders") => {
-                if let Ok(params) = parsed::<DidChangeWorkspaceFoldersParams>(params) {
-                    self.moved(&params);
-                }
+                let params = parsed::<DidChangeWorkspaceFoldersParams>(params)?;
+                self.moved(&params);
             }
             (Stage::Running, "textDocument/didSave" | "workspace/didChangeWatchedFiles") => {
                 self.documents.forget_all();
@@ -242,7 +262,7 @@ impl Server {
             // Others are none of ours.
             _ => {}
         }
-        Vec::new()
+        Ok(Vec::new())
     }
 
     /// Takes other folders for those of the workspace.
@@ -285,6 +305,11 @@ impl Server {
         if self.stage != Stage::Running {
             return Vec::new();
         }
+        let messages = self.settled(files);
+        self.spelled(messages)
+    }
+
+    fn settled(&mut self, files: &dyn Workspace) -> Vec<Value> {
         self.documents.look(files);
         self.publish()
     }
@@ -368,32 +393,52 @@ impl Server {
         told
     }
 
-    /// A job to be planned, if there is one. The caller lets it run when and where it likes, and hands back what it gives.
+    /// A job to be planned, if there is one: the one that was changed last. The caller lets it run when and where it likes, one
+    /// at a time, and hands back what it gives.
     pub fn task(&mut self) -> Option<Task> {
         if self.stage != Stage::Running || self.planning == PlanningWish::Never {
             return None;
         }
         let is_due = |known: &&mut Analysis| matches!(known.planning, Planning::Due);
-        let known = self.documents.analyses.values_mut().find(is_due)?;
-        known.planning = Planning::UnderWay;
+        let due = self.documents.analyses.values_mut().filter(is_due);
+        let known = due.max_by_key(|known| known.stamp)?;
+        let (wanted, interest) = Wanted::while_held();
+        known.planning = Planning::UnderWay(interest);
         Some(Task {
             root: known.root.clone(),
             stamp: known.stamp,
             open: self.documents.texts.clone(),
+            wanted,
         })
+    }
+
+    /// Puts off a job that is being planned if another one was changed after it: its task ends early, and there will be another.
+    pub fn put_off(&mut self) {
+        let all = self.documents.analyses.values();
+        let due = all.filter(|known| matches!(known.planning, Planning::Due));
+        let Some(latest) = due.map(|known| known.stamp).max() else {
+            return;
+        };
+        for known in self.documents.analyses.values_mut() {
+            if matches!(known.planning, Planning::UnderWay(_)) && known.stamp < latest {
+                known.planning = Planning::Due;
+            }
+        }
     }
 
     /// Takes back what came of a task, and tells it if it is about the text as it is now.
     pub fn finish(&mut self, done: Done) -> Vec<Value> {
-        let known = self.documents.analyses.get_mut(&done.root);
-        let Some(known) = known.filter(|known| known.stamp == done.stamp) else {
+        let Some(known) = self.documents.numbered(&done.root, done.stamp) else {
             return Vec::new();
         };
-        known.planning = match done.planned {
-            Some(planned) => Planning::Done(Box::new(planned)),
-            None => Planning::Needless,
+        known.planning = match done.result {
+            Finding::Planned(planned) => Planning::Done(planned),
+            Finding::Unreadable => Planning::Needless,
+            // Put off: it is due again.
+            Finding::Needless => return Vec::new(),
         };
-        self.publish()
+        let messages = self.publish();
+        self.spelled(messages)
     }
 }
 

@@ -33,8 +33,13 @@ pub enum Incoming {
     },
     /// The answer to a request of the server, which makes none that waits for one.
     Response,
-    /// Something else, with the answer to it.
-    Malformed(Value),
+    /// Something else.
+    Malformed {
+        /// The answer to it.
+        refusal: Value,
+        /// Why it is none.
+        why: String,
+    },
 }
 
 impl Incoming {
@@ -43,7 +48,9 @@ impl Incoming {
     pub fn takes_back(&self) -> Option<&Value> {
         match self {
             Self::Notification { method, params } if method == "$/cancelRequest" => params.get("id"),
-            Self::Notification { .. } | Self::Request { .. } | Self::Response | Self::Malformed(_) => None,
+            Self::Notification { .. } | Self::Request { .. } | Self::Response | Self::Malformed { .. } => {
+                None
+            }
         }
     }
 }
@@ -120,7 +127,7 @@ pub fn read(stream: &mut impl BufRead) -> Result<Incoming, Broken> {
         .map_err(|error| Broken::Astray(format!("a message ends early: {error}")))?;
     Ok(match serde_json::from_slice(&body) {
         Ok(value) => message(value),
-        Err(error) => Incoming::Malformed(refusal(&Value::Null, Fault::Parse, &error.to_string())),
+        Err(error) => malformed(&Value::Null, Fault::Parse, &error.to_string()),
     })
 }
 
@@ -159,7 +166,7 @@ fn headers(stream: &mut impl BufRead) -> Result<usize, Broken> {
 /// What a JSON value is.
 fn message(value: Value) -> Incoming {
     let Value::Object(mut fields) = value else {
-        return malformed(&Value::Null, "a message is an object");
+        return malformed(&Value::Null, Fault::InvalidRequest, "a message is an object");
     };
     let id = fields.remove("id");
     let params = fields.remove("params").unwrap_or(Value::Null);
@@ -173,18 +180,22 @@ fn message(value: Value) -> Incoming {
         }
         (_, id) => malformed(
             &id.unwrap_or(Value::Null),
+            Fault::InvalidRequest,
             "a message has a method, and a request an id",
         ),
     }
 }
 
-fn malformed(id: &Value, why: &str) -> Incoming {
+fn malformed(id: &Value, fault: Fault, why: &str) -> Incoming {
     let id = if id.is_string() || id.is_number() {
         id
     } else {
         &Value::Null
     };
-    Incoming::Malformed(refusal(id, Fault::InvalidRequest, why))
+    Incoming::Malformed {
+        refusal: refusal(id, fault, why),
+        why: why.to_owned(),
+    }
 }
 
 /// Writes a message.
@@ -239,7 +250,7 @@ mod tests {
             (-32600, json!(null)),
             (-32600, json!(7)),
         ] {
-            let Ok(Incoming::Malformed(answer)) = read(&mut stream) else {
+            let Ok(Incoming::Malformed { refusal: answer, .. }) = read(&mut stream) else {
                 panic!("a message that is none");
             };
             assert_eq!((&answer["error"]["code"], &answer["id"]), (&json!(code), &id));

@@ -20,8 +20,11 @@ use crate::diag::Diagnostic;
 use crate::job::{CheckedJob, Operation};
 use crate::machine::Model;
 use crate::plan::{PlannedJob, PlannedOperation};
-use crate::reach::solve::{Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve};
+use crate::reach::solve::{
+    Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
+};
 use crate::reach::trouble::Trouble;
+use crate::wanted::Wanted;
 use shelf::Shelf;
 use std::sync::Arc;
 use vcutc_backend_api::ir::Program;
@@ -74,14 +77,15 @@ impl Memory {
         }
     }
 
-    /// As [`choice::choose_within`].
+    /// As [`choice::choose_while`]. What was cut short is not kept.
     pub(crate) fn choose(
         &mut self,
         job: &CheckedJob,
         leeway: Leeway,
+        wanted: &Wanted,
     ) -> (Option<PlannedJob>, Vec<Diagnostic>) {
         if !self.plans.takes(0) {
-            return choice::choose_within(job, leeway);
+            return choice::choose_while(job, leeway, wanted);
         }
         let mut without_places = job.without_places();
         if let Some(machine) = &mut without_places.machine {
@@ -94,10 +98,11 @@ impl Memory {
         if let Some(plan) = self.plans.find(&open) {
             return (Some(of(job, plan.clone())), Vec::new());
         }
-        let (plan, told) = choice::choose_within(job, leeway);
+        let (plan, told) = choice::choose_while(job, leeway, wanted);
         // Complaints know their places, and are few: they are found anew.
         if let Some(plan) = &plan
             && told.is_empty()
+            && !wanted.is_needless()
             && is_of(job, plan)
         {
             self.plans.keep(open, plan.clone(), size(plan));
@@ -105,19 +110,20 @@ impl Memory {
         (plan, told)
     }
 
-    /// As [`solve`], nowhere nearer to singular poses than everywhere in the compiler.
+    /// As [`solve_while`], nowhere nearer to singular poses than everywhere in the compiler. What was cut short is not kept.
     ///
     /// # Errors
-    /// As for [`solve`].
+    /// As for [`solve_while`].
     pub(crate) fn reach(
         &mut self,
         program: VerifiedProgram,
         model: &Arc<Model>,
         changes: Changes,
+        wanted: &Wanted,
     ) -> Result<Reached, Unreached> {
         let size = program.program().ops.len();
         if !self.motions.takes(size) {
-            return solve(program, model, &LEAST_CLEARANCE, changes);
+            return solve_while(program, model, &LEAST_CLEARANCE, changes, wanted);
         }
         let put = Put {
             program: without_places(program.program()),
@@ -132,7 +138,10 @@ impl Memory {
             }
             None => {}
         }
-        let reached = solve(program, model, &LEAST_CLEARANCE, changes);
+        let reached = solve_while(program, model, &LEAST_CLEARANCE, changes, wanted);
+        if wanted.is_needless() {
+            return reached;
+        }
         match &reached {
             Ok(reached) => self.motions.keep(put, Ok(reached.found()), size),
             Err(Unreached::Unreachable(unreachable)) => {

@@ -1,9 +1,10 @@
 //! Compiling with a memory against compiling afresh, over random edits of a job: outcome and files must be the same to the byte.
 
 use super::*;
-use crate::driver::{Request, Typed, compile, compile_again, write};
+use crate::driver::{Request, Stage, Typed, compile, compile_again, compile_while, write};
 use crate::registry;
 use crate::source::{LoadError, Loader};
+use crate::wanted::{Needless, Wanted};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::Backend;
 
@@ -136,6 +137,71 @@ proptest! {
             prop_assert!(outcome == expected, "{}", text.text());
             prop_assert!(files == expected_files, "{}", text.text());
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+
+    /// Wherever a run is given up, nobody gets what it came to, and the next one is not misled by what it left.
+    #[test]
+    fn what_is_given_up_leaves_nothing_wrong(
+        start in prop::array::uniform12(0..4_usize),
+        stage in 0..4_usize,
+        micros in 0..40_000_u64,
+    ) {
+        let targets = registry::backends();
+        let mut text = Text(start);
+        // Swing and layer are open, and the machine may be out of reach: all that takes long.
+        (text.0[3], text.0[4], text.0[5], text.0[11]) = (1, 0, 1, 0);
+        let mut memory = Memory::of_some_runs();
+        let (wanted, interest) = Wanted::while_held();
+        let mut interest = Some(interest);
+        let mut entered = 0;
+        let given_up = std::thread::scope(|scope| {
+            compile_while(request(&text, &targets), &mut memory, &wanted, &mut |_| {
+                entered += 1;
+                if entered > stage
+                    && let Some(interest) = interest.take()
+                {
+                    // In the midst of the stage, wherever that is.
+                    scope.spawn(move || {
+                        std::thread::sleep(core::time::Duration::from_micros(micros));
+                        drop(interest);
+                    });
+                }
+            })
+        });
+        let fresh = compile(request(&text, &targets), &mut |_| ()).unwrap();
+        if let Ok(answered) = given_up {
+            prop_assert!(all_of(&answered.unwrap()) == all_of(&fresh), "{}", text.text());
+        }
+        let again = compile_again(request(&text, &targets), &mut memory, &mut |_| ()).unwrap();
+        prop_assert!(all_of(&again) == all_of(&fresh), "{}", text.text());
+    }
+}
+
+#[test]
+fn what_was_cut_short_is_not_kept() {
+    let targets = registry::backends();
+    let mut text = Text([0; PLACES.len()]);
+    (text.0[3], text.0[5]) = (1, 1);
+    for stage in [Stage::Planning, Stage::Proving, Stage::Reaching] {
+        let mut memory = Memory::of_some_runs();
+        let (wanted, interest) = Wanted::while_held();
+        let mut interest = Some(interest);
+        let given_up = compile_while(request(&text, &targets), &mut memory, &wanted, &mut |entered| {
+            if entered == stage {
+                interest = None;
+            }
+        });
+        assert_eq!(given_up.map(|_| ()), Err(Needless), "{stage:?}");
+        let plans = usize::from(stage != Stage::Planning);
+        assert_eq!(
+            (memory.plans.count(), memory.motions.count()),
+            (plans, 0),
+            "{stage:?}"
+        );
     }
 }
 

@@ -27,6 +27,7 @@ use crate::remedy::wording;
 use crate::sema;
 use crate::source::SourceMap;
 use crate::verdict;
+use crate::wanted::Wanted;
 use vcutc_backend_api::ir::PlacedFrame;
 
 /// Where the work stands best.
@@ -268,7 +269,7 @@ fn prove(plan: &PlannedJob, machine: &Machine, place: Placed, refused: &mut Vec<
 
 /// What room the whole program leaves with the base there; in words, why it is not carried out.
 fn tried(plan: &PlannedJob, machine: &Machine, base: PlacedFrame) -> Result<Room, String> {
-    match trial::with_base(plan, base) {
+    match trial::with_base(plan, base, &Wanted::ALWAYS) {
         Some(Ok(reached)) => Ok(trial::room(&reached, &machine.model)),
         Some(Err(unreached)) => Err(trial::words(&unreached, &machine.model)),
         None => Err("the job has no machine".to_owned()),

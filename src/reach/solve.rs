@@ -29,6 +29,7 @@ use super::waypoints::waypoints;
 use super::ways::{OnBranch, Ways};
 use crate::kinematics::Joints;
 use crate::machine::Model;
+use crate::wanted::Wanted;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Frame;
@@ -129,6 +130,20 @@ pub fn solve(
     least: &Clearance,
     changes: Changes,
 ) -> Result<Reached, Unreached> {
+    solve_while(program, model, least, changes, &Wanted::ALWAYS)
+}
+
+/// As [`solve`] while the answer is wanted. What comes out afterwards is of no use ([`Wanted::answer`]).
+///
+/// # Errors
+/// As for [`solve`].
+pub fn solve_while(
+    program: VerifiedProgram,
+    model: &Model,
+    least: &Clearance,
+    changes: Changes,
+    wanted: &Wanted,
+) -> Result<Reached, Unreached> {
     let Some(cell) = &program.program().cell else {
         let what = MotionRule::Machine;
         return Err(Unreached::Motion(vec![MotionFault { op: None, what }]));
@@ -145,14 +160,17 @@ pub fn solve(
             ..rig.clone()
         },
         rig: rig.clone(),
-        followed: Stands::of(&rig, program.program(), &legs, &middle),
+        followed: Stands::of(&rig, program.program(), &legs, &middle, wanted),
         middle,
         least: *least,
+        wanted,
     };
     let home = cell.home.map(|home| home.0);
     let bounds = screen(&survey);
     let solved = match on_one_branch(&survey, &bounds, home) {
         Some(solved) => Ok(solved),
+        // What is wrong with it takes its time to find out, too.
+        None if wanted.is_needless() => Err(Box::new(Trouble::Nowhere)),
         None => match trouble::too_fast(&survey, &bounds) {
             Some(trouble) => Err(Box::new(trouble)),
             None => match changes {
@@ -378,6 +396,9 @@ fn by_changes(
     let mut carried = Vec::with_capacity(stations.len());
     let mut failed: Vec<Vec<(Branch, Vec<Failure>)>> = Vec::with_capacity(stations.len());
     for (index, station) in stations.iter().enumerate() {
+        if survey.wanted.is_needless() {
+            return Err(Box::new(Trouble::Nowhere));
+        }
         let (mut carrying, mut failing) = (Vec::new(), Vec::new());
         if station.kind != StationKind::Home {
             for &(branch, _) in bounds {

@@ -12,6 +12,7 @@ use super::rig::Rig;
 use super::solve::best_margin;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Joints, Mechanism, Solution, Solutions, newton};
+use crate::wanted::Wanted;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OrientationId, Program};
@@ -44,7 +45,13 @@ const JOINED: f64 = 1e-3;
 
 impl Stands {
     /// Follows the branches of a machine whose branches are solutions of one pose only; none for any other machine.
-    pub(super) fn of(rig: &Rig<'_>, program: &Program, legs: &[Leg], middle: &Joints) -> Option<Self> {
+    pub(super) fn of(
+        rig: &Rig<'_>,
+        program: &Program,
+        legs: &[Leg],
+        middle: &Joints,
+        wanted: &Wanted,
+    ) -> Option<Self> {
         let arm = match rig.mechanism {
             Mechanism::Serial(arm) => arm,
             // The numbers of a five-axis machine's branches mean the same at all poses.
@@ -56,6 +63,7 @@ impl Stands {
             program,
             legs,
             middle,
+            wanted,
         };
         let branches = walk
             .beginnings()
@@ -93,6 +101,7 @@ struct Walk<'w> {
     program: &'w Program,
     legs: &'w [Leg],
     middle: &'w Joints,
+    wanted: &'w Wanted,
 }
 
 impl Walk<'_> {
@@ -134,7 +143,7 @@ impl Walk<'_> {
                 }
                 None => missed += 1,
             }
-            if missed >= MOST_MISSED {
+            if missed >= MOST_MISSED || self.wanted.is_needless() {
                 break;
             }
         }

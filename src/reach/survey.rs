@@ -13,6 +13,7 @@ use super::rig::Rig;
 use super::runs::Station;
 use super::stands::Stands;
 use crate::kinematics::{Joints, Solutions};
+use crate::wanted::{Needless, Wanted};
 use core::f64::consts::TAU;
 use rayon::prelude::*;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId, Program};
@@ -31,6 +32,8 @@ pub(super) struct Survey<'s> {
     /// Where the branches stand, if they mean nothing but what they are followed from.
     pub(super) followed: Option<Stands>,
     pub(super) least: Clearance,
+    /// Nothing is carried any more once the answer is needless.
+    pub(super) wanted: &'s Wanted,
 }
 
 /// A run that a branch carries.
@@ -146,6 +149,7 @@ impl Survey<'_> {
             at: 0.0,
             what: Violation::OutOfReach,
         };
+        self.wanted.go_on().map_err(|Needless| nowhere)?;
         let start = self.stand(stroke.from, branch).ok_or(nowhere)?;
         let course = Poses::of(self.program).course(stroke).ok_or(nowhere)?;
         prove(&self.open, &course, branch, &start, &self.least)

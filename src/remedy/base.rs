@@ -137,6 +137,9 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
     let mut proofs = 0;
     let mut failed_at = 0.0;
     for batch in shifts.chunks(JUDGED) {
+        if case.wanted.is_needless() {
+            return None;
+        }
         let promising = ask_all(batch, |shift| {
             let there = Rig {
                 work_in_root: shift.of(&now.frame).into(),
@@ -162,7 +165,7 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
                 frame: shift.of(&now.frame),
                 ..now
             };
-            if let Some(Ok(_)) = trial::with_base(case.plan, base) {
+            if let Some(Ok(_)) = trial::with_base(case.plan, base, case.wanted) {
                 return Some((*shift, base));
             }
             failed_at = shift.size();

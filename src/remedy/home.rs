@@ -1,6 +1,7 @@
 //! A home above the first cut.
 
 use super::{Case, Remedy, trial, wording};
+use crate::job::Machine;
 use crate::reach::legs::{Leg, Poses, Taught, legs};
 use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::Point3;
@@ -46,11 +47,12 @@ pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
             }
             homes += 1;
             let home = wording::rounded_home(&model.axes, &AxisValues(solution.joints));
-            let works = trial::with_machine(case.plan, |machine| {
+            let raise = |machine: &mut Machine| {
                 if let Some(stated) = &mut machine.home {
                     stated.value = home;
                 }
-            });
+            };
+            let works = trial::with_machine(case.plan, raise, case.wanted);
             if let Some(Ok(_)) = works {
                 let text = wording::home_text(&model, &home);
                 let advice = format!("begin above the work: `home = {text}`");

@@ -27,6 +27,7 @@ use crate::reach::path::Violation;
 use crate::reach::solve::Unreachable;
 use crate::reach::trouble::Trouble;
 use crate::source::Span;
+use crate::wanted::Wanted;
 
 /// A change that was tried and makes the job compile.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,12 +54,15 @@ struct Case<'c> {
     machine: &'c Machine,
     unreachable: &'c Unreachable,
     tries_left: u32,
+    /// Whether anybody still waits for them.
+    wanted: &'c Wanted,
 }
 
 impl Case<'_> {
     /// Takes a try from those that are left.
     fn may_try(&mut self) -> bool {
-        match self.tries_left.checked_sub(1) {
+        let left = self.tries_left.checked_sub(1);
+        match left.filter(|_| !self.wanted.is_needless()) {
             Some(left) => {
                 self.tries_left = left;
                 true
@@ -90,9 +94,14 @@ fn tries(plan: &PlannedJob) -> u32 {
 }
 
 /// Changes that let the machine carry the job out, at most [`MOST_OFFERED`]: those of the program first, then the base, the
-/// nearest first.
+/// nearest first. No more are looked for once nobody wants them.
 #[must_use]
-pub fn remedies(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) -> Vec<Remedy> {
+pub fn remedies(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    unreachable: &Unreachable,
+    wanted: &Wanted,
+) -> Vec<Remedy> {
     let Some(machine) = &job.machine else {
         return Vec::new();
     };
@@ -102,6 +111,7 @@ pub fn remedies(job: &CheckedJob, plan: &PlannedJob, unreachable: &Unreachable) 
         machine,
         unreachable,
         tries_left: tries(plan),
+        wanted,
     };
     let mut found = match &unreachable.trouble {
         Trouble::Motion { failing, .. } => match failing.worst.what {

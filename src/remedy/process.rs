@@ -80,7 +80,7 @@ fn works(case: &mut Case<'_>, operation: OperationId, change: impl FnOnce(&mut R
             change(asked);
         }
     };
-    trial::whole(case.job, changed).is_some()
+    trial::whole(case, changed).is_some()
 }
 
 /// The operation in which the trouble is.

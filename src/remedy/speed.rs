@@ -52,8 +52,8 @@ pub(super) fn lowered(case: &mut Case<'_>) -> Option<(Remedy, Loss)> {
         if !case.may_try() {
             return None;
         }
-        let (job, model) = (case.job, patient.clone());
-        let reached = trial::whole(job, |job| {
+        let model = patient.clone();
+        let reached = trial::whole(case, |job| {
             set(&mut job.operations, &speeds);
             if let Some(machine) = &mut job.machine {
                 machine.model = model;
@@ -75,7 +75,7 @@ pub(super) fn lowered(case: &mut Case<'_>) -> Option<(Remedy, Loss)> {
     if speeds.is_empty() || !case.may_try() {
         return None;
     }
-    trial::whole(case.job, |job| set(&mut job.operations, &speeds))?;
+    trial::whole(case, |job| set(&mut job.operations, &speeds))?;
     remedy(&case.job.operations, &speeds)
 }
 

@@ -1,5 +1,6 @@
 //! Trials: a changed job through the whole pipeline.
 
+use super::Case;
 use crate::job::{CheckedJob, Machine};
 use crate::lower;
 use crate::machine::Model;
@@ -9,10 +10,11 @@ use crate::reach::describe::{site_words, value_words};
 use crate::reach::path::Violation;
 use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
-use crate::reach::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve};
+use crate::reach::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve_while};
 use crate::reach::trouble::{Failing, Trouble};
 use crate::source::SourceMap;
 use crate::verdict;
+use crate::wanted::Wanted;
 use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 
@@ -26,10 +28,10 @@ pub struct Room {
 }
 
 /// A changed job through the whole pipeline; nothing where it does not come out at its end.
-pub(super) fn whole(job: &CheckedJob, change: impl FnOnce(&mut CheckedJob)) -> Option<Reached> {
-    let mut changed = job.clone();
+pub(super) fn whole(case: &Case<'_>, change: impl FnOnce(&mut CheckedJob)) -> Option<Reached> {
+    let mut changed = case.job.clone();
     change(&mut changed);
-    let (_, proven) = verdict::sound(&changed)?;
+    let (_, proven) = verdict::sound(&changed, case.wanted)?;
     let machine = changed.machine.as_ref()?;
     // A program that fails as a whole is dear to refute, for every branch is proven from end to end. A few motions usually
     // say as much.
@@ -37,21 +39,34 @@ pub(super) fn whole(job: &CheckedJob, change: impl FnOnce(&mut CheckedJob)) -> O
     if !Strokes::of(proven.program.program()).are_each_followed(&rig) {
         return None;
     }
-    solve(proven.program, &machine.model, &LEAST_CLEARANCE, Changes::Never).ok()
+    let changes = Changes::Never;
+    solve_while(
+        proven.program,
+        &machine.model,
+        &LEAST_CLEARANCE,
+        changes,
+        case.wanted,
+    )
+    .ok()
 }
 
 /// The plan on its machine with the base elsewhere.
 ///
 /// # Errors
 /// Why the machine cannot carry it out there. A plan without a machine is carried out by none.
-pub fn with_base(plan: &PlannedJob, base: PlacedFrame) -> Option<Result<Reached, Unreached>> {
-    with_machine(plan, |machine| machine.base.value = base)
+pub fn with_base(
+    plan: &PlannedJob,
+    base: PlacedFrame,
+    wanted: &Wanted,
+) -> Option<Result<Reached, Unreached>> {
+    with_machine(plan, |machine| machine.base.value = base, wanted)
 }
 
 /// The plan on its machine with a change of the machine. The cuts do not depend on the machine, so they stay proven.
 pub fn with_machine(
     plan: &PlannedJob,
     change: impl FnOnce(&mut Machine),
+    wanted: &Wanted,
 ) -> Option<Result<Reached, Unreached>> {
     let mut changed = plan.clone();
     let machine = changed.machine.as_mut()?;
@@ -61,7 +76,8 @@ pub fn with_machine(
         Ok(program) => program,
         Err(faults) => return Some(Err(Unreached::Rules(faults))),
     };
-    Some(solve(program, &model, &LEAST_CLEARANCE, Changes::Never))
+    let changes = Changes::Never;
+    Some(solve_while(program, &model, &LEAST_CLEARANCE, changes, wanted))
 }
 
 /// What room a program leaves.

@@ -127,6 +127,7 @@ fn document(subject: Subject<'_>, sections: &[Section], served: Option<&Served>)
     let title = format!("{name} - vcutc report");
     let mut page = head(&title, &[SCRIPT, playback::SCRIPT], served);
     page += "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n";
+    page += &served.map(Served::banner).unwrap_or_default();
     page += &top::header(subject);
     page += &contents(sections);
     page += "<main id=\"content\">\n";

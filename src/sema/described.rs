@@ -1,6 +1,6 @@
 //! Files that describe something and are no jobs: machines, and the habits of machines.
 
-use super::files::{not_loaded, text_of};
+use super::files::{Relative, not_loaded, text_of};
 use super::report::Checked;
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
@@ -10,15 +10,17 @@ use crate::source::Span;
 /// What a file describes. Its flaws are told under a code, each with the place where the file is named.
 pub(crate) fn read<T>(
     path: &str,
+    relative: Relative,
     named_at: Span,
     session: &mut Session<'_>,
     code: Code,
     parse: impl FnOnce(&str) -> Result<T, Vec<Flaw>>,
 ) -> Checked<T> {
-    let bytes = session
-        .loader
-        .load(path)
-        .map_err(|error| session.reports.push(not_loaded(&named_at, path, &error)))?;
+    let bytes = session.loader.load(path).map_err(|error| {
+        session
+            .reports
+            .push(not_loaded(&named_at, path, relative, &error))
+    })?;
     let (file, fault) = text_of(session, path, bytes, Some(named_at));
     if let Some(reported) = fault {
         return Err(reported);

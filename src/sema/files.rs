@@ -87,8 +87,28 @@ pub(crate) fn text_of(
     }
 }
 
+/// What a path that does not begin at the root is relative to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Relative {
+    /// The folder of the file in which it is written.
+    ToItsFile,
+    /// The current folder: it was given on the command line.
+    ToTheCurrentFolder,
+}
+
+impl Relative {
+    const fn note(self) -> &'static str {
+        match self {
+            Self::ToItsFile => "a path is relative to the file that it is written in",
+            Self::ToTheCurrentFolder => {
+                "a path on the command line is relative to the current folder, not to the job"
+            }
+        }
+    }
+}
+
 /// The diagnostic for a file that could not be loaded.
-pub(crate) fn not_loaded(path: &Span, resolved: &str, error: &LoadError) -> Diagnostic {
+pub(crate) fn not_loaded(path: &Span, resolved: &str, relative: Relative, error: &LoadError) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::FileNotFound,
         format!("cannot read `{resolved}`"),
@@ -97,7 +117,7 @@ pub(crate) fn not_loaded(path: &Span, resolved: &str, error: &LoadError) -> Diag
     );
     match error {
         LoadError::NotFound => diagnostic
-            .note("a path is relative to the file that it is written in")
+            .note(relative.note())
             .help(format!("check the name, or put the file at `{resolved}`")),
         LoadError::TooLarge(limit) => diagnostic.help(format!("keep files below {} MB", limit / 1_000_000)),
         LoadError::Other(_) => diagnostic.help("check that the file can be read"),
@@ -213,7 +233,7 @@ impl<'s, 'a> Loading<'s, 'a> {
         match self.session.loader.load(&pending.path) {
             Ok(bytes) => Some(self.take(&pending.path, bytes, Some(pending.span))),
             Err(error) => {
-                let diagnostic = not_loaded(&pending.span, &pending.path, &error);
+                let diagnostic = not_loaded(&pending.span, &pending.path, Relative::ToItsFile, &error);
                 self.missing(pending, diagnostic)
             }
         }

@@ -1,6 +1,7 @@
 //! The model that the head of a machine's block names: one of the catalogue, or one described by a file.
 
 use super::described;
+use super::files::Relative;
 use super::heads::MACHINES;
 use super::machine::Head;
 use super::names::did_you_mean;
@@ -73,9 +74,14 @@ fn from_file(kind: FileKind, model: Spanned<&str>, session: &mut Session<'_>) ->
     if let Some(known) = session.machines.get(&path) {
         return known.clone();
     }
-    let machine = described::read(&path, model.span, session, Code::BadMachineFile, |text| {
-        machine::read(model.node, kind, text).map(Arc::new)
-    });
+    let machine = described::read(
+        &path,
+        Relative::ToItsFile,
+        model.span,
+        session,
+        Code::BadMachineFile,
+        |text| machine::read(model.node, kind, text).map(Arc::new),
+    );
     session.machines.insert(path, machine.clone());
     machine
 }

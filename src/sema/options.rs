@@ -5,6 +5,7 @@ use super::described;
 use super::dimension::Dimension;
 use super::eval::Scope;
 use super::fields::{curve_words, head_span};
+use super::files::Relative;
 use super::names::Thing;
 use super::overrides::Override;
 use super::report::{Checked, Reported};
@@ -159,7 +160,8 @@ pub(crate) fn over(
     }
 }
 
-/// The habits in the file that a text names, relative to the folder of the file `beside`; none for the word `default`.
+/// The habits in the file that a text names, relative to the folder of the file `beside`, or to the current folder for the empty
+/// one; none for the word `default`.
 fn profile(
     value: &Spanned<Expr>,
     beside: &str,
@@ -182,7 +184,18 @@ fn profile(
     };
     let path = join_path(beside, name);
     if !session.profiles.contains_key(&path) {
-        let profile = described::read(&path, value.span, session, Code::BadProfile, habits::parse);
+        let relative = match beside {
+            "" => Relative::ToTheCurrentFolder,
+            _ => Relative::ToItsFile,
+        };
+        let profile = described::read(
+            &path,
+            relative,
+            value.span,
+            session,
+            Code::BadProfile,
+            habits::parse,
+        );
         session.profiles.insert(path.clone(), profile);
     }
     let profile = session

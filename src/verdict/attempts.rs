@@ -10,26 +10,44 @@ use crate::plan::PlannedJob;
 use crate::plan::refusal::Offer;
 use crate::sim::prove::Findings;
 use crate::source::SourceMap;
+use crate::wanted::Wanted;
 use vcutc_backend_api::ir::OperationId;
 
 /// What it counts as, in cuts, to plan and prove all of a job with more than one operation.
 const WHOLE_JOB: usize = 20_000;
 
+/// A job of which changes are tried.
+#[derive(Clone, Copy)]
+pub(super) struct Case<'a> {
+    pub(super) job: &'a CheckedJob,
+    /// Whether anybody still waits for them.
+    pub(super) wanted: &'a Wanted,
+}
+
 /// Changes of one operation of a job.
 pub(super) struct Attempts<'a> {
-    job: &'a CheckedJob,
+    case: Case<'a>,
     operation: OperationId,
     work: &'a mut Work,
 }
 
 impl<'a> Attempts<'a> {
-    pub(super) const fn new(job: &'a CheckedJob, operation: OperationId, work: &'a mut Work) -> Self {
-        Self { job, operation, work }
+    pub(super) const fn new(case: Case<'a>, operation: OperationId, work: &'a mut Work) -> Self {
+        Self {
+            case,
+            operation,
+            work,
+        }
+    }
+
+    /// What is changed.
+    pub(super) const fn case(&self) -> Case<'a> {
+        self.case
     }
 
     /// Whether swings may be changed: a machine that follows one need not follow another, and is not asked here.
     pub(super) const fn may_change_swings(&self) -> bool {
-        self.job.machine.is_none()
+        self.case.job.machine.is_none()
     }
 
     /// All that the operation gives of its cuts left to the compiler, if that works.
@@ -45,14 +63,18 @@ impl<'a> Attempts<'a> {
         if self.work.is_spent() {
             return false;
         }
-        let Some(changed) = changed(self.job, self.operation, change) else {
+        let Some(changed) = changed(self.case.job, self.operation, change) else {
             return false;
         };
         if let [_] = changed.operations[..] {
-            return choice::is_sound(&changed, self.work);
+            return choice::is_sound(&changed, self.work, self.case.wanted);
         }
         self.work.spend(WHOLE_JOB);
-        planned_and_proven(&changed, Latitude::Full)
+        let changed = Case {
+            job: &changed,
+            ..self.case
+        };
+        planned_and_proven(changed, Latitude::Full)
             .is_some_and(|(plan, proven)| scallop_excess(&plan, &proven.report).is_none())
     }
 }
@@ -66,15 +88,22 @@ fn changed(job: &CheckedJob, operation: OperationId, change: impl Fn(&mut RoughV
 
 /// Plans and proves the job with a change of one operation; nothing where the change makes it contradict itself.
 pub(super) fn attempt(
-    job: &CheckedJob,
+    case: Case<'_>,
     operation: OperationId,
     change: impl Fn(&mut RoughVcut),
 ) -> Option<(PlannedJob, Proven)> {
-    planned_and_proven(&changed(job, operation, change)?, Latitude::Full)
+    let changed = changed(case.job, operation, change)?;
+    let changed = Case {
+        job: &changed,
+        ..case
+    };
+    planned_and_proven(changed, Latitude::Full)
 }
 
-pub(super) fn planned_and_proven(job: &CheckedJob, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
-    let (plan, diagnostics) = choice::choose_within(job, Leeway::along(latitude));
+/// The plan and proof of a job in which nothing is wrong. None for who no longer wants it.
+pub(super) fn planned_and_proven(case: Case<'_>, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
+    let choose = || choice::choose_while(case.job, Leeway::along(latitude), case.wanted);
+    let (plan, diagnostics) = case.wanted.answer(choose).ok()?;
     let plan = plan.filter(|_| diagnostics.is_empty())?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
     (proven.findings == Findings::default()).then_some((plan, proven))

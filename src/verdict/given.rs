@@ -1,9 +1,9 @@
 //! Chips of given tips that do not come free: told at the tip, with a longer edge that was tried.
 
-use super::attempts::attempt;
+use super::attempts::{Case, attempt};
 use super::{UsableEdge, place};
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Auto, CheckedJob, RoughVcut, Tips};
+use crate::job::{Auto, RoughVcut, Tips};
 use crate::plan::grid;
 use crate::plan::parameters::show;
 use crate::sim::prove::Finding;
@@ -20,7 +20,7 @@ enum Remedy {
 
 /// A flank of a given tip that needs more edge than there is.
 pub(super) fn not_freed(
-    job: &CheckedJob,
+    case: Case<'_>,
     (asked, tips): (&RoughVcut, &Tips),
     finding: Finding,
     count: usize,
@@ -45,7 +45,7 @@ pub(super) fn not_freed(
             diagnostic = diagnostic.note(format!("{others} more cuts need more edge than {}", edge.than));
         }
     }
-    match remedy(job, finding, needed) {
+    match remedy(case, finding, needed) {
         Some(Remedy::Edge(length)) => diagnostic.help(format!(
             "use a blade with a `cutting_length` of at least {} mm, or go down in smaller layers",
             up(length)
@@ -73,7 +73,7 @@ fn tip_span(tips: &Tips, finding: Finding) -> Option<Span> {
 }
 
 /// The worst flank decides what edge all of them need.
-fn remedy(job: &CheckedJob, finding: Finding, needed: Length) -> Option<Remedy> {
+fn remedy(case: Case<'_>, finding: Finding, needed: Length) -> Option<Remedy> {
     let longer = Length::mm(grid::up(needed.to_mm()));
     let lengthen = |asked: &mut RoughVcut| {
         asked.blade.cutting_length.value = longer;
@@ -81,14 +81,14 @@ fn remedy(job: &CheckedJob, finding: Finding, needed: Length) -> Option<Remedy> 
             limit.value = limit.value.max(longer);
         }
     };
-    if attempt(job, finding.operation, lengthen).is_some() {
+    if attempt(case, finding.operation, lengthen).is_some() {
         return Some(Remedy::Edge(longer));
     }
     let extend = |asked: &mut RoughVcut| {
         lengthen(asked);
         asked.extension.value = Auto::Auto;
     };
-    let (plan, _) = attempt(job, finding.operation, extend)?;
+    let (plan, _) = attempt(case, finding.operation, extend)?;
     let extended = plan.operations.get(usize::from(finding.operation.0))?;
     let crate::plan::PlannedOperation::RoughVcut(vcut) = extended;
     Some(Remedy::EdgeAndExtension(longer, vcut.parameters.extension))

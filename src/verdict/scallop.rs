@@ -1,10 +1,10 @@
 //! More material left standing than the limit allows: what to change, as far as it was tried and works.
 
-use super::attempts::Attempts;
+use super::attempts::{Attempts, Case};
 use super::{point, scallop_excess};
 use crate::choice::Work;
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Auto, CheckedJob, Residual, RoughVcut};
+use crate::job::{Auto, Residual, RoughVcut};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, grid};
 use crate::sim::report::Report;
@@ -26,7 +26,7 @@ struct Change {
 
 /// The complaint, if the machined contour is above a limit.
 pub(super) fn over_limit(
-    job: &CheckedJob,
+    case: Case<'_>,
     plan: &PlannedJob,
     report: &Report,
     work: &mut Work,
@@ -40,14 +40,14 @@ pub(super) fn over_limit(
     );
     let span = limit_span(asked).unwrap_or(asked.head_span);
     let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit").and(
-        job.profile_span,
+        case.job.profile_span,
         format!(
             "the part lies {height} mm below the highest material, {}",
             point(peak.x, peak.z)
         ),
     );
     let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(operation.0))?;
-    let mut attempts = Attempts::new(job, operation, work);
+    let mut attempts = Attempts::new(case, operation, work);
     let change = match asked.tips {
         // Nothing moves given tips.
         Some(_) => None,

@@ -14,6 +14,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("registry", &[]),
     ("geom", &[]),
     ("posture", &[]),
+    ("wanted", &[]),
     ("diag", &["source"]),
     ("kinematics", &[]),
     ("align", &[]),
@@ -22,7 +23,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("numbers", &["document", "plan", "sim"]),
     ("manifest", &["diag", "document", "numbers", "source"]),
     ("machine", &["diag", "document", "kinematics", "source"]),
-    ("reach", &["kinematics", "machine"]),
+    ("reach", &["kinematics", "machine", "wanted"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),
     ("format", &["diag", "source", "syntax"]),
@@ -33,7 +34,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
-    ("choice", &["diag", "job", "lower", "plan", "sim", "source"]),
+    (
+        "choice",
+        &["diag", "job", "lower", "plan", "sim", "source", "wanted"],
+    ),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
     ("summary", &["job", "pace", "plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
@@ -41,12 +45,21 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "remedy",
         &[
-            "diag", "job", "lower", "machine", "plan", "reach", "source", "verdict",
+            "diag", "job", "lower", "machine", "plan", "reach", "source", "verdict", "wanted",
         ],
     ),
     (
         "reach_verdict",
-        &["diag", "job", "kinematics", "plan", "reach", "remedy", "source"],
+        &[
+            "diag",
+            "job",
+            "kinematics",
+            "plan",
+            "reach",
+            "remedy",
+            "source",
+            "wanted",
+        ],
     ),
     (
         "readback",
@@ -67,7 +80,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "placement",
         &[
             "choice", "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source",
-            "verdict",
+            "verdict", "wanted",
         ],
     ),
     (
@@ -100,9 +113,14 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ),
     (
         "verdict",
-        &["choice", "diag", "geom", "job", "lower", "plan", "sim", "source"],
+        &[
+            "choice", "diag", "geom", "job", "lower", "plan", "sim", "source", "wanted",
+        ],
     ),
-    ("memory", &["choice", "diag", "job", "machine", "plan", "reach"]),
+    (
+        "memory",
+        &["choice", "diag", "job", "machine", "plan", "reach", "wanted"],
+    ),
     (
         "driver",
         &[
@@ -126,12 +144,14 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "summary",
             "syntax",
             "verdict",
+            "wanted",
         ],
     ),
     (
         "lsp",
         &[
             "diag", "driver", "format", "machine", "memory", "plan", "sema", "source", "summary", "syntax",
+            "wanted",
         ],
     ),
     (
@@ -162,6 +182,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "source",
             "summary",
             "syntax",
+            "wanted",
         ],
     ),
 ];

@@ -148,6 +148,9 @@ impl Trials<'_> {
         let mut spots = Vec::new();
         for &lattice in self.lattices {
             for swing in self.swings() {
+                if self.bench.wanted.is_needless() {
+                    break;
+                }
                 let Some(swung) = Swung::new(self.asked, lattice, swing) else {
                     continue;
                 };

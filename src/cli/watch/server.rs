@@ -7,7 +7,6 @@
 //! [HTML]: https://html.spec.whatwg.org/multipage/server-sent-events.html
 
 use super::request::{Asked, Extent, LONGEST_HEAD, Refused, Request, head, read};
-use crate::report::page::Served;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -94,11 +93,9 @@ impl Server {
     }
 
     /// Shows the page that `make` makes for its version, and tells all pages that wait for it.
-    pub(super) fn show(&self, make: impl FnOnce(&Served) -> String) {
+    pub(super) fn show(&self, make: impl FnOnce(String) -> String) {
         let count = self.shared.shown().count + 1;
-        let page = Arc::new(make(&Served {
-            version: self.shared.version(count),
-        }));
+        let page = Arc::new(make(self.shared.version(count)));
         *self.shared.shown() = Shown { count, page };
         self.shared.changed.notify_all();
     }

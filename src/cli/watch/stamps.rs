@@ -6,9 +6,9 @@
 //! next to nothing; where it is slow it is done less often ([`Pause`]).
 
 use crate::source::{LoadError, Loader};
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 /// What tells one version of a file from another; none for a file that is not there.
@@ -47,23 +47,30 @@ fn stamp(path: &str) -> Stamp {
     })
 }
 
+/// The files that a run has asked for so far, for who follows it from another thread.
+#[derive(Default)]
+pub(super) struct Asked(Mutex<BTreeMap<String, Stamp>>);
+
+impl Asked {
+    /// The files with their versions as the run found them.
+    pub(super) fn stamps(&self) -> Stamps {
+        Stamps(self.files().clone())
+    }
+
+    fn files(&self) -> MutexGuard<'_, BTreeMap<String, Stamp>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// Hands files on and keeps in mind which were asked for, and as which version.
 pub(super) struct Recorder<'d> {
     disk: &'d dyn Loader,
-    stamps: RefCell<BTreeMap<String, Stamp>>,
+    asked: &'d Asked,
 }
 
 impl<'d> Recorder<'d> {
-    pub(super) fn new(disk: &'d dyn Loader) -> Self {
-        Self {
-            disk,
-            stamps: RefCell::default(),
-        }
-    }
-
-    /// The files that were asked for.
-    pub(super) fn stamps(self) -> Stamps {
-        Stamps(self.stamps.into_inner())
+    pub(super) const fn new(disk: &'d dyn Loader, asked: &'d Asked) -> Self {
+        Self { disk, asked }
     }
 }
 
@@ -72,7 +79,7 @@ impl Loader for Recorder<'_> {
         // Taken before the file is read, so that a change in between is seen afterwards. Of a file that is read twice the first
         // stamp counts, for the same reason.
         let stamp = stamp(path);
-        self.stamps.borrow_mut().entry(path.to_owned()).or_insert(stamp);
+        self.asked.files().entry(path.to_owned()).or_insert(stamp);
         self.disk.load(path)
     }
 }
@@ -158,11 +165,11 @@ mod tests {
         let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
         let (job, missing) = (path("rib.vcut"), path("none.vcut"));
         fs::write(&job, "one").unwrap();
-        let disk = Disk::around(&job);
-        let recorder = Recorder::new(&disk);
+        let (disk, asked) = (Disk::around(&job), Asked::default());
+        let recorder = Recorder::new(&disk, &asked);
         assert_eq!(recorder.load(&job), Ok(b"one".to_vec()));
         assert_eq!(recorder.load(&missing), Err(LoadError::NotFound));
-        let first = recorder.stamps();
+        let first = asked.stamps();
         assert_eq!((first.count(), &first.now()), (2, &first));
 
         fs::write(&job, "three").unwrap();

@@ -10,9 +10,36 @@ pub(super) const SCRIPT: &str = include_str!("../assets/live.js");
 pub struct Served {
     /// What sets this page apart from all others that were or will be shown at its address.
     pub version: String,
+    /// What went wrong besides the job, to be told at the top.
+    pub trouble: Option<String>,
 }
 
 impl Served {
+    /// A page of that version.
+    #[must_use]
+    pub const fn new(version: String) -> Self {
+        Self {
+            version,
+            trouble: None,
+        }
+    }
+
+    /// The same, with something to tell at its top.
+    #[must_use]
+    pub fn with_trouble(version: String, trouble: &str) -> Self {
+        Self {
+            version,
+            trouble: Some(trouble.to_owned()),
+        }
+    }
+
+    /// What went wrong, for the top of the page.
+    pub(super) fn banner(&self) -> String {
+        let paragraph =
+            |text: &String| format!("<p class=\"trouble\" role=\"alert\">{}</p>\n", escaped(text));
+        self.trouble.as_ref().map_or_else(String::new, paragraph)
+    }
+
     /// The version, for the head of the page.
     pub(super) fn meta(&self) -> String {
         format!(

@@ -8,7 +8,7 @@ use crate::geom::curve::{LARGEST_COORDINATE, Point2};
 use crate::geom::import::{self, DataError};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
-use crate::sema::files::{not_loaded, text_of};
+use crate::sema::files::{Relative, not_loaded, text_of};
 use crate::sema::range::{COORDINATE, SCALE, SIZE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
@@ -159,7 +159,11 @@ pub(super) fn bytes_of(path: &Spanned<String>, session: &mut Session<'_>) -> Che
     let resolved = join_path(session.sources.name(path.span.file), &path.node);
     match session.loader.load(&resolved) {
         Ok(bytes) => Ok((resolved, bytes)),
-        Err(error) => Err(session.reports.push(not_loaded(&path.span, &resolved, &error))),
+        Err(error) => {
+            Err(session
+                .reports
+                .push(not_loaded(&path.span, &resolved, Relative::ToItsFile, &error)))
+        }
     }
 }
 

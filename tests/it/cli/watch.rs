@@ -1,7 +1,7 @@
 //! `vcutc watch` as a process: jobs are edited while it runs, in the ways of editors, and its page is asked for.
 
 use super::jobs::RIB;
-use super::{command, folder};
+use super::{command, folder, json_lines};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -33,7 +33,11 @@ impl Watch {
         .unwrap();
         fs::write(path.join("size.vcut"), "let width = 40 mm\n").unwrap();
         let arguments = [&["watch", "rib.vcut", "--target", "krl", "-o", "out"], more].concat();
-        let mut command = command(path, &arguments);
+        Self::of(command(path, &arguments), folder)
+    }
+
+    /// A watch in a folder.
+    fn of(mut command: Command, folder: TempDir) -> Self {
         let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
         let stderr = BufReader::new(child.stderr.take().unwrap());
         let (sender, lines) = channel();
@@ -69,6 +73,11 @@ impl Watch {
             told.extend(self.until("watching"));
         }
         told.join("\n")
+    }
+
+    /// What a run tells to a program, until it is over.
+    fn waiting(&self) -> String {
+        self.until("\"kind\":\"waiting\"").join("\n")
     }
 
     /// The address under which it shows its page, when it has compiled for the first time.
@@ -313,4 +322,137 @@ fn what_cannot_be_watched_is_refused() {
         assert_eq!(run.code, Some(2), "{}", run.stderr);
         assert!(run.stderr.contains(told), "{}", run.stderr);
     }
+}
+
+/// A file lies where the folder of the program should be.
+#[test]
+fn what_could_not_be_written_is_told_and_tried_again() {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    fs::write(folder.path().join("out"), "in the way").unwrap();
+    let arguments = [
+        "watch",
+        "rib.vcut",
+        "--target",
+        "krl",
+        "-o",
+        "out",
+        "--serve",
+        "0",
+        "--message-format",
+        "json",
+    ];
+    let watch = Watch::of(command(folder.path(), &arguments), folder);
+    let told = watch.waiting();
+    let lines = json_lines(&told);
+    let kinds: Vec<&str> = lines.iter().map(|line| line["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["failure", "summary", "waiting"], "{told}");
+    assert_eq!(lines[0]["message"], lines[1]["failure"]);
+    assert_eq!(
+        (&lines[1]["errors"], &lines[1]["files"]),
+        (&0.into(), &serde_json::json!([]))
+    );
+    let address = lines[2]["address"].as_str().unwrap();
+    let address = address.trim_start_matches("http://").trim_end_matches('/');
+    let page = get(address, "/");
+    assert!(page.contains("<p class=\"trouble\" role=\"alert\">"), "{page}");
+    assert!(page.contains("<title>rib - vcutc report</title>"));
+
+    // Nothing of the job changes.
+    fs::remove_file(watch.path().join("out")).unwrap();
+    let told = watch.waiting();
+    let lines = json_lines(&told);
+    assert_eq!(lines.len(), 2, "{told}");
+    assert_eq!(lines[0]["files"].as_array().unwrap().len(), 2, "{told}");
+    assert!(lines[0].get("failure").is_none(), "{told}");
+    assert!(!watch.program().is_empty());
+    assert!(!get(address, "/").contains("role=\"alert\""));
+    assert_eq!(watch.interrupt(), Some(0));
+}
+
+#[test]
+fn a_job_that_is_gone_has_a_summary_that_says_so() {
+    let watch = Watch::start(&["--message-format", "json"]);
+    watch.waiting();
+    fs::remove_file(watch.path().join("rib.vcut")).unwrap();
+    let told = watch.waiting();
+    let lines = json_lines(&told);
+    let kinds: Vec<&str> = lines.iter().map(|line| line["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["failure", "summary", "waiting"], "{told}");
+    assert_eq!(
+        lines[1]["failure"],
+        "cannot read the job rib.vcut: there is no such file"
+    );
+}
+
+/// A job that is made from what it would write is not written over, run after run.
+#[test]
+fn a_watch_writes_over_no_file_of_its_job() {
+    let folder = folder();
+    let text = RIB.replace(
+        "  start (0 mm, 10 mm)\n  line  to (width, 16 mm)\n",
+        "  points \"rib.dat\"\n",
+    );
+    assert_ne!(text, RIB);
+    fs::write(folder.path().join("rib.vcut"), text).unwrap();
+    let points = "x,z\n0,10\n40,16\n";
+    fs::write(folder.path().join("rib.dat"), points).unwrap();
+    let arguments = ["watch", "rib.vcut", "--target", "krl"];
+    let watch = Watch::of(command(folder.path(), &arguments), folder);
+    watch.told("is a file that the job is made from");
+    assert_eq!(fs::read_to_string(watch.path().join("rib.dat")).unwrap(), points);
+}
+
+/// The plan of the first text would take minutes.
+#[test]
+fn a_change_overtakes_the_run_under_way() {
+    let folder = folder();
+    let operation = RIB
+        .split_once("rough vcut {")
+        .and_then(|(_, rest)| rest.split_once("\n}\n"))
+        .map(|(operation, _)| format!("rough vcut {{{operation}\n}}\n"))
+        .unwrap();
+    let fine = operation
+        .replace("= 35 deg", "= auto")
+        .replace("= 4 mm", "= auto")
+        .replace("feed", "limits { scallop <= 1.5 mm }\n  feed");
+    let slow = RIB
+        .replace(&operation, &fine.repeat(10))
+        .replace("let width = 40 mm", "let width = 400 mm")
+        .replace(
+            "  start (0 mm, 10 mm)\n  line  to (width, 16 mm)\n",
+            "  z(x) = 18 mm + 8 mm * sin(x / 60 mm * 180 deg)\n",
+        );
+    fs::write(folder.path().join("rib.vcut"), slow).unwrap();
+    let arguments = ["watch", "rib.vcut", "--target", "krl", "-o", "out"];
+    let watch = Watch::of(command(folder.path(), &arguments), folder);
+    // Long enough for the run to be in the midst of it; nothing is told of it.
+    thread::sleep(Duration::from_secs(2));
+    fs::write(watch.path().join("rib.vcut"), RIB).unwrap();
+    let told = watch.told("watching");
+    assert!(
+        told.contains("wrote ") && told.contains("rib.vcut: no errors"),
+        "{told}"
+    );
+    assert_eq!(told.matches("rib.vcut: ").count(), 1, "{told}");
+    assert_eq!(watch.interrupt(), Some(0));
+}
+
+#[test]
+fn a_watch_that_nobody_listens_to_ends() {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    let mut child = command(folder.path(), &["watch", "rib.vcut"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stderr = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    while !line.contains("watching") {
+        line.clear();
+        assert_ne!(stderr.read_line(&mut line).unwrap(), 0);
+    }
+    drop(stderr);
+    fs::write(folder.path().join("rib.vcut"), RIB.replace("40 mm", "44 mm")).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0));
 }

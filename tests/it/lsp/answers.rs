@@ -391,6 +391,13 @@ fn what_is_not_understood_is_refused() {
     let at = json!({ "textDocument": { "uri": "file:///nowhere.vcut" }, "position": { "line": 3, "character": 4 } });
     assert_eq!(editor.ask("textDocument/hover", at).unwrap(), Value::Null);
     editor.tell("textDocument/didChange", json!({ "nonsense": true }));
+    let [told] = editor.log.as_slice() else {
+        panic!("{:?}", editor.log);
+    };
+    assert!(
+        told.starts_with("`textDocument/didChange` cannot be read: "),
+        "{told}"
+    );
     editor.tell("$/unheardOf", Value::Null);
     assert_eq!(editor.ask("shutdown", Value::Null).unwrap(), Value::Null);
     let at = editor.at(PATH, "wi|dth");

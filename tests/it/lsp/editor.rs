@@ -32,6 +32,8 @@ pub(super) struct Editor {
     pub(super) files: Memory,
     /// What was told of each document last: version and diagnostics.
     pub(super) told: BTreeMap<String, Value>,
+    /// What was told in the log.
+    pub(super) log: Vec<String>,
     texts: BTreeMap<String, (i64, String)>,
     requests: i64,
 }
@@ -66,6 +68,7 @@ impl Editor {
             server: Server::new(&registry::backends()),
             files: Memory(files),
             told: BTreeMap::new(),
+            log: Vec::new(),
             texts: BTreeMap::new(),
             requests: 0,
         };
@@ -115,6 +118,11 @@ impl Editor {
 
     pub(super) fn take(&mut self, messages: &[Value]) {
         for message in messages {
+            if message["method"] == "window/logMessage" {
+                self.log
+                    .push(message["params"]["message"].as_str().unwrap().to_owned());
+                continue;
+            }
             assert_eq!(message["method"], "textDocument/publishDiagnostics", "{message}");
             let params = &message["params"];
             let uri = params["uri"].as_str().unwrap().to_owned();

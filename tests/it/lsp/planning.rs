@@ -2,8 +2,10 @@
 
 use super::editor::{BLADES, Editor, RIB, uri};
 use serde_json::{Value, json};
+use vcutc::lsp::Task;
 use vcutc::memory::Memory;
 use vcutc::registry;
+use vcutc::source::{LoadError, Loader};
 
 const PATH: &str = "/shop/rib.vcut";
 
@@ -92,5 +94,89 @@ fn planning_can_be_left_to_the_command_line() {
         json!({ "processId": null, "capabilities": {}, "initializationOptions": { "planning": "never" } });
     editor.ask("initialize", params).unwrap();
     editor.open(PATH);
+    assert!(editor.server.task().is_none());
+}
+
+/// Files that count how often they are read.
+struct Counted<'f> {
+    files: &'f super::editor::Memory,
+    reads: core::cell::Cell<usize>,
+}
+
+impl Loader for Counted<'_> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        self.reads.set(self.reads.get() + 1);
+        self.files.load(path)
+    }
+}
+
+/// How often files are read when a task is run.
+fn reads(editor: &mut Editor, task: Task) -> usize {
+    let counted = Counted {
+        files: &editor.files,
+        reads: core::cell::Cell::new(0),
+    };
+    let done = task.run(&counted, &registry::backends(), &mut Memory::none());
+    let reads = counted.reads.get();
+    let messages = editor.server.finish(done);
+    editor.take(&messages);
+    reads
+}
+
+#[test]
+fn a_text_that_has_changed_is_planned_no_further() {
+    let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
+    editor.open(PATH);
+    let task = editor.server.task().unwrap();
+    editor.replace(PATH, "swing <= 45 deg", "swing <= 30 deg");
+    assert_eq!(reads(&mut editor, task), 0);
+    let task = editor.server.task().expect("the new text is to be planned");
+    assert_ne!(reads(&mut editor, task), 0);
+    assert_eq!(hints(&mut editor).len(), 2);
+}
+
+/// Saving, and changes of files that say nothing new, are no reason to begin again.
+#[test]
+fn what_says_the_same_is_planned_on() {
+    let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
+    editor.open(PATH);
+    let task = editor.server.task().unwrap();
+    let saved = json!({ "textDocument": { "uri": uri(PATH) } });
+    editor.tell("textDocument/didSave", saved.clone());
+    editor.settle();
+    assert!(editor.server.task().is_none(), "it is being planned");
+    assert_ne!(reads(&mut editor, task), 0);
+    assert_eq!(hints(&mut editor).len(), 2);
+    editor.tell("textDocument/didSave", saved);
+    editor.settle();
+    assert_eq!(hints(&mut editor).len(), 2, "it stays planned");
+    assert!(editor.server.task().is_none());
+
+    let longer = BLADES.replace("20 mm", "21 mm");
+    assert_ne!(longer, BLADES);
+    editor.files.0.insert("/shop/blades.vcut".to_owned(), longer);
+    editor.tell("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
+    editor.settle();
+    assert!(editor.server.task().is_some());
+}
+
+#[test]
+fn the_job_that_was_changed_last_is_planned_first() {
+    let other = "/shop/other.vcut";
+    let mut editor = Editor::with(&[("rib.vcut", RIB), ("other.vcut", RIB), ("blades.vcut", BLADES)]);
+    editor.open(other);
+    let first = editor.server.task().unwrap();
+    editor.server.put_off();
+    editor.open(PATH);
+    editor.server.put_off();
+    assert_eq!(reads(&mut editor, first), 0, "it was put off");
+    for path in [PATH, other] {
+        let task = editor.server.task().unwrap();
+        assert_ne!(reads(&mut editor, task), 0);
+        let at = editor.at(path, "step  = au|to");
+        let told = editor.ask("textDocument/hover", at).unwrap();
+        let text = told["contents"]["value"].as_str().unwrap();
+        assert!(text.starts_with("`auto` came out as"), "{path}: {text}");
+    }
     assert!(editor.server.task().is_none());
 }

@@ -3,7 +3,7 @@
 use super::editor::RIB;
 use super::process::Process;
 use serde_json::{Value, json};
-use std::io::Write;
+use std::io::{Read, Write};
 use vcutc::lsp::wire::{self, Incoming};
 
 #[test]
@@ -78,10 +78,105 @@ fn an_end_without_a_word_is_told_by_the_exit_status() {
     let mut process = Process::start();
     process.input.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
     assert_eq!(process.child.wait().unwrap().code(), Some(1));
+    let told = said(&mut process);
+    assert!(
+        told.contains("the conversation cannot go on: headers without a length"),
+        "{told}"
+    );
 
     let Process { mut child, input, .. } = Process::start();
     drop(input);
     assert_eq!(child.wait().unwrap().code(), Some(1));
+}
+
+/// What a server that has ended said to nobody in particular.
+fn said(process: &mut Process) -> String {
+    let mut said = String::new();
+    let mut stderr = process.child.stderr.take().unwrap();
+    stderr.read_to_string(&mut said).unwrap();
+    said
+}
+
+#[test]
+fn what_is_no_message_is_told_in_the_log() {
+    let mut process = Process::start();
+    process.introduce(&json!({}));
+    write!(process.input, "Content-Length: 9\r\n\r\n{{nonsense").unwrap();
+    assert_eq!(process.wait_for("")["error"]["code"], -32700);
+    process.notify("textDocument/didOpen", &json!({ "textDocument": 7 }));
+    let told = process.wait_for("window/logMessage");
+    let text = told["params"]["message"].as_str().unwrap();
+    assert!(
+        text.starts_with("`textDocument/didOpen` cannot be read: "),
+        "{text}"
+    );
+    process.notify("exit", &Value::Null);
+    process.child.wait().unwrap();
+    let told = said(&mut process);
+    assert!(
+        told.contains("a message of the editor cannot be read: key must be"),
+        "{told}"
+    );
+}
+
+/// Some clients do not escape what RFC 3986 wants escaped. They get their own letters back.
+#[test]
+fn uris_are_taken_as_the_client_spells_them() {
+    let mut process = Process::start();
+    std::fs::create_dir(process.folder.path().join("Flügel 2 [neu]")).unwrap();
+    process.introduce(&json!({}));
+    process.write("Flügel 2 [neu]/blades.vcut", super::editor::BLADES);
+    process.write("Flügel 2 [neu]/rib.vcut", RIB);
+    let wrong = RIB.replace("layer = 5 mm", "layer = 5 mn");
+    process.show("Flügel 2 [neu]/rib.vcut", &wrong);
+    let told = process.diagnostics("Flügel 2 [neu]/rib.vcut");
+    assert_eq!(told.len(), 1, "{told:?}");
+    process.show("Flügel 2 [neu]/rib.vcut", RIB);
+    assert_eq!(process.diagnostics("Flügel 2 [neu]/rib.vcut"), [Value::Null; 0]);
+    process.end();
+}
+
+/// A job of many fine cuts, which takes minutes to plan.
+fn slow() -> String {
+    let operation = "rough vcut {
+  blade = dagger  lattice = auto  rake = 60 deg  swing = auto  layer = auto  step = auto
+  limits { scallop <= 0.9 mm }
+  feed { cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }
+  clearance = 10 mm
+}
+";
+    format!(
+        "job \"wave\"
+stock {{ size = (400 mm, 60 mm, 90 mm) }}
+profile {{ z(x) = 50 mm + 24 mm * sin(x / 60 mm * 180 deg) }}
+blade dagger {{ cutting_length = 40 mm  half_apex = 7 deg  thickness = 1 mm  edges = double }}
+{}",
+        operation.repeat(10)
+    )
+}
+
+#[test]
+fn a_text_does_not_wait_for_the_plan_of_the_one_before() {
+    let mut process = Process::start();
+    process.introduce(&json!({}));
+    process.show("rib.vcut", &slow());
+    assert_eq!(process.diagnostics("rib.vcut"), [Value::Null; 0]);
+    // Long enough for its planning to have begun, and far too short for it to end.
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    process.show("rib.vcut", RIB);
+    assert_eq!(process.diagnostics("rib.vcut"), [Value::Null; 0]);
+    let at = RIB.find("step  = auto").unwrap() + "step  = a".len();
+    let mut text = String::new();
+    for _ in 0..400 {
+        let told = process.about("hover", "rib.vcut", RIB, at);
+        text = told["contents"]["value"].as_str().unwrap_or_default().to_owned();
+        if text.starts_with("`auto` came out as `10 mm`") {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(100));
+    }
+    assert!(text.starts_with("`auto` came out as `10 mm`"), "{text}");
+    process.end();
 }
 
 /// What the server writes is what its own reader reads.
