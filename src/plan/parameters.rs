@@ -224,7 +224,8 @@ pub fn resolve_on(
             return None;
         }
     };
-    complete(asked, resolution.standoff, chosen, diagnostics)
+    let edge = edge_overhang(asked, chosen.swing);
+    complete(asked, resolution.standoff, edge, chosen, diagnostics)
 }
 
 /// As [`resolve_on`], for those who do not ask why there are none: the reasons take most of the time.
@@ -233,7 +234,8 @@ pub fn possible_on(job: &CheckedJob, asked: &RoughVcut, lattices: Vec<Lattice>) 
     let mut unread = Vec::new();
     let resolution = consider(asked, lattices, &mut unread)?;
     let chosen = decide(job, asked, &resolution).ok()?;
-    complete(asked, resolution.standoff, chosen, &mut unread)
+    let edge = edge_overhang(asked, chosen.swing);
+    complete(asked, resolution.standoff, edge, chosen, &mut unread)
 }
 
 /// What is known before. None when the operation contradicts itself.
@@ -377,10 +379,11 @@ fn flanks_at(asked: &RoughVcut, swing: Angle) -> Flanks {
     )
 }
 
-/// What follows from lattice, swing, layer and step.
+/// What follows from lattice, swing, layer and step, and from the overhang of the edge at that swing.
 fn complete(
     asked: &RoughVcut,
     standoff: Length,
+    edge: Length,
     chosen: Chosen,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<VcutParameters> {
@@ -396,12 +399,7 @@ fn complete(
     let lean = Lean::new(asked, swing);
     // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
     let teeth = layer + step * (flanks.slope / 2.0);
-    let extension = resolve_extension(
-        asked,
-        edge_overhang(asked, swing),
-        lean.overhang(teeth),
-        diagnostics,
-    )?;
+    let extension = resolve_extension(asked, edge, lean.overhang(teeth), diagnostics)?;
     // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
     let clear_height = lean.clear_height(extension).max(teeth);
     Some(VcutParameters {
