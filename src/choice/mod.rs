@@ -28,6 +28,7 @@ use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
 };
+use crate::sim::surface::Surface;
 use bench::Bench;
 use core::cmp::Ordering;
 use rayon::prelude::*;
@@ -54,18 +55,19 @@ pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, V
         return (None, vec![refused]);
     }
     let mut diagnostics = Vec::new();
-    let mut bench = Bench::new(job, leeway.routes);
+    let mut before = Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm());
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
+        let bench = Bench::new(job, asked, before.clone(), leeway.routes);
         match within_limits(&bench, &leeway::within(asked, leeway.swing), cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
                     leeway::told(&mut vcut, asked.limits.swing, swing);
                 }
                 cuts_left -= vcut.cuts.len();
-                bench.before = after;
+                before = after;
                 operations.push(PlannedOperation::RoughVcut(vcut));
             }
             Err(told) => diagnostics.extend(told),
@@ -98,10 +100,9 @@ pub fn unlimited(job: &CheckedJob) -> Option<CheckedJob> {
 /// What there is to tell of a plan of the [`unlimited`] job that breaks limits of the job, with what the plan keeps.
 #[must_use]
 pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
-    let bench = Bench::new(job, Latitude::Full);
     let told = |(asked, planned): (&Operation, &PlannedOperation)| {
         let (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut)) = (asked, planned);
-        let excess = limits::excess(asked, bench.time(vcut)?, vcut.cuts.len())?;
+        let excess = limits::excess(asked, bench::time(job, vcut)?, vcut.cuts.len())?;
         let mut vcut = vcut.clone();
         vcut.asked.limits = asked.limits;
         Some(limits::complaint(&vcut, excess))
@@ -235,7 +236,7 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
         if limits.time.is_none() && limits.cuts.is_none() {
             return None;
         }
-        let time = bench.time(&laid.vcut)?;
+        let time = bench::time(bench.job, &laid.vcut)?;
         limits::excess(asked, time, laid.vcut.cuts.len())
     };
     let first = best_lattice(bench, asked, cuts_left)?;
@@ -421,7 +422,7 @@ fn best_residual(
     found: &VcutParameters,
     cuts_left: usize,
 ) -> Result<LaidOut, Vec<Diagnostic>> {
-    let first = lay_out(bench.job, asked, found.clone(), cuts_left, &bench.before)?;
+    let first = lay_out(bench.job, asked, found.clone(), cuts_left, bench.work())?;
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
     if !is_open {
@@ -437,7 +438,7 @@ fn best_residual(
     let along_other = |residual: Residual| -> Option<Contender> {
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
-        let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before).ok()?;
+        let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, bench.work()).ok()?;
         laid.vcut.asked.residual.value = Auto::Auto;
         Some(bench.weigh(route::best(bench, laid)))
     };

@@ -251,7 +251,7 @@ impl<'t> Trials<'t> {
             asked,
             lattices,
             cuts_left,
-            floor: Floor::new(bench.job, asked, &bench.before),
+            floor: Floor::new(bench.job, bench.work()),
             plans_left: None,
             most_plans: &PLANS,
             tried: Vec::new(),
@@ -339,7 +339,7 @@ impl<'t> Trials<'t> {
             self.asked,
             found.clone(),
             self.cuts_left,
-            &self.bench.before,
+            self.bench.work(),
         );
         let Ok(laid) = laid else {
             return Outcome::Impossible;
@@ -552,6 +552,7 @@ mod tests {
     use crate::geom::curve::Point2;
     use crate::job::Operation;
     use crate::plan::tests::{operation, paper_job};
+    use crate::sim::surface::Surface;
 
     /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
     const MOST: usize = 48 + 72 + 72 + 48 + 10;
@@ -576,7 +577,8 @@ mod tests {
                     span: None,
                 });
                 let Operation::RoughVcut(asked) = job.operations[0].clone();
-                let bench = Bench::new(&job, Latitude::Full);
+                let untouched = Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm());
+                let bench = Bench::new(&job, &asked, untouched, Latitude::Full);
                 for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
                     let by_bound = parameters::resolve_on(&job, &asked, vec![lattice], &mut Vec::new());
                     let lattices = [lattice];

@@ -33,7 +33,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("sim", &["geom"]),
     ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
     ("lower", &["geom", "job", "plan", "posture", "source"]),
-    ("choice", &["diag", "job", "lower", "plan", "sim", "source"]),
+    ("choice", &["diag", "geom", "job", "lower", "plan", "sim", "source"]),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
     ("summary", &["job", "pace", "plan", "reach_summary", "sim"]),
     ("reach_summary", &["plan", "reach"]),
