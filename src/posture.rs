@@ -148,7 +148,7 @@ fn sweep(from: Orientation, to: Orientation, half_apex: Angle) -> f64 {
 /// the ends: those about the places where its way along y turns round, or all.
 ///
 /// About a fixed axis that way is `a + r cos(angle t - phase)`; it turns round where the cosine is 1 or -1.
-fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> Vec<Range<u32>> {
+fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> [Range<u32>; 4] {
     // The shorter way, as slerp goes it; both seen from where the turn begins.
     let to = if from.dot(to) < 0.0 { -to } else { to };
     let turn = from.conjugate() * to;
@@ -161,16 +161,15 @@ fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> Vec<Range<u32>> {
     // Where next to nothing moves, rounding says which step is the farthest.
     let is_plain = angle > 0.01 && libm::hypot(on_cosine, on_sine) > 1e-4;
     if !is_plain {
-        return vec![1..TURN_STEPS];
+        return [1..TURN_STEPS, 0..0, 0..0, 0..0];
     }
     let phase = libm::atan2(on_sine, on_cosine);
     let steps_of = f64::from(TURN_STEPS) / angle;
     // Phase and angle are within half a turn, so no other half turns lie on the way.
-    let turns_round = [-1.0, 0.0, 1.0, 2.0].map(|half_turns| {
+    [-1.0, 0.0, 1.0, 2.0].map(|half_turns| {
         let step = (half_turns * core::f64::consts::PI + phase) * steps_of;
         clamped(step - 1.5).max(1)..clamped(step + 2.5).min(TURN_STEPS)
-    });
-    turns_round.to_vec()
+    })
 }
 
 /// A step as a whole number, none below the first and above the last one.
