@@ -5,6 +5,7 @@
 //! `x_t` towards +y on both ways; a single-edged one is turned half round about its own axis when it cuts towards -y.
 //! See `docs/process.md`, "Frames and posture".
 
+use core::ops::Range;
 use glam::{DMat3, DQuat, DVec3};
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{Edges, Flank};
@@ -135,7 +136,10 @@ fn sweep(from: Orientation, to: Orientation, half_apex: Angle) -> f64 {
     let ends = at(0).max(at(TURN_STEPS));
     let between = edges
         .into_iter()
-        .flat_map(|edge| peaks(from, to, edge).map(move |step| reach(edge, step)))
+        .flat_map(|edge| {
+            let steps = peaks(from, to, edge).into_iter().flatten();
+            steps.map(move |step| reach(edge, step))
+        })
         .fold(0.0, f64::max);
     if between > ends { between + 1e-4 } else { ends }
 }
@@ -144,7 +148,7 @@ fn sweep(from: Orientation, to: Orientation, half_apex: Angle) -> f64 {
 /// the ends: those about the places where its way along y turns round, or all.
 ///
 /// About a fixed axis that way is `a + r cos(angle t - phase)`; it turns round where the cosine is 1 or -1.
-fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> impl Iterator<Item = u32> {
+fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> [Range<u32>; 4] {
     // The shorter way, as slerp goes it; both seen from where the turn begins.
     let to = if from.dot(to) < 0.0 { -to } else { to };
     let turn = from.conjugate() * to;
@@ -156,14 +160,27 @@ fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> impl Iterator<Item = u32> {
     let on_sine = along_y.dot(axis.cross(edge));
     // Where next to nothing moves, rounding says which step is the farthest.
     let is_plain = angle > 0.01 && libm::hypot(on_cosine, on_sine) > 1e-4;
+    if !is_plain {
+        return [1..TURN_STEPS, 0..0, 0..0, 0..0];
+    }
     let phase = libm::atan2(on_sine, on_cosine);
-    let near = move |step: u32| {
-        let at = angle * f64::from(step) / f64::from(TURN_STEPS) - phase;
-        let beside = 1.5 * angle / f64::from(TURN_STEPS);
-        let half_turns = at / core::f64::consts::PI;
-        (half_turns - half_turns.round()).abs() * core::f64::consts::PI <= beside
-    };
-    (1..TURN_STEPS).filter(move |&step| !is_plain || near(step))
+    let steps_of = f64::from(TURN_STEPS) / angle;
+    // Phase and angle are within half a turn, so no other half turns lie on the way.
+    [-1.0, 0.0, 1.0, 2.0].map(|half_turns| {
+        let step = (half_turns * core::f64::consts::PI + phase) * steps_of;
+        clamped(step - 1.5).max(1)..clamped(step + 2.5).min(TURN_STEPS)
+    })
+}
+
+/// A step as a whole number, none below the first and above the last one.
+fn clamped(step: f64) -> u32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between the first step and the last one"
+    )]
+    let whole = step.clamp(0.0, f64::from(TURN_STEPS)) as u32;
+    whole
 }
 
 /// `R0`: blade over the work, tip down, leading side towards +y.

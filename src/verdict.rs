@@ -7,7 +7,7 @@ mod chips;
 mod given;
 mod scallop;
 
-use crate::choice::{Latitude, Work};
+use crate::choice::{Effort, Latitude};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
 use crate::job::{CheckedJob, RoughVcut};
@@ -100,7 +100,7 @@ pub fn diagnose_while(
     wanted: &Wanted,
 ) -> Vec<Diagnostic> {
     let case = Case { job, wanted };
-    let mut work = Work::OF_A_REFUSAL;
+    let mut effort = Effort::OF_A_REFUSAL;
     let mut diagnostics: Vec<Diagnostic> = proven
         .findings
         .iter()
@@ -115,7 +115,7 @@ pub fn diagnose_while(
                         available,
                     };
                     not_freed(
-                        &mut Attempts::new(case, finding.operation, &mut work),
+                        &mut Attempts::new(case, finding.operation, &mut effort),
                         vcut,
                         chips,
                     )
@@ -126,7 +126,7 @@ pub fn diagnose_while(
         })
         .collect();
     if diagnostics.is_empty() {
-        diagnostics.extend(scallop::over_limit(case, plan, &proven.report, &mut work));
+        diagnostics.extend(scallop::over_limit(case, plan, &proven.report, &mut effort));
     }
     diagnostics.extend(plan.operations.iter().filter_map(|operation| {
         let PlannedOperation::RoughVcut(vcut) = operation;

@@ -1,16 +1,17 @@
 //! Ways to cut an operation, written down as programs of their own and measured.
 
 use super::{Contender, Latitude};
-use crate::job::{CheckedJob, Objective};
-use crate::lower::lower;
+use crate::geom::offset::offset_up;
+use crate::geom::profile::Profile;
+use crate::job::{CheckedJob, Objective, RoughVcut};
+use crate::lower::alone;
 use crate::plan::decision::Standing;
-use crate::plan::{LaidOut, PlannedJob, PlannedOperation, PlannedVcut};
+use crate::plan::{LaidOut, PlannedVcut, Work};
 use crate::sim::contour::farthest;
 use crate::sim::prove::{Bound, replay_on};
 use crate::sim::report::area_under;
 use crate::sim::surface::Surface;
-use crate::sim::timing::timing;
-use crate::source::SourceMap;
+use crate::sim::timing::total;
 use crate::wanted::Wanted;
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
@@ -38,47 +39,55 @@ impl Figures {
     }
 }
 
-/// A job, and what the operations decided so far leave of its stock.
+/// A job, and the work as one of its operations finds it.
 pub(super) struct Bench<'j> {
     pub(super) job: &'j CheckedJob,
-    pub(super) before: Surface,
+    /// What the operations decided so far leave of the stock.
+    before: Surface,
+    /// The part with the operation's allowance.
+    bound: Profile,
     pub(super) latitude: Latitude,
     /// Plans that nobody wants any more are not made.
     pub(super) wanted: Wanted,
 }
 
+/// The stock of a job before its first operation.
+pub(super) fn untouched(job: &CheckedJob) -> Surface {
+    Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm())
+}
+
 impl<'j> Bench<'j> {
-    pub(super) fn new(job: &'j CheckedJob, latitude: Latitude) -> Self {
+    pub(super) fn new(job: &'j CheckedJob, asked: &RoughVcut, before: Surface, latitude: Latitude) -> Self {
         Self {
             job,
-            before: Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm()),
+            before,
+            bound: offset_up(&job.profile, asked.allowance.value),
             latitude,
             wanted: Wanted::ALWAYS,
         }
     }
 
-    /// An operation as a program of its own.
-    fn program(&self, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
-        let alone = PlannedJob {
-            name: self.job.name.clone(),
-            stock: self.job.stock,
-            profile: self.job.profile.clone(),
-            machine: self.job.machine.clone(),
-            operations: vec![PlannedOperation::RoughVcut(vcut.clone())],
-        };
-        verify(lower(&alone, &SourceMap::default())).ok()
+    /// The same, of which no plans are made once they are not wanted any more.
+    pub(super) fn while_wanted(self, wanted: &Wanted) -> Self {
+        Self {
+            wanted: wanted.clone(),
+            ..self
+        }
     }
 
-    /// How long an operation takes; none where the compiler is at fault, which the proof of the whole then shows.
-    pub(super) fn time(&self, vcut: &PlannedVcut) -> Option<Duration> {
-        self.program(vcut).map(|program| timing(&program).all.total())
+    /// The work as the operation finds it.
+    pub(super) const fn work(&self) -> Work<'_> {
+        Work {
+            before: &self.before,
+            bound: &self.bound,
+        }
     }
 
     /// What comes of an operation.
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
         let cuts = vcut.cuts.len();
-        let Some(program) = self.program(vcut) else {
+        let Some(program) = program(self.job, vcut) else {
             return Contender {
                 laid,
                 standing: Standing::Impossible,
@@ -97,7 +106,7 @@ impl<'j> Bench<'j> {
             edge: vcut.asked.limits.edge.map(|limit| limit.value),
         };
         let replay = replay_on(self.before.clone(), &program, &[bound]);
-        let time = timing(&program).all.total();
+        let time = total(&program);
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
@@ -117,4 +126,14 @@ impl<'j> Bench<'j> {
             residual: Area::mm2(area_under(&corners)) - part,
         }
     }
+}
+
+/// An operation as a program of its own.
+fn program(job: &CheckedJob, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
+    verify(alone(job, vcut)).ok()
+}
+
+/// How long an operation takes; none where the compiler is at fault, which the proof of the whole then shows.
+pub(super) fn time(job: &CheckedJob, vcut: &PlannedVcut) -> Option<Duration> {
+    program(job, vcut).map(|program| total(&program))
 }

@@ -7,8 +7,8 @@
 //! searched for. What was found is then changed for as long as it leaves less. The formulas' choice is compared with it.
 
 use super::bench::{Bench, Figures};
+use super::effort::Effort;
 use super::trial::{self, Finalist, Found, FoundBy, TurnedDown};
-use super::work::Work;
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, best_finalist, best_on, offers, route, within_limits};
 use crate::job::{Lattice, Objective, RoughVcut, Sourced};
 use crate::plan::optimum::Bound;
@@ -135,7 +135,7 @@ fn planned(
     found: VcutParameters,
     cuts_left: usize,
 ) -> Option<Contender> {
-    let laid = lay_out(bench.job, asked, found, cuts_left, &bench.before).ok()?;
+    let laid = lay_out(bench.job, asked, found, cuts_left, bench.work()).ok()?;
     if laid.vcut.cuts.len() > MOST_CUTS_COMPARED {
         return None;
     }
@@ -178,13 +178,13 @@ impl Search<'_> {
     fn any(&mut self, first: Lattice, limit: Length) -> Option<Kept> {
         let mut lattices = parameters::open_lattices(self.asked);
         lattices.sort_by_key(|&lattice| lattice != first);
-        let mut work = Work::OF_A_PROBE;
+        let mut effort = Effort::OF_A_PROBE;
         let (parameters, figures) = offers::any(
             self.bench,
             &limited(self.asked, Some(limit)),
             &lattices,
             self.cuts_left,
-            &mut work,
+            &mut effort,
             &mut self.turned_down,
         )?;
         Some((parameters, limit.min(measure(self.asked, &figures))))

@@ -5,9 +5,9 @@
 //! choose keeps them by the model, and is chosen again with tighter ones where its plan does not. What no plan keeps in the end
 //! is refused, with the value that the plan would keep.
 
-use super::bench::Bench;
+use super::bench;
 use crate::diag::{Code, Diagnostic};
-use crate::job::{Objective, RoughVcut};
+use crate::job::{CheckedJob, Objective, RoughVcut};
 use crate::plan::PlannedVcut;
 use crate::plan::decision::Excess;
 use crate::plan::parameters::show;
@@ -30,11 +30,11 @@ pub(super) fn of_plans(asked: &RoughVcut) -> RoughVcut {
 }
 
 /// Which of an operation's limits on time and cuts a plan breaks.
-pub(super) fn broken(bench: &Bench<'_>, asked: &RoughVcut, vcut: &PlannedVcut) -> Option<Excess> {
+pub(super) fn broken(job: &CheckedJob, asked: &RoughVcut, vcut: &PlannedVcut) -> Option<Excess> {
     if asked.limits.time.is_none() && asked.limits.cuts.is_none() {
         return None;
     }
-    excess(asked, bench.time(vcut)?, vcut.cuts.len())
+    excess(asked, bench::time(job, vcut)?, vcut.cuts.len())
 }
 
 /// Which of its limits a plan of so many cuts breaks that takes this time.

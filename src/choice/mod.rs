@@ -11,6 +11,7 @@
 //! `boustrophedon` and by `point`.
 
 mod bench;
+mod effort;
 mod finest;
 mod leeway;
 mod limits;
@@ -19,10 +20,9 @@ mod route;
 #[cfg(test)]
 mod tests;
 mod trial;
-mod work;
 
+pub use effort::Effort;
 pub use leeway::{Latitude, Leeway, Narrowed, is_swing_open};
-pub use work::Work;
 
 use crate::diag::Diagnostic;
 use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
@@ -70,27 +70,25 @@ pub fn choose_while(
         return (None, vec![refused]);
     }
     let mut diagnostics = Vec::new();
-    let mut bench = Bench {
-        wanted: wanted.clone(),
-        ..Bench::new(job, leeway.routes)
-    };
+    let mut before = bench::untouched(job);
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
-    let mut work = Work::OF_A_REFUSAL;
+    let mut effort = Effort::OF_A_REFUSAL;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
         let within = leeway::within(asked, leeway.swing);
+        let bench = Bench::new(job, asked, before.clone(), leeway.routes).while_wanted(wanted);
         match within_limits(&bench, &within, cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
                     leeway::told(&mut vcut, asked.limits.swing, swing);
                 }
                 cuts_left -= vcut.cuts.len();
-                bench.before = after;
+                before = after;
                 operations.push(PlannedOperation::RoughVcut(vcut));
             }
             Err(unplanned) => {
-                diagnostics.extend(offers::told(&bench, &within, cuts_left, unplanned, &mut work));
+                diagnostics.extend(offers::told(&bench, &within, cuts_left, unplanned, &mut effort));
             }
         }
     }
@@ -107,15 +105,12 @@ pub fn choose_while(
 /// Whether a job of one operation has a plan with nothing wrong that keeps all limits, as far as is seen with so much work.
 /// Where it has one, [`choose`] comes to one.
 #[must_use]
-pub fn is_sound(job: &CheckedJob, work: &mut Work, wanted: &Wanted) -> bool {
-    let bench = Bench {
-        wanted: wanted.clone(),
-        ..Bench::new(job, Latitude::Full)
+pub fn is_sound(job: &CheckedJob, effort: &mut Effort, wanted: &Wanted) -> bool {
+    let [Operation::RoughVcut(asked)] = &job.operations[..] else {
+        return false;
     };
-    match &job.operations[..] {
-        [Operation::RoughVcut(asked)] => offers::is_sound(&bench, asked, MOST_CUTS, work),
-        _ => false,
-    }
+    let bench = Bench::new(job, asked, bench::untouched(job), Latitude::Full).while_wanted(wanted);
+    offers::is_sound(&bench, asked, MOST_CUTS, effort)
 }
 
 /// The job with its operations' limits on time and cuts taken away, and made fast where these hold what is to become small;
@@ -136,10 +131,9 @@ pub fn unlimited(job: &CheckedJob) -> Option<CheckedJob> {
 /// What there is to tell of a plan of the [`unlimited`] job that breaks limits of the job, with what the plan keeps.
 #[must_use]
 pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
-    let bench = Bench::new(job, Latitude::Full);
     let told = |(asked, planned): (&Operation, &PlannedOperation)| {
         let (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut)) = (asked, planned);
-        let excess = limits::broken(&bench, asked, vcut)?;
+        let excess = limits::broken(job, asked, vcut)?;
         let mut vcut = vcut.clone();
         vcut.asked.limits = asked.limits;
         Some(limits::told(&vcut, excess))
@@ -293,7 +287,7 @@ const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shif
 /// The best operation that keeps its limits on time and cuts when it is planned.
 fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
     let first = best_lattice(bench, asked, cuts_left)?;
-    let Some(broken) = limits::broken(bench, asked, &first.vcut) else {
+    let Some(broken) = limits::broken(bench.job, asked, &first.vcut) else {
         return Ok(first);
     };
     if trial::is_searched(asked) {
@@ -307,7 +301,7 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
             break;
         };
         laid.vcut.asked.limits = asked.limits;
-        match limits::broken(bench, asked, &laid.vcut) {
+        match limits::broken(bench.job, asked, &laid.vcut) {
             Some(still) => by = still,
             None => return Ok(laid),
         }
@@ -319,8 +313,8 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
 /// becomes small first.
 fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Option<LaidOut> {
     let lattices = parameters::open_lattices(asked);
-    let mut work = Work::OF_A_PROBE;
-    let (parameters, _) = offers::any(bench, asked, &lattices, cuts_left, &mut work, &mut Vec::new())?;
+    let mut effort = Effort::OF_A_PROBE;
+    let (parameters, _) = offers::any(bench, asked, &lattices, cuts_left, &mut effort, &mut Vec::new())?;
     let found = Found {
         finalists: vec![Finalist {
             parameters,
@@ -329,7 +323,9 @@ fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
         by_formulas: None,
     };
     let laid = best_finalist(bench, asked, found, cuts_left).ok()?;
-    limits::broken(bench, asked, &laid.vcut).is_none().then_some(laid)
+    limits::broken(bench.job, asked, &laid.vcut)
+        .is_none()
+        .then_some(laid)
 }
 
 /// The operation on the best lattice, or on the one that it asks for.
@@ -493,7 +489,7 @@ fn best_residual(
     if bench.wanted.is_needless() {
         return Err(Unplanned::Refused(Vec::new()));
     }
-    let first = lay_out(bench.job, asked, found.clone(), cuts_left, &bench.before)?;
+    let first = lay_out(bench.job, asked, found.clone(), cuts_left, bench.work())?;
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
     if !is_open {
@@ -512,7 +508,7 @@ fn best_residual(
         }
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
-        let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, &bench.before).ok()?;
+        let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, bench.work()).ok()?;
         laid.vcut.asked.residual.value = Auto::Auto;
         Some(bench.weigh(route::best(bench, laid)))
     };

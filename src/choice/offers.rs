@@ -1,10 +1,10 @@
 //! What is told of an operation that has no plan. Of the changes that may mend it those are offered whose plan has nothing
 //! wrong: they are planned, written down and replayed before anybody is told.
 
-use super::bench::{Bench, Figures};
+use super::bench::{self, Bench, Figures};
+use super::effort::Effort;
 use super::finest::{as_time, limited};
 use super::trial::{self, TurnedDown};
-use super::work::Work;
 use super::{Contender, Unplanned, within_limits};
 use crate::diag::Diagnostic;
 use crate::job::{Lattice, RoughVcut};
@@ -21,7 +21,7 @@ pub(super) fn told(
     asked: &RoughVcut,
     cuts_left: usize,
     unplanned: Unplanned,
-    work: &mut Work,
+    effort: &mut Effort,
 ) -> Vec<Diagnostic> {
     let refused = match unplanned {
         Unplanned::Refused(refused) => refused,
@@ -36,8 +36,8 @@ pub(super) fn told(
         .map(|mut refused| {
             // A machine that follows one swing need not follow another, and is not asked here.
             refused.resort = refused.resort.filter(|_| bench.job.machine.is_none());
-            with_what_works(refused, work, |offer, work| {
-                is_sound(bench, &offer.changed, cuts_left, work)
+            with_what_works(refused, effort, |offer, effort| {
+                is_sound(bench, &offer.changed, cuts_left, effort)
             })
         })
         .collect()
@@ -47,8 +47,8 @@ pub(super) fn told(
 /// every other, and on it each offer.
 fn with_what_works(
     refused: Refused,
-    work: &mut Work,
-    mut works: impl FnMut(&Offer, &mut Work) -> bool,
+    effort: &mut Effort,
+    mut works: impl FnMut(&Offer, &mut Effort) -> bool,
 ) -> Diagnostic {
     let Refused {
         mut told,
@@ -58,17 +58,17 @@ fn with_what_works(
     } = refused;
     let mut rest = ladders.len() + 1;
     for ladder in ladders {
-        let mut part = work.part(rest);
+        let mut part = effort.part(rest);
         rest -= 1;
         if let Some(offer) = first_that_works(ladder, &mut part, &mut works) {
             told = told.fix_all(offer.title, &offer.edits);
         }
-        work.give_back(&part);
+        effort.give_back(&part);
     }
     if !told.fixes.is_empty() {
         return told;
     }
-    match (resort.filter(|offer| works(offer, work)), otherwise) {
+    match (resort.filter(|offer| works(offer, effort)), otherwise) {
         (Some(offer), _) => told.fix_all(offer.title, &offer.edits),
         (None, Some(help)) => told.help(help),
         (None, None) => told,
@@ -77,46 +77,46 @@ fn with_what_works(
 
 fn first_that_works(
     ladder: Ladder,
-    work: &mut Work,
-    works: &mut impl FnMut(&Offer, &mut Work) -> bool,
+    effort: &mut Effort,
+    works: &mut impl FnMut(&Offer, &mut Effort) -> bool,
 ) -> Option<Offer> {
     let mut rest = ladder.len();
     ladder.into_iter().find(|offer| {
-        let mut part = work.part(rest);
+        let mut part = effort.part(rest);
         rest -= 1;
         let is_good = works(offer, &mut part);
-        work.give_back(&part);
+        effort.give_back(&part);
         is_good
     })
 }
 
 /// Whether an operation has a plan that keeps all its limits and has nothing wrong, as far as is seen with so much work. Where
 /// there is one, the choice comes to one.
-pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, work: &mut Work) -> bool {
-    if work.is_spent() || bench.wanted.is_needless() {
+pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, effort: &mut Effort) -> bool {
+    if effort.is_spent() || bench.wanted.is_needless() {
         return false;
     }
     if !trial::is_searched(asked) {
-        if is_too_large(bench, asked, work) {
+        if is_too_large(bench, asked, effort) {
             return false;
         }
         let Ok(laid) = within_limits(bench, asked, cuts_left) else {
-            work.spend(0);
+            effort.spend(0);
             return false;
         };
-        work.spend(laid.vcut.cuts.len());
+        effort.spend(laid.vcut.cuts.len());
         return keeps_all(bench.weigh(laid), asked);
     }
     let (assumed, lattices) = (as_time(asked), parameters::open_lattices(asked));
-    any(bench, &assumed, &lattices, cuts_left, work, &mut Vec::new()).is_some()
+    any(bench, &assumed, &lattices, cuts_left, effort, &mut Vec::new()).is_some()
 }
 
 /// Whether an operation has more cuts by the model than may be planned.
-fn is_too_large(bench: &Bench<'_>, asked: &RoughVcut, work: &Work) -> bool {
+fn is_too_large(bench: &Bench<'_>, asked: &RoughVcut, effort: &Effort) -> bool {
     let found = parameters::resolve(bench.job, asked);
     found.is_ok_and(|found| {
         let model = found.time_model(bench.job, asked);
-        work.is_less_than(model.cuts(found.layer, found.step))
+        effort.is_less_than(model.cuts(found.layer, found.step))
     })
 }
 
@@ -126,13 +126,13 @@ pub(super) fn any(
     asked: &RoughVcut,
     lattices: &[Lattice],
     cuts_left: usize,
-    work: &mut Work,
+    effort: &mut Effort,
     turned_down: &mut Vec<TurnedDown>,
 ) -> Option<(VcutParameters, Figures)> {
     let rest = (1..=lattices.len()).rev();
     lattices.iter().zip(rest).find_map(|(&lattice, rest)| {
-        let (found, left) = trial::any(bench, asked, &[lattice], cuts_left, work.part(rest));
-        work.give_back(&left);
+        let (found, left) = trial::any(bench, asked, &[lattice], cuts_left, effort.part(rest));
+        effort.give_back(&left);
         turned_down.extend(found.turned_down);
         found.sound
     })
@@ -147,7 +147,7 @@ fn keeps_all(contender: Contender, asked: &RoughVcut) -> bool {
 /// Times that leave more room than the least there is.
 fn longer_than_the_least(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Vec<Duration> {
     let fastest = within_limits(bench, &limited(asked, None), cuts_left);
-    let least = fastest.ok().and_then(|laid| bench.time(&laid.vcut));
+    let least = fastest.ok().and_then(|laid| bench::time(bench.job, &laid.vcut));
     let longer = |least: Duration| LONGER.map(|share| rounded_up(least * share));
     least.map(longer).into_iter().flatten().collect()
 }

@@ -1,6 +1,6 @@
 //! Order of the flanks and sequence of the Vs: all that the job leaves open, the fastest taken.
 
-use super::bench::Bench;
+use super::bench::{self, Bench};
 use super::{Latitude, MOST_CUTS_COMPARED, not_compared};
 use crate::job::{Auto, Order, RoughVcut, Sequence};
 use crate::plan::decision::{Candidate, Decision, Standing};
@@ -18,7 +18,7 @@ pub(super) type Route = (Sequence, Order);
 /// The operation along its fastest route; the first among equals.
 pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
     let along = |vcut: PlannedVcut, (sequence, order): Route| {
-        vcut.along(order, sequence, &bench.before, bench.job.stock)
+        vcut.along(order, sequence, bench.work().before, bench.job.stock)
     };
     let LaidOut {
         vcut,
@@ -55,7 +55,9 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
 /// The operation along the route that is taken where nothing is compared.
 pub(super) fn usual(bench: &Bench<'_>, mut laid: LaidOut) -> LaidOut {
     let (sequence, order) = usual_route(bench.latitude, &laid.vcut.asked);
-    laid.vcut = laid.vcut.along(order, sequence, &bench.before, bench.job.stock);
+    laid.vcut = laid
+        .vcut
+        .along(order, sequence, bench.work().before, bench.job.stock);
     laid
 }
 
@@ -115,7 +117,7 @@ fn fastest(
     let mut timed: Vec<(Candidate, PlannedVcut, Duration)> = different
         .into_par_iter()
         .filter_map(|(route, planned)| {
-            let time = bench.time(&planned)?;
+            let time = bench::time(bench.job, &planned)?;
             let candidate = Candidate {
                 what: words(&vcut.asked, route),
                 standing: Standing::Takes(time),

@@ -20,7 +20,7 @@ mod tests;
 pub(super) use met::TurnedDown;
 
 use super::bench::{Bench, Figures};
-use super::work::Work;
+use super::effort::Effort;
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
@@ -135,10 +135,10 @@ pub(super) fn any(
     asked: &RoughVcut,
     lattices: &[Lattice],
     cuts_left: usize,
-    work: Work,
-) -> (Any, Work) {
+    effort: Effort,
+) -> (Any, Effort) {
     let mut trials = Trials::new(bench, asked, lattices, cuts_left);
-    (trials.goal, trials.work) = (Goal::Any, work);
+    (trials.goal, trials.effort) = (Goal::Any, effort);
     match parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec()) {
         Ok(found) => {
             trials.search(Some(&found));
@@ -153,7 +153,7 @@ pub(super) fn any(
         sound: first.map(|sound| (sound.parameters, sound.figures)),
         turned_down: trials.turned_down,
     };
-    (found, trials.work)
+    (found, trials.effort)
 }
 
 /// Parameters and the best that come of changing them, for as long as they become better by the objective.
@@ -271,7 +271,7 @@ struct Trials<'t> {
     sound: Vec<Sound>,
     turned_down: Vec<TurnedDown>,
     goal: Goal,
-    work: Work,
+    effort: Effort,
 }
 
 impl<'t> Trials<'t> {
@@ -281,7 +281,7 @@ impl<'t> Trials<'t> {
             asked,
             lattices,
             cuts_left,
-            floor: Floor::new(bench.job, asked, &bench.before),
+            floor: Floor::new(bench.job, bench.work()),
             plans_left: None,
             most_plans: &PLANS,
             tried: Vec::new(),
@@ -289,7 +289,7 @@ impl<'t> Trials<'t> {
             sound: Vec::new(),
             turned_down: Vec::new(),
             goal: Goal::Best,
-            work: Work::UNBOUNDED,
+            effort: Effort::UNBOUNDED,
         }
     }
 
@@ -311,7 +311,7 @@ impl<'t> Trials<'t> {
             Goal::Best => false,
             Goal::Any => !self.sound.is_empty(),
         };
-        is_found || self.work.is_spent() || self.bench.wanted.is_needless()
+        is_found || self.effort.is_spent() || self.bench.wanted.is_needless()
     }
 
     /// The best few, the best first, and the formulas' parameters if they are sound.
@@ -399,7 +399,7 @@ impl<'t> Trials<'t> {
             self.asked,
             found.clone(),
             self.cuts_left,
-            &self.bench.before,
+            self.bench.work(),
         );
         let Ok(laid) = laid else {
             return Outcome::Impossible;
@@ -447,7 +447,7 @@ impl<'t> Trials<'t> {
             Goal::Best => 1.5,
             Goal::Any => 1.0,
         };
-        cuts > most * MOST_CUTS_COMPARED as f64 || self.work.is_less_than(cuts)
+        cuts > most * MOST_CUTS_COMPARED as f64 || self.effort.is_less_than(cuts)
     }
 
     /// The operation along its usual route, or along the fastest one where its time is limited and something else made small.
@@ -491,7 +491,7 @@ impl<'t> Trials<'t> {
 
     /// Counts a plan as one of an operation of so many cuts, of which so many were laid out.
     fn spend(&mut self, cuts: usize, laid_out: usize) {
-        self.work.spend(laid_out);
+        self.effort.spend(laid_out);
         let left = self.plans_left.unwrap_or_else(|| {
             let fitting = self.most_plans.iter().find(|(below, _)| cuts < *below);
             fitting.map_or(1, |&(_, plans)| plans)

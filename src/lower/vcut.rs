@@ -14,6 +14,7 @@
 //! moves on straight lines.
 
 use super::builder::Builder;
+use super::postures::Postures;
 use crate::job::{Direction, Order};
 use crate::plan::route::{self, Heading, Run};
 use crate::plan::{PlannedCut, PlannedVcut, Way, grid};
@@ -97,7 +98,7 @@ enum Place {
 struct Writer<'b> {
     builder: &'b mut Builder,
     operation: OperationId,
-    holder: Holder,
+    postures: Postures,
     order: Order,
     direction: Direction,
     cut_feed: FeedId,
@@ -134,7 +135,7 @@ impl<'b> Writer<'b> {
         Self {
             builder,
             operation,
-            holder,
+            postures: Postures::of(holder),
             order: planned.order,
             direction: asked.direction.value,
             cut_feed,
@@ -276,7 +277,7 @@ impl<'b> Writer<'b> {
             Site::Program | Site::Operation(_) | Site::Layer { .. } | Site::Cut { .. } => pass.site,
         };
         let above = Point3::new(pass.x, self.near(feed), self.safe);
-        self.travel(way, above, self.holder.cutting(pass.flank, feed));
+        self.travel(way, above, self.postures.cutting(pass.flank, feed));
         if self.running == Switch::Off {
             // The generator starts at the safe plane over the first cut and runs until the operation's end: it must be up
             // before the blade enters, and idling between layers costs nothing but waiting for it again would.
@@ -306,7 +307,7 @@ impl<'b> Writer<'b> {
     /// From beside the work to the start of a cut on the same side.
     fn go_beside(&mut self, pass: Pass, feed: Feed) {
         let start = Point3::new(pass.x, self.near(feed), pass.z);
-        let posture = self.holder.cutting(pass.flank, feed);
+        let posture = self.postures.cutting(pass.flank, feed);
         if start == self.tip {
             self.pass_between(pass.site, posture);
             self.turn(pass.site, posture);
@@ -362,7 +363,7 @@ impl<'b> Writer<'b> {
 
     /// A turn that comes near half a revolution goes by way of the posture in between.
     fn pass_between(&mut self, site: Site, posture: Orientation) {
-        if let Some(between) = self.held.and_then(|held| self.holder.by_way_of(held, posture)) {
+        if let Some(between) = self.held.and_then(|held| self.postures.by_way_of(held, posture)) {
             self.turn(site, between);
         }
     }

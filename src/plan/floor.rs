@@ -5,13 +5,13 @@
 //! costs a small share of a plan, which makes it the first thing to look at: a swing or a step that leaves too much even so
 //! need not be planned. Only tips that are moved sideways escape it.
 
+use super::Work;
 use super::lattice::{Layout, Row};
 use super::parameters::VcutParameters;
 use crate::geom::cone;
 use crate::geom::curve::Point2;
-use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
-use crate::job::{CheckedJob, RoughVcut};
+use crate::job::CheckedJob;
 use crate::sim::surface::{Surface, Vee};
 use vcutc_backend_api::units::Length;
 
@@ -21,7 +21,7 @@ const MOST_CORNERS: usize = 4000;
 /// An operation on what those before it left, to be asked what lattices leave of it.
 pub struct Floor<'f> {
     job: &'f CheckedJob,
-    bound: Profile,
+    bound: &'f Profile,
     before: &'f Surface,
 }
 
@@ -35,12 +35,9 @@ pub struct Followed<'f> {
 impl<'f> Floor<'f> {
     /// For one operation.
     #[must_use]
-    pub fn new(job: &'f CheckedJob, asked: &RoughVcut, before: &'f Surface) -> Self {
-        Self {
-            job,
-            bound: offset_up(&job.profile, asked.allowance.value),
-            before,
-        }
+    pub const fn new(job: &'f CheckedJob, work: Work<'f>) -> Self {
+        let Work { before, bound } = work;
+        Self { job, bound, before }
     }
 
     /// With flanks of a slope.
@@ -49,7 +46,7 @@ impl<'f> Floor<'f> {
         Followed {
             floor: self,
             slope,
-            clearance: cone::clearance(&self.bound, slope),
+            clearance: cone::clearance(self.bound, slope),
         }
     }
 }

@@ -28,7 +28,6 @@ pub(crate) mod tests;
 use crate::diag::Diagnostic;
 use crate::geom::cone;
 use crate::geom::curve::Point2;
-use crate::geom::offset::offset_up;
 use crate::geom::profile::Profile;
 use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
 use crate::sim::surface::Surface;
@@ -154,6 +153,15 @@ pub struct LaidOut {
     pub strategies: Strategies,
 }
 
+/// The work as an operation finds it.
+#[derive(Clone, Copy, Debug)]
+pub struct Work<'w> {
+    /// What the operations before it left of the stock.
+    pub before: &'w Surface,
+    /// The part with the operation's allowance.
+    pub bound: &'w Profile,
+}
+
 /// Lays out the cuts of an operation with these parameters on what those before left. A residual strategy that it leaves open
 /// is taken as `mixed`: where there is a choice, give the operation with the choice made.
 ///
@@ -164,10 +172,10 @@ pub fn lay_out(
     asked: &RoughVcut,
     parameters: VcutParameters,
     cuts_left: usize,
-    before: &Surface,
+    work: Work<'_>,
 ) -> Result<LaidOut, Box<Refused>> {
-    let bound = offset_up(&job.profile, asked.allowance.value);
-    let clearance = cone::clearance(&bound, parameters.flanks.slope);
+    let Work { before, bound } = work;
+    let clearance = cone::clearance(bound, parameters.flanks.slope);
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
     if let Some(tips) = &asked.tips {
         if tips.tips.len() > cuts_left || given::passed_corners(tips, &parameters) > MOST_PASSED {
@@ -176,7 +184,7 @@ pub fn lay_out(
         let ground = Ground {
             layout: &layout,
             parameters: &parameters,
-            bound: &bound,
+            bound,
         };
         return lay_out_given(job, asked, tips, before, ground);
     }
@@ -204,7 +212,7 @@ pub fn lay_out(
     let ground = Ground {
         layout: &layout,
         parameters: &parameters,
-        bound: &bound,
+        bound,
     };
     let vcut = PlannedVcut {
         strategy,

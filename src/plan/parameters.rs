@@ -265,8 +265,9 @@ pub fn resolve_on(
         |told: Vec<Diagnostic>| Refusal::Contradiction(told.into_iter().map(Refused::from).collect());
     let resolution = consider(asked, lattices).map_err(contradiction)?;
     let chosen = decide(job, asked, &resolution)?;
+    let edge = edge_overhang(asked, chosen.swing);
     let mut told = Vec::new();
-    complete(asked, resolution.standoff, chosen, &mut told).ok_or_else(|| contradiction(told))
+    complete(asked, resolution.standoff, edge, chosen, &mut told).ok_or_else(|| contradiction(told))
 }
 
 /// What is known before.
@@ -363,10 +364,11 @@ fn flanks_at(asked: &RoughVcut, swing: Angle) -> Flanks {
     )
 }
 
-/// What follows from lattice, swing, layer and step.
+/// What follows from lattice, swing, layer and step, and from the overhang of the edge at that swing.
 fn complete(
     asked: &RoughVcut,
     standoff: Length,
+    edge: Length,
     chosen: Chosen,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<VcutParameters> {
@@ -382,12 +384,7 @@ fn complete(
     let lean = Lean::new(asked, swing);
     // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
     let teeth = layer + step * (flanks.slope / 2.0);
-    let extension = resolve_extension(
-        asked,
-        edge_overhang(asked, swing),
-        lean.overhang(teeth),
-        diagnostics,
-    )?;
+    let extension = resolve_extension(asked, edge, lean.overhang(teeth), diagnostics)?;
     // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
     let clear_height = lean.clear_height(extension).max(teeth);
     Some(VcutParameters {

@@ -8,7 +8,7 @@
 
 use super::demand::Demand;
 use super::legs::{Leg, Poses, Stroke, Taught, numbered};
-use super::path::{Breach, Clearance, Proof, Violation, prove};
+use super::path::{Breach, Clearance, Course, Proof, Violation, prove, prove_all};
 use super::rig::Rig;
 use super::runs::Station;
 use super::stands::Stands;
@@ -65,6 +65,15 @@ pub(super) enum Extent {
     /// All of it.
     Whole,
 }
+
+/// Courses that are proven at once, side by side: enough to keep all lanes in use, few enough for all processors to have some.
+const AT_ONCE: usize = 48;
+
+/// A course that cannot even be begun.
+const NOWHERE: Breach = Breach {
+    at: 0.0,
+    what: Violation::OutOfReach,
+};
 
 /// How many motions that are too fast say that speeds are too high: to find more of them in a long program only takes time.
 pub(super) const ENOUGH_TOO_FAST: usize = 2000;
@@ -145,14 +154,31 @@ impl Survey<'_> {
 
     /// Proves one course on a branch.
     pub(super) fn stroke(&self, stroke: &Stroke, branch: Branch) -> Result<Proof, Breach> {
-        let nowhere = Breach {
-            at: 0.0,
-            what: Violation::OutOfReach,
-        };
-        self.wanted.go_on().map_err(|Needless| nowhere)?;
-        let start = self.stand(stroke.from, branch).ok_or(nowhere)?;
-        let course = Poses::of(self.program).course(stroke).ok_or(nowhere)?;
+        self.wanted.go_on().map_err(|Needless| NOWHERE)?;
+        let (course, start) = self.begun(stroke, branch).ok_or(NOWHERE)?;
         prove(&self.open, &course, branch, &start, &self.least)
+    }
+
+    /// Proves the courses of legs on a branch; nothing for legs that are none.
+    fn strokes(&self, legs: &[(OpId, &Leg)], branch: Branch) -> Vec<Option<Result<Proof, Breach>>> {
+        let is_needless = self.wanted.is_needless();
+        let begun: Vec<Option<(Course, Joints)>> = legs
+            .iter()
+            .map(|(_, leg)| self.begun(leg.stroke()?, branch).filter(|_| !is_needless))
+            .collect();
+        let courses: Vec<(Course, Joints)> = begun.iter().flatten().copied().collect();
+        let mut proofs = prove_all(&self.open, &courses, branch, &self.least).into_iter();
+        let each = legs.iter().zip(&begun).map(|((_, leg), begun)| {
+            leg.stroke()?;
+            Some(begun.and_then(|_| proofs.next()).unwrap_or(Err(NOWHERE)))
+        });
+        each.collect()
+    }
+
+    /// The course of a stroke, and the axes at its beginning.
+    fn begun(&self, stroke: &Stroke, branch: Branch) -> Option<(Course, Joints)> {
+        let start = self.stand(stroke.from, branch)?;
+        Some((Poses::of(self.program).course(stroke)?, start))
     }
 
     /// What a branch makes of a run.
@@ -203,11 +229,8 @@ impl Survey<'_> {
                 break;
             }
             let proofs: Vec<Option<Result<Proof, Breach>>> = batch
-                .par_iter()
-                .map(|(_, leg)| match leg {
-                    Leg::Along(stroke) => Some(self.stroke(stroke, branch)),
-                    Leg::Still | Leg::Home | Leg::ByAxes(_) => None,
-                })
+                .par_chunks(AT_ONCE)
+                .flat_map_iter(|legs| self.strokes(legs, branch))
                 .collect();
             for (&(op, _), proof) in batch.iter().zip(&proofs) {
                 match proof {

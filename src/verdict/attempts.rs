@@ -1,10 +1,10 @@
 //! Changes of a job that are tried before they are offered.
 //!
 //! What is offered has been planned, written down and replayed. All changes that are tried for one job share an amount of
-//! work ([`Work`]), so that a refusal does not take many times as long as a plan.
+//! work ([`Effort`]), so that a refusal does not take many times as long as a plan.
 
 use super::{Proven, prove, scallop_excess};
-use crate::choice::{self, Latitude, Leeway, Work};
+use crate::choice::{self, Effort, Latitude, Leeway};
 use crate::job::{CheckedJob, Operation, RoughVcut};
 use crate::plan::PlannedJob;
 use crate::plan::refusal::Offer;
@@ -28,15 +28,15 @@ pub(super) struct Case<'a> {
 pub(super) struct Attempts<'a> {
     case: Case<'a>,
     operation: OperationId,
-    work: &'a mut Work,
+    effort: &'a mut Effort,
 }
 
 impl<'a> Attempts<'a> {
-    pub(super) const fn new(case: Case<'a>, operation: OperationId, work: &'a mut Work) -> Self {
+    pub(super) const fn new(case: Case<'a>, operation: OperationId, effort: &'a mut Effort) -> Self {
         Self {
             case,
             operation,
-            work,
+            effort,
         }
     }
 
@@ -60,16 +60,16 @@ impl<'a> Attempts<'a> {
 
     /// Whether the job plans and proves with a change, within all its limits.
     pub(super) fn prove(&mut self, change: impl Fn(&mut RoughVcut)) -> bool {
-        if self.work.is_spent() {
+        if self.effort.is_spent() {
             return false;
         }
         let Some(changed) = changed(self.case.job, self.operation, change) else {
             return false;
         };
         if let [_] = changed.operations[..] {
-            return choice::is_sound(&changed, self.work, self.case.wanted);
+            return choice::is_sound(&changed, self.effort, self.case.wanted);
         }
-        self.work.spend(WHOLE_JOB);
+        self.effort.spend(WHOLE_JOB);
         let changed = Case {
             job: &changed,
             ..self.case

@@ -2,7 +2,7 @@
 
 use super::attempts::{Attempts, Case};
 use super::{point, scallop_excess};
-use crate::choice::Work;
+use crate::choice::Effort;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, Residual, RoughVcut};
 use crate::plan::parameters::show;
@@ -29,7 +29,7 @@ pub(super) fn over_limit(
     case: Case<'_>,
     plan: &PlannedJob,
     report: &Report,
-    work: &mut Work,
+    effort: &mut Effort,
 ) -> Option<Diagnostic> {
     let (operation, asked, limit) = scallop_excess(plan, report)?;
     let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
@@ -47,7 +47,7 @@ pub(super) fn over_limit(
         ),
     );
     let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(operation.0))?;
-    let mut attempts = Attempts::new(case, operation, work);
+    let mut attempts = Attempts::new(case, operation, effort);
     let change = match asked.tips {
         // Nothing moves given tips.
         Some(_) => None,

@@ -36,7 +36,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("lower", &["geom", "job", "plan", "posture", "source"]),
     (
         "choice",
-        &["diag", "job", "lower", "plan", "sim", "source", "wanted"],
+        &["diag", "geom", "job", "lower", "plan", "sim", "source", "wanted"],
     ),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
     ("summary", &["job", "pace", "plan", "reach_summary", "sim"]),
@@ -207,6 +207,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
             "src/kinematics/lanes.rs",
             "src/kinematics/batch.rs",
             "src/reach/path/arm.rs",
+            "src/reach/path/number.rs",
         ],
     ),
     ("anstream::", &["src/cli/"]),

@@ -31,6 +31,21 @@ impl Stroke {
     /// are not in the program's tables.
     #[must_use]
     pub fn of(program: &Program, from: Pose, action: &Action) -> Option<Self> {
+        let orientation = |id: OrientationId| program.orientations.get(id.0 as usize);
+        Self::turning(program, from, action, |held, then| {
+            Some(orientation(held)?.angle_to(*orientation(then)?))
+        })
+    }
+
+    /// The same, with the angle between two different postures from somebody who knows it: the few of a program are asked for
+    /// again and again. `None` for ids that are not in the program's tables.
+    #[must_use]
+    pub fn turning(
+        program: &Program,
+        from: Pose,
+        action: &Action,
+        angle: impl FnOnce(OrientationId, OrientationId) -> Option<Angle>,
+    ) -> Option<Self> {
         let (tip, held) = from;
         let (to, feed, rate) = match *action {
             Action::Travel {
@@ -50,11 +65,10 @@ impl Stroke {
             | Action::Dwell { .. }
             | Action::ToolChange { .. } => return None,
         };
-        let orientation = |id: OrientationId| program.orientations.get(id.0 as usize);
         let turn = if held == to.1 {
             Angle::ZERO
         } else {
-            orientation(held)?.angle_to(*orientation(to.1)?)
+            angle(held, to.1)?
         };
         let feed = match feed {
             Some(id) => Some(*program.feeds.get(usize::from(id.0))?),

@@ -29,7 +29,12 @@ fn the_search_is_bounded() {
                 span: None,
             });
             let Operation::RoughVcut(asked) = job.operations[0].clone();
-            let bench = Bench::new(&job, Latitude::Full);
+            let bench = Bench::new(
+                &job,
+                &asked,
+                crate::choice::bench::untouched(&job),
+                Latitude::Full,
+            );
             for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
                 let by_bound = parameters::resolve_on(&job, &asked, vec![lattice]).ok();
                 let lattices = [lattice];

@@ -9,7 +9,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 /// How long files must stay as they are before they are read.
-const SETTLED: Duration = Duration::from_millis(15);
+const SETTLED: Duration = Duration::from_millis(10);
 /// The same while one of them is missing: some editors take a file away before they put the new one in its place.
 const SETTLED_WITHOUT_FILE: Duration = Duration::from_millis(400);
 /// Files that never stay as they are are read all the same after so long.
@@ -207,12 +207,12 @@ mod tests {
         Recorder::new(&disk, &asked).load(name).unwrap();
         let before = asked.stamps();
         std::fs::write(&job, "two and more").unwrap();
-        assert_eq!(needed(&before, &before.now()), ms(15));
+        assert_eq!(needed(&before, &before.now()), ms(10));
         std::fs::remove_file(&job).unwrap();
         assert_eq!(needed(&before, &before.now()), ms(400));
 
-        assert!(!is_over(ms(15), ms(14), ms(1999)));
-        assert!(is_over(ms(15), ms(15), ms(15)));
+        assert!(!is_over(ms(10), ms(9), ms(1999)));
+        assert!(is_over(ms(10), ms(10), ms(10)));
         assert!(!is_over(ms(400), ms(399), ms(399)));
         // Without rest, too, they are read some time.
         assert!(is_over(ms(400), ms(0), ms(2000)));

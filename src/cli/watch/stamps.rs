@@ -109,7 +109,7 @@ impl Stamps {
 }
 
 /// Shortest time between two looks at the files.
-const SHORTEST: Duration = Duration::from_millis(15);
+const SHORTEST: Duration = Duration::from_millis(5);
 /// Longest.
 const LONGEST: Duration = Duration::from_secs(2);
 /// How many times as long as a look the pause behind it is.
@@ -151,12 +151,12 @@ mod tests {
     #[test]
     fn a_twentieth_of_the_time_at_most_goes_into_looking() {
         let ms = Duration::from_millis;
-        assert_eq!(after(Duration::ZERO), ms(15));
-        assert_eq!(after(Duration::from_micros(100)), ms(15));
+        assert_eq!(after(Duration::ZERO), ms(5));
+        assert_eq!(after(Duration::from_micros(100)), ms(5));
         assert_eq!(after(ms(4)), ms(80));
         assert_eq!(after(ms(100)), ms(2000));
         assert_eq!(after(Duration::MAX), ms(2000));
-        assert_eq!(Pause::new().length(), ms(15));
+        assert_eq!(Pause::new().length(), ms(5));
     }
 
     #[test]

@@ -1,7 +1,14 @@
 //! The distance from a point to the profile.
 
-use super::blocks::Block;
+use super::blocks::{BLOCK, Block};
 use super::{Point2, Profile};
+use core::ops::Range;
+
+/// Blocks that wait at most, one a level: profiles have far fewer segments than two to this power.
+const MOST_WAITING: usize = 32;
+
+/// By what share of one and of itself a squared distance may be wrong by rounding, and more.
+const ROUNDING: f64 = 1e-6;
 
 impl Profile {
     /// The distance from a point to the nearest point of the profile, in mm.
@@ -17,29 +24,54 @@ impl Profile {
     /// [`Self::nearest_distance`].
     #[must_use]
     pub fn nearest_segment(&self, point: Point2) -> (usize, f64) {
+        let within = self.near(point);
+        if within.start / BLOCK == within.end.saturating_sub(2) / BLOCK {
+            let (segment, squared) = self.nearest_of(within, point);
+            return (segment, squared.sqrt());
+        }
         // All distances here are squared.
         let mut best = (0, f64::INFINITY);
         // Blocks still to look at, the next one last, with the distances of their boxes. At most one a level waits.
-        let mut waiting = vec![(self.blocks.whole(), 0.0)];
-        while let Some((block, box_distance)) = waiting.pop() {
+        let mut waiting = [(self.blocks.whole(), 0.0); MOST_WAITING];
+        let mut count = 1_usize;
+        while let Some(&(block, box_distance)) = count.checked_sub(1).and_then(|last| waiting.get(last)) {
+            count -= 1;
             if box_distance >= best.1 {
                 continue;
             }
             match block.halves() {
                 None => {
-                    let nearest = self.nearest_of_segments(block, point);
+                    let nearest = self.nearest_of_segments(block, &within, point);
                     if nearest.1 < best.1 {
                         best = nearest;
                     }
                 }
                 Some(halves) => {
-                    let mut halves = halves.map(|half| (half, self.distance_to_box(half, point)));
-                    halves.sort_by(|a, b| b.1.total_cmp(&a.1));
-                    waiting.extend(halves);
+                    let [left, right] = halves.map(|half| (half, self.distance_to_box(half, point)));
+                    let nearer_last = if right.1 > left.1 {
+                        [right, left]
+                    } else {
+                        [left, right]
+                    };
+                    for (place, half) in waiting.iter_mut().skip(count).zip(nearer_last) {
+                        *place = half;
+                        count += 1;
+                    }
                 }
             }
         }
         (best.0, best.1.sqrt())
+    }
+
+    /// The corners of the segments among which the nearest one to a point is: those that come as near along x as the segment
+    /// below or above the point is.
+    fn near(&self, point: Point2) -> Range<usize> {
+        let [from, to] = self.segment_at(point.x);
+        let most = squared_distance(point, from, to);
+        let most = (most + ROUNDING * (1.0 + most)).sqrt();
+        let first = self.points.partition_point(|corner| corner.x < point.x - most);
+        let beyond = self.points.partition_point(|corner| corner.x <= point.x + most);
+        first.saturating_sub(1)..beyond.saturating_add(1).min(self.points.len())
     }
 
     /// The squared distance to the box around a block; infinite for a block that does not exist.
@@ -58,13 +90,20 @@ impl Profile {
         }
     }
 
-    /// The segment of a block that is nearest to a point, and its squared distance.
-    fn nearest_of_segments(&self, block: Block, point: Point2) -> (usize, f64) {
+    /// The segment of a block and within a range of corners that is nearest to a point, and its squared distance.
+    fn nearest_of_segments(&self, block: Block, within: &Range<usize>, point: Point2) -> (usize, f64) {
         let corners = block.corners();
-        let end = corners.end.min(self.points.len());
-        let pairs = self.points.get(corners.start..end).unwrap_or_default().windows(2);
+        let start = corners.start.max(within.start);
+        let end = corners.end.min(within.end);
+        self.nearest_of(start..end, point)
+    }
+
+    /// The same of the segments between corners.
+    fn nearest_of(&self, corners: Range<usize>, point: Point2) -> (usize, f64) {
+        let first = corners.start;
+        let pairs = self.points.get(corners).unwrap_or_default().windows(2);
         let distances = pairs.map(|pair| squared_distance(point, pair[0], pair[1]));
-        (corners.start..).zip(distances).fold(
+        (first..).zip(distances).fold(
             (0, f64::INFINITY),
             |best, next| if next.1 < best.1 { next } else { best },
         )

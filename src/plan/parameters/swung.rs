@@ -4,8 +4,9 @@
 use super::super::blade_reach;
 use super::grid_forms::{fits, largest_fitting, open_overlaps, tips_per_step, widest_step};
 use super::search::Chosen;
-use super::{Flanks, VcutParameters, complete, flanks_at, resolve_standoff};
+use super::{Flanks, VcutParameters, complete, edge_overhang, flanks_at, resolve_standoff};
 use crate::job::{Lattice, RoughVcut};
+use core::cell::OnceCell;
 use vcutc_backend_api::units::{Angle, Length};
 
 /// A lattice at a swing, with the edge that the operation may use.
@@ -16,6 +17,8 @@ pub struct Swung<'s> {
     /// Slope and reach of the flanks.
     pub flanks: Flanks,
     standoff: Length,
+    /// How far the edge lies over the work, once somebody has asked.
+    edge: OnceCell<Length>,
 }
 
 impl<'s> Swung<'s> {
@@ -30,6 +33,7 @@ impl<'s> Swung<'s> {
             swing,
             flanks: flanks_at(asked, swing),
             standoff,
+            edge: OnceCell::new(),
         })
     }
 
@@ -108,6 +112,7 @@ impl<'s> Swung<'s> {
             overlap,
             binding: Vec::new(),
         };
-        complete(self.asked, self.standoff, chosen, &mut Vec::new())
+        let edge = *self.edge.get_or_init(|| edge_overhang(self.asked, self.swing));
+        complete(self.asked, self.standoff, edge, chosen, &mut Vec::new())
     }
 }

@@ -11,6 +11,7 @@
 //! quantity stays in their domain on the whole span.
 
 use super::interval::{HUGE, Interval};
+use super::number::Number;
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Below this, a divisor or a radicand counts as zero: in mm^2 or without unit.
@@ -18,70 +19,71 @@ const NEXT_TO_NOTHING: f64 = 1e-12;
 
 /// A quantity on a span; derivatives are by the span's parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Along {
+pub(super) struct Along<N = f64> {
     /// `f(0)`.
-    here: Interval,
+    here: Interval<N>,
     /// `f'(0)`.
-    slope: Interval,
+    slope: Interval<N>,
     /// `f` on the span.
-    value: Interval,
+    value: Interval<N>,
     /// `f'` on the span.
-    rate: Interval,
+    rate: Interval<N>,
     /// `f''` on the span.
-    bend: Interval,
+    bend: Interval<N>,
 }
 
-impl Along {
+impl<N: Number> Along<N> {
     #[inline(always)]
-    pub(super) const fn constant(number: f64) -> Self {
+    pub(super) fn constant(number: N) -> Self {
+        let zero = Interval::exactly(number.of(0.0));
         Self {
             here: Interval::exactly(number),
-            slope: Interval::ZERO,
+            slope: zero,
             value: Interval::exactly(number),
-            rate: Interval::ZERO,
-            bend: Interval::ZERO,
+            rate: zero,
+            bend: zero,
         }
     }
 
     /// `middle + slope t`.
     #[inline(always)]
-    pub(super) fn line(middle: f64, slope: f64) -> Self {
+    pub(super) fn line(middle: N, slope: N) -> Self {
         Self {
             here: Interval::exactly(middle),
             slope: Interval::exactly(slope),
-            value: Interval::around(middle, slope.abs()),
+            value: Interval::around(middle, slope.magnitude()),
             rate: Interval::exactly(slope),
-            bend: Interval::ZERO,
+            bend: Interval::exactly(middle.of(0.0)),
         }
     }
 
     /// On the whole span.
     #[inline(always)]
-    pub(super) const fn value(self) -> Interval {
+    pub(super) const fn value(self) -> Interval<N> {
         self.value
     }
 
     /// The derivative on the whole span.
     #[inline(always)]
-    pub(super) const fn rate(self) -> Interval {
+    pub(super) const fn rate(self) -> Interval<N> {
         self.rate
     }
 
     /// The second derivative on the whole span.
     #[inline(always)]
-    pub(super) const fn bend(self) -> Interval {
+    pub(super) const fn bend(self) -> Interval<N> {
         self.bend
     }
 
     /// At the beginning of the span.
     #[inline(always)]
-    pub(super) fn begin(self) -> Interval {
+    pub(super) fn begin(self) -> Interval<N> {
         (self.here - self.slope + self.bend * 0.5).and(self.value)
     }
 
     /// At the end of the span.
     #[inline(always)]
-    pub(super) fn end(self) -> Interval {
+    pub(super) fn end(self) -> Interval<N> {
         (self.here + self.slope + self.bend * 0.5).and(self.value)
     }
 
@@ -97,24 +99,21 @@ impl Along {
         .narrowed()
     }
 
-    /// Where the quantity stays positive.
+    /// The root, where the quantity stays positive.
     #[inline(always)]
-    pub(super) fn root(self) -> Option<Self> {
-        if self.value.low < NEXT_TO_NOTHING {
-            return None;
-        }
+    pub(super) fn root(self) -> Held<N> {
+        let is_positive = at_least(self.value.low, NEXT_TO_NOTHING);
         let (here, value) = (self.here.and(self.value).root(), self.value.root());
         let rate = self.rate.over(value) * 0.5;
-        Self {
+        let root = Self {
             here,
             slope: self.slope.over(here) * 0.5,
             value,
             rate,
             // Of (f^2)'' = 2 f f'' + 2 f'^2.
             bend: (self.bend * 0.5 - rate.squared()).over(value),
-        }
-        .narrowed()
-        .bounded()
+        };
+        root.narrowed().held(is_positive)
     }
 
     /// Sine and cosine.
@@ -123,11 +122,9 @@ impl Along {
         let (sin_here, cos_here) = self.here.sin_cos();
         // Neither changes faster than the angle.
         let change = (self.value - self.here).magnitude();
-        let near = |here: Interval| Interval::around(0.0, change) + here;
-        let (sin, cos) = (
-            near(sin_here).and(Interval::UNIT),
-            near(cos_here).and(Interval::UNIT),
-        );
+        let around = Interval::around(change.of(0.0), change);
+        let unit = Interval::exactly(change.of(1.0)).either_way();
+        let (sin, cos) = ((around + sin_here).and(unit), (around + cos_here).and(unit));
         let rate_squared = self.rate.squared();
         let sine = Self {
             here: sin_here,
@@ -149,11 +146,9 @@ impl Along {
     /// The angle of a point `(x, y)` that stays away from the origin. It is continuous on the span, and at the middle of
     /// the span within half a turn either way.
     #[inline(always)]
-    pub(super) fn arc(y: Self, x: Self) -> Option<Self> {
+    pub(super) fn arc(y: Self, x: Self) -> Held<N> {
         let distance_squared = x.value.squared() + y.value.squared();
-        if distance_squared.low < NEXT_TO_NOTHING {
-            return None;
-        }
+        let is_away = at_least(distance_squared.low, NEXT_TO_NOTHING);
         let here = Interval::direction(y.here, x.here, distance_squared.root().low);
         let here_squared = (x.here.squared() + y.here.squared()).and(distance_squared);
         let slope = (x.here * y.slope - y.here * x.slope).over(here_squared);
@@ -161,21 +156,20 @@ impl Along {
         // Of (r^2 f')' = (x y' - y x')', where r^2 has the derivative 2 (x x' + y y').
         let outward = x.value * x.rate + y.value * y.rate;
         let bend = (x.value * y.bend - y.value * x.bend - rate * outward * 2.0).over(distance_squared);
-        Self {
+        let arc = Self {
             here,
             slope,
             value: here + rate.either_way(),
             rate,
             bend,
-        }
-        .narrowed()
-        .bounded()
+        };
+        arc.narrowed().held(is_away)
     }
 
     /// Shifted by a constant.
     #[inline(always)]
     pub(super) fn plus(self, constant: f64) -> Self {
-        let by = Interval::exactly(constant);
+        let by = Interval::exactly(self.here.low.of(constant));
         Self {
             here: self.here + by,
             value: self.value + by,
@@ -195,14 +189,49 @@ impl Along {
         }
     }
 
-    /// Only divisions make numbers large.
+    /// Multiplied by a number.
     #[inline(always)]
-    fn bounded(self) -> Option<Self> {
-        (self.bend.magnitude() < HUGE && self.rate.magnitude() < HUGE).then_some(self)
+    pub(super) fn scaled(self, factor: N) -> Self {
+        Self {
+            here: self.here.scaled(factor),
+            slope: self.slope.scaled(factor),
+            value: self.value.scaled(factor),
+            rate: self.rate.scaled(factor),
+            bend: self.bend.scaled(factor),
+        }
+    }
+
+    /// With whether it exists. Only divisions make numbers large.
+    #[inline(always)]
+    fn held(self, exists: N) -> Held<N> {
+        let exists = exists
+            .lesser(is_bounded(self.bend.magnitude()))
+            .lesser(is_bounded(self.rate.magnitude()));
+        Held { along: self, exists }
     }
 }
 
-impl Neg for Along {
+/// A quantity that may not exist on the whole span: what stands there then means nothing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Held<N> {
+    pub(super) along: Along<N>,
+    /// 1 where it exists, 0 where it does not.
+    pub(super) exists: N,
+}
+
+/// 1 where a number is below [`HUGE`], else 0.
+#[inline(always)]
+fn is_bounded<N: Number>(number: N) -> N {
+    number.below(number.of(HUGE), number.of(1.0), number.of(0.0))
+}
+
+/// 1 where a number is at least as large as a bound, else 0.
+#[inline(always)]
+fn at_least<N: Number>(number: N, bound: f64) -> N {
+    number.below(number.of(bound), number.of(0.0), number.of(1.0))
+}
+
+impl<N: Number> Neg for Along<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -216,7 +245,7 @@ impl Neg for Along {
     }
 }
 
-impl Add for Along {
+impl<N: Number> Add for Along<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -231,7 +260,7 @@ impl Add for Along {
     }
 }
 
-impl Sub for Along {
+impl<N: Number> Sub for Along<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -239,7 +268,7 @@ impl Sub for Along {
     }
 }
 
-impl Mul for Along {
+impl<N: Number> Mul for Along<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -254,16 +283,10 @@ impl Mul for Along {
     }
 }
 
-impl Mul<f64> for Along {
+impl<N: Number> Mul<f64> for Along<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        Self {
-            here: self.here * factor,
-            slope: self.slope * factor,
-            value: self.value * factor,
-            rate: self.rate * factor,
-            bend: self.bend * factor,
-        }
+        self.scaled(self.here.low.of(factor))
     }
 }

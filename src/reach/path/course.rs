@@ -2,6 +2,7 @@
 
 use super::along::Along;
 use super::interval::Interval;
+use super::number::Number;
 use super::{Course, Rig};
 use crate::kinematics::pose::Pose;
 use glam::{DMat3, DQuat, DVec3};
@@ -88,75 +89,165 @@ impl Flight {
         core::array::from_fn(|i| Interval::around(tip[i], slope[i].abs() + ROUNDING))
     }
 
-    /// The flange on a span.
-    #[inline(always)]
-    pub(super) fn over(&self, span: Span) -> Flange {
-        let (sin, cos) = Along::line(self.angle * span.middle, self.angle * span.half).sin_cos();
-        Flange {
-            flight: *self,
-            span,
-            sin,
-            cos,
+    /// What the flange's points and directions are on the way: the point that is given, and the flange's three axes.
+    pub(super) fn carried(&self, point: DVec3) -> Carried {
+        let start = &self.start;
+        let from_tip = start.rotation * point + start.position - self.tip;
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| start.rotation * axis);
+        let [x, y, z] = axes;
+        Carried {
+            tip: self.tip,
+            way: self.way,
+            angle: self.angle,
+            turned: [from_tip, x, y, z].map(|vector| self.parts(vector)),
+        }
+    }
+
+    /// Whether the flange turns at all.
+    pub(super) const fn turning(&self) -> Turning {
+        if self.angle == 0.0 {
+            Turning::Still
+        } else {
+            Turning::Turns
+        }
+    }
+
+    /// A vector as Rodrigues' formula takes it.
+    fn parts(&self, vector: DVec3) -> Parts {
+        match self.turning() {
+            Turning::Still => Parts {
+                along: vector,
+                square: DVec3::ZERO,
+                across: DVec3::ZERO,
+            },
+            Turning::Turns => {
+                let along = self.axis * self.axis.dot(vector);
+                Parts {
+                    along,
+                    square: vector - along,
+                    across: self.axis.cross(vector),
+                }
+            }
         }
     }
 }
 
-/// The flange on a span of its way.
+/// Whether a flange turns on its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Turning {
+    /// It only moves along.
+    Still,
+    /// It turns.
+    Turns,
+}
+
+/// A vector that is carried along: its part along the axis of the turn, and what cosine and sine belong to.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flange {
-    flight: Flight,
-    span: Span,
-    sin: Along,
-    cos: Along,
+struct Parts {
+    along: DVec3,
+    square: DVec3,
+    across: DVec3,
 }
 
-impl Flange {
-    /// A direction that is fixed to the flange, seen from the root.
-    #[inline(always)]
-    pub(super) fn direction(&self, in_flange: DVec3) -> [Along; 3] {
-        self.turned(self.flight.start.rotation * in_flange)
-    }
+/// What does not change on a course that carries a point of the flange and the flange's axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carried {
+    tip: DVec3,
+    way: DVec3,
+    angle: f64,
+    turned: [Parts; 4],
+}
 
-    /// A point that is fixed to the flange, seen from the root.
-    #[inline(always)]
-    pub(super) fn point(&self, in_flange: DVec3) -> [Along; 3] {
-        let start = &self.flight.start;
-        let from_tip = start.rotation * in_flange + start.position - self.flight.tip;
-        let turned = self.turned(from_tip);
-        let tip = self.flight.tip + self.flight.way * self.span.middle;
-        let slope = self.flight.way * self.span.half;
-        let [x, y, z] = turned;
-        [
-            Along::line(tip.x, slope.x) + x,
-            Along::line(tip.y, slope.y) + y,
-            Along::line(tip.z, slope.z) + z,
-        ]
-    }
+/// How many numbers that is.
+pub(super) const CARRIED: usize = 43;
 
-    #[inline(always)]
-    fn rodrigues(&self, along: f64, square: f64, across: f64) -> Along {
-        Along::constant(along) + self.cos * square + self.sin * across
-    }
-
-    /// Rodrigues' formula.
-    #[inline(always)]
-    fn turned(&self, vector: DVec3) -> [Along; 3] {
-        let axis = self.flight.axis;
-        if self.flight.angle == 0.0 {
-            return [
-                Along::constant(vector.x),
-                Along::constant(vector.y),
-                Along::constant(vector.z),
-            ];
+impl Carried {
+    /// All of it, in the order in which [`Flange::over`] takes it.
+    pub(super) fn numbers(&self) -> [f64; CARRIED] {
+        let parts = self
+            .turned
+            .iter()
+            .flat_map(|part| [part.along, part.square, part.across]);
+        let vectors = [self.tip, self.way].into_iter().chain(parts);
+        let mut all = [self.angle; CARRIED];
+        for (place, number) in all
+            .iter_mut()
+            .skip(1)
+            .zip(vectors.flat_map(|vector| vector.to_array()))
+        {
+            *place = number;
         }
-        let (along, across) = (axis * axis.dot(vector), axis.cross(vector));
-        let square = vector - along;
-        [
-            self.rodrigues(along.x, square.x, across.x),
-            self.rodrigues(along.y, square.y, across.y),
-            self.rodrigues(along.z, square.z, across.z),
-        ]
+        all
     }
+}
+
+/// The flange on a span of its way: a point of it and its axes, seen from the root.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flange<N> {
+    /// The point.
+    pub(super) point: [Along<N>; 3],
+    /// The directions of its axes.
+    pub(super) axes: [[Along<N>; 3]; 3],
+}
+
+impl<N: Number> Flange<N> {
+    /// The flange on the span within `half` of `middle`, by the numbers of [`Carried::numbers`].
+    #[inline(always)]
+    pub(super) fn over(carried: &[N; CARRIED], turning: Turning, middle: N, half: N) -> Self {
+        let (angle, tip, way) = (carried[0], vector(carried, 1), vector(carried, 4));
+        let sin_cos = match turning {
+            Turning::Still => None,
+            Turning::Turns => Some(Along::line(angle * middle, angle * half).sin_cos()),
+        };
+        let [x, y, z] = turned(carried, 0, sin_cos);
+        Self {
+            point: [
+                Along::line(tip[0] + way[0] * middle, way[0] * half) + x,
+                Along::line(tip[1] + way[1] * middle, way[1] * half) + y,
+                Along::line(tip[2] + way[2] * middle, way[2] * half) + z,
+            ],
+            axes: [
+                turned(carried, 1, sin_cos),
+                turned(carried, 2, sin_cos),
+                turned(carried, 3, sin_cos),
+            ],
+        }
+    }
+}
+
+#[inline(always)]
+fn vector<N: Number>(carried: &[N; CARRIED], first: usize) -> [N; 3] {
+    [carried[first], carried[first + 1], carried[first + 2]]
+}
+
+/// A vector that is carried along.
+#[inline(always)]
+fn turned<N: Number>(
+    carried: &[N; CARRIED],
+    index: usize,
+    sin_cos: Option<(Along<N>, Along<N>)>,
+) -> [Along<N>; 3] {
+    let first = 7 + 9 * index;
+    let along = vector(carried, first);
+    let (square, across) = (vector(carried, first + 3), vector(carried, first + 6));
+    match sin_cos {
+        Some((sin, cos)) => [
+            rodrigues(sin, cos, along[0], square[0], across[0]),
+            rodrigues(sin, cos, along[1], square[1], across[1]),
+            rodrigues(sin, cos, along[2], square[2], across[2]),
+        ],
+        None => [
+            Along::constant(along[0]),
+            Along::constant(along[1]),
+            Along::constant(along[2]),
+        ],
+    }
+}
+
+/// Rodrigues' formula.
+#[inline(always)]
+fn rodrigues<N: Number>(sin: Along<N>, cos: Along<N>, along: N, square: N, across: N) -> Along<N> {
+    Along::constant(along) + cos.scaled(square) + sin.scaled(across)
 }
 
 /// The rotation that leads from one orientation to another: its axis in the first one, and its angle from 0 to a half turn.

@@ -4,6 +4,7 @@
 //! Every bound is moved outward by at least a unit in its last place after it was computed, which is more than the rounding
 //! of the operation. Nothing here panics; a caller who keeps magnitudes within [`HUGE`] meets no infinity and no NaN.
 
+use super::number::Number;
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Numbers that an analysis does not go beyond.
@@ -13,53 +14,61 @@ const FUNCTION_ERROR: f64 = 4.0 * 4.5e-16;
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Interval {
+pub(super) struct Interval<N = f64> {
     /// The least of them.
-    pub(super) low: f64,
+    pub(super) low: N,
     /// The greatest of them.
-    pub(super) high: f64,
+    pub(super) high: N,
 }
 
 impl Interval {
     /// Only 0.
     pub(super) const ZERO: Self = Self::exactly(0.0);
-    /// From -1 to 1: the parameter of a span.
-    pub(super) const UNIT: Self = Self { low: -1.0, high: 1.0 };
 
+    /// Whether it lies within, and is a proper interval.
+    #[inline(always)]
+    pub(super) fn within(self, low: f64, high: f64) -> bool {
+        low <= self.low && self.low <= self.high && self.high <= high
+    }
+}
+
+impl<N: Copy> Interval<N> {
     /// One number.
     #[inline(always)]
-    pub(super) const fn exactly(number: f64) -> Self {
+    pub(super) const fn exactly(number: N) -> Self {
         Self {
             low: number,
             high: number,
         }
     }
+}
 
+impl<N: Number> Interval<N> {
     /// All numbers no further from `centre` than `radius`.
     #[inline(always)]
-    pub(super) fn around(centre: f64, radius: f64) -> Self {
+    pub(super) fn around(centre: N, radius: N) -> Self {
         outward(centre - radius, centre + radius)
     }
 
     #[inline(always)]
-    pub(super) fn middle(self) -> f64 {
-        0.5 * (self.low + self.high)
+    pub(super) fn middle(self) -> N {
+        self.low.of(0.5) * (self.low + self.high)
     }
 
     #[inline(always)]
-    pub(super) fn width(self) -> f64 {
+    pub(super) fn width(self) -> N {
         self.high - self.low
     }
 
     /// The largest absolute value.
     #[inline(always)]
-    pub(super) const fn magnitude(self) -> f64 {
-        greater(self.low.abs(), self.high.abs())
+    pub(super) fn magnitude(self) -> N {
+        self.low.magnitude().greater(self.high.magnitude())
     }
 
     /// Its product with the interval from -1 to 1, exactly.
     #[inline(always)]
-    pub(super) const fn either_way(self) -> Self {
+    pub(super) fn either_way(self) -> Self {
         let magnitude = self.magnitude();
         Self {
             low: -magnitude,
@@ -69,48 +78,42 @@ impl Interval {
 
     /// Its product with the interval from 0 to 1/2, exactly.
     #[inline(always)]
-    pub(super) const fn up_to_half(self) -> Self {
+    pub(super) fn up_to_half(self) -> Self {
+        let (half, zero) = (self.low.of(0.5), self.low.of(0.0));
         Self {
-            low: lesser(0.5 * self.low, 0.0),
-            high: greater(0.5 * self.high, 0.0),
+            low: (half * self.low).lesser(zero),
+            high: (half * self.high).greater(zero),
         }
     }
 
     /// What lies in both. Two enclosures of one number always have that number in common.
     #[inline(always)]
-    pub(super) const fn and(self, other: Self) -> Self {
+    pub(super) fn and(self, other: Self) -> Self {
         Self {
-            low: greater(self.low, other.low),
-            high: lesser(self.high, other.high),
+            low: self.low.greater(other.low),
+            high: self.high.lesser(other.high),
         }
     }
 
     /// The least interval around both.
     #[inline(always)]
-    pub(super) const fn hull(self, other: Self) -> Self {
+    pub(super) fn hull(self, other: Self) -> Self {
         Self {
-            low: lesser(self.low, other.low),
-            high: greater(self.high, other.high),
+            low: self.low.lesser(other.low),
+            high: self.high.greater(other.high),
         }
-    }
-
-    /// Whether it lies within, and is a proper interval.
-    #[inline(always)]
-    pub(super) fn within(self, low: f64, high: f64) -> bool {
-        low <= self.low && self.low <= self.high && self.high <= high
     }
 
     #[inline(always)]
     pub(super) fn squared(self) -> Self {
+        let zero = self.low.of(0.0);
         let (low, high) = (self.low * self.low, self.high * self.high);
-        let least = if self.low <= 0.0 && self.high >= 0.0 {
-            0.0
-        } else {
-            low.min(high)
-        };
-        let squares = outward(least, low.max(high));
+        // 0 is in it unless one of its ends is beyond 0 on the wrong side.
+        let least = low.lesser(high);
+        let least = zero.below(self.low, least, self.high.below(zero, least, zero));
+        let squares = outward(least, low.greater(high));
         Self {
-            low: squares.low.max(0.0),
+            low: squares.low.greater(zero),
             ..squares
         }
     }
@@ -118,16 +121,18 @@ impl Interval {
     /// The quotient by a divisor that is positive throughout.
     #[inline(always)]
     pub(super) fn over(self, divisor: Self) -> Self {
-        let inverse = outward(1.0 / divisor.high, 1.0 / divisor.low);
+        let one = self.low.of(1.0);
+        let inverse = outward(one / divisor.high, one / divisor.low);
         self * inverse
     }
 
     /// Roots of what is not negative in it.
     #[inline(always)]
     pub(super) fn root(self) -> Self {
-        let roots = outward(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
+        let zero = self.low.of(0.0);
+        let roots = outward(self.low.greater(zero).root(), self.high.greater(zero).root());
         Self {
-            low: roots.low.max(0.0),
+            low: roots.low.greater(zero),
             ..roots
         }
     }
@@ -136,43 +141,41 @@ impl Interval {
     #[inline(always)]
     pub(super) fn sin_cos(self) -> (Self, Self) {
         let centre = self.middle();
-        let (sin, cos) = libm::sincos(centre);
+        let (sin, cos) = centre.sin_cos();
         // Neither changes faster than the angle; the middle is rounded.
-        let radius = 0.5 * self.width() + centre.abs() * f64::EPSILON + FUNCTION_ERROR;
+        let radius = centre.of(0.5) * self.width()
+            + centre.magnitude() * centre.of(f64::EPSILON)
+            + centre.of(FUNCTION_ERROR);
         (Self::around(sin, radius), Self::around(cos, radius))
     }
 
     /// The direction of a narrow box `(x, y)` that keeps the given distance from the origin.
     #[inline(always)]
-    pub(super) fn direction(y: Self, x: Self, distance: f64) -> Self {
-        let centre = libm::atan2(y.middle(), x.middle());
+    pub(super) fn direction(y: Self, x: Self, distance: N) -> Self {
+        let centre = N::direction(y.middle(), x.middle());
         // A disc of radius r at a distance d is seen under asin(r / d) <= pi/2 r/d to either side.
-        let radius = 2.0 * (y.width() + x.width()) / distance + FUNCTION_ERROR;
+        let radius = distance.of(2.0) * (y.width() + x.width()) / distance + distance.of(FUNCTION_ERROR);
         Self::around(centre, radius)
     }
-}
 
-/// The lesser of two numbers. One instruction, where `f64::min` takes several to treat a NaN that cannot be.
-#[inline(always)]
-const fn lesser(one: f64, other: f64) -> f64 {
-    if one < other { one } else { other }
-}
-
-/// The greater of two numbers.
-#[inline(always)]
-const fn greater(one: f64, other: f64) -> f64 {
-    if one > other { one } else { other }
-}
-
-#[inline(always)]
-fn outward(low: f64, high: f64) -> Interval {
-    Interval {
-        low: low - (low.abs() * f64::EPSILON + f64::MIN_POSITIVE),
-        high: high + (high.abs() * f64::EPSILON + f64::MIN_POSITIVE),
+    /// Multiplied by a number.
+    #[inline(always)]
+    pub(super) fn scaled(self, factor: N) -> Self {
+        let (a, b) = (self.low * factor, self.high * factor);
+        outward(a.lesser(b), a.greater(b))
     }
 }
 
-impl Neg for Interval {
+#[inline(always)]
+fn outward<N: Number>(low: N, high: N) -> Interval<N> {
+    let (share, least) = (low.of(f64::EPSILON), low.of(f64::MIN_POSITIVE));
+    Interval {
+        low: low - (low.magnitude() * share + least),
+        high: high + (high.magnitude() * share + least),
+    }
+}
+
+impl<N: Number> Neg for Interval<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -183,7 +186,7 @@ impl Neg for Interval {
     }
 }
 
-impl Add for Interval {
+impl<N: Number> Add for Interval<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -191,7 +194,7 @@ impl Add for Interval {
     }
 }
 
-impl Sub for Interval {
+impl<N: Number> Sub for Interval<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -199,25 +202,24 @@ impl Sub for Interval {
     }
 }
 
-impl Mul for Interval {
+impl<N: Number> Mul for Interval<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self.low * other.low, self.low * other.high);
         let (c, d) = (self.high * other.low, self.high * other.high);
         outward(
-            lesser(lesser(a, b), lesser(c, d)),
-            greater(greater(a, b), greater(c, d)),
+            a.lesser(b).lesser(c.lesser(d)),
+            a.greater(b).greater(c.greater(d)),
         )
     }
 }
 
-impl Mul<f64> for Interval {
+impl<N: Number> Mul<f64> for Interval<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        let (a, b) = (self.low * factor, self.high * factor);
-        outward(lesser(a, b), greater(a, b))
+        self.scaled(self.low.of(factor))
     }
 }
 

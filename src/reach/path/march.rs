@@ -23,43 +23,90 @@ pub(super) enum Tried<V> {
 
 /// Proves a course from its beginning to its end; returns how many spans were tried.
 ///
-/// `attempt` tries a span that begins where the last proven one ended; the flag tells that loose bounds will do. A span
-/// that is refused is halved, so that all before the one that can be made no shorter is proven. How good the bounds of a
-/// span were tells how long the next is to be: they are off by a term of the second order in its length.
+/// `attempt` tries a span that begins where the last proven one ended; the flag tells that loose bounds will do.
 ///
 /// # Errors
-/// Where that one begins, and why it was refused.
+/// Where the span begins that can be made no shorter, and why it was refused.
 pub(super) fn march<V>(mut attempt: impl FnMut(Span, Effort) -> Tried<V>) -> Result<u32, (f64, V)> {
-    let (mut at, mut length, mut tries) = (0, TICKS, 0);
-    // After a refusal the next span is not tried longer: it would most often be refused again.
-    let mut grows = true;
-    while at < TICKS {
-        length = length.min(TICKS - at);
-        tries += 1;
-        let effort = if length <= FINE {
+    let mut march = March::new();
+    while !march.is_over() {
+        let (span, effort) = march.next();
+        march.became(attempt(span, effort))?;
+    }
+    Ok(march.tries)
+}
+
+/// How far a course is proven, and with how long a span it goes on.
+///
+/// A span that is refused is halved, so that all before the one that can be made no shorter is proven. How good the bounds of a
+/// span were tells how long the next is to be: they are off by a term of the second order in its length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct March {
+    at: u32,
+    length: u32,
+    tries: u32,
+    /// After a refusal the next span is not tried longer: it would most often be refused again.
+    grows: bool,
+}
+
+impl March {
+    /// At the beginning of a course.
+    pub(super) const fn new() -> Self {
+        Self {
+            at: 0,
+            length: TICKS,
+            tries: 0,
+            grows: true,
+        }
+    }
+
+    /// Whether the whole course is proven.
+    pub(super) const fn is_over(&self) -> bool {
+        self.at >= TICKS
+    }
+
+    /// How many spans were tried.
+    pub(super) const fn tries(&self) -> u32 {
+        self.tries
+    }
+
+    /// The span to try next, and how good its bounds have to be.
+    pub(super) fn next(&mut self) -> (Span, Effort) {
+        self.length = self.length.min(TICKS - self.at);
+        self.tries += 1;
+        let effort = if self.length <= FINE {
             Effort::Bare
         } else {
             Effort::Tight
         };
-        match attempt(span(at, length), effort) {
+        (span(self.at, self.length), effort)
+    }
+
+    /// Goes on after what became of the span.
+    ///
+    /// # Errors
+    /// As for [`march`].
+    pub(super) fn became<V>(&mut self, tried: Tried<V>) -> Result<(), (f64, V)> {
+        let length = self.length;
+        match tried {
             Tried::Proven(quality) => {
-                at += length;
+                self.at += length;
                 // Bounds that were bare are no reason to go on in ever shorter spans.
                 let next = scaled(length, quality).max(length.min(FINE));
-                length = if grows { next } else { length };
-                grows = true;
+                self.length = if self.grows { next } else { length };
+                self.grows = true;
             }
-            Tried::Refused(why) if length == 1 || tries >= MOST_TRIES => {
-                return Err((f64::from(at) / f64::from(TICKS), why));
+            Tried::Refused(why) if length == 1 || self.tries >= MOST_TRIES => {
+                return Err((f64::from(self.at) / f64::from(TICKS), why));
             }
-            Tried::Loose(quality) => length = scaled(length, quality).min(length - 1),
+            Tried::Loose(quality) => self.length = scaled(length, quality).min(length - 1),
             Tried::Refused(_) => {
-                length = (length / 2).max(1);
-                grows = false;
+                self.length = (length / 2).max(1);
+                self.grows = false;
             }
         }
+        Ok(())
     }
-    Ok(tries)
 }
 
 /// The length of a span whose bounds are as good as they have to be, with something in hand.

@@ -61,9 +61,11 @@
 //! - The blade's pose at a place is taken from floating point numbers, which are off by about 1e-15 of their size: over a
 //!   metre of arm by 1e-12 mm, less than the slack above unless the pose is next to singular, and asking for a clearance
 //!   excludes these.
-//! - `libm`'s sine, cosine and arc tangent are right to two units in the last place; four are allowed for.
+//! - Sine, cosine and arc tangent, of `libm` and of [`crate::kinematics::trig`], are right to two units in the last place; four are
+//!   allowed for.
 //! - The machine is as its model says. Calibration, elasticity and what else is in the cell are for others.
 
+mod abreast;
 mod along;
 mod arm;
 mod axes;
@@ -72,6 +74,7 @@ mod chain;
 mod course;
 mod interval;
 mod march;
+mod number;
 mod serial;
 #[cfg(test)]
 mod tests;
@@ -87,11 +90,10 @@ use crate::kinematics::opw::Opw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Joints, Mechanism, newton};
+use abreast::Underway;
 use arm::{ArmBranch, Carrying};
-use bounds::{Bounds, Progress, Stretch};
+use bounds::Stretch;
 use course::{Flight, Span};
-use interval::Interval;
-use march::march;
 use vcutc_backend_api::motion::Branch;
 
 /// A motion as controllers interpolate it: the tip on a straight line, the orientation on one rotation axis (of a robot) or
@@ -191,33 +193,32 @@ pub fn prove(
     start: &Joints,
     least: &Clearance,
 ) -> Result<Proof, Breach> {
-    let begins_with = |what| Breach { at: 0.0, what };
+    let asked = [(*course, *start)];
+    let nowhere = Err(Breach {
+        at: 0.0,
+        what: Violation::OutOfReach,
+    });
+    prove_all(rig, &asked, branch, least).pop().unwrap_or(nowhere)
+}
+
+/// The same for several courses, each with the axes at its start, on one branch; sooner than one by one.
+#[must_use]
+pub fn prove_all(
+    rig: &Rig<'_>,
+    courses: &[(Course, Joints)],
+    branch: Branch,
+    least: &Clearance,
+) -> Vec<Result<Proof, Breach>> {
     // Its controller interpolates in another way.
     if let Mechanism::FiveAxis(machine) = rig.mechanism {
-        return five_axis_path::prove(machine, rig, course, branch, start);
+        let one =
+            |(course, start): &(Course, Joints)| five_axis_path::prove(machine, rig, course, branch, start);
+        return courses.iter().map(one).collect();
     }
-    let way = Way::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
-    let start = &way.begun(start).ok_or(begins_with(Violation::OutOfReach))?;
-    let bounds = Bounds {
-        axes: rig.axes,
-        least: *least,
-        duration: course.duration,
-    };
-    bounds
-        .hold_values(&start.map(Interval::exactly))
-        .map_err(begins_with)?;
-    let mut progress = Progress::new(bounds, start);
-    let tries = march(|span, effort| {
-        let found = way.stretch(span, &progress.end());
-        progress.add(found, effort)
-    })
-    .map_err(|(at, why)| Breach {
-        at,
-        what: why.finite(),
-    })?;
-    // The enclosure of the end tells the turns; this is the end to the last digit.
-    let end = way.joints_at(1.0, &progress.end()).unwrap_or(progress.end());
-    Ok(progress.done(end, tries + 2))
+    let begun = courses
+        .iter()
+        .map(|(course, start)| Underway::begin(rig, course, branch, start, least));
+    abreast::finish(begun.collect())
 }
 
 /// The axes on a branch at a place, from 0 to 1, of a course that leads from the axes at its start to those at its end; those
@@ -285,6 +286,7 @@ struct Way<'m> {
 }
 
 /// How the axes are found, and how spans are proven.
+#[derive(Clone, Copy)]
 enum Machine<'m> {
     /// By a closed form.
     Arm(&'m Opw, ArmBranch),
@@ -364,13 +366,13 @@ impl<'m> Way<'m> {
     /// What the axes do on a span that they enter at `begin`, proven.
     fn stretch(&self, span: Span, begin: &Joints) -> Result<Stretch, Violation> {
         match self.machine {
-            Machine::Arm(arm, branch) => Carrying {
-                arm,
-                branch,
-                flight: &self.flight,
-                span,
+            Machine::Arm(arm, branch) => {
+                let mut carrying = Carrying::new(arm, branch, self.flight.turning());
+                carrying.take(0, &self.flight);
+                carrying.set(0, span);
+                carrying.sweep();
+                carrying.stretch(0)
             }
-            .stretch(),
             Machine::Serial(arm) => serial::stretch(arm, &self.flight, span, begin),
         }
     }

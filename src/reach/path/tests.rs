@@ -1,5 +1,6 @@
 //! Arms, random moves, and dense sampling, against which the proofs are tested.
 
+mod abreast;
 mod axes;
 mod sampling;
 mod serial;

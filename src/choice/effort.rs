@@ -5,11 +5,11 @@ const EACH: usize = 20;
 
 /// How many cuts may still be laid out and replayed.
 #[derive(Debug)]
-pub struct Work {
+pub struct Effort {
     cuts: usize,
 }
 
-impl Work {
+impl Effort {
     /// All remedies that are tried for one job that is refused.
     pub(crate) const OF_A_REFUSAL: Self = Self { cuts: 60_000 };
 

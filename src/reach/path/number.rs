@@ -1,0 +1,205 @@
+//! Numbers as the proof computes with them: one alone, or one of each of several courses side by side.
+//!
+//! The formulas are written once, for any [`Number`]. Nothing in them branches on a value, so that courses side by side go
+//! through the same steps; what a branch would say is computed as a number, too ([`Number::below`]).
+
+use crate::kinematics::trig::{Turn, atan2};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+use pulp::{Simd, bytemuck};
+
+/// A number, or one for each lane.
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// A constant of the same kind as this number.
+    fn of(self, constant: f64) -> Self;
+    /// Without its sign.
+    fn magnitude(self) -> Self;
+    /// Its root.
+    fn root(self) -> Self;
+    /// The lesser of two numbers.
+    fn lesser(self, other: Self) -> Self;
+    /// The greater of two numbers.
+    fn greater(self, other: Self) -> Self;
+    /// One number where this one is below a bound, another one where it is not.
+    fn below(self, bound: Self, then: Self, otherwise: Self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// The direction of a point `(x, y)`.
+    fn direction(y: Self, x: Self) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn of(self, constant: f64) -> Self {
+        constant
+    }
+
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    // One instruction, where `f64::min` takes several to treat a NaN that cannot be.
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn below(self, bound: Self, then: Self, otherwise: Self) -> Self {
+        if self < bound { then } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+
+    #[inline(always)]
+    fn direction(y: Self, x: Self) -> Self {
+        libm::atan2(y, x)
+    }
+}
+
+/// Numbers side by side, in a vector of the processor.
+///
+/// All that is computed with them has to end up in one function that is compiled for the processor's instructions: whatever is on
+/// the way there is `inline(always)`, closures are none of it, and of [`Simd`] only what is one instruction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wide<S: Simd> {
+    simd: S,
+    lanes: S::f64s,
+}
+
+impl<S: Simd> Wide<S> {
+    /// Of the first numbers, as many as the vector has lanes; 0 everywhere where there are fewer.
+    #[inline(always)]
+    pub(super) fn new(simd: S, numbers: &[f64]) -> Self {
+        let lanes = match numbers.get(..S::F64_LANES) {
+            Some(numbers) => bytemuck::pod_read_unaligned(bytemuck::cast_slice(numbers)),
+            None => simd.splat_f64s(0.0),
+        };
+        Self { simd, lanes }
+    }
+
+    /// The lanes.
+    #[inline(always)]
+    pub(super) fn lanes(&self) -> &[f64] {
+        bytemuck::cast_slice(core::slice::from_ref(&self.lanes))
+    }
+
+    #[inline(always)]
+    fn lanes_mut(&mut self) -> &mut [f64] {
+        bytemuck::cast_slice_mut(core::slice::from_mut(&mut self.lanes))
+    }
+
+    #[inline(always)]
+    fn with(self, lanes: S::f64s) -> Self {
+        Self { lanes, ..self }
+    }
+}
+
+impl<S: Simd> Number for Wide<S> {
+    #[inline(always)]
+    fn of(self, constant: f64) -> Self {
+        self.with(self.simd.splat_f64s(constant))
+    }
+
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        let without_sign = self.of(f64::from_bits(i64::MAX.cast_unsigned()));
+        self.with(self.simd.and_f64s(self.lanes, without_sign.lanes))
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.with(self.simd.sqrt_f64s(self.lanes))
+    }
+
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        self.with(self.simd.min_f64s(self.lanes, other.lanes))
+    }
+
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        self.with(self.simd.max_f64s(self.lanes, other.lanes))
+    }
+
+    #[inline(always)]
+    fn below(self, bound: Self, then: Self, otherwise: Self) -> Self {
+        let is_below = self.simd.less_than_f64s(self.lanes, bound.lanes);
+        let (then, otherwise) = (bytemuck::cast(then.lanes), bytemuck::cast(otherwise.lanes));
+        self.with(bytemuck::cast(self.simd.select_u64s(is_below, then, otherwise)))
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (mut sin, mut cos) = (self, self);
+        for ((angle, sin), cos) in self.lanes().iter().zip(sin.lanes_mut()).zip(cos.lanes_mut()) {
+            let turn = Turn::of(*angle);
+            (*sin, *cos) = (turn.sin, turn.cos);
+        }
+        (sin, cos)
+    }
+
+    #[inline(always)]
+    fn direction(y: Self, x: Self) -> Self {
+        let mut angles = y;
+        for ((y, x), angle) in y.lanes().iter().zip(x.lanes()).zip(angles.lanes_mut()) {
+            *angle = atan2(*y, *x);
+        }
+        angles
+    }
+}
+
+impl<S: Simd> Add for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.with(self.simd.add_f64s(self.lanes, other.lanes))
+    }
+}
+
+impl<S: Simd> Sub for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.with(self.simd.sub_f64s(self.lanes, other.lanes))
+    }
+}
+
+impl<S: Simd> Mul for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.with(self.simd.mul_f64s(self.lanes, other.lanes))
+    }
+}
+
+impl<S: Simd> Div for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.with(self.simd.div_f64s(self.lanes, other.lanes))
+    }
+}
+
+impl<S: Simd> Neg for Wide<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.with(self.simd.xor_f64s(self.lanes, self.of(-0.0).lanes))
+    }
+}
