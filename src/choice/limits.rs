@@ -39,6 +39,12 @@ pub(super) fn broken(job: &CheckedJob, asked: &RoughVcut, vcut: &PlannedVcut) ->
 
 /// Which of its limits a plan of so many cuts breaks that takes this time.
 pub(super) fn excess(asked: &RoughVcut, time: Duration, cuts: usize) -> Option<Excess> {
+    let [late, many] = excesses(asked, time, cuts);
+    late.or(many)
+}
+
+/// By how much the limit on time and the limit on cuts are broken.
+fn excesses(asked: &RoughVcut, time: Duration, cuts: usize) -> [Option<Excess>; 2] {
     let limits = &asked.limits;
     let late = limits
         .time
@@ -51,7 +57,7 @@ pub(super) fn excess(asked: &RoughVcut, time: Duration, cuts: usize) -> Option<E
         .map(|limit| limit.value)
         .filter(|&limit| cuts as f64 > limit)
         .map(|limit| Excess::Cuts { cuts, limit });
-    late.or(many)
+    [late, many]
 }
 
 /// The operation with the limit that a plan broke tightened for the model by as much.
@@ -76,8 +82,24 @@ pub(super) fn tightened(assumed: &RoughVcut, excess: Excess) -> RoughVcut {
 /// otherwise.
 const MARGINS: [f64; 4] = [1.0, 1.02, 1.1, 1.25];
 
-/// A plan that breaks a limit: what it comes to, and the limit that it keeps.
+/// A plan that breaks a limit: what it comes to, and wider limits, of which one may be kept.
 pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
+    let (told, span) = found(vcut, excess);
+    let asked = &vcut.asked;
+    let ladder = MARGINS
+        .into_iter()
+        .map(|margin| wider(asked, excess, margin, span))
+        .collect();
+    Refused {
+        told,
+        ladders: vec![ladder],
+        resort: Offer::all_open(asked),
+        otherwise: Some("widen the limit, or leave more of the parameters `auto`".to_owned()),
+    }
+}
+
+/// What a plan comes to that breaks a limit, and where the limit stands.
+fn found(vcut: &PlannedVcut, excess: Excess) -> (Diagnostic, Span) {
     let asked = &vcut.asked;
     let limits = &asked.limits;
     let (plan, limit, span) = match excess {
@@ -92,13 +114,10 @@ pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
             limits.cuts.and_then(|limit| limit.span),
         ),
     };
-    // What is searched for without the limit on what is made small comes to the same under any that it keeps.
-    let (which, is_certain) = match (asked.objective.value, excess, super::trial::is_searched(asked)) {
-        (Objective::Time, Excess::Time { .. }, true) => ("the fastest plan found", true),
-        (Objective::Cuts, Excess::Cuts { .. }, true) => ("the plan of the fewest cuts found", true),
-        (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _, _) => {
-            ("the plan", false)
-        }
+    let which = match (asked.objective.value, excess, super::trial::is_searched(asked)) {
+        (Objective::Time, Excess::Time { .. }, true) => "the fastest plan found",
+        (Objective::Cuts, Excess::Cuts { .. }, true) => "the plan of the fewest cuts found",
+        (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _, _) => "the plan",
     };
     let span = span.unwrap_or(asked.head_span);
     let told = Diagnostic::new(
@@ -108,19 +127,7 @@ pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
         "the limit",
     )
     .note("this is the operation as planned, at programmed speeds, not an estimate");
-    let ladder: Vec<Offer> = MARGINS
-        .into_iter()
-        .map(|margin| wider(asked, excess, margin, span))
-        .collect();
-    if is_certain {
-        return kept_as_told(told, ladder).into();
-    }
-    Refused {
-        told,
-        ladders: vec![ladder],
-        resort: Offer::all_open(asked),
-        otherwise: Some("widen the limit, or leave more of the parameters `auto`".to_owned()),
-    }
+    (told, span)
 }
 
 /// In seconds, to a tenth, upwards.
@@ -154,17 +161,22 @@ fn wider(asked: &RoughVcut, excess: Excess, margin: f64, span: Span) -> Offer {
     }
 }
 
-/// What is told of a plan that was made: it keeps the nearest of the wider limits, so that one need not be tried.
-fn kept_as_told(told: Diagnostic, ladder: Vec<Offer>) -> Diagnostic {
-    let nearest = ladder.into_iter().next();
-    nearest
-        .into_iter()
-        .fold(told, |told, offer| told.fix_all(offer.title, &offer.edits))
-}
-
-/// A plan that breaks a limit, told by who made it without that limit.
-pub(super) fn told(vcut: &PlannedVcut, excess: Excess) -> Diagnostic {
-    let refused = complaint(vcut, excess);
-    let ladder = refused.ladders.into_iter().flatten().collect();
-    kept_as_told(refused.told, ladder)
+/// A plan that breaks limits, told by who made it without them: it keeps the nearest wider ones, so they need not be tried.
+pub(super) fn told(vcut: &PlannedVcut, time: Duration) -> Option<Diagnostic> {
+    let asked = &vcut.asked;
+    let [late, many] = excesses(asked, time, vcut.cuts.len());
+    let (first, others) = match (late, many) {
+        (Some(late), many) => (late, many),
+        (None, many) => (many?, None),
+    };
+    let (told, span) = found(vcut, first);
+    let nearest = |excess, span| wider(asked, excess, 1.0, span);
+    let mut offer = nearest(first, span);
+    if let Some(other) = others {
+        let (_, span) = found(vcut, other);
+        let other = nearest(other, span);
+        offer.title = format!("{} and `cuts <= {}`", offer.title, vcut.cuts.len());
+        offer.edits.extend(other.edits);
+    }
+    Some(told.fix_all(offer.title, &offer.edits))
 }

@@ -133,10 +133,9 @@ pub fn unlimited(job: &CheckedJob) -> Option<CheckedJob> {
 pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
     let told = |(asked, planned): (&Operation, &PlannedOperation)| {
         let (Operation::RoughVcut(asked), PlannedOperation::RoughVcut(vcut)) = (asked, planned);
-        let excess = limits::broken(job, asked, vcut)?;
-        let mut vcut = vcut.clone();
-        vcut.asked.limits = asked.limits;
-        Some(limits::told(&vcut, excess))
+        let mut limited = vcut.clone();
+        limited.asked.limits = asked.limits;
+        limits::told(&limited, bench::time(job, vcut)?)
     };
     job.operations
         .iter()

@@ -96,6 +96,19 @@ pub(super) fn with(place: Span, name: &str) -> Diagnostic {
     .help(format!("take `{name}` out of the motion"))
 }
 
+pub(super) fn block_with(place: Span, word: &str) -> Diagnostic {
+    let word = word.to_ascii_uppercase();
+    Diagnostic::new(
+        Code::NotFollowed,
+        format!("`{word}` sets something for all segments of its block, and that is not followed"),
+        place,
+        "holds to the end of the block",
+    )
+    .help(format!(
+        "write what is behind `{word}` in front of the block, as statements such as `$VEL.CP = 0.2`, or behind each segment"
+    ))
+}
+
 pub(super) fn missing_routine(place: Span, name: &str, first: &str) -> Diagnostic {
     let file = format!("{}.src", name.to_ascii_lowercase());
     Diagnostic::new(

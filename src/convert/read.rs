@@ -345,6 +345,10 @@ impl<'t> Reader<'t, '_> {
             self.forks.pop();
             self.milling.left_out.push(place);
         } else if is(&["SPLINE", "PTP_SPLINE", "ENDSPLINE", "CONTINUE"]) {
+            let mut words = self.files.said(place).split_ascii_whitespace().skip(1);
+            if words.next().is_some_and(|second| is_same_name(second, "WITH")) {
+                self.push(complaints::block_with(place, word));
+            }
             self.milling.settings.push(place);
         } else {
             self.unknown_value(asker, word, place);

@@ -194,7 +194,9 @@ impl Writer<'_> {
 
     /// `NAME.src:12`.
     fn named(&self, place: Span) -> String {
-        format!("{}:{}", self.sources.name(place.file), self.lines.line(place))
+        // Names of files may hold anything, line ends too, which would end the comment.
+        let name = self.sources.name(place.file).replace(char::is_control, " ");
+        format!("{name}:{}", self.lines.line(place))
     }
 
     fn head(&mut self, material: &Material<'_>) {

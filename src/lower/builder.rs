@@ -51,6 +51,25 @@ impl Builder {
         }
     }
 
+    /// How the blade is held; none at home or wherever the machine was left.
+    pub(super) fn held(&self) -> Option<Orientation> {
+        let last = self.program.ops.iter().rev().find_map(|op| match op.action {
+            Action::Travel { orientation, .. } | Action::AxisTravel { orientation, .. } => {
+                Some(Some(orientation))
+            }
+            Action::Turn { to, .. } => Some(Some(to)),
+            Action::Home | Action::ToolChange { .. } => Some(None),
+            Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. } => None,
+        });
+        let OrientationId(index) = last.flatten()?;
+        self.program.orientations.get(index as usize).copied()
+    }
+
     /// Appends an op; leaves out what the cell does not have (home angles, a generator).
     pub(super) fn op(&mut self, site: Site, action: Action) {
         let cell = self.program.cell.as_ref();

@@ -110,6 +110,7 @@ struct Writer<'b> {
     safe: f64,
     at: Place,
     tip: Point3,
+    /// How the blade is held, first of all by the operation before.
     held: Option<Orientation>,
     /// The cut made last.
     last: Option<Site>,
@@ -132,6 +133,7 @@ impl<'b> Writer<'b> {
         );
         let rate = builder.rate(asked.reorient_rate.value);
         let safe = grid::up((stock.height + asked.clearance.value).to_mm());
+        let held = builder.held();
         Self {
             builder,
             operation,
@@ -146,7 +148,7 @@ impl<'b> Writer<'b> {
             safe,
             at: Place::Above,
             tip: Point3::new(0.0, -extension, safe),
-            held: None,
+            held,
             last: None,
             running: Switch::Off,
         }

@@ -51,12 +51,17 @@ pub(super) fn nothing_to_cut(
             .into();
     }
     let layer = show(grid::down(depth));
+    let whole = show(parameters.layer.to_mm());
+    let note = if depth < parameters.layer.to_mm() {
+        let depth = show(depth);
+        format!("the depth of {depth} mm is less than one layer of {whole} mm, and tips are not raised")
+    } else {
+        format!(
+            "no tip of a whole layer of {whole} mm has anything above it that is still to be cut, and tips are not raised"
+        )
+    };
     Refused {
-        told: diagnostic.note(format!(
-            "the depth of {} mm is less than one layer of {} mm, and tips are not raised",
-            show(depth),
-            show(parameters.layer.to_mm())
-        )),
+        told: diagnostic.note(note),
         ladders: vec![raised_tips(asked), thinner_layers(asked, depth)],
         resort: Offer::all_open(asked),
         otherwise: Some(format!(
@@ -125,7 +130,7 @@ pub(super) fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, coun
         format!("this operation would take up to {count} cuts, a program may have {MOST_CUTS}")
     } else {
         format!(
-            "the {count} cuts of this operation are too many beside others, or lie too close together to be planned"
+            "the {count} cuts of this operation lie too close together to be planned, or are too many with those of the others"
         )
     };
     let mut diagnostic = Diagnostic::new(Code::TooManyCuts, message, span, label);

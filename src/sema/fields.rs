@@ -45,6 +45,8 @@ pub(crate) struct Fields<'a> {
     pub(crate) targets: Vec<&'a Block>,
     insertion: Insertion,
     damage: Option<Reported>,
+    /// Fields that an unknown one perhaps is.
+    misspelt: BTreeMap<&'static str, Reported>,
 }
 
 impl<'a> Fields<'a> {
@@ -63,6 +65,7 @@ impl<'a> Fields<'a> {
             targets: Vec::new(),
             insertion: Insertion::before_end_of(place.whole, session.sources),
             damage: session.damage_at(place.whole),
+            misspelt: BTreeMap::new(),
         };
         for entry in entries {
             fields.sort_entry(entry, &mut session.reports);
@@ -129,7 +132,9 @@ impl<'a> Fields<'a> {
     fn put(&mut self, given: Given<'_, 'a>, reports: &mut Reports) {
         let name = given.name;
         let Some(spec) = self.spec.field(&name.node) else {
-            reports.push(self.unknown_field(name));
+            let near = nearest(&name.node, self.spec.fields.iter().map(|spec| spec.name));
+            let reported = reports.push(self.unknown_field(name, &near));
+            self.misspelt.extend(near.first().map(|&first| (first, reported)));
             return;
         };
         let slots = match given.written {
@@ -208,7 +213,8 @@ impl<'a> Fields<'a> {
 
     /// Reports a field that must be given and is not.
     fn missing(&self, name: &str, reports: &mut Reports) -> Reported {
-        if let Some(reported) = self.damage {
+        // Who writes `clearence` does not lack a `clearance` besides.
+        if let Some(reported) = self.damage.or_else(|| self.misspelt.get(name).copied()) {
             return reported;
         }
         let spec = self.spec.field(name);
@@ -228,15 +234,14 @@ impl<'a> Fields<'a> {
         diagnostic.fix(title, self.insertion.at, self.insertion.text(field))
     }
 
-    fn unknown_field(&self, name: &Spanned<String>) -> Diagnostic {
+    fn unknown_field(&self, name: &Spanned<String>, near: &[&str]) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::UnknownField,
             format!("{} has no field `{}`", self.spec.title, name.node),
             name.span,
             "not a field of this block",
         );
-        let near = nearest(&name.node, self.spec.fields.iter().map(|spec| spec.name));
-        did_you_mean(diagnostic, name.span, &near).note(field_list(self.spec))
+        did_you_mean(diagnostic, name.span, near).note(field_list(self.spec))
     }
 
     fn belongs_in_profile(&self, what: &str, span: Span) -> Diagnostic {

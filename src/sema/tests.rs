@@ -274,6 +274,16 @@ fn a_missing_field_is_added_in_the_manner_of_its_block() {
 }
 
 #[test]
+fn a_misspelt_field_is_not_missing_besides() {
+    let text = job("", "4 mm").replacen("rake", "raek", 1);
+    let (diagnostics, _) = Files::default().with("job.vcut", text.as_str()).check(&[]);
+    assert_eq!(codes(&diagnostics), [Code::UnknownField]);
+    let edits = &diagnostics[0].fixes[0].edits;
+    let fixed = fix::apply(&text, edits[0].span.file, edits).unwrap();
+    assert_eq!(fixed, job("", "4 mm"));
+}
+
+#[test]
 fn no_fix_changes_the_command_line() {
     let files = Files::default().with("job.vcut", job("let h = 5 mm", "h"));
     let (diagnostics, _) = files.check(&["h=4 mm + 4"]);

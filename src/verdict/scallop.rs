@@ -123,10 +123,14 @@ fn limit_or_swing(
     height: Length,
 ) -> Diagnostic {
     let asked = &vcut.asked;
-    let mut diagnostic = diagnostic.note(
-        "where the part is steeper than the flanks of the V, cuts cannot follow it whatever their size",
-    );
-    if let Some(limit) = limit_that_is_kept(attempts, height) {
+    let little_wider = wider_limit(attempts, asked, height);
+    let mut diagnostic = match little_wider {
+        Some(_) => diagnostic,
+        None => diagnostic.note(
+            "where the part is steeper than the flanks of the V, cuts cannot follow it whatever their size",
+        ),
+    };
+    if let Some(limit) = little_wider.or_else(|| limit_that_is_kept(attempts, height)) {
         let value = format!("{} mm", show(limit.to_mm()));
         let title = format!("raise the limit: `scallop <= {value}`");
         diagnostic = match limit_span(asked) {
@@ -161,6 +165,24 @@ fn swing_that_keeps_it(attempts: &mut Attempts<'_>, swing: Angle) -> Option<Angl
         .find(|&narrower| attempts.prove(|asked| asked.swing.value = Auto::Given(narrower)))
 }
 
+/// A scallop limit little above the one asked for: what is chosen for that one need not leave as much as this plan does.
+fn wider_limit(attempts: &mut Attempts<'_>, asked: &RoughVcut, height: Length) -> Option<Length> {
+    let given = asked.limits.scallop?.value;
+    let factors = [WIDER, 1.5, 2.0].into_iter();
+    factors
+        .map(|factor| Length::mm((given.to_mm() * factor * 10.0).ceil() / 10.0))
+        .filter(|&limit| limit < height)
+        .find(|&limit| keeps(attempts, limit))
+}
+
+fn keeps(attempts: &mut Attempts<'_>, limit: Length) -> bool {
+    attempts.prove(|asked| {
+        if let Some(given) = &mut asked.limits.scallop {
+            given.value = limit;
+        }
+    })
+}
+
 /// A scallop limit that the job keeps. Layers that follow from the limit grow with it, so the height that stays now need
 /// not be one.
 fn limit_that_is_kept(attempts: &mut Attempts<'_>, height: Length) -> Option<Length> {
@@ -168,12 +190,7 @@ fn limit_that_is_kept(attempts: &mut Attempts<'_>, height: Length) -> Option<Len
     for _ in 0..MOST_LIMITS {
         // To a tenth of a millimetre, upwards.
         limit = Length::mm((limit.to_mm() * 10.0).ceil() / 10.0);
-        let is_kept = attempts.prove(|asked| {
-            if let Some(given) = &mut asked.limits.scallop {
-                given.value = limit;
-            }
-        });
-        if is_kept {
+        if keeps(attempts, limit) {
             return Some(limit);
         }
         limit = limit * WIDER;

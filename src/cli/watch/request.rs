@@ -47,8 +47,10 @@ pub(super) enum Refused {
     NotFound,
     /// It wants to do something else than read.
     Method,
-    /// Its head is too long, or does not end in time.
+    /// Its head is too long.
     TooLong,
+    /// Its head does not end in time.
+    Late,
     /// Too many others are being answered.
     Busy,
 }
@@ -61,6 +63,7 @@ impl Refused {
             Self::Stranger => "403 Forbidden",
             Self::NotFound => "404 Not Found",
             Self::Method => "405 Method Not Allowed",
+            Self::Late => "408 Request Timeout",
             Self::TooLong => "431 Request Header Fields Too Large",
             Self::Busy => "503 Service Unavailable",
         }

@@ -195,14 +195,17 @@ fn request(stream: &mut TcpStream) -> io::Result<Result<String, Refused>> {
     let mut piece = [0; 1024];
     loop {
         let left = end.saturating_duration_since(Instant::now());
-        if left.is_zero() || head.len() > LONGEST_HEAD {
+        if left.is_zero() {
+            return Ok(Err(Refused::Late));
+        }
+        if head.len() > LONGEST_HEAD {
             return Ok(Err(Refused::TooLong));
         }
         stream.set_read_timeout(Some(left))?;
         let length = match stream.read(&mut piece) {
             Ok(length) => length,
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
-                return Ok(Err(Refused::TooLong));
+                return Ok(Err(Refused::Late));
             }
             Err(error) => return Err(error),
         };

@@ -306,7 +306,7 @@ fn a_request_that_does_not_end_is_given_up() {
     // It is told so, though this side has not ended it.
     let mut answer = String::new();
     stream.read_to_string(&mut answer).unwrap();
-    assert!(answer.starts_with("HTTP/1.1 431 "), "{answer}");
+    assert!(answer.starts_with("HTTP/1.1 408 "), "{answer}");
     assert!(get(&address, "/").starts_with("HTTP/1.1 200 "));
 }
 

@@ -185,6 +185,12 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
             Code::Unclear,
         ),
         (
+            "a speed for the segments of a spline block",
+            instead(&format!("SPLINE WITH $VEL=SVEL_CP(0.1)\nS{PASS}ENDSPLINE\n")),
+            WORDS,
+            Code::NotFollowed,
+        ),
+        (
             "a motion with an output of its own",
             instead("SLIN {X 30.560,Y -3.000,Z 45.600} WITH $OUT[1]=TRUE"),
             WORDS,
