@@ -125,6 +125,8 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
 fn as_asked(mut laid: LaidOut, asked: &RoughVcut) -> LaidOut {
     laid.vcut.asked.limits = asked.limits;
     laid.vcut.asked.objective = asked.objective;
+    // Whatever its parameters began as, the plan was replayed.
+    laid.vcut.parameters = laid.vcut.parameters.found_by_simulation(asked);
     laid
 }
 

@@ -25,7 +25,7 @@ use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
-use crate::plan::parameters::{self, Refusal, ScallopBy, VcutParameters};
+use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -341,12 +341,8 @@ impl<'t> Trials<'t> {
 
     /// Parameters with what they came up against, and by what the limit on scallop was held against them.
     fn held_by_simulation(&self, sound: &Sound) -> VcutParameters {
-        let mut parameters = sound.parameters.clone();
+        let mut parameters = sound.parameters.clone().found_by_simulation(self.asked);
         parameters.binding = met::binding(self.asked, sound, &self.turned_down);
-        let bound = parameters.scallop_bound(self.asked);
-        if self.asked.limits.scallop.is_some_and(|limit| bound > limit.value) {
-            parameters.scallop_by = ScallopBy::Simulation;
-        }
         parameters
     }
 

@@ -153,6 +153,21 @@ impl VcutParameters {
             + self.drop
     }
 
+    /// The same, found by simulation: where the lattice's bound breaks the limit on scallop, simulation has held it.
+    #[must_use]
+    pub fn found_by_simulation(self, asked: &RoughVcut) -> Self {
+        let bound = self.scallop_bound(asked);
+        let is_broken = asked.limits.scallop.is_some_and(|limit| bound > limit.value);
+        Self {
+            scallop_by: if is_broken {
+                ScallopBy::Simulation
+            } else {
+                self.scallop_by
+            },
+            ..self
+        }
+    }
+
     /// The mean-value model of the paper for a job cut with these parameters.
     #[must_use]
     pub fn time_model(&self, job: &CheckedJob, asked: &RoughVcut) -> TimeModel {
