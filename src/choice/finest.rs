@@ -95,14 +95,23 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
     if fastest.vcut.cuts.len() > MOST_CUTS_COMPARED {
         return Ok(as_asked(fastest, asked));
     }
-    let fastest = bench.weigh(fastest);
+    let limit = asked.limits.scallop.map(|limit| limit.value);
+    let fastest = bench.weigh(fastest).held_to(limit, asked);
     let formulas = by_formulas.and_then(|found| planned(bench, asked, found, cuts_left));
     let by_formulas = formulas.as_ref().map(|one| one.standing);
-    let sound = formulas.filter(|one| one.standing.time().is_some());
-    let start = match sound {
-        Some(sound) if measure(asked, &sound.figures) < measure(asked, &fastest.figures) => sound,
+    let is_sound = |one: &Contender| one.standing.time().is_some();
+    let start = match formulas.filter(is_sound) {
+        Some(sound)
+            if !is_sound(&fastest) || measure(asked, &sound.figures) < measure(asked, &fastest.figures) =>
+        {
+            sound
+        }
         Some(_) | None => fastest,
     };
+    if !is_sound(&start) {
+        // No plan keeps the job's own limits, so there is none to be narrowed.
+        return Ok(as_asked(start.laid, asked));
+    }
     let mut search = Search {
         bench,
         asked,
@@ -125,8 +134,6 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
 fn as_asked(mut laid: LaidOut, asked: &RoughVcut) -> LaidOut {
     laid.vcut.asked.limits = asked.limits;
     laid.vcut.asked.objective = asked.objective;
-    // Whatever its parameters began as, the plan was replayed.
-    laid.vcut.parameters = laid.vcut.parameters.found_by_simulation(asked);
     laid
 }
 

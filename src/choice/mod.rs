@@ -366,12 +366,7 @@ fn best_finalist(
         return best_residual(bench, asked, &only.parameters, cuts_left);
     }
     let outcome = |finalist: &Finalist| {
-        let parameters = finalist.parameters.clone();
-        let parameters = match finalist.found {
-            FoundBy::Formulas => parameters,
-            FoundBy::Simulation => parameters.found_by_simulation(asked),
-        };
-        let laid = best_residual(bench, asked, &parameters, cuts_left)?;
+        let laid = best_residual(bench, asked, &finalist.parameters, cuts_left)?;
         Ok((finalist.found, bench.weigh(laid).held_to(limit, asked)))
     };
     let outcomes: Vec<Result<(FoundBy, Contender), Unplanned>> =

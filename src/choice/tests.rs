@@ -8,7 +8,7 @@ use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 use crate::plan::decision::Standing;
 use crate::plan::route::{Heading, layers};
-use crate::plan::tests::{a_job, operation, paper_job};
+use crate::plan::tests::{a_job, all_auto, operation, paper_job};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::surface::{Side, Surface, Vee};
 use crate::source::SourceMap;
@@ -328,13 +328,7 @@ fn all_open(corners: Vec<Point2>, swing: Option<f64>, scallop: Option<f64>) -> C
     let mut job = paper_job(corners);
     let asked = operation(&mut job);
     asked.lattice.value = Auto::Auto;
-    asked.swing.value = Auto::Auto;
-    asked.layer.value = Auto::Auto;
-    asked.step.value = Auto::Auto;
-    asked.overlap.value = Auto::Auto;
-    asked.residual.value = Auto::Auto;
-    asked.order.value = Auto::Auto;
-    asked.sequence.value = Auto::Auto;
+    all_auto(asked);
     asked.limits.swing.most = swing.map(|most| Sourced {
         value: Angle::deg(most),
         span: None,

@@ -150,7 +150,7 @@ pub(super) fn any(
     }
     let first = trials.sound.into_iter().next();
     let found = Any {
-        sound: first.map(|sound| (sound.parameters, sound.figures)),
+        sound: first.map(|sound| (sound.parameters.found_by_simulation(asked), sound.figures)),
         turned_down: trials.turned_down,
     };
     (found, trials.effort)

@@ -166,6 +166,17 @@ proptest! {
     }
 }
 
+/// Leaves the sizes, the residual and the route to the compiler.
+pub(crate) fn all_auto(asked: &mut RoughVcut) {
+    asked.swing.value = Auto::Auto;
+    asked.layer.value = Auto::Auto;
+    asked.step.value = Auto::Auto;
+    asked.overlap.value = Auto::Auto;
+    asked.residual.value = Auto::Auto;
+    asked.order.value = Auto::Auto;
+    asked.sequence.value = Auto::Auto;
+}
+
 prop_compose! {
     /// Jobs that leave everything to the compiler, within limits that may be sensible or not.
     fn an_open_job()(
@@ -190,13 +201,7 @@ prop_compose! {
         asked.lattice.value = lattice;
         asked.objective.value = objective;
         asked.formulas.value = formulas;
-        asked.swing.value = Auto::Auto;
-        asked.layer.value = Auto::Auto;
-        asked.step.value = Auto::Auto;
-        asked.overlap.value = Auto::Auto;
-        asked.residual.value = Auto::Auto;
-        asked.order.value = Auto::Auto;
-        asked.sequence.value = Auto::Auto;
+        all_auto(asked);
         asked.extension.value = Auto::Auto;
         asked.standoff.value = Auto::Auto;
         asked.limits = Limits {
