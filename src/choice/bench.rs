@@ -51,11 +51,6 @@ pub(super) struct Bench<'j> {
     pub(super) wanted: Wanted,
 }
 
-/// The stock of a job before its first operation.
-pub(super) fn untouched(job: &CheckedJob) -> Surface {
-    Surface::flat(job.stock.width.to_mm(), job.stock.height.to_mm())
-}
-
 impl<'j> Bench<'j> {
     pub(super) fn new(job: &'j CheckedJob, asked: &RoughVcut, before: Surface, latitude: Latitude) -> Self {
         Self {

@@ -84,50 +84,41 @@ const MARGINS: [f64; 4] = [1.0, 1.02, 1.1, 1.25];
 
 /// A plan that breaks a limit: what it comes to, and wider limits, of which one may be kept.
 pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
-    let (told, span) = found(vcut, excess);
     let asked = &vcut.asked;
     let ladder = MARGINS
         .into_iter()
-        .map(|margin| wider(asked, excess, margin, span))
+        .map(|margin| wider(asked, &[excess], margin))
         .collect();
     Refused {
-        told,
+        told: found(vcut, excess),
         ladders: vec![ladder],
         resort: Offer::all_open(asked),
         otherwise: Some("widen the limit, or leave more of the parameters `auto`".to_owned()),
     }
 }
 
-/// What a plan comes to that breaks a limit, and where the limit stands.
-fn found(vcut: &PlannedVcut, excess: Excess) -> (Diagnostic, Span) {
+/// What a plan comes to that breaks a limit.
+fn found(vcut: &PlannedVcut, excess: Excess) -> Diagnostic {
     let asked = &vcut.asked;
-    let limits = &asked.limits;
-    let (plan, limit, span) = match excess {
+    let (plan, limit) = match excess {
         Excess::Time { time, limit } => (
             format!("takes {} s", show(tenths(time.to_s()))),
             format!("{} s", show(limit.to_s())),
-            limits.time.and_then(|limit| limit.span),
         ),
-        Excess::Cuts { cuts, limit } => (
-            format!("has {cuts} cuts"),
-            show(limit.floor()),
-            limits.cuts.and_then(|limit| limit.span),
-        ),
+        Excess::Cuts { cuts, limit } => (format!("has {cuts} cuts"), show(limit.floor())),
     };
     let which = match (asked.objective.value, excess, super::trial::is_searched(asked)) {
         (Objective::Time, Excess::Time { .. }, true) => "the fastest plan found",
         (Objective::Cuts, Excess::Cuts { .. }, true) => "the plan of the fewest cuts found",
         (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _, _) => "the plan",
     };
-    let span = span.unwrap_or(asked.head_span);
-    let told = Diagnostic::new(
+    Diagnostic::new(
         Code::LimitsConflict,
         format!("{which} {plan}, the limit is {limit}"),
-        span,
+        place(asked, excess),
         "the limit",
     )
-    .note("this is the operation as planned, at programmed speeds, not an estimate");
-    (told, span)
+    .note("this is the operation as planned, at programmed speeds, not an estimate")
 }
 
 /// In seconds, to a tenth, upwards.
@@ -135,48 +126,53 @@ fn tenths(seconds: f64) -> f64 {
     (seconds * 10.0 - 1e-6).ceil() / 10.0
 }
 
-/// The operation with the limit that a plan broke as wide as the plan needs it, and wider by a margin.
-fn wider(asked: &RoughVcut, excess: Excess, margin: f64, span: Span) -> Offer {
+/// The operation with the limits that a plan broke as wide as the plan needs them, and wider by a margin.
+fn wider(asked: &RoughVcut, broken: &[Excess], margin: f64) -> Offer {
     let mut changed = asked.clone();
-    let (name, text) = match excess {
-        Excess::Time { time, .. } => {
-            let kept = tenths(time.to_s() * margin);
-            if let Some(limit) = &mut changed.limits.time {
-                limit.value = Duration::s(kept);
+    let (mut titles, mut edits) = (Vec::new(), Vec::new());
+    for &excess in broken {
+        let (name, text) = match excess {
+            Excess::Time { time, .. } => {
+                let kept = tenths(time.to_s() * margin);
+                if let Some(limit) = &mut changed.limits.time {
+                    limit.value = Duration::s(kept);
+                }
+                ("time", format!("{} s", show(kept)))
             }
-            ("time", format!("{} s", show(kept)))
-        }
-        Excess::Cuts { cuts, .. } => {
-            let kept = (cuts as f64 * margin).ceil();
-            if let Some(limit) = &mut changed.limits.cuts {
-                limit.value = kept;
+            Excess::Cuts { cuts, .. } => {
+                let kept = (cuts as f64 * margin).ceil();
+                if let Some(limit) = &mut changed.limits.cuts {
+                    limit.value = kept;
+                }
+                ("cuts", show(kept))
             }
-            ("cuts", show(kept))
-        }
-    };
+        };
+        titles.push(format!("`{name} <= {text}`"));
+        edits.push((place(asked, excess), text));
+    }
     Offer {
-        title: format!("use `{name} <= {text}`"),
-        edits: vec![(span, text)],
+        title: format!("use {}", titles.join(" and ")),
+        edits,
         changed,
     }
 }
 
+/// Where the limit stands that a plan broke.
+fn place(asked: &RoughVcut, excess: Excess) -> Span {
+    let limits = &asked.limits;
+    let span = match excess {
+        Excess::Time { .. } => limits.time.and_then(|limit| limit.span),
+        Excess::Cuts { .. } => limits.cuts.and_then(|limit| limit.span),
+    };
+    span.unwrap_or(asked.head_span)
+}
+
 /// A plan that breaks limits, told by who made it without them: it keeps the nearest wider ones, so they need not be tried.
 pub(super) fn told(vcut: &PlannedVcut, time: Duration) -> Option<Diagnostic> {
-    let asked = &vcut.asked;
-    let [late, many] = excesses(asked, time, vcut.cuts.len());
-    let (first, others) = match (late, many) {
-        (Some(late), many) => (late, many),
-        (None, many) => (many?, None),
-    };
-    let (told, span) = found(vcut, first);
-    let nearest = |excess, span| wider(asked, excess, 1.0, span);
-    let mut offer = nearest(first, span);
-    if let Some(other) = others {
-        let (_, span) = found(vcut, other);
-        let other = nearest(other, span);
-        offer.title = format!("{} and `cuts <= {}`", offer.title, vcut.cuts.len());
-        offer.edits.extend(other.edits);
-    }
-    Some(told.fix_all(offer.title, &offer.edits))
+    let broken: Vec<Excess> = excesses(&vcut.asked, time, vcut.cuts.len())
+        .into_iter()
+        .flatten()
+        .collect();
+    let offer = wider(&vcut.asked, &broken, 1.0);
+    Some(found(vcut, *broken.first()?).fix_all(offer.title, &offer.edits))
 }

@@ -33,6 +33,7 @@ use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
 };
+use crate::sim::surface::Surface;
 use crate::wanted::Wanted;
 use bench::{Bench, Figures};
 use core::cmp::Ordering;
@@ -70,7 +71,7 @@ pub fn choose_while(
         return (None, vec![refused]);
     }
     let mut diagnostics = Vec::new();
-    let mut before = bench::untouched(job);
+    let mut before = Surface::untouched(job.stock);
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
     let mut effort = Effort::OF_A_REFUSAL;
@@ -109,7 +110,7 @@ pub fn is_sound(job: &CheckedJob, effort: &mut Effort, wanted: &Wanted) -> bool 
     let [Operation::RoughVcut(asked)] = &job.operations[..] else {
         return false;
     };
-    let bench = Bench::new(job, asked, bench::untouched(job), Latitude::Full).while_wanted(wanted);
+    let bench = Bench::new(job, asked, Surface::untouched(job.stock), Latitude::Full).while_wanted(wanted);
     offers::is_sound(&bench, asked, MOST_CUTS, effort)
 }
 

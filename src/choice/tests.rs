@@ -51,10 +51,6 @@ fn surface_after(plan: &PlannedJob) -> Vec<Point2> {
     verdict::replay(plan, &program).surface.corners().collect()
 }
 
-fn untouched(plan: &PlannedJob) -> Surface {
-    Surface::flat(plan.stock.width.to_mm(), plan.stock.height.to_mm())
-}
-
 /// Holds every cut of a route against what the planner relied on: the surface that all layers above its own leave. Where the
 /// cut is made, as far as its flanks go, the surface must not stand higher, and the flanks must not need more.
 fn relies_on_nothing_to_come(plan: &PlannedJob) -> Result<(), TestCaseError> {
@@ -64,7 +60,7 @@ fn relies_on_nothing_to_come(plan: &PlannedJob) -> Result<(), TestCaseError> {
         slope: vcut.parameters.flanks.slope,
     };
     let mut planned = Vec::new();
-    let mut above = untouched(plan);
+    let mut above = Surface::untouched(plan.stock);
     for layer in layers(&vcut.cuts) {
         for index in layer.clone() {
             let runs = [Side::Left, Side::Right].map(|side| above.flank(vee(index), side));
@@ -74,7 +70,7 @@ fn relies_on_nothing_to_come(plan: &PlannedJob) -> Result<(), TestCaseError> {
         }
         layer.for_each(|index| above.release(vee(index)));
     }
-    let mut now = untouched(plan);
+    let mut now = Surface::untouched(plan.stock);
     let mut made = 0;
     for run in &vcut.runs {
         let mut order: Vec<usize> = run.cuts.clone().collect();
@@ -129,7 +125,7 @@ proptest! {
             prop_assert_eq!(&other.findings, &proven.findings, "{:?}", route);
             prop_assert_eq!(&other.report.layers, &proven.report.layers);
             let others = surface_after(&plan);
-            let mut one = untouched(&rows);
+            let mut one = Surface::untouched(rows.stock);
             for cut in &vcut(&rows).cuts {
                 one.release(Vee { tip: cut.tip, slope: vcut(&rows).parameters.flanks.slope });
             }

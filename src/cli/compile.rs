@@ -188,7 +188,7 @@ pub(super) struct Amended {
     /// Files that have been written.
     pub(super) placed: Vec<Placed>,
     /// What needs saying of them.
-    pub(super) remark: Option<String>,
+    pub(super) remarks: Vec<String>,
 }
 
 /// Takes a job through the pipeline, makes the product and tells what came of it.
@@ -215,7 +215,7 @@ pub(super) fn carried_out(
     let made = (carried.amend)(&mut outcome).and_then(|amended| {
         let mut made = make(product, &outcome, carried.disk, &mut progress)?;
         made.placed.splice(0..0, amended.placed);
-        made.remark = amended.remark;
+        made.remarks = amended.remarks;
         Ok(made)
     });
     let timings = progress.finish();
@@ -281,10 +281,9 @@ pub(super) fn tell(
 
 /// What needs saying of files.
 fn remark(product: &Product, is_wrong: bool, made: &Made) -> Option<String> {
-    let words = [of_the_product(product, is_wrong, made), made.remark.clone()];
-    words
-        .into_iter()
-        .flatten()
+    let remarks = of_the_product(product, is_wrong, made).into_iter();
+    remarks
+        .chain(made.remarks.iter().cloned())
         .reduce(|one, other| format!("{one}; {other}"))
 }
 

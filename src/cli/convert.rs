@@ -123,10 +123,9 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         );
         let job = job_written(args, &path, &conversion, outcome, &overlaid.disk, console)?;
         let drawn = picture(args, &conversion, outcome, &overlaid.disk)?;
-        let remarks = job.remark.into_iter().chain(drawn.remark);
         Ok(Amended {
-            placed: job.placed.into_iter().chain(drawn.placed).collect(),
-            remark: remarks.reduce(|one, other| format!("{one}; {other}")),
+            placed: [job.placed, drawn.placed].concat(),
+            remarks: [job.remarks, drawn.remarks].concat(),
         })
     };
     let carried = Carried {
@@ -166,7 +165,10 @@ fn job_written(
     let remark = has_errors(&outcome.diagnostics).then(|| {
         format!("{name} is written with its errors, to be mended there; no program comes of it so far")
     });
-    Ok(Amended { placed, remark })
+    Ok(Amended {
+        placed,
+        remarks: remark.into_iter().collect(),
+    })
 }
 
 fn product(args: &ConvertArgs, targets: &Targets) -> Result<Product, Failure> {
@@ -192,7 +194,7 @@ fn picture(
     let Some(material) = Material::of(outcome) else {
         return Ok(Amended {
             placed: Vec::new(),
-            remark: Some(format!("{path} was not drawn: there is no path of the blade yet")),
+            remarks: vec![format!("{path} was not drawn: there is no path of the blade yet")],
         });
     };
     let svg = pictures::paths(&material, &conversion.raster.path, Prefix::NONE);
@@ -200,7 +202,10 @@ fn picture(
         .spares(Path::new(path))
         .and_then(|()| one_file(Path::new(path), svg.as_bytes()))
         .map_err(Failure::new)?;
-    Ok(Amended { placed, remark: None })
+    Ok(Amended {
+        placed,
+        remarks: Vec::new(),
+    })
 }
 
 /// Where the job lies, or would lie if it were written.

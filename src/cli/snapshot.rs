@@ -40,7 +40,7 @@ pub(super) struct Made {
     /// What sets the folder apart from a program that was compared.
     pub(super) differences: Option<Differences>,
     /// What else needs saying of files.
-    pub(super) remark: Option<String>,
+    pub(super) remarks: Vec<String>,
 }
 
 /// A complete program that has not taken its place yet.
@@ -76,7 +76,7 @@ impl Ready {
                 diagnostics,
                 placed: output.publish()?,
                 differences: None,
-                remark: None,
+                remarks: Vec::new(),
             }),
             Self::Compared(differences) => Ok(Made {
                 differences: Some(differences),

@@ -148,7 +148,7 @@ impl<'j> Yielding<'j> {
             return true;
         };
         let mut changed = plan.clone();
-        let untouched = Surface::flat(plan.stock.width.to_mm(), plan.stock.height.to_mm());
+        let untouched = Surface::untouched(plan.stock);
         for operation in &mut changed.operations {
             let PlannedOperation::RoughVcut(vcut) = operation;
             if let (Auto::Auto, Some(swing)) = (vcut.asked.swing.value, swing)

@@ -4,6 +4,7 @@
 //! is one; on the way in such a URI is put into the standard's form, and on the way out it gets its client's own letters again:
 //! many clients find a document by them, letter by letter.
 
+use super::uri::encoded;
 use lsp_types::Uri;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -81,21 +82,16 @@ fn standard(text: &str) -> String {
         Some(_) | None => (None, text),
     };
     let mut uri = scheme.map_or(String::new(), |scheme| format!("{scheme}:"));
-    for (at, letter) in rest.char_indices() {
-        let is_escape = || {
-            let digits = rest.as_bytes().get(at + 1..at + 3);
-            digits.is_some_and(|digits| digits.iter().all(u8::is_ascii_hexdigit))
+    let mut pieces = rest.split('%');
+    uri += &encoded(pieces.next().unwrap_or_default());
+    for piece in pieces {
+        let escape = piece
+            .get(..2)
+            .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()));
+        uri += &match escape {
+            Some(digits) => format!("%{digits}{}", encoded(piece.get(2..).unwrap_or_default())),
+            None => format!("%25{}", encoded(piece)),
         };
-        match letter {
-            'A'..='Z' | 'a'..='z' | '0'..='9' | '-' | '.' | '_' | '~' | '/' => uri.push(letter),
-            '%' if is_escape() => uri.push(letter),
-            _ => {
-                let mut bytes = [0; 4];
-                for byte in letter.encode_utf8(&mut bytes).bytes() {
-                    uri += &format!("%{byte:02X}");
-                }
-            }
-        }
     }
     uri
 }

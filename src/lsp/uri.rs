@@ -61,7 +61,7 @@ fn decoded(text: &str) -> String {
 }
 
 /// Everything but what RFC 3986 calls unreserved, and `/`, as escapes. Editors escape the colon of a drive too.
-fn encoded(path: &str) -> String {
+pub(super) fn encoded(path: &str) -> String {
     const HEX: &[u8; 16] = b"0123456789ABCDEF";
     let mut text = String::with_capacity(path.len());
     for byte in path.bytes() {

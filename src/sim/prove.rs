@@ -117,7 +117,7 @@ pub fn watched(
     watch: &mut dyn FnMut(&mut Surface, Release),
 ) -> Replay {
     let stock = program.program().stock;
-    let untouched = Surface::flat(stock.width.to_mm(), stock.height.to_mm());
+    let untouched = Surface::untouched(stock);
     played(untouched, program, bounds, watch)
 }
 
@@ -185,7 +185,7 @@ struct Player<'p> {
 
 impl<'p> Player<'p> {
     fn new(surface: Surface, program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
-        let untouched = Surface::flat(program.stock.width.to_mm(), program.stock.height.to_mm());
+        let untouched = Surface::untouched(program.stock);
         Self {
             program,
             bounds,
@@ -401,7 +401,7 @@ impl<'p> Player<'p> {
     /// The cut of an operation whose V passes lowest through a point's x.
     fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
         let stock = self.program.stock;
-        let untouched = Surface::flat(stock.width.to_mm(), stock.height.to_mm());
+        let untouched = Surface::untouched(stock);
         let mut player = Player::new(untouched, self.program, self.bounds);
         let mut lowest: Option<(f64, Finding)> = None;
         for op in &self.program.ops {

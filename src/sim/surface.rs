@@ -17,6 +17,7 @@
 //! the vertical reach the blade needs: beyond `d cos(swing)` the chip is not freed (`docs/process.md`, "One V-cut").
 
 use crate::geom::curve::Point2;
+use vcutc_backend_api::ir::Stock;
 
 /// Heights this close are equal: a nanometre, a thousandth of the grid that tips lie on. Without it the flank of a cut
 /// that passes exactly through an older tip, as interlaced lattices want it, would miss it by rounding.
@@ -74,7 +75,13 @@ struct FlankWalk {
 }
 
 impl Surface {
-    /// The flat top of a stock.
+    /// The top of a stock before the first cut.
+    #[must_use]
+    pub fn untouched(stock: Stock) -> Self {
+        Self::flat(stock.width.to_mm(), stock.height.to_mm())
+    }
+
+    /// A flat top of that width and height.
     #[must_use]
     pub fn flat(width: f64, top: f64) -> Self {
         Self {

@@ -5,6 +5,7 @@ use crate::choice::Latitude;
 use crate::geom::curve::Point2;
 use crate::job::{Operation, Sourced};
 use crate::plan::tests::{operation, paper_job};
+use crate::sim::surface::Surface;
 
 /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
 const MOST: usize = 48 + 72 + 72 + 48 + 10;
@@ -29,12 +30,7 @@ fn the_search_is_bounded() {
                 span: None,
             });
             let Operation::RoughVcut(asked) = job.operations[0].clone();
-            let bench = Bench::new(
-                &job,
-                &asked,
-                crate::choice::bench::untouched(&job),
-                Latitude::Full,
-            );
+            let bench = Bench::new(&job, &asked, Surface::untouched(job.stock), Latitude::Full);
             for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
                 let by_bound = parameters::resolve_on(&job, &asked, vec![lattice]).ok();
                 let lattices = [lattice];
