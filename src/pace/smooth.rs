@@ -7,27 +7,33 @@
 //! - `|q'| A + |q''| V^2 <= a`,
 //! - `|q'| J + 3 |q''| V A + |q'''| V^3 <= j`,
 //!
-//! whatever the phase between them. So each `V` leaves an `A`, and both leave a `J`. The derivatives are the largest of
-//! where the profile needs them: for gathering speed on the first stretch of the way, for braking on the last one, each no
-//! longer than the ramp itself; for the constant rate between them, where `A = J = 0`, on all of it. The best `V` is
-//! searched; for each the acceleration that is allowed may be left in part to jerk. A profile found so can be run, and is an
-//! upper bound of the least time; without axes it is the least time. The time without bounds of jerk ([`super::phase`]) bounds
-//! it from below.
+//! whatever the phase between them. The derivatives are the largest of where the profile needs them: for gathering speed on
+//! the first stretch of the way, for braking on the last one, each no longer than the ramp itself; for the constant rate
+//! between them, where `A = J = 0`, on all of it. A profile found so can be run, and is an upper bound of the least time;
+//! without axes it is the least time. The time without bounds of jerk ([`super::phase`]) bounds it from below.
+//!
+//! Among these profiles the best is searched, and found within a hundredth:
+//!
+//! - What `A` leaves to jerk, `J(A)`, is the least of falling straight lines. Gathering `V` takes `V / A + A / J`, which is
+//!   convex in `A`, as long as `A^2 <= V J`, and `2 sqrt(V / J)`, which grows with `A`, from there on. So the time has one
+//!   valley, and a golden section comes to its bottom.
+//! - A higher `V` leaves less to `A` and `J`, has more to gather and needs a longer stretch, so both ramps together take a time
+//!   `R(V)` that never falls with `V`, and `V R(V)`, twice the way they need, grows. The whole takes `1 / V + R(V) / 2`: between
+//!   two rates at least `1 / V` of the higher with `R` of the lower. Spans of rates are halved, the one with the lowest such
+//!   bound first, until nothing is left that could be faster by more than that hundredth.
 
 use super::profile::Bounds;
 use super::track::{Part, Slopes};
 use vcutc_backend_api::ir::MOST_AXES;
 
-/// From one rate that is tried to the next.
-const STEP: f64 = 0.8;
-/// Most rates that are tried until one can be reached at all.
-const MOST_TRIES: u32 = 200;
-/// How many more are tried then.
-const MORE_TRIES: u32 = 5;
-/// How often the best of them is refined.
-const REFINEMENTS: u32 = 5;
-/// Shares of the acceleration that are tried; what is left of it is left to jerk.
-const SHARES: [f64; 3] = [1.0, 0.6, 0.35];
+/// By how much, of its own time, another ride can be faster than the one that is found.
+pub(super) const NEAR: f64 = 0.01;
+/// How often the highest rate is halved until one can be reached at all.
+const MOST_HALVINGS: i32 = 64;
+/// Steps of the golden section: they leave less than a ten-thousandth of the accelerations it begins with.
+const SECTIONS: u32 = 20;
+/// What a step of a golden section leaves, `(sqrt(5) - 1) / 2`.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The largest derivatives of the axes on a stretch.
 type Largest = [Slopes; MOST_AXES];
@@ -63,7 +69,33 @@ pub(super) struct Ride {
     pub(super) falling: Ramp,
 }
 
-/// The fastest ride along a way that was found; none where no rate was found that can be reached.
+impl Ride {
+    /// A time that no ride at rates from this one's up to another goes below.
+    fn least_up_to(&self, highest: f64) -> f64 {
+        1.0 / highest + f64::midpoint(self.rising.time, self.falling.time)
+    }
+}
+
+/// Rates from that of a ride up to another.
+struct Span {
+    slowest: Ride,
+    highest: f64,
+    /// A time, in s, that no ride at one of them goes below.
+    least: f64,
+}
+
+impl Span {
+    fn new(slowest: Ride, highest: f64) -> Self {
+        Self {
+            slowest,
+            highest,
+            least: slowest.least_up_to(highest),
+        }
+    }
+}
+
+/// A ride along a way that no other of its kind is faster than by more than [`NEAR`]; none where no rate was found that can be
+/// reached.
 pub(super) fn ride(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> Option<Ride> {
     let way = Way {
         axes,
@@ -72,47 +104,34 @@ pub(super) fn ride(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: 
         fall: stretches(parts.iter().rev()),
     };
     let highest = way.highest(rate)?;
-    let mut found: Option<Ride> = None;
-    let mut more = MORE_TRIES;
-    let mut tried = highest;
-    for _ in 0..MOST_TRIES {
-        if found.is_some_and(|found| cannot_win(tried, &found)) {
-            break;
-        }
-        found = better(found, way.ride(tried));
-        if found.is_some() {
-            match more.checked_sub(1) {
-                Some(fewer) => more = fewer,
-                None => break,
-            }
-        }
-        tried *= STEP;
-    }
-    let mut step = 1.0 / STEP - 1.0;
-    for _ in 0..REFINEMENTS {
-        step /= 2.5;
-        let rate = found?.rate;
-        for tried in [rate * (1.0 + step), rate / (1.0 + step)] {
-            let tried = tried.min(highest);
-            if !found.is_some_and(|found| cannot_win(tried, &found)) {
-                found = better(found, way.ride(tried));
+    let mut best = (0..MOST_HALVINGS).find_map(|halvings| way.ride(highest * 0.5_f64.powi(halvings)))?;
+    // Slower than that a ride takes longer without any ramps.
+    let mut spans: Vec<Span> = way
+        .ride(1.0 / best.time)
+        .map(|slowest| Span::new(slowest, highest))
+        .into_iter()
+        .collect();
+    while let Some(open) = most_promising(&spans, best.time) {
+        let Span { slowest, highest, .. } = spans.swap_remove(open);
+        let middle = (slowest.rate * highest).sqrt();
+        spans.push(Span::new(slowest, middle));
+        if let Some(ride) = way.ride(middle) {
+            spans.push(Span::new(ride, highest));
+            if ride.time < best.time {
+                best = ride;
             }
         }
     }
-    found
+    Some(best)
 }
 
-/// Whether a rate takes longer without any ramps.
-fn cannot_win(rate: f64, found: &Ride) -> bool {
-    rate * found.time <= 1.0
-}
-
-fn better(best: Option<Ride>, other: Option<Ride>) -> Option<Ride> {
-    match (best, other) {
-        (Some(best), Some(other)) if other.time < best.time => Some(other),
-        (None, other) => other,
-        (best, _) => best,
-    }
+/// The span that may hold the fastest ride of all, if it can be worth a look.
+fn most_promising(spans: &[Span], time: f64) -> Option<usize> {
+    let (index, span) = spans
+        .iter()
+        .enumerate()
+        .min_by(|(_, one), (_, other)| one.least.total_cmp(&other.least))?;
+    (span.least < time * (1.0 - NEAR)).then_some(index)
 }
 
 /// Ever longer stretches with the largest derivatives on them.
@@ -186,16 +205,12 @@ impl Way<'_> {
         None
     }
 
+    /// The shortest ramp up to a rate where the derivatives are no larger than these.
     fn gathering(&self, rate: f64, largest: &Largest) -> Option<Ramp> {
         let allowed = self.acceleration(rate, largest)?;
         // No more than what jerk alone gathers on the way to the rate.
         let gathered = self.jerk(rate, 0.0, largest)?.map(|jerk| (jerk * rate).sqrt());
-        let most = match (allowed, gathered) {
-            (Some(allowed), Some(gathered)) => Some(allowed.min(gathered)),
-            (one, None) | (None, one) => one,
-        };
-        let ramps = SHARES.iter().filter_map(|share| {
-            let acceleration = most.map(|most| most * share);
+        let with = |acceleration: Option<f64>| {
             let jerk = self.jerk(rate, acceleration.unwrap_or(0.0), largest)?;
             let bounds = Bounds {
                 rate: Some(rate),
@@ -204,8 +219,12 @@ impl Way<'_> {
             };
             let time = bounds.gathering(rate);
             Some(Ramp { time, bounds })
-        });
-        ramps.min_by(|one, other| one.time.total_cmp(&other.time))
+        };
+        match (allowed, gathered) {
+            (Some(allowed), Some(gathered)) => in_the_valley(allowed.min(gathered), |most| with(Some(most))),
+            (Some(most), None) | (None, Some(most)) => in_the_valley(most, |most| with(Some(most))),
+            (None, None) => with(None),
+        }
     }
 
     /// The acceleration that a rate leaves, if any bounds it; nothing where it leaves none.
@@ -251,4 +270,26 @@ fn least(each: impl Iterator<Item = (f64, f64)>, own: Option<f64>) -> Option<Opt
         }
     }
     Some(bound)
+}
+
+/// The shortest of the ramps up to an acceleration, whose times have one valley; where there is none the acceleration is too
+/// high.
+fn in_the_valley(most: f64, ramp: impl Fn(f64) -> Option<Ramp>) -> Option<Ramp> {
+    let at = |acceleration: f64| (acceleration, ramp(acceleration));
+    let (mut low, mut high) = (0.0, most);
+    let mut lower = at(high - GOLDEN * (high - low));
+    let mut upper = at(low + GOLDEN * (high - low));
+    for _ in 0..SECTIONS {
+        if matches!((lower.1, upper.1), (Some(lower), Some(upper)) if upper.time < lower.time) {
+            low = lower.0;
+            lower = upper;
+            upper = at(low + GOLDEN * (high - low));
+        } else {
+            high = upper.0;
+            upper = lower;
+            lower = at(high - GOLDEN * (high - low));
+        }
+    }
+    let found = [lower.1, upper.1, ramp(most)].into_iter().flatten();
+    found.min_by(|one, other| one.time.total_cmp(&other.time))
 }
