@@ -308,12 +308,17 @@ fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mu
     }
 }
 
-/// Comments behind a value of a list. The line of one that needs it ends with the next place where it can.
+/// Comments behind a value of a list. The line of one that needs it ends with the next place where it can. On a line of comments
+/// alone none is moved to the column of those behind values: read again, they stand before the next value.
 fn trailing<'c>(comments: impl Iterator<Item = &'c Comment>, docs: &mut Vec<Doc>) {
     let mut line_ends = false;
+    let mut has_own_line = false;
     for comment in comments {
         if line_ends || comment.is_below() {
             docs.extend([Doc::Hard, Doc::text(comment.text.clone())]);
+            has_own_line = true;
+        } else if has_own_line {
+            docs.extend([Doc::blank(), Doc::text(comment.text.clone())]);
         } else {
             beside(comment, docs);
         }
@@ -339,11 +344,16 @@ fn leading(comments: &[Comment], gap: Gap, docs: &mut Vec<Doc>) {
 /// Comments before a closing bracket that no value has taken.
 fn dangling(comments: &[Comment], values: &[Value<'_, '_>], tail: Tail, docs: &mut Vec<Doc>) {
     let mut after_line_end = tail == Tail::LineComment;
+    let mut has_own_line = false;
     for (at, comment) in comments.iter().enumerate() {
         let is_on_the_line = comment.gap == Gap::Beside && !after_line_end;
         match (is_on_the_line, !values.is_empty() || at > 0) {
+            (true, true) if has_own_line => docs.extend([Doc::blank(), Doc::text(comment.text.clone())]),
             (true, true) => beside(comment, docs),
-            (false, true) => docs.extend([Doc::Hard, Doc::text(comment.text.clone())]),
+            (false, true) => {
+                docs.extend([Doc::Hard, Doc::text(comment.text.clone())]);
+                has_own_line = true;
+            }
             (true | false, false) => docs.push(Doc::text(comment.text.clone())),
         }
         after_line_end = comment.ends_its_line();
