@@ -109,7 +109,7 @@ fn lead_in(word: &Word<'_>, spacing: Spacing, docs: &mut Vec<Doc>) {
         if line_ends || comment.is_below() {
             docs.extend([Doc::Hard, Doc::text(comment.text.clone())]);
         } else {
-            beside(comment, docs);
+            beside(comment, Line::Words, docs);
         }
         line_ends = comment.ends_its_line();
     }
@@ -122,12 +122,20 @@ fn lead_in(word: &Word<'_>, spacing: Spacing, docs: &mut Vec<Doc>) {
     }
 }
 
+/// What a line begins with.
+#[derive(Clone, Copy)]
+enum Line {
+    Words,
+    /// A comment. Those behind it are not moved to the column of comments behind words: read again, they all stand before the
+    /// next word.
+    Comment,
+}
+
 /// A comment on the line of what is before it.
-fn beside(comment: &Comment, docs: &mut Vec<Doc>) {
-    if comment.ends_its_line() {
-        docs.push(Doc::Trailing(comment.text.clone()));
-    } else {
-        docs.extend([Doc::blank(), Doc::text(comment.text.clone())]);
+fn beside(comment: &Comment, line: Line, docs: &mut Vec<Doc>) {
+    match line {
+        Line::Words if comment.ends_its_line() => docs.push(Doc::Trailing(comment.text.clone())),
+        Line::Words | Line::Comment => docs.extend([Doc::blank(), Doc::text(comment.text.clone())]),
     }
 }
 
@@ -308,19 +316,16 @@ fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mu
     }
 }
 
-/// Comments behind a value of a list. The line of one that needs it ends with the next place where it can. On a line of comments
-/// alone none is moved to the column of those behind values: read again, they stand before the next value.
+/// Comments behind a value of a list. The line of one that needs it ends with the next place where it can.
 fn trailing<'c>(comments: impl Iterator<Item = &'c Comment>, docs: &mut Vec<Doc>) {
     let mut line_ends = false;
-    let mut has_own_line = false;
+    let mut line = Line::Words;
     for comment in comments {
         if line_ends || comment.is_below() {
             docs.extend([Doc::Hard, Doc::text(comment.text.clone())]);
-            has_own_line = true;
-        } else if has_own_line {
-            docs.extend([Doc::blank(), Doc::text(comment.text.clone())]);
+            line = Line::Comment;
         } else {
-            beside(comment, docs);
+            beside(comment, line, docs);
         }
         line_ends = comment.ends_its_line() || comment.is_below();
     }
@@ -344,15 +349,14 @@ fn leading(comments: &[Comment], gap: Gap, docs: &mut Vec<Doc>) {
 /// Comments before a closing bracket that no value has taken.
 fn dangling(comments: &[Comment], values: &[Value<'_, '_>], tail: Tail, docs: &mut Vec<Doc>) {
     let mut after_line_end = tail == Tail::LineComment;
-    let mut has_own_line = false;
+    let mut line = Line::Words;
     for (at, comment) in comments.iter().enumerate() {
         let is_on_the_line = comment.gap == Gap::Beside && !after_line_end;
         match (is_on_the_line, !values.is_empty() || at > 0) {
-            (true, true) if has_own_line => docs.extend([Doc::blank(), Doc::text(comment.text.clone())]),
-            (true, true) => beside(comment, docs),
+            (true, true) => beside(comment, line, docs),
             (false, true) => {
                 docs.extend([Doc::Hard, Doc::text(comment.text.clone())]);
-                has_own_line = true;
+                line = Line::Comment;
             }
             (true | false, false) => docs.push(Doc::text(comment.text.clone())),
         }

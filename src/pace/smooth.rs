@@ -69,28 +69,17 @@ pub(super) struct Ride {
     pub(super) falling: Ramp,
 }
 
-impl Ride {
-    /// A time that no ride at rates from this one's up to another goes below.
-    fn least_up_to(&self, highest: f64) -> f64 {
-        1.0 / highest + f64::midpoint(self.rising.time, self.falling.time)
-    }
-}
-
 /// Rates from that of a ride up to another.
 struct Span {
     slowest: Ride,
     highest: f64,
-    /// A time, in s, that no ride at one of them goes below.
-    least: f64,
 }
 
 impl Span {
-    fn new(slowest: Ride, highest: f64) -> Self {
-        Self {
-            slowest,
-            highest,
-            least: slowest.least_up_to(highest),
-        }
+    /// A time, in s, that no ride at one of the rates goes below.
+    fn least(&self) -> f64 {
+        let Ride { rising, falling, .. } = self.slowest;
+        1.0 / self.highest + f64::midpoint(rising.time, falling.time)
     }
 }
 
@@ -108,15 +97,21 @@ pub(super) fn ride(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: 
     // Slower than that a ride takes longer without any ramps.
     let mut spans: Vec<Span> = way
         .ride(1.0 / best.time)
-        .map(|slowest| Span::new(slowest, highest))
+        .map(|slowest| Span { slowest, highest })
         .into_iter()
         .collect();
     while let Some(open) = most_promising(&spans, best.time) {
         let Span { slowest, highest, .. } = spans.swap_remove(open);
         let middle = (slowest.rate * highest).sqrt();
-        spans.push(Span::new(slowest, middle));
+        spans.push(Span {
+            slowest,
+            highest: middle,
+        });
         if let Some(ride) = way.ride(middle) {
-            spans.push(Span::new(ride, highest));
+            spans.push(Span {
+                slowest: ride,
+                highest,
+            });
             if ride.time < best.time {
                 best = ride;
             }
@@ -130,8 +125,8 @@ fn most_promising(spans: &[Span], time: f64) -> Option<usize> {
     let (index, span) = spans
         .iter()
         .enumerate()
-        .min_by(|(_, one), (_, other)| one.least.total_cmp(&other.least))?;
-    (span.least < time * (1.0 - NEAR)).then_some(index)
+        .min_by(|(_, one), (_, other)| one.least().total_cmp(&other.least()))?;
+    (span.least() < time * (1.0 - NEAR)).then_some(index)
 }
 
 /// Ever longer stretches with the largest derivatives on them.
@@ -220,11 +215,11 @@ impl Way<'_> {
             let time = bounds.gathering(rate);
             Some(Ramp { time, bounds })
         };
-        match (allowed, gathered) {
-            (Some(allowed), Some(gathered)) => in_the_valley(allowed.min(gathered), |most| with(Some(most))),
-            (Some(most), None) | (None, Some(most)) => in_the_valley(most, |most| with(Some(most))),
-            (None, None) => with(None),
-        }
+        let most = [allowed, gathered].into_iter().flatten().reduce(f64::min);
+        most.map_or_else(
+            || with(None),
+            |most| in_the_valley(most, |acceleration| with(Some(acceleration))),
+        )
     }
 
     /// The acceleration that a rate leaves, if any bounds it; nothing where it leaves none.

@@ -299,7 +299,7 @@ proptest! {
 /// stretches that are long enough.
 fn by_grid(parts: &[Part], b: Bounds) -> f64 {
     const RATES: u32 = 400;
-    const ACCELERATIONS: u32 = 60;
+    const ACCELERATIONS: u32 = 120;
     let (rate, most, jerk) = (b.rate.unwrap(), b.acceleration.unwrap(), b.jerk.unwrap());
     // First, second and third derivatives of both axes at most, on so many parts from one end.
     let largest = |parts: &mut dyn Iterator<Item = &Part>| {
@@ -337,7 +337,9 @@ fn by_grid(parts: &[Part], b: Bounds) -> f64 {
             let quickest = (1..=ACCELERATIONS)
                 .filter_map(|k| {
                     let room = axes.map(|[first, second, _]| (most - second * v * v) / first);
-                    let a = room[0].min(room[1]) * f64::from(k) / f64::from(ACCELERATIONS);
+                    // Low ones as closely as high ones: with little jerk only those are of use.
+                    let share = libm::pow(1000.0, f64::from(k) / f64::from(ACCELERATIONS)) / 1000.0;
+                    let a = room[0].min(room[1]) * share;
                     let left = axes.map(|[q1, q2, q3]| (jerk - 3.0 * q2 * v * a - q3 * v * v * v) / q1);
                     let j = left[0].min(left[1]);
                     let is_full = a * a <= v * j;
@@ -379,7 +381,7 @@ proptest! {
         let found = smooth::ride(&parts, &all(b), 1.0, Bounds::default()).unwrap().time;
         let grid = by_grid(&parts, b);
         prop_assert!(found * (1.0 - smooth::NEAR) <= grid, "{found} {grid}");
-        // The grid is as fine as that.
+        // The rates of the grid are 1.7 % apart. Its accelerations are 6 % apart, where the time has its flat valley.
         prop_assert!(found >= grid * 0.97, "{found} {grid}");
     }
 }
