@@ -302,7 +302,13 @@ pub(super) fn word_explained(block: &str, field: &str, word: &str) -> Option<Str
 
 fn unit(unit: &str) -> Option<String> {
     let (kind, one) = vocabulary::unit_in_words(unit)?;
-    Some(format!("1 {unit} = `{one}`, {kind}"))
+    // A unit in which values are shown anyway has nothing to be converted to.
+    let own = format!("1 {unit}");
+    Some(if one == own {
+        format!("`{unit}`: a unit of {kind}")
+    } else {
+        format!("`{own}` = `{one}`, {kind}")
+    })
 }
 
 /// A function with its rule, or a call that a field of a machine takes.

@@ -20,6 +20,7 @@ mod completion;
 mod context;
 mod diagnostics;
 mod documents;
+mod folding;
 mod formatting;
 mod hints;
 mod hover;

@@ -4,6 +4,7 @@ use super::Workspace;
 use super::analysis::Analysis;
 use super::completion::{Offer, completion};
 use super::diagnostics::{Lines, edits_of, in_protocol, workspace_edit};
+use super::folding::folds;
 use super::formatting::formatting;
 use super::hints::hints;
 use super::hover::hover;
@@ -21,7 +22,7 @@ use crate::machine::Origin;
 use crate::source::Span;
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
-    DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation,
+    DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation, FoldingRangeParams,
     GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint, InlayHintKind, InlayHintLabel,
     InlayHintParams, InlayHintTooltip, InsertTextFormat, Location, MarkupContent, MarkupKind, Position,
     Range, ReferenceParams, RenameParams, SemanticTokens, SemanticTokensParams, TextDocumentIdentifier,
@@ -57,6 +58,7 @@ pub(super) fn introduction(server: &Server) -> Value {
             "renameProvider": { "prepareProvider": true },
             "inlayHintProvider": true,
             "documentFormattingProvider": true,
+            "foldingRangeProvider": true,
             "semanticTokensProvider": {
                 "legend": { "tokenTypes": legend(), "tokenModifiers": modifiers() },
                 "full": true
@@ -109,6 +111,7 @@ pub(super) fn meet(server: &mut Server, method: &str, params: Value, files: &dyn
         "textDocument/prepareRename" => renamable(server, parsed(params)?),
         "textDocument/rename" => renamed(server, parsed(params)?, files),
         "textDocument/formatting" => formatted(server, parsed(params)?),
+        "textDocument/foldingRange" => folded(server, parsed(params)?),
         "textDocument/inlayHint" => hinted(server, parsed(params)?),
         "textDocument/diagnostic" => told(server, &parsed(params)?),
         "textDocument/semanticTokens/full" => coloured(server, parsed(params)?),
@@ -312,6 +315,14 @@ fn highlighted(server: &Server, params: lsp_types::DocumentHighlightParams) -> A
         .map(|span| json!({ "range": asked.text.range(span.bytes()) }))
         .collect();
     Ok(json!(places))
+}
+
+fn folded(server: &Server, params: FoldingRangeParams) -> Answer {
+    let folds = asked(server, &params.text_document).and_then(|asked| {
+        let (_, ast) = asked.analysis.file(&asked.path)?;
+        Some(folds(ast, asked.text))
+    });
+    Ok(json!(folds))
 }
 
 fn outlined(server: &Server, params: DocumentSymbolParams) -> Answer {

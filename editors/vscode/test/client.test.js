@@ -12,7 +12,7 @@ const manifest = JSON.parse(fs.readFileSync(path.join(root, "package.json"), "ut
 
 /** An editor with these settings, and a server that starts or fails. */
 function editor(settings, fault) {
-  const seen = { clients: [], commands: new Map(), errors: [], changed: undefined };
+  const seen = { clients: [], commands: new Map(), errors: [], changed: undefined, tasks: [], saved: 0 };
   class LanguageClient {
     constructor(id, name, server, options) {
       Object.assign(this, { id, name, server, options, running: false });
@@ -42,7 +42,24 @@ function editor(settings, fault) {
         return disposable;
       },
     },
-    window: { showErrorMessage: (text) => seen.errors.push(text) },
+    window: {
+      showErrorMessage: (text) => seen.errors.push(text),
+      showInputBox: async (options) => options.value,
+      activeTextEditor: undefined,
+    },
+    languages: { getDiagnostics: () => [] },
+    tasks: { executeTask: async (task) => seen.tasks.push(task) },
+    TaskScope: { Workspace: 2 },
+    Task: class {
+      constructor(definition, scope, name, source, execution) {
+        Object.assign(this, { definition, scope, name, source, execution });
+      }
+    },
+    ProcessExecution: class {
+      constructor(command, args) {
+        Object.assign(this, { command, args });
+      }
+    },
     commands: {
       registerCommand: (name, body) => {
         seen.commands.set(name, body);
@@ -56,7 +73,8 @@ function editor(settings, fault) {
 
 /** The extension as it is loaded by such an editor. */
 function extension(mocks) {
-  const file = path.join(root, manifest.main);
+  // Its source: what is packaged is made from it.
+  const file = path.join(root, "extension.js");
   const load = Module._load;
   delete require.cache[require.resolve(file)];
   Module._load = (name, ...rest) => mocks[name] ?? load(name, ...rest);
@@ -100,6 +118,29 @@ test("a server that does not start is told of, with the setting that mends it", 
   assert.strictEqual(seen.errors.length, 1);
   assert.match(seen.errors[0], /`vcutc lsp` does not start: spawn vcutc ENOENT\. Set `vcut\.server\.path`/);
   await deactivate();
+});
+
+test("commands run the compiler on the saved job, and explain the diagnostic under the cursor", async () => {
+  const { seen, mocks } = editor({ "vcut.server.path": "/opt/vcutc" });
+  await extension(mocks).activate({ subscriptions: [] });
+  await seen.commands.get("vcut.check")();
+  assert.deepStrictEqual([seen.tasks.length, seen.errors.length], [0, 1], "without a job there is nothing to run");
+
+  const document = { languageId: "vcut", uri: { fsPath: "/jobs/a b.vcut" }, save: async () => (seen.saved += 1) };
+  mocks.vscode.window.activeTextEditor = { document, selection: { active: 7 } };
+  mocks.vscode.languages.getDiagnostics = () => [
+    { code: "VC0101", range: { contains: (place) => place === 3 } },
+    { code: "VC0403", range: { contains: (place) => place === 7 } },
+  ];
+  for (const command of ["vcut.check", "vcut.report", "vcut.explain"]) {
+    await seen.commands.get(command)();
+  }
+  assert.strictEqual(seen.saved, 2);
+  assert.deepStrictEqual(seen.tasks.map(({ execution }) => [execution.command, ...execution.args]), [
+    ["/opt/vcutc", "check", "/jobs/a b.vcut"],
+    ["/opt/vcutc", "watch", "/jobs/a b.vcut", "--serve"],
+    ["/opt/vcutc", "explain", "VC0403"],
+  ]);
 });
 
 test("commands and settings are those of the manifest", async () => {

@@ -274,6 +274,36 @@ fn the_outline_has_items_and_fields() {
     assert_eq!(&fields[..3], ["blade", "rake", "swing"]);
 }
 
+/// Every fold begins where a bracket or a comment opens, and ends in the line before it closes, or with the comment.
+#[test]
+fn blocks_and_comments_of_several_lines_fold() {
+    let mut editor = rib();
+    editor.replace(PATH, "let half", "/* first\n   second */\nlet half");
+    let folds = editor
+        .ask(
+            "textDocument/foldingRange",
+            json!({ "textDocument": { "uri": uri(PATH) } }),
+        )
+        .unwrap();
+    let text = editor.text(PATH).to_owned();
+    let lines: Vec<&str> = text.lines().collect();
+    let line = |fold: &serde_json::Value, key: &str| {
+        usize::try_from(fold[key].as_u64().unwrap()).unwrap()
+    };
+    let folds = folds.as_array().unwrap();
+    for fold in folds {
+        let (first, last) = (line(fold, "startLine"), line(fold, "endLine"));
+        if fold["kind"] == "comment" {
+            assert!(lines[first].contains("/*") && lines[last].ends_with("*/"));
+        } else {
+            assert!(lines[first].ends_with('{'), "{}", lines[first]);
+            assert!(lines[last + 1].trim_start().starts_with('}'), "{}", lines[last + 1]);
+        }
+    }
+    let of_several_lines = lines.iter().filter(|line| line.ends_with('{')).count();
+    assert_eq!(folds.len(), of_several_lines + 1);
+}
+
 /// Every token, put back at its place, is what its class says.
 #[test]
 fn colours_are_those_of_the_words() {

@@ -163,6 +163,7 @@ const QUESTIONS: &[&str] = &[
     "references",
     "documentHighlight",
     "documentSymbol",
+    "foldingRange",
     "codeAction",
     "prepareRename",
     "rename",
