@@ -1,6 +1,7 @@
 #![doc = include_str!("../ARCHITECTURE.md")]
 
 mod align;
+pub mod checks;
 pub mod choice;
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -8,6 +8,7 @@ mod yielding;
 
 pub use crate::sema::Typed;
 
+use crate::checks::{Carried, Checks};
 use crate::choice;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::job::CheckedJob;
@@ -135,6 +136,8 @@ pub struct Compiled {
     pub numbers: Numbers,
     /// Where the time goes, and what it is based on.
     pub times: TimeFigures,
+    /// Which checks were made, and which were not.
+    pub checks: Checks,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
 }
@@ -242,7 +245,11 @@ fn plan_and_prove(outcome: &mut Outcome, kept: &mut Kept<'_>, progress: &mut dyn
             told.extend(unreached_in_words(job, &plan, &unreached, kept.wanted));
             (Some(plan), told, None)
         }
-        Ended::Compiled(plan, told, compiled) => (Some(plan), told, Some(*compiled)),
+        Ended::Compiled(plan, mut told, compiled) => {
+            let warned = job.machine.as_ref().map(|machine| compiled.checks.warnings(machine));
+            told.extend(warned.into_iter().flatten());
+            (Some(plan), told, Some(*compiled))
+        }
     };
     outcome.diagnostics.extend(told);
     (outcome.plan, outcome.compiled) = (plan, compiled);
@@ -326,7 +333,10 @@ fn compiled(job: &CheckedJob, program: Finished, plan: &PlannedJob, mut report: 
     let figures = program.reached().map(reach_summary::figures);
     let paced = paced(job, &program);
     report.times = times(program.verified(), &paced.times);
+    let carried = job.machine.as_ref().zip(program.reached());
+    let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     Compiled {
+        checks: Checks::of(carried, paced.basis),
         numbers: Numbers::of(plan, &report),
         summary: summary(plan, &report, paced.basis, figures.as_ref()),
         times: time_figures(&report, paced.basis),

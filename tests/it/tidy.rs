@@ -40,6 +40,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
     ("summary", &["job", "pace", "plan", "reach_summary", "sim"]),
+    (
+        "checks",
+        &["diag", "job", "kinematics", "machine", "pace", "reach"],
+    ),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
     (
@@ -96,6 +100,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "report",
         &[
+            "checks",
             "diag",
             "driver",
             "geom",
@@ -124,6 +129,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
+            "checks",
             "choice",
             "diag",
             "job",
@@ -157,6 +163,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "checks",
             "comparison",
             "convert",
             "diag",

@@ -2,6 +2,7 @@
 
 use super::Subject;
 use super::html::escaped;
+use crate::checks::{Checks, Standing};
 use crate::diag::render::{ColorChoice, render};
 use crate::plan::PlannedOperation;
 use crate::plan::parameters::show;
@@ -18,11 +19,11 @@ pub(super) fn header(subject: Subject<'_>) -> String {
         |machine| format!("{} ({})", machine.name, machine.model.name),
     );
     let mut header = format!(
-        "<header>\n<h1>{}</h1>\n<p class=\"about\">{} on {}</p>\n<p class=\"verdict\">{}</p>\n",
+        "<header>\n<h1>{}</h1>\n<p class=\"about\">{} on {}</p>\n{}",
         escaped(&job.name),
         escaped(file),
         escaped(&machine),
-        escaped(&verdict(subject))
+        verdict(&subject.material.compiled.checks)
     );
     if !subject.warnings.is_empty() {
         let told = render(subject.warnings, subject.sources, ColorChoice::Plain);
@@ -36,15 +37,22 @@ pub(super) fn header(subject: Subject<'_>) -> String {
     header + "</header>\n"
 }
 
-/// What is proven.
-fn verdict(subject: Subject<'_>) -> String {
-    let cuts = "Proven: every chip comes free and no cut enters the part or its allowance";
-    match &subject.material.compiled.figures {
-        Some(_) => format!(
-            "{cuts}; the machine carries out every motion within the limits and rates of its axes and clear of singular poses."
-        ),
-        None => format!("{cuts}. The job has no machine, so nothing is said of reach."),
-    }
+/// What is proven, and apart from that what is not checked.
+fn verdict(checks: &Checks) -> String {
+    let standing = checks.standing();
+    let class = match standing {
+        Standing::Proven => "verdict",
+        Standing::InPart => "verdict in-part",
+    };
+    let proven = format!("{}: {}.", standing.words(), checks.proven());
+    let verdict = format!("<p class=\"{class}\">{}</p>\n", escaped(&proven));
+    let open = checks.not_checked().map_or_else(String::new, |open| {
+        format!(
+            "<p class=\"unchecked\"><strong>Not checked:</strong> {}.</p>\n",
+            escaped(&open)
+        )
+    });
+    verdict + &open
 }
 
 /// The key numbers as a list of terms and values.

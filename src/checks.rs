@@ -1,0 +1,295 @@
+//! Which checks a compilation made, which it did not make, and why.
+//!
+//! The list is made once, from what the stages really did: what the proof of reach measured, not what a sheet promises. The
+//! verdict of the summary, the sentence of the report, the list of the JSON messages and the warnings all come from it, so
+//! that none of them claims a check that another one denies.
+
+mod warnings;
+mod words;
+
+pub use words::CheckFigure;
+
+use crate::job::Machine;
+use crate::kinematics::Mechanism;
+use crate::kinematics::opw::Coupling;
+use crate::machine::Model;
+use crate::pace::{Basis, Kept};
+use crate::reach::solve::{ReachReport, Reached};
+use vcutc_backend_api::ir::{Action, Axis, Program};
+
+/// Something that is worth knowing of a program before it runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Check {
+    /// Every chip comes free, and the blade's way to it is clear.
+    Chips,
+    /// No cut enters the part or its allowance.
+    Part,
+    /// Every axis stays within its range.
+    AxisLimits,
+    /// This axis stays within its rate.
+    AxisRate(String),
+    /// The arm keeps away from its singular poses.
+    SingularPoses,
+    /// One configuration carries every motion that must not change it.
+    Branch,
+    /// The angle between the arms of a parallelogram, which its sheet cannot state.
+    ElbowAngle,
+    /// The edge stays out of the work while the blade turns beside it.
+    Turns,
+    /// The time of the program counts speeding up and slowing down.
+    Accelerations,
+    /// Shank and holder of the blade stay out of the work.
+    Holder,
+    /// The arm meets neither the work nor anything else in the cell.
+    Collisions,
+    /// The text that was written, read again, is the program.
+    ReadBack,
+}
+
+/// What came of a check. A check that was made found nothing wrong: otherwise there is no program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It was made.
+    Made,
+    /// It was not.
+    NotMade(Reason),
+}
+
+/// Why a check was not made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// The job has no machine.
+    NoMachine,
+    /// The machine's description lacks the number.
+    NotStated,
+    /// What is described of machines has no place for it.
+    NoPlaceForIt,
+    /// The arm has no closed form, and its distance from singular poses is not measured.
+    NotMeasured,
+    /// The machine interpolates its rotary axes, and the way of the edge is then another one.
+    OtherInterpolation,
+    /// Neither arm nor holder has a body.
+    NoBody,
+    /// The target has no reader.
+    NoReader,
+}
+
+/// A check, and what came of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checked {
+    /// Which.
+    pub check: Check,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+/// What is proven of a program as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// All that this compiler proves of such a job.
+    Proven,
+    /// Less, because something about the job's machine is not known.
+    InPart,
+}
+
+/// How the text of a program was looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReadBack {
+    /// It was read again, and is the program.
+    Same,
+    /// Its target has no reader.
+    NoReader,
+}
+
+/// All checks of a compilation that came to a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checks(Vec<Checked>);
+
+/// What carries a program out, as far as there is something.
+#[derive(Clone, Copy)]
+pub struct Carried<'a> {
+    /// The machine of the job.
+    pub machine: &'a Machine,
+    /// What was found of it.
+    pub reached: &'a Reached,
+}
+
+impl Checks {
+    /// The checks of a job whose cuts are proven.
+    #[must_use]
+    pub fn of(carried: Option<Carried<'_>>, basis: Basis) -> Self {
+        let mut all = vec![made(Check::Chips), made(Check::Part)];
+        match carried {
+            Some(carried) => all.extend(of_machine(carried)),
+            None => all.extend(without_machine()),
+        }
+        all.push(match (carried, basis.kept) {
+            (_, Kept::Accelerations | Kept::Jerks) => made(Check::Accelerations),
+            (Some(_), Kept::Speeds) => not_made(Check::Accelerations, Reason::NotStated),
+            (None, Kept::Speeds) => not_made(Check::Accelerations, Reason::NoMachine),
+        });
+        all.push(not_made(Check::Holder, Reason::NoBody));
+        all.push(not_made(Check::Collisions, Reason::NoBody));
+        Self(all)
+    }
+
+    /// The same of a program whose text was written too.
+    #[must_use]
+    pub fn written(mut self, read_back: ReadBack) -> Self {
+        self.0.push(match read_back {
+            ReadBack::Same => made(Check::ReadBack),
+            ReadBack::NoReader => not_made(Check::ReadBack, Reason::NoReader),
+        });
+        self
+    }
+
+    /// All of them, in a fixed order.
+    pub fn iter(&self) -> impl Iterator<Item = &Checked> {
+        self.0.iter()
+    }
+
+    /// Whether everything that this compiler proves of such a job is proven.
+    #[must_use]
+    pub fn standing(&self) -> Standing {
+        let is_of_the_machine = |checked: &Checked| match (&checked.check, checked.outcome) {
+            (_, Outcome::Made) => false,
+            (
+                Check::AxisLimits
+                | Check::AxisRate(_)
+                | Check::SingularPoses
+                | Check::Branch
+                | Check::ElbowAngle
+                | Check::Turns,
+                Outcome::NotMade(reason),
+            ) => reason != Reason::NoMachine,
+            (
+                Check::Chips
+                | Check::Part
+                | Check::Accelerations
+                | Check::Holder
+                | Check::Collisions
+                | Check::ReadBack,
+                Outcome::NotMade(_),
+            ) => false,
+        };
+        if self.0.iter().any(is_of_the_machine) {
+            Standing::InPart
+        } else {
+            Standing::Proven
+        }
+    }
+
+    /// Whether a check was made.
+    fn is_made(&self, check: &Check) -> bool {
+        let made = Checked {
+            check: check.clone(),
+            outcome: Outcome::Made,
+        };
+        self.0.contains(&made)
+    }
+}
+
+/// What reach checked.
+fn of_machine(carried: Carried<'_>) -> Vec<Checked> {
+    let model: &Model = &carried.machine.model;
+    let report = &carried.reached.report;
+    let mut all = vec![made(Check::AxisLimits)];
+    let rates = model.axes.iter().enumerate().map(|(index, axis)| {
+        let rate = Check::AxisRate(axis.name.clone());
+        match kept_rate(axis, index, report) {
+            Outcome::Made => made(rate),
+            Outcome::NotMade(reason) => not_made(rate, reason),
+        }
+    });
+    all.extend(rates);
+    all.extend(singular_poses(&model.mechanism, report));
+    all.extend(branch(&model.mechanism));
+    all.extend(elbow(&model.mechanism));
+    all.push(turns(&model.mechanism, carried.reached.program.program()));
+    all
+}
+
+/// The checks of a machine that there is not.
+fn without_machine() -> Vec<Checked> {
+    let all = [Check::AxisLimits, Check::SingularPoses, Check::Branch, Check::Turns];
+    all.map(|check| not_made(check, Reason::NoMachine)).to_vec()
+}
+
+/// Reach holds the rates of motions against those that are known.
+fn kept_rate(axis: &Axis, index: usize, report: &ReachReport) -> Outcome {
+    let measured = report.demand.rate.get(index);
+    match (axis.rate, measured) {
+        (Some(_), Some(_)) => Outcome::Made,
+        (None, _) | (_, None) => Outcome::NotMade(Reason::NotStated),
+    }
+}
+
+/// Arms with a closed form measure their distance from singular poses. Machines of linear axes have none that matter: their
+/// rotary axes are interpolated, and go each at a constant rate whatever the pose.
+fn singular_poses(mechanism: &Mechanism, report: &ReachReport) -> Option<Checked> {
+    let is_measured = || {
+        report
+            .demand
+            .clearance
+            .iter()
+            .any(|nearest| nearest.value.is_finite())
+    };
+    match mechanism {
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => Some(if is_measured() {
+            made(Check::SingularPoses)
+        } else {
+            not_made(Check::SingularPoses, Reason::NotMeasured)
+        }),
+        Mechanism::FiveAxis(_) => None,
+    }
+}
+
+/// Machines of linear axes have no arm that could stand otherwise.
+fn branch(mechanism: &Mechanism) -> Option<Checked> {
+    match mechanism {
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => {
+            Some(made(Check::Branch))
+        }
+        Mechanism::FiveAxis(_) => None,
+    }
+}
+
+/// A parallelogram limits the angle between its arms besides the axes; sheets do not state it.
+fn elbow(mechanism: &Mechanism) -> Option<Checked> {
+    match mechanism {
+        Mechanism::OrthoParallel(arm) => match arm.coupling {
+            Coupling::Parallelogram => Some(not_made(Check::ElbowAngle, Reason::NoPlaceForIt)),
+            Coupling::Serial => None,
+        },
+        Mechanism::Mounted(_) | Mechanism::Serial(_) | Mechanism::FiveAxis(_) => None,
+    }
+}
+
+/// The extension of the cuts is computed with the blade turning about one axis, as robots turn it.
+fn turns(mechanism: &Mechanism, program: &Program) -> Checked {
+    let turns = program
+        .ops
+        .iter()
+        .any(|op| matches!(op.action, Action::Turn { .. }));
+    match mechanism {
+        Mechanism::FiveAxis(_) if turns => not_made(Check::Turns, Reason::OtherInterpolation),
+        Mechanism::OrthoParallel(_)
+        | Mechanism::Mounted(_)
+        | Mechanism::Serial(_)
+        | Mechanism::FiveAxis(_) => made(Check::Turns),
+    }
+}
+
+const fn made(check: Check) -> Checked {
+    Checked {
+        check,
+        outcome: Outcome::Made,
+    }
+}
+
+const fn not_made(check: Check, reason: Reason) -> Checked {
+    Checked {
+        check,
+        outcome: Outcome::NotMade(reason),
+    }
+}

@@ -1,0 +1,228 @@
+//! The checks in words, and as data for other programs.
+
+use super::{Check, Checks, Outcome, Reason, Standing};
+use serde::Serialize;
+
+/// A check as data.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct CheckFigure {
+    /// Its permanent name.
+    pub check: &'static str,
+    /// The axis that it is about, if it is about one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<String>,
+    /// Whether it was made.
+    pub made: bool,
+    /// The permanent name of the reason, where it was not made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<&'static str>,
+    /// The reason in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub words: Option<&'static str>,
+}
+
+impl Checks {
+    /// What is proven, as a sentence without a full stop.
+    #[must_use]
+    pub fn proven(&self) -> String {
+        let mut parts =
+            vec!["every chip comes free and no cut enters the part or its allowance".to_owned()];
+        if self.is_made(&Check::AxisLimits) {
+            parts.push(self.of_motions());
+        }
+        if self.is_made(&Check::ReadBack) {
+            parts.push("the written text reads back as the same program".to_owned());
+        }
+        parts.join("; ")
+    }
+
+    /// What is proven of the motions of the machine.
+    fn of_motions(&self) -> String {
+        let (kept, unknown) = self.axes();
+        let bounds = match (kept.as_slice(), unknown.as_slice()) {
+            ([], _) => "the limits of its axes".to_owned(),
+            (_, []) => "the limits and rates of its axes".to_owned(),
+            (kept, _) => format!("the limits of its axes and the rates of {}", listed(kept)),
+        };
+        let clear = if self.is_made(&Check::SingularPoses) {
+            " and clear of singular poses"
+        } else {
+            ""
+        };
+        format!("the machine carries out every motion within {bounds}{clear}")
+    }
+
+    /// What is not checked, each with the reason; nothing where all is.
+    #[must_use]
+    pub fn not_checked(&self) -> Option<String> {
+        let mut by_reason: Vec<(Reason, Vec<String>)> = Vec::new();
+        let (kept, unknown) = self.axes();
+        let mut add = |reason: Reason, what: String| {
+            match by_reason.iter_mut().find(|(known, _)| *known == reason) {
+                Some((_, all)) if all.contains(&what) => {}
+                Some((_, all)) => all.push(what),
+                None => by_reason.push((reason, vec![what])),
+            }
+        };
+        for checked in self.iter() {
+            if let Outcome::NotMade(reason) = checked.outcome {
+                add(
+                    reason,
+                    match &checked.check {
+                        Check::AxisRate(_) if kept.is_empty() => "the rates of all axes".to_owned(),
+                        Check::AxisRate(_) => format!("the rates of {}", listed(&unknown)),
+                        other => other.what().to_owned(),
+                    },
+                );
+            }
+        }
+        let parts: Vec<String> = by_reason
+            .iter()
+            .map(|(reason, what)| format!("{} ({})", what.join(", "), reason.words()))
+            .collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
+
+    /// The names of the axes whose rates are kept, and of those whose rates are not known.
+    pub(super) fn axes(&self) -> (Vec<&str>, Vec<&str>) {
+        let (mut kept, mut unknown) = (Vec::new(), Vec::new());
+        for checked in self.iter() {
+            if let Check::AxisRate(axis) = &checked.check {
+                match checked.outcome {
+                    Outcome::Made => kept.push(axis.as_str()),
+                    Outcome::NotMade(_) => unknown.push(axis.as_str()),
+                }
+            }
+        }
+        (kept, unknown)
+    }
+
+    /// All of them as data.
+    #[must_use]
+    pub fn figures(&self) -> Vec<CheckFigure> {
+        let figure = |checked: &super::Checked| {
+            let reason = match checked.outcome {
+                Outcome::Made => None,
+                Outcome::NotMade(reason) => Some(reason),
+            };
+            CheckFigure {
+                check: checked.check.name(),
+                axis: match &checked.check {
+                    Check::AxisRate(axis) => Some(axis.clone()),
+                    Check::Chips
+                    | Check::Part
+                    | Check::AxisLimits
+                    | Check::SingularPoses
+                    | Check::Branch
+                    | Check::ElbowAngle
+                    | Check::Turns
+                    | Check::Accelerations
+                    | Check::Holder
+                    | Check::Collisions
+                    | Check::ReadBack => None,
+                },
+                made: reason.is_none(),
+                reason: reason.map(Reason::name),
+                words: reason.map(Reason::words),
+            }
+        };
+        self.iter().map(figure).collect()
+    }
+}
+
+impl Check {
+    /// Its permanent name in messages for programs.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Chips => "chips",
+            Self::Part => "part",
+            Self::AxisLimits => "axis_limits",
+            Self::AxisRate(_) => "axis_rate",
+            Self::SingularPoses => "singular_poses",
+            Self::Branch => "configuration",
+            Self::ElbowAngle => "elbow_angle",
+            Self::Turns => "turns",
+            Self::Accelerations => "accelerations",
+            Self::Holder => "holder",
+            Self::Collisions => "collisions",
+            Self::ReadBack => "read_back",
+        }
+    }
+
+    /// What is not checked where it was not made.
+    const fn what(&self) -> &'static str {
+        match self {
+            Self::Chips => "whether chips come free",
+            Self::Part => "whether cuts enter the part",
+            Self::AxisLimits => "reach and the limits of axes",
+            Self::AxisRate(_) => "the rate of an axis",
+            Self::SingularPoses => "the distance from singular poses",
+            Self::Branch => "the configuration of the arm",
+            Self::ElbowAngle => "the angle between the arms, J3 - J2",
+            Self::Turns => "the sweep of the edge where the blade turns beside the work",
+            Self::Accelerations => "times with accelerations",
+            Self::Holder => "shank and holder of the blade",
+            Self::Collisions => "collisions of the machine",
+            Self::ReadBack => "the written text",
+        }
+    }
+}
+
+impl Reason {
+    /// Its permanent name in messages for programs.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::NoMachine => "no_machine",
+            Self::NotStated => "not_stated",
+            Self::NoPlaceForIt => "no_place_for_it",
+            Self::NotMeasured => "not_measured",
+            Self::OtherInterpolation => "other_interpolation",
+            Self::NoBody => "no_body",
+            Self::NoReader => "no_reader",
+        }
+    }
+
+    /// In words.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::NoMachine => "the job has no machine",
+            Self::NotStated => "not known for this machine",
+            Self::NoPlaceForIt => "descriptions of machines cannot state its range",
+            Self::NotMeasured => "not measured for an arm without a closed form",
+            Self::OtherInterpolation => "the control interpolates the rotary axes",
+            Self::NoBody => "their shapes are not known",
+            Self::NoReader => "the target has no reader",
+        }
+    }
+}
+
+impl Standing {
+    /// The word before what is proven.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Proven => "Proven",
+            Self::InPart => "Proven in part",
+        }
+    }
+
+    /// Its permanent name in messages for programs.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Proven => "proven",
+            Self::InPart => "in_part",
+        }
+    }
+}
+
+/// `A1, A2 and A3`.
+pub(super) fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => (*only).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
