@@ -178,12 +178,34 @@ pub struct Limits {
     pub step: Bounds<Length>,
     /// Largest height of material left standing: distance of the machined contour from the nearest point of the part.
     pub scallop: Option<Sourced<Length>>,
+    /// How `scallop` was chosen, where the job sets no such limit and the compiler chose one; none in a job as written.
+    pub chosen: Option<ChosenScallop>,
     /// Longest edge that a cut may use.
     pub edge: Option<Sourced<Length>>,
     /// Longest time of the operation, as planned.
     pub time: Option<Sourced<Duration>>,
     /// Most V-cuts of the operation, as planned; at least 1.
     pub cuts: Option<Sourced<f64>>,
+}
+
+/// How a limit on the scallop was chosen for an operation that has none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChosenScallop {
+    /// The mean depth of what the operation is to take away, along the part.
+    pub depth: Length,
+    /// What the limit was taken for.
+    pub why: WhyChosen,
+}
+
+/// Why a limit on the scallop is the chosen one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhyChosen {
+    /// It is the widest of those tried under which at most a tenth stays of what is to go.
+    LittleStays,
+    /// It is the widest of those tried; under none of them, however tight, a tenth or less stayed.
+    MoreStays,
+    /// It is the tightest of those tried that a plan keeps.
+    TightestKept,
 }
 
 /// Bounds of a value from below and above. Not crossed.

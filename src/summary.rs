@@ -2,7 +2,7 @@
 
 pub mod times;
 
-use crate::job::Order;
+use crate::job::{Order, RoughVcut, WhyChosen};
 use crate::pace::Basis;
 use crate::plan::decision::{Decision, Excess, Standing};
 use crate::plan::parameters::show;
@@ -41,6 +41,7 @@ pub fn summary(
         if !choices.is_empty() {
             lines.push(row("auto", &choices.join(", ")));
         }
+        lines.extend(chosen_limit(&vcut.asked).map(|limit| row("limit", &limit)));
         let reasons = vcut.parameters.reasons(&vcut.asked);
         if !reasons.is_empty() {
             lines.push(row("bound by", &reasons.join(", ")));
@@ -90,6 +91,22 @@ pub fn summary(
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
+}
+
+/// `scallop <= 5.2 mm (chosen, for the job sets none: ...)`: the limit as the job may say it, and where it is from.
+#[must_use]
+pub fn chosen_limit(asked: &RoughVcut) -> Option<String> {
+    let (limit, chosen) = (asked.limits.scallop?, asked.limits.chosen?);
+    let why = match chosen.why {
+        WhyChosen::LittleStays => "the widest tried that leaves at most a tenth of what is to go",
+        WhyChosen::MoreStays => "more than a tenth of what is to go stays under tighter ones too",
+        WhyChosen::TightestKept => "the tightest tried that a plan keeps",
+    };
+    Some(format!(
+        "scallop <= {} mm (chosen, the job sets none: {:.1} mm are to go in the mean; {why})",
+        show(limit.value.to_mm()),
+        chosen.depth.to_mm()
+    ))
 }
 
 /// `mixed: 1 min 52.0 s; lift 1 min 58.3 s; discard leaves 11.2 mm (limit 10 mm)`.

@@ -6,6 +6,9 @@ mod attempts;
 mod chips;
 mod given;
 mod scallop;
+mod stays;
+
+pub use stays::much_stays;
 
 use crate::choice::{Effort, Latitude};
 use crate::diag::{Code, Diagnostic};

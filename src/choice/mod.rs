@@ -11,6 +11,7 @@
 //! `boustrophedon` and by `point`.
 
 mod bench;
+mod chosen;
 mod effort;
 mod finest;
 mod leeway;
@@ -21,6 +22,7 @@ mod route;
 mod tests;
 mod trial;
 
+pub use chosen::{LITTLE, settled};
 pub use effort::Effort;
 pub use leeway::{Latitude, Leeway, Narrowed, is_swing_open};
 
@@ -79,7 +81,7 @@ pub fn choose_while(
         let Operation::RoughVcut(asked) = operation;
         let within = leeway::within(asked, leeway.swing);
         let bench = Bench::new(job, asked, before.clone(), leeway.routes).while_wanted(wanted);
-        match within_limits(&bench, &within, cuts_left) {
+        match chosen::within_all_limits(&bench, asked, &within, cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
                     leeway::told(&mut vcut, asked.limits.swing, swing);

@@ -138,6 +138,8 @@ codes! {
     LimitsConflict = "VC0306", Error, "limits that cannot be kept together";
     /// An objective that makes layers vanish.
     NoLeastLayer = "VC0307", Error, "an objective that no limit holds";
+    /// More than a tenth of what an operation is to take away stays.
+    MuchStays = "VC0308", Warning, "much of what is to be cut away stays";
 
     /// A chip that is not cut free.
     ChipNotFreed = "VC0401", Error, "a chip that is not cut free";

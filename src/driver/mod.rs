@@ -286,12 +286,16 @@ fn along_its_routes(
     let wanted = kept.wanted;
     let mut yielding = Yielding::new(job, wanted);
     let mut refused: Option<Ended> = None;
+    // Limits that the first plan chose hold for all others, as if the job had set them.
+    let mut settled: Option<CheckedJob> = None;
     loop {
         progress(Stage::Planning);
-        let (plan, mut told) = kept.memory.choose(job, yielding.leeway(), wanted);
+        let within = settled.as_ref().unwrap_or(job);
+        let (plan, mut told) = kept.memory.choose(within, yielding.leeway(), wanted);
         let Some(plan) = plan.filter(|_| !wanted.is_needless()) else {
             return refused.unwrap_or(Ended::Refused(None, told));
         };
+        settled = settled.or_else(|| choice::settled(job, &plan));
         progress(Stage::Proving);
         let proven = match verdict::prove(&plan, sources) {
             Ok(proven) => proven,
@@ -309,6 +313,7 @@ fn along_its_routes(
         match reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
                 let compiled = compiled(job, program, &plan, proven.report);
+                told.extend(verdict::much_stays(job, &plan, &compiled.report, wanted));
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
             Err(_) if wanted.is_needless() => return Ended::Refused(Some(plan), told),

@@ -18,6 +18,7 @@ pub mod lattice;
 pub mod optimum;
 pub mod parameters;
 pub mod refusal;
+pub mod removable;
 pub mod residual;
 pub mod route;
 pub mod time_model;

@@ -215,6 +215,7 @@ prop_compose! {
             edge: edge.map(|value| given(Length::mm(value))),
             time: None,
             cuts: cuts.map(given),
+            chosen: None,
         };
         job
     }

@@ -49,6 +49,7 @@ pub(super) fn check(inner: Option<&Block>, scope: Scope<'_>, session: &mut Sessi
         layer: layer?,
         step: step?,
         scallop: scallop?,
+        chosen: None,
         edge: edge?,
         time: time?,
         cuts: cuts?,

@@ -1,0 +1,179 @@
+//! Much of what is to go stays: a plan that keeps its limits may still cut little.
+//!
+//! What is to go is what lies above the part with allowance and standoff ([`Removable`]). Where the compiler chose what
+//! stays, a tenth of it is much. Where the job says so itself, by a limit on the scallop, by its own swing and layer or by its
+//! tips, that is the user's word, and only half is.
+
+use super::Proven;
+use super::attempts::{Case, attempt};
+use crate::choice::LITTLE;
+use crate::diag::{Code, Diagnostic};
+use crate::geom::curve::Point2;
+use crate::job::{Auto, CheckedJob, RoughVcut, Sourced};
+use crate::plan::parameters::show;
+use crate::plan::refusal::Offer;
+use crate::plan::removable::Removable;
+use crate::plan::{PlannedJob, PlannedOperation};
+use crate::sim::report::Report;
+use crate::wanted::Wanted;
+use vcutc_backend_api::ir::OperationId;
+use vcutc_backend_api::units::{Area, Length};
+
+/// What may stay where the job itself says what does, as a share.
+const SAID: f64 = 0.5;
+
+/// Tighter limits that are tried, as shares of the limit, or of what stays at most where there is none.
+const TIGHTER: [f64; 2] = [0.6, 0.35];
+
+/// A change is offered if it leaves no more than this share of what stays now.
+const WORTH: f64 = 0.8;
+
+/// Plans of more cuts are not changed to see what would come of it.
+const MOST_CUTS: usize = 2_000;
+
+/// What a job is to take away, and what stays of it.
+struct Balance {
+    operation: OperationId,
+    whole: Area,
+    stays: Area,
+}
+
+impl Balance {
+    /// By the operation that is to take the most; the last one among equals.
+    fn of(plan: &PlannedJob, report: &Report) -> Option<Self> {
+        let stock = plan.stock;
+        let top = [0.0, stock.width.to_mm()].map(|x| Point2 {
+            x,
+            z: stock.height.to_mm(),
+        });
+        let wholes = (0..).zip(&plan.operations).map(|(index, operation)| {
+            let PlannedOperation::RoughVcut(vcut) = operation;
+            let removable = Removable::new(&plan.profile, &vcut.asked);
+            (OperationId(index), removable.under(&top))
+        });
+        let (operation, whole) = wholes.max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+        Some(Self {
+            operation,
+            whole,
+            stays: whole - report.removed,
+        })
+    }
+
+    fn share(&self) -> f64 {
+        let whole = self.whole.to_mm2();
+        if whole > 0.0 { (self.stays.to_mm2() / whole).max(0.0) } else { 0.0 }
+    }
+}
+
+/// Whether the compiler decides what stays.
+fn is_chosen(asked: &RoughVcut) -> bool {
+    let limits = &asked.limits;
+    let is_open = asked.swing.value == Auto::Auto || asked.layer.value == Auto::Auto;
+    limits.chosen.is_some() || (limits.scallop.is_none() && is_open && asked.tips.is_none())
+}
+
+/// The warning, if much stays.
+#[must_use]
+pub fn much_stays(job: &CheckedJob, plan: &PlannedJob, report: &Report, wanted: &Wanted) -> Option<Diagnostic> {
+    let balance = Balance::of(plan, report)?;
+    let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(balance.operation.0))?;
+    let asked = &vcut.asked;
+    let much = if is_chosen(asked) { LITTLE } else { SAID };
+    let share = balance.share();
+    if share <= much {
+        return None;
+    }
+    let span = asked.limits.scallop.and_then(|limit| limit.span);
+    let told = Diagnostic::new(
+        Code::MuchStays,
+        format!(
+            "{} % of what is to be cut away stays: {:.0} of {:.0} mm2",
+            percent(share),
+            balance.stays.to_mm2(),
+            balance.whole.to_mm2()
+        ),
+        span.unwrap_or(asked.head_span),
+        cause(asked),
+    )
+    .note("to be cut away is all that lies above the part, its allowance and its standoff");
+    let case = Case { job, wanted };
+    Some(if report.cuts() > MOST_CUTS {
+        told
+    } else {
+        with_what_leaves_less(told, case, asked, &balance, report)
+    })
+}
+
+/// What lets so much stay.
+fn cause(asked: &RoughVcut) -> String {
+    match (asked.limits.scallop, asked.limits.chosen) {
+        (Some(limit), Some(_)) => format!(
+            "no limit on scallop is set; the chosen one is {} mm",
+            show(limit.value.to_mm())
+        ),
+        (Some(_), None) => "the limit allows it".to_owned(),
+        (None, _) if asked.tips.is_some() => "these tips leave it".to_owned(),
+        (None, _) => "no limit on scallop is set".to_owned(),
+    }
+}
+
+/// In percent, as far as it tells two plans apart.
+fn percent(share: f64) -> String {
+    format!("{:.0}", share * 100.0)
+}
+
+/// With a tighter limit that leaves less, or with all that is given left open.
+fn with_what_leaves_less(
+    told: Diagnostic,
+    case: Case<'_>,
+    asked: &RoughVcut,
+    balance: &Balance,
+    report: &Report,
+) -> Diagnostic {
+    let share_with = |change: &dyn Fn(&mut RoughVcut)| {
+        let (plan, Proven { report, .. }) = attempt(case, balance.operation, change)?;
+        let then = Balance::of(&plan, &report)?.share();
+        (then < WORTH * balance.share()).then_some(then)
+    };
+    let now = asked.limits.scallop.map_or(report.scallop.height, |limit| limit.value);
+    let is_open = asked.swing.value == Auto::Auto || asked.layer.value == Auto::Auto;
+    let mut best: Option<(Length, f64)> = None;
+    for tighter in TIGHTER.iter().filter(|_| is_open && asked.tips.is_none()) {
+        let limit = Length::mm((now.to_mm() * tighter * 10.0).ceil() / 10.0);
+        let Some(then) = share_with(&|asked| {
+            asked.limits.scallop = Some(Sourced {
+                value: limit,
+                span: asked.limits.scallop.and_then(|given| given.span),
+            });
+            asked.limits.chosen = None;
+        }) else {
+            break;
+        };
+        best = Some((limit, then));
+        if then <= LITTLE {
+            break;
+        }
+    }
+    if let Some((limit, then)) = best {
+        let value = format!("{} mm", show(limit.to_mm()));
+        let span = asked.limits.scallop.and_then(|given| given.span);
+        return match span {
+            Some(span) => told.fix(
+                format!("with `scallop <= {value}`, {} % stays", percent(then)),
+                span,
+                value,
+            ),
+            None => told.help(format!(
+                "add `limits {{ scallop <= {value} }}`: {} % stays then",
+                percent(then)
+            )),
+        };
+    }
+    let opened = Offer::all_open(asked).filter(|_| asked.tips.is_none() && case.job.machine.is_none());
+    match opened.and_then(|offer| Some((share_with(&|asked| asked.clone_from(&offer.changed))?, offer))) {
+        Some((then, offer)) => {
+            told.fix_all(format!("{}; {} % stays then", offer.title, percent(then)), &offer.edits)
+        }
+        None => told,
+    }
+}
