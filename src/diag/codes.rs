@@ -171,6 +171,9 @@ codes! {
     /// A posture for which the machine lacks an axis.
     PostureNeedsAxis = "VC0516", Error, "a posture for which the machine lacks an axis";
 
+    /// An air cut that cannot be made at the height that was asked for.
+    AirCut = "VC0521", Error, "an air cut at a height that does not do";
+
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";
     /// A target that needs more of the machine.
