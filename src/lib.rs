@@ -1,5 +1,6 @@
 #![doc = include_str!("../ARCHITECTURE.md")]
 
+pub mod air;
 mod align;
 pub mod checks;
 pub mod choice;
@@ -11,6 +12,7 @@ pub mod convert;
 pub mod diag;
 pub mod document;
 pub mod driver;
+pub mod fingerprint;
 pub mod format;
 pub mod geom;
 pub mod job;

@@ -1,5 +1,6 @@
 //! The figures of a program for people: a few lines behind a compilation.
 
+pub mod air;
 pub mod times;
 
 use crate::job::{Order, RoughVcut, WhyChosen};
@@ -9,6 +10,7 @@ use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach_summary::{self, ReachFigures};
 use crate::sim::report::Report;
+use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::Duration;
 
 /// Most layers whose cuts are listed one by one.
@@ -215,23 +217,7 @@ fn cuts_per_layer(report: &Report) -> String {
 /// `1 h 02 min 03 s`, `2 min 05.4 s`, `5.4 s`.
 #[must_use]
 pub fn time(duration: Duration) -> String {
-    // From an hour on, tenths of a second say nothing; rounding before dividing never gives 60 seconds.
-    let whole = duration.to_s().round();
-    if whole >= 3600.0 {
-        let (hours, minutes, seconds) = (
-            (whole / 3600.0).floor(),
-            (whole / 60.0).floor() % 60.0,
-            whole % 60.0,
-        );
-        return format!("{hours} h {minutes:02} min {seconds:02} s");
-    }
-    let tenths = (duration.to_s() * 10.0).round();
-    let (minutes, seconds) = ((tenths / 600.0).floor(), (tenths % 600.0) / 10.0);
-    if minutes > 0.0 {
-        format!("{minutes} min {seconds:04.1} s")
-    } else {
-        format!("{seconds:.1} s")
-    }
+    duration_words(duration)
 }
 
 #[cfg(test)]

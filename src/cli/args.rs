@@ -1,10 +1,13 @@
 //! The arguments, and the help that teaches them.
 
+mod air;
 #[cfg(feature = "krl")]
 mod convert;
 
 #[cfg(feature = "krl")]
 pub(super) use convert::ConvertArgs;
+
+pub(super) use air::AirArgs;
 
 use super::Targets;
 use super::files::Disk;
@@ -251,6 +254,9 @@ pub(super) struct VerifyArgs {
     pub(super) target: Option<String>,
 
     #[command(flatten)]
+    pub(super) air: AirArgs,
+
+    #[command(flatten)]
     pub(super) options: TargetOptions,
 
     #[command(flatten)]
@@ -310,6 +316,9 @@ pub(super) struct CompileArgs {
     pub(super) emit: Option<InnerForm>,
 
     #[command(flatten)]
+    pub(super) air: AirArgs,
+
+    #[command(flatten)]
     pub(super) options: TargetOptions,
 
     #[command(flatten)]
@@ -327,11 +336,13 @@ impl CompileArgs {
         let machine = self.overrides.machine.as_ref().map(|_| "--machine".to_owned());
         let check = self.check.then(|| "--check".to_owned());
         let option = self.options.option.first().map(|_| "--option".to_owned());
+        let air_cut = self.air.air_cut.map(|_| "--air-cut".to_owned());
         job.or(target)
             .or(output)
             .or(check)
             .or(emit)
             .or(option)
+            .or(air_cut)
             .or(set)
             .or(machine)
     }
@@ -366,6 +377,9 @@ pub(super) struct CheckArgs {
     /// The job files (.vcut), or - to read one from standard input
     #[arg(required = true, value_name = "JOB")]
     pub(super) jobs: Vec<String>,
+
+    #[command(flatten)]
+    pub(super) air: AirArgs,
 
     #[command(flatten)]
     pub(super) overrides: Overrides,

@@ -24,6 +24,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Instant;
 use vcutc_backend_api::backend::Backend;
+use vcutc_backend_api::units::Length;
 
 /// One program to make.
 pub(super) struct Unit {
@@ -33,6 +34,8 @@ pub(super) struct Unit {
     pub(super) backend: &'static dyn Backend,
     /// The folder that it goes to.
     pub(super) folder: PathBuf,
+    /// As `--air-cut`.
+    pub(super) air_cut: Option<Length>,
     /// As `--set`.
     pub(super) set: Vec<String>,
     /// As `--machine`.
@@ -195,6 +198,9 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
             };
         }
     };
+    if let Some(height) = unit.air_cut {
+        driver::into_air_cut(&mut outcome, height, &mut |_| {});
+    }
     let to = Destination::Folder(unit.folder.clone());
     let made = match snapshot::make(&outcome, unit.backend, &to, fate) {
         Ok(made) => Ok(made),
@@ -207,7 +213,7 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
     Done {
         sources: outcome.sources,
         diagnostics: outcome.diagnostics,
-        figures: outcome.compiled.map(|compiled| Figures {
+        figures: outcome.compiled.filter(|compiled| compiled.numbers_of_cuts().is_some()).map(|compiled| Figures {
             numbers: compiled.numbers,
             times: compiled.times,
         }),

@@ -213,6 +213,7 @@ impl List<'_> {
             }),
             job: join_path(&self.path, job),
             backend,
+            air_cut: None,
             folder: PathBuf::from(if folder.is_empty() { "." } else { &folder }),
             set: entry.set.clone(),
             machine: entry.machine.clone(),

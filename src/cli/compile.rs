@@ -11,11 +11,12 @@ use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
-use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
+use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
 use std::path::PathBuf;
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
+use vcutc_backend_api::units::Length;
 
 /// What is made of a job.
 pub(super) enum Product {
@@ -45,8 +46,8 @@ pub(super) fn compile(args: &CompileArgs, targets: &Targets, console: &Console) 
         Err(failure) => return console.failure(&failure),
     };
     match args.jobs.as_slice() {
-        [job] => judge(job, &args.overrides, targets, &product, console),
-        several => match units(several, &args.overrides, product) {
+        [job] => judge(job, args.air.air_cut, &args.overrides, targets, &product, console),
+        several => match units(several, args.air.air_cut, &args.overrides, product) {
             Ok((units, fate)) => batch::run(&units, fate, targets, None, console).exit,
             Err(failure) => console.failure(&failure),
         },
@@ -54,7 +55,12 @@ pub(super) fn compile(args: &CompileArgs, targets: &Targets, console: &Console) 
 }
 
 /// Several jobs as programs for one folder.
-fn units(jobs: &[String], overrides: &Overrides, product: Product) -> Result<(Vec<Unit>, Fate), Failure> {
+fn units(
+    jobs: &[String],
+    air_cut: Option<Length>,
+    overrides: &Overrides,
+    product: Product,
+) -> Result<(Vec<Unit>, Fate), Failure> {
     let program = match product {
         Product::Program(program) => program,
         Product::Inner(..) => return Err(Failure::new("`--emit` shows one job at a time")),
@@ -78,6 +84,7 @@ fn units(jobs: &[String], overrides: &Overrides, product: Product) -> Result<(Ve
         job: job.clone(),
         backend: program.backend,
         folder: folder.clone(),
+        air_cut,
         set: overrides.set.clone(),
         machine: overrides.machine.clone(),
         options: program.options.clone(),
@@ -93,7 +100,7 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
     let product = Product::Verdict { remark: None };
     args.jobs
         .iter()
-        .map(|job| judge(job, &args.overrides, targets, &product, console))
+        .map(|job| judge(job, args.air.air_cut, &args.overrides, targets, &product, console))
         .max()
         .unwrap_or(Exit::Success)
 }
@@ -162,12 +169,25 @@ fn inner_destination(output: Option<&str>) -> Destination {
 }
 
 /// Takes one job through the pipeline and tells what came of it.
-fn judge(job: &str, overrides: &Overrides, targets: &Targets, product: &Product, console: &Console) -> Exit {
+fn judge(
+    job: &str,
+    air_cut: Option<Length>,
+    overrides: &Overrides,
+    targets: &Targets,
+    product: &Product,
+    console: &Console,
+) -> Exit {
     let disk = Disk::around(job);
+    let mut lift = |outcome: &mut Outcome| {
+        if let Some(height) = air_cut {
+            driver::into_air_cut(outcome, height, &mut |_| {});
+        }
+        Ok(Amended::default())
+    };
     let carried = Carried {
         memory: &mut Memory::none(),
         disk: &disk,
-        amend: &mut |_| Ok(Amended::default()),
+        amend: &mut lift,
     };
     carried_out(overrides.request(&disk, targets), product, carried, console)
 }
@@ -269,7 +289,7 @@ pub(super) fn tell(
         job,
         diagnostics: &diagnostics,
         lines: compiled.map_or(&[], |compiled| &compiled.summary),
-        numbers: compiled.map(|compiled| &compiled.numbers),
+        numbers: compiled.and_then(Compiled::numbers_of_cuts),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
         placed: &made.placed,

@@ -40,6 +40,9 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
             return console.failure(&compile::unreadable(&args.job, &reason));
         }
     };
+    if let Some(height) = args.air.air_cut {
+        driver::into_air_cut(&mut outcome, height, &mut |stage| progress.enter(stage));
+    }
     progress.enter(Stage::Verifying);
     let verdict = compared(&mut outcome, backend, reader, &files, &args.programs);
     let timings = progress.finish();

@@ -175,6 +175,9 @@ codes! {
     /// Axes whose rates are not known.
     RatesNotChecked = "VC0517", Warning, "rates of axes that were not checked";
 
+    /// An air cut that cannot be made at the height that was asked for.
+    AirCut = "VC0521", Error, "an air cut at a height that does not do";
+
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";
     /// A target that needs more of the machine.

@@ -3,14 +3,17 @@
 //! Pure: what it needs it asks of the [`Loader`], what it finds out it returns, and what a backend writes goes into the
 //! caller's [`Sink`].
 
+mod air;
 mod target;
 mod yielding;
 
 pub use crate::sema::Typed;
+pub use air::{air_cut_height, into_air_cut};
 
 use crate::checks::{Carried, Checks};
 use crate::choice;
 use crate::diag::{Code, Diagnostic, has_errors};
+use crate::fingerprint;
 use crate::job::CheckedJob;
 use crate::memory::Memory;
 use crate::numbers::Numbers;
@@ -31,7 +34,7 @@ use crate::verdict;
 use crate::wanted::{Needless, Wanted};
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
 use vcutc_backend_api::bundle::{Bundle, Sink};
-use vcutc_backend_api::ir::OpId;
+use vcutc_backend_api::ir::{Head, OpId, Purpose};
 use vcutc_backend_api::motion::MotionFault;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
@@ -111,6 +114,17 @@ impl Finished {
         }
     }
 
+    /// The same with another head of the program.
+    fn headed(self, head: Option<Head>) -> Self {
+        match self {
+            Self::WithoutMachine(program) => Self::WithoutMachine(Box::new(program.headed(head))),
+            Self::Reached(reached) => Self::Reached(Box::new(Reached {
+                program: reached.program.headed(head),
+                report: reached.report,
+            })),
+        }
+    }
+
     /// How the machine carries it out.
     #[must_use]
     pub const fn reached(&self) -> Option<&Reached> {
@@ -140,6 +154,17 @@ pub struct Compiled {
     pub checks: Checks,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
+}
+
+impl Compiled {
+    /// The figures of what it leaves of the stock; none of an air cut, which cuts nothing.
+    #[must_use]
+    pub fn numbers_of_cuts(&self) -> Option<&Numbers> {
+        match self.program.verified().program().purpose {
+            Purpose::Work => Some(&self.numbers),
+            Purpose::AirCut { .. } => None,
+        }
+    }
 }
 
 /// Why nothing was compiled at all.
@@ -312,7 +337,7 @@ fn along_its_routes(
         let changes = yielding.changes(&plan);
         match reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
-                let compiled = compiled(job, program, &plan, proven.report);
+                let compiled = compiled(job, program, &plan, proven.report, sources);
                 told.extend(verdict::much_stays(job, &plan, &compiled.report, wanted));
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
@@ -334,10 +359,20 @@ fn along_its_routes(
     }
 }
 
-fn compiled(job: &CheckedJob, program: Finished, plan: &PlannedJob, mut report: Report) -> Compiled {
+fn compiled(
+    job: &CheckedJob,
+    program: Finished,
+    plan: &PlannedJob,
+    mut report: Report,
+    sources: &SourceMap,
+) -> Compiled {
     let figures = program.reached().map(reach_summary::figures);
     let paced = paced(job, &program);
     report.times = times(program.verified(), &paced.times);
+    let program = program.headed(Some(Head {
+        job: fingerprint::of_job(sources),
+        time: report.times.all.total(),
+    }));
     let carried = job.machine.as_ref().zip(program.reached());
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     Compiled {

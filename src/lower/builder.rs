@@ -2,7 +2,7 @@
 
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{
-    Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, RateId, Site, Stock,
+    Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, Purpose, RateId, Site, Stock,
 };
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 
@@ -17,6 +17,8 @@ impl Builder {
             program: Program {
                 version: IR_VERSION,
                 name: name.to_owned(),
+                purpose: Purpose::Work,
+                head: None,
                 stock,
                 cell,
                 operations: Vec::new(),

@@ -21,7 +21,7 @@ use crate::source::Span;
 use crate::verdict;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Site};
+use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Deed, Judge, Mismatch, Moment, Reader, Says};
 use vcutc_backend_api::stroke::Pose;
@@ -54,7 +54,11 @@ impl Bench<'_> {
             Err(faults) => found.extend(read.rules(&faults)),
             Ok(verified) => {
                 let is_told = !found.is_empty();
-                found.extend(read.contour(&verified, is_told));
+                found.extend(match verified.program().purpose {
+                    Purpose::Work => read.contour(&verified, is_told),
+                    // Its cuts free nothing, and the rules keep them above the stock.
+                    Purpose::AirCut { .. } => Vec::new(),
+                });
                 found.extend(read.reach(verified));
             }
         }
@@ -472,6 +476,7 @@ const fn rule_words(rule: Rule) -> &'static str {
         Rule::ReadyNotAwaited => "the blade cuts before the generator is known to run",
         Rule::Ending => "the program does not end at home with the generator off",
         Rule::CutPair => "a V is not made of one left and one right flank",
+        Rule::AirCut => "an air cut comes down to the stock, or starts the generator",
         Rule::Order => "operations are out of order, or a layer's cuts are not all there",
     }
 }
@@ -491,6 +496,7 @@ const fn rule_label(rule: Rule) -> &'static str {
         | Rule::CutAcrossStock
         | Rule::CutPosture
         | Rule::CutPair
+        | Rule::AirCut
         | Rule::Order => "in this line",
     }
 }

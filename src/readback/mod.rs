@@ -32,7 +32,7 @@ use differences::{Scene, differences};
 use rebuild::rebuild;
 use steps::{Step, way};
 use told::Told;
-use vcutc_backend_api::ir::{Cell, OpId};
+use vcutc_backend_api::ir::{Cell, OpId, Purpose};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
 
@@ -137,7 +137,7 @@ impl<'a> Reference<'a> {
         if count > 0 {
             let wrong = self.checked(&scene, &way.steps);
             if wrong.is_empty() {
-                lines.push(SOUND.to_owned());
+                lines.push(sound(self.fresh.program.program().purpose).to_owned());
             }
             diagnostics.extend(wrong);
         }
@@ -217,8 +217,16 @@ impl<'a> Reference<'a> {
 }
 
 /// What is told of a program that differs and is right all the same.
-const SOUND: &str =
-    "as it is, the program frees every chip, stays out of the part, and is within reach of the machine";
+const fn sound(purpose: Purpose) -> &'static str {
+    match purpose {
+        Purpose::Work => {
+            "as it is, the program frees every chip, stays out of the part, and is within reach of the machine"
+        }
+        Purpose::AirCut { .. } => {
+            "as it is, the air cut stays above the stock, leaves the generator off, and is within reach of the machine"
+        }
+    }
+}
 
 /// The given files in the order in which the compiler writes those of their names, others behind: in which order somebody
 /// names files says nothing about the program.

@@ -17,7 +17,7 @@ use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{
-    Action, AxisValues, Cell, IR_VERSION, Maker, Op, OpId, OrientationId, PlacedFrame, Program, Ready, Site,
+    Action, AxisValues, Cell, IR_VERSION, Maker, Op, OpId, OrientationId, PlacedFrame, Program, Purpose, Ready, Site,
     Stock,
 };
 use vcutc_backend_api::motion::{Motion, ReachableProgram, Stretch};
@@ -93,6 +93,8 @@ fn program(model: &Model, solution: &Solution) -> ReachableProgram {
     let program = Program {
         version: IR_VERSION,
         name: "posture".to_owned(),
+        purpose: Purpose::Work,
+        head: None,
         stock: Stock {
             width: side,
             depth: side,

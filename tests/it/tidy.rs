@@ -11,6 +11,8 @@ const MOST_LINES: usize = 700;
 /// Which module of `src` may use which others.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("source", &[]),
+    ("air", &[]),
+    ("fingerprint", &["source", "syntax"]),
     ("registry", &[]),
     ("geom", &[]),
     ("posture", &[]),
@@ -39,7 +41,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &["diag", "geom", "job", "lower", "plan", "sim", "source", "wanted"],
     ),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
-    ("summary", &["job", "pace", "plan", "reach_summary", "sim"]),
+    ("summary", &["air", "job", "pace", "plan", "reach_summary", "sim"]),
     (
         "checks",
         &["diag", "job", "kinematics", "machine", "pace", "reach"],
@@ -129,9 +131,11 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
+            "air",
             "checks",
             "choice",
             "diag",
+            "fingerprint",
             "job",
             "lower",
             "machine",
@@ -200,7 +204,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
     ("rayon::", &["src/choice/", "src/pace/", "src/reach/"]),
-    ("hmac_sha256::", &["src/report/page/policy.rs"]),
+    ("hmac_sha256::", &["src/fingerprint.rs", "src/report/page/policy.rs"]),
     ("strsim::", &["src/diag/suggest.rs"]),
     (
         "glam::",

@@ -17,8 +17,14 @@ pub const IR_VERSION: u32 = 2;
 pub struct Program {
     /// Version of this form, [`IR_VERSION`].
     pub version: u32,
-    /// The job's name as written by the user.
+    /// The job's name as written by the user; that of an air cut ends in [`AIR_ENDING`].
     pub name: String,
+    /// What it is for.
+    #[serde(default, skip_serializing_if = "Purpose::is_work")]
+    pub purpose: Purpose,
+    /// What people are to read at its head and no op says. Nothing that moves depends on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub head: Option<Head>,
     /// The stock the program works on.
     pub stock: Stock,
     /// The machine, when the job names one. Without it the program can be checked and shown, not emitted.
@@ -33,6 +39,46 @@ pub struct Program {
     pub rates: Vec<AngularSpeed>,
     /// The ops in the order they are carried out. An op's place in this list is its [`OpId`].
     pub ops: Vec<Op>,
+}
+
+/// What the name of an air cut ends in.
+pub const AIR_ENDING: &str = "_air";
+
+/// What a program is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Purpose {
+    /// It cuts.
+    #[default]
+    Work,
+    /// A first run above the stock: the ops of a program that cuts, lifted in W, the generator off all the time. Its cuts meet
+    /// nothing.
+    AirCut {
+        /// By how much all tips are lifted.
+        lift: Length,
+    },
+}
+
+impl Purpose {
+    /// Whether the program cuts.
+    #[must_use]
+    pub const fn is_work(&self) -> bool {
+        match self {
+            Self::Work => true,
+            Self::AirCut { .. } => false,
+        }
+    }
+}
+
+/// What people are to read at the head of a program and no op says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Head {
+    /// Hash of what the program was made from: 64 hexadecimal digits. Equal hashes mean equal jobs.
+    pub job: String,
+    /// How long it takes, as planned.
+    pub time: Duration,
 }
 
 /// The stock box, with one corner at the origin of W.

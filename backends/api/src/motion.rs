@@ -10,7 +10,7 @@
 mod tests;
 
 use crate::geometry::{Frame, Point3};
-use crate::ir::{Action, AxisValues, Cell, OpId, OrientationId, Program};
+use crate::ir::{Action, AxisValues, Cell, Head, OpId, OrientationId, Program};
 use crate::stroke::Stroke;
 use crate::verify::VerifiedProgram;
 use core::fmt;
@@ -183,6 +183,15 @@ impl ReachableProgram {
             Ok(Self { verified, motion })
         } else {
             Err(faults)
+        }
+    }
+
+    /// The same with another head of the program, on which no motion depends.
+    #[must_use]
+    pub fn headed(self, head: Option<Head>) -> Self {
+        Self {
+            verified: self.verified.headed(head),
+            ..self
         }
     }
 

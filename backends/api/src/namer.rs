@@ -1,5 +1,6 @@
 //! Names that a dialect accepts, made from names that people wrote.
 
+use crate::ir::AIR_ENDING;
 use std::collections::BTreeSet;
 
 /// What a dialect takes as a name.
@@ -44,8 +45,7 @@ impl Namer {
         while !self.taken.insert(candidate.to_ascii_uppercase()) {
             count += 1;
             let suffix = format!("_{count}");
-            let room = self.rules.max_length.saturating_sub(suffix.len());
-            candidate = plain.chars().take(room).collect::<String>() + &suffix;
+            candidate = fitted(&plain, self.rules.max_length.saturating_sub(suffix.len())) + &suffix;
         }
         candidate
     }
@@ -63,12 +63,19 @@ impl Namer {
         let reserved = self.rules.reserved.contains(&name.to_ascii_uppercase().as_str());
         let needs_prefix = reserved || !name.starts_with(|c: char| c.is_ascii_alphabetic());
         let prefix = if needs_prefix { self.rules.prefix } else { "" };
-        prefix
-            .chars()
-            .chain(name.chars())
-            .take(self.rules.max_length)
-            .collect()
+        fitted(&format!("{prefix}{name}"), self.rules.max_length)
     }
+}
+
+/// A name of ASCII cut to length. That of an air cut keeps its ending: without it, it would be the name of the program that
+/// cuts, and take its place.
+fn fitted(name: &str, most: usize) -> String {
+    let (stem, ending) = match name.strip_suffix(AIR_ENDING) {
+        Some(stem) => (stem, AIR_ENDING),
+        None => (name, ""),
+    };
+    let room = most.saturating_sub(ending.len());
+    stem.chars().take(room).chain(ending.chars()).collect()
 }
 
 #[cfg(test)]

@@ -15,8 +15,8 @@ pub use capability::{Capabilities, Capability};
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Axis, Cell, Edges, FeedId, Flank, IR_VERSION, MOST_AXES, Op, OpId, Operation, OperationId,
-    OrientationId, Program, RateId, Ready, Registered, Site, Switch,
+    Action, Axis, Cell, Edges, FeedId, Flank, Head, IR_VERSION, MOST_AXES, Op, OpId, Operation, OperationId,
+    OrientationId, Program, Purpose, RateId, Ready, Registered, Site, Switch,
 };
 use crate::units::{Angle, Duration, Length, Mass};
 use core::fmt;
@@ -50,6 +50,13 @@ impl VerifiedProgram {
             .get(id.0 as usize)
             .copied()
             .unwrap_or(Orientation::IDENTITY)
+    }
+
+    /// The same program with another head, on which no rule depends.
+    #[must_use]
+    pub fn headed(mut self, head: Option<Head>) -> Self {
+        self.program.head = head;
+        self
     }
 
     /// The ops with their numbers.
@@ -101,6 +108,8 @@ pub enum Rule {
     Ending,
     /// Every V-cut has one left and one right flank.
     CutPair,
+    /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and the generator off.
+    AirCut,
     /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation
     /// visits them is for the proof to judge.
     Order,
@@ -124,6 +133,7 @@ impl fmt::Display for Rule {
             Self::ReadyNotAwaited => "the generator is not awaited before a cut",
             Self::Ending => "the program does not end at home with the generator off",
             Self::CutPair => "a V-cut without exactly one left and one right flank",
+            Self::AirCut => "an air cut lets the blade down to the stock, or starts the generator",
             Self::Order => "operations are out of order, or a layer's cuts are not all there",
         })
     }
@@ -199,6 +209,8 @@ struct Walk<'p> {
     turns: Known<[OrientationId; 2], Angle>,
     /// How far the edges of an operation's blade lie along y in a posture.
     overhangs: Known<(OperationId, OrientationId), [Length; 2]>,
+    /// Half the thickness of the thickest blade, in mm.
+    half_thickness: f64,
 }
 
 /// Answers that are asked for again and again: a program has a handful of postures for all its ops.
@@ -221,9 +233,10 @@ impl<K: PartialEq, V: Copy> Known<K, V> {
 }
 
 impl<'p> Walk<'p> {
-    const fn new(program: &'p Program) -> Self {
+    fn new(program: &'p Program) -> Self {
         Self {
             program,
+            half_thickness: half_thickness(program).to_mm(),
             faults: Vec::new(),
             needs: Capabilities::NONE,
             at: Where::Start,
@@ -283,6 +296,10 @@ impl<'p> Walk<'p> {
     fn op(&mut self, id: OpId, op: &Op) {
         self.current = id;
         self.site(op.site);
+        match self.program.purpose {
+            Purpose::Work => {}
+            Purpose::AirCut { .. } => self.require(self.is_of_an_air_cut(&op.action), Rule::AirCut),
+        }
         match op.action {
             Action::Home => self.home(),
             Action::Travel {
@@ -417,12 +434,8 @@ impl<'p> Walk<'p> {
         };
         self.at = Where::Tip(to, held);
         self.require(self.crosses_stock(from, to), Rule::CutAcrossStock);
-        if self
-            .program
-            .cell
-            .as_ref()
-            .is_some_and(|cell| cell.ultrasonic.is_some())
-        {
+        let wired = self.program.cell.as_ref().is_some_and(|cell| cell.ultrasonic.is_some());
+        if wired && self.program.purpose.is_work() {
             match self.generator {
                 Generator::Off => self.fault(Rule::SilentCut),
                 Generator::Starting => self.fault(Rule::ReadyNotAwaited),
@@ -511,6 +524,26 @@ impl<'p> Walk<'p> {
         self.require(rests && self.generator == Generator::Off, Rule::Ending);
     }
 
+    /// Whether an op of an air cut meets nothing: its tip ends above the stock, and with all tips the straight ways between
+    /// them do. The tip is the lowest line of the blade in all postures that may be turned to above the stock, and as long as
+    /// the blade is thick, so half of that hangs lower at most.
+    fn is_of_an_air_cut(&self, action: &Action) -> bool {
+        let lowest = self.program.stock.height.to_mm() + self.half_thickness - SAME;
+        match *action {
+            Action::Travel { to, .. }
+            | Action::AxisTravel { to, .. }
+            | Action::Approach { to, .. }
+            | Action::Retract { to, .. }
+            | Action::Cut { to, .. } => to.z >= lowest,
+            Action::Ultrasonic { state: Switch::On } | Action::AwaitReady => false,
+            Action::Home
+            | Action::Turn { .. }
+            | Action::Ultrasonic { state: Switch::Off }
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => true,
+        }
+    }
+
     fn has_home(&self) -> bool {
         self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some())
     }
@@ -587,6 +620,13 @@ impl<'p> Walk<'p> {
                 .into_iter()
                 .all(|along_y| along_y.to_mm() * towards_work <= gap + SAME)
     }
+}
+
+/// Half the thickness of a program's thickest blade: how far below its tip a blade hangs at most, held as it cuts or upright.
+#[must_use]
+pub fn half_thickness(program: &Program) -> Length {
+    let blades = program.operations.iter().map(|operation| operation.blade.thickness * 0.5);
+    blades.fold(Length::ZERO, Length::max)
 }
 
 /// How far the edges of an operation's blade lie along y in a posture.

@@ -122,7 +122,7 @@ impl Backend for Gcode {
         program: &'p ReachableProgram,
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
-        let settings = Settings::read(options);
+        let settings = Settings::read(options).of(program.program().purpose);
         let parts = split(
             &program.program().ops,
             settings.common.lines_per_part,

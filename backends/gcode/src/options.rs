@@ -5,6 +5,7 @@
 
 use crate::dialect::{Controller, Dialect};
 use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
+use vcutc_backend_api::ir::Purpose;
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 
@@ -67,7 +68,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 9999,
             default: 1,
         },
-        help: "Fanuc's O number of the main program; parts have the numbers behind it.",
+        help: "Fanuc's O number of the main program; parts have the numbers behind it. An air cut adds 4000, or takes 3999 away from 4000 on.",
     },
     OptionSpec {
         key: SPINDLE_AXIS,
@@ -139,6 +140,9 @@ pub(crate) struct Settings<'p> {
     pub(crate) codes: Codes<'p>,
 }
 
+/// How far the O number of an air cut is from that of its job: half the numbers that are free for programs of users.
+const AIR_NUMBERS: u32 = 4000;
+
 impl<'p> Settings<'p> {
     /// Reads the options of a job.
     pub(crate) fn read(options: &'p Options) -> Self {
@@ -168,6 +172,17 @@ impl<'p> Settings<'p> {
                 ready: options.lines(READY_CODE),
             },
         }
+    }
+
+    /// As a program for that purpose is written: an air cut has an O number of its own, or it would take the place of the
+    /// program that cuts in the control's memory.
+    pub(crate) const fn of(mut self, purpose: Purpose) -> Self {
+        self.program_number = match purpose {
+            Purpose::Work => self.program_number,
+            Purpose::AirCut { .. } if self.program_number < AIR_NUMBERS => self.program_number + AIR_NUMBERS,
+            Purpose::AirCut { .. } => self.program_number - AIR_NUMBERS + 1,
+        };
+        self
     }
 
     /// Format of speeds, inverse times and waits: written without trailing zeros, so these are the most decimals.

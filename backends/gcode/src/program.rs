@@ -5,7 +5,7 @@ use crate::body::{self, Source};
 use crate::dialect::{File, Unnumbered};
 use crate::names::part_name;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::script::{Part, Written, first_of, trimmed_text};
+use vcutc_backend_api::script::{Part, Written, first_of, head_lines, trimmed_text};
 
 /// Writes all files of a program.
 pub(crate) fn write(source: Source<'_>, name: &str, parts: &[Part], blocks: &mut Blocks<'_, '_>) -> Written {
@@ -59,8 +59,9 @@ fn file<'a>(source: Source<'_>, name: &'a str, place: usize) -> File<'a> {
 /// The head of the main program.
 fn head(source: Source<'_>, file: File<'_>, blocks: &mut Blocks<'_, '_>) -> Written {
     opening(source, file, blocks)?;
-    blocks.comment("job ", &source.program().name)?;
-    blocks.comment("machine ", &source.cell.name)?;
+    for line in head_lines(source.program(), &source.cell.name) {
+        blocks.comment(&line.ours, line.theirs)?;
+    }
     for line in source.settings.common.header {
         // LinuxCNC carries out comments that begin with words such as MSG or LOGOPEN [L-OV].
         blocks.comment("note: ", line)?;

@@ -7,7 +7,7 @@ use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Load, PlacedFrame, Registered};
 use vcutc_backend_api::number::NotFinite;
-use vcutc_backend_api::script::{Part, Place, Text, Written, first_of, push_trimmed};
+use vcutc_backend_api::script::{Part, Place, Text, Written, first_of, head_lines, push_trimmed};
 
 /// Writes all modules of a program.
 pub(crate) fn write(source: Source<'_>, name: &str, parts: &[Part], text: &mut Text<'_>) -> Written {
@@ -96,8 +96,9 @@ fn marks(source: Source<'_>, text: &mut Text<'_>) -> Written {
 /// Comments at the head of the main module, and the lines that its machine wants there: in front of what resets all that
 /// motions depend on.
 fn header(source: Source<'_>, text: &mut Text<'_>) -> Written {
-    text.comment("; job ", &source.program.name)?;
-    text.comment("; machine ", &source.cell.name)?;
+    for line in head_lines(source.program, &source.cell.name) {
+        text.comment(&format!("; {}", line.ours), line.theirs)?;
+    }
     for line in source.settings.common.header {
         text.comment("; ", line)?;
     }

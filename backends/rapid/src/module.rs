@@ -8,7 +8,7 @@ use crate::speeds::{EXTERNAL, RATE_OF_NOTHING};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Action, Load, RateId, Registered};
-use vcutc_backend_api::script::{Part, Text, Written, feed, first_of, rate};
+use vcutc_backend_api::script::{Part, Text, Written, feed, first_of, head_lines, rate};
 use vcutc_backend_api::units::Length;
 
 /// The modes that moves depend on. A task that is started anew has them, one that is started at a part may not.
@@ -113,8 +113,9 @@ fn list(main: &str, modules: &[String], text: &mut Text<'_>) -> Written {
 
 /// Comments at the head of the main module.
 fn header(source: Source<'_>, text: &mut Text<'_>) -> Written {
-    text.comment("  ! job ", &source.program.name)?;
-    text.comment("  ! machine ", &source.cell.name)?;
+    for line in head_lines(source.program, &source.cell.name) {
+        text.comment(&format!("  ! {}", line.ours), line.theirs)?;
+    }
     for line in source.settings.common.header {
         text.comment("  ! ", line)?;
     }

@@ -3,6 +3,7 @@
 //!
 //! A dialect has its own words for all of this, and shares the decisions.
 
+mod head;
 mod listing;
 mod options;
 mod split;
@@ -10,6 +11,7 @@ mod state;
 mod tables;
 mod text;
 
+pub use head::{HeadLine, duration_words, head_lines};
 pub use listing::{Layer, Lead, Modal, first_of, speeds};
 pub use options::{
     APPROXIMATION, Common, DECIMALS, HEADER, LINES_PER_PART, approximation, decimals, header, lines_per_part,

@@ -5,7 +5,7 @@ use super::pretend_five_axis::five_axes;
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{
     Action, AxisValues, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Maker, Op,
-    Operation, OperationId, OperationKind, OrientationId, PlacedFrame, Program, RateId, Ready, Registered,
+    Operation, OperationId, OperationKind, OrientationId, PlacedFrame, Program, Purpose, RateId, Ready, Registered,
     Site, SourceRef, Stock, Switch,
 };
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
@@ -201,6 +201,8 @@ impl Recipe {
         Program {
             version: IR_VERSION,
             name: self.name.clone(),
+            purpose: Purpose::Work,
+            head: None,
             stock: self.stock,
             cell: Some(self.cell()),
             operations: vec![self.operation(); usize::from(self.operations)],

@@ -1,0 +1,171 @@
+//! What stands at the head of a program for people: what it was made from, for which blade and stock, and how long it takes.
+//!
+//! Each line is short enough for every control whose comments this workspace writes, and says nothing that a reader of programs
+//! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
+//! that a shop has under version control.
+
+use crate::ir::{Action, Blade, Flank, Head, Program, Purpose};
+use crate::units::{Duration, Length};
+
+/// A comment: words of ours, and words that people wrote behind them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HeadLine<'p> {
+    /// Ours: ASCII, at most 60 characters.
+    pub ours: String,
+    /// Theirs.
+    pub theirs: &'p str,
+}
+
+/// How many digits of the job's hash are shown: by chance two jobs of a million have the same with odds of one to ten million.
+const SHOWN_DIGITS: usize = 16;
+
+/// Which axis of the blade frame is what, as `docs/language.md` draws it.
+const AXES: [&str; 3] = [
+    "tool z: from the shank out through the tip",
+    "tool x: to the edge that leads on a feed along +y",
+    "tool y: normal of the flat",
+];
+
+/// The comments at the head of a program, in order.
+#[must_use]
+pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p>> {
+    let ours = |ours: String| HeadLine { ours, theirs: "" };
+    let with = |ours: &str, theirs| HeadLine {
+        ours: ours.to_owned(),
+        theirs,
+    };
+    let mut lines = Vec::new();
+    if let Purpose::AirCut { lift } = program.purpose {
+        lines.push(ours(format!("AIR CUT: lifted by {} mm, generator off", number(lift))));
+    }
+    lines.push(with("job ", &program.name));
+    lines.extend(program.head.iter().map(|head| ours(format!("job hash {}", shown(head)))));
+    lines.push(with("machine ", machine));
+    lines.extend(blades(program).into_iter().map(|blade| HeadLine {
+        ours: format!(
+            "blade {} mm long, {} mm thick: ",
+            number(blade.cutting_length),
+            number(blade.thickness)
+        ),
+        theirs: &blade.name,
+    }));
+    lines.extend(AXES.map(|axis| ours(axis.to_owned())));
+    let stock = program.stock;
+    let [width, depth, height] = [stock.width, stock.depth, stock.height].map(number);
+    lines.push(ours(format!("stock {width} x {depth} x {height} mm")));
+    lines.push(ours(match &program.head {
+        Some(head) => format!("{}, {} as planned", cuts(program), duration_words(head.time)),
+        None => cuts(program),
+    }));
+    lines
+}
+
+fn shown(head: &Head) -> &str {
+    head.job.get(..SHOWN_DIGITS).unwrap_or(&head.job)
+}
+
+/// The blades of a program, each once, in the order of the operations.
+fn blades(program: &Program) -> Vec<&Blade> {
+    let mut blades: Vec<&Blade> = Vec::new();
+    for operation in &program.operations {
+        if !blades.contains(&&operation.blade) {
+            blades.push(&operation.blade);
+        }
+    }
+    blades
+}
+
+/// Every V has one left flank.
+fn cuts(program: &Program) -> String {
+    let is_left = |action: &Action| {
+        matches!(
+            action,
+            Action::Cut {
+                flank: Flank::Left,
+                ..
+            }
+        )
+    };
+    match program.ops.iter().filter(|op| is_left(&op.action)).count() {
+        1 => "1 cut".to_owned(),
+        cuts => format!("{cuts} cuts"),
+    }
+}
+
+/// A length in mm with up to three decimals, and none that say nothing.
+fn number(length: Length) -> String {
+    let text = format!("{:.3}", length.to_mm());
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// `1 h 02 min 03 s`, `2 min 05.4 s`, `5.4 s`.
+#[must_use]
+pub fn duration_words(duration: Duration) -> String {
+    // From an hour on, tenths of a second say nothing; rounding before dividing never gives 60 seconds.
+    let whole = duration.to_s().round();
+    if whole >= 3600.0 {
+        let (hours, minutes, seconds) = (
+            (whole / 3600.0).floor(),
+            (whole / 60.0).floor() % 60.0,
+            whole % 60.0,
+        );
+        return format!("{hours} h {minutes:02} min {seconds:02} s");
+    }
+    let tenths = (duration.to_s() * 10.0).round();
+    let (minutes, seconds) = ((tenths / 600.0).floor(), (tenths % 600.0) / 10.0);
+    if minutes > 0.0 {
+        format!("{minutes} min {seconds:04.1} s")
+    } else {
+        format!("{seconds:.1} s")
+    }
+}
+
+#[cfg(test)]
+#[cfg(feature = "testkit")]
+mod tests {
+    use super::*;
+    use crate::testkit::Recipe;
+
+    fn lines(program: &Program) -> Vec<String> {
+        let lines = head_lines(program, "cell 4");
+        lines.iter().map(|line| format!("{}{}", line.ours, line.theirs)).collect()
+    }
+
+    #[test]
+    fn a_head_says_what_the_program_was_made_from() {
+        let mut program = Recipe::default().program();
+        let cuts = program.ops.iter().filter(|op| matches!(op.action, Action::Cut { .. })).count() / 2;
+        program.head = Some(Head {
+            job: "0123456789abcdef0123".to_owned(),
+            time: Duration::s(125.4),
+        });
+        let text = lines(&program).join("\n");
+        assert!(text.contains("job hash 0123456789abcdef\n"), "{text}");
+        assert!(text.ends_with(&format!("{cuts} cuts, 2 min 05.4 s as planned")), "{text}");
+        assert!(!text.contains("AIR"), "{text}");
+    }
+
+    #[test]
+    fn an_air_cut_says_so_first() {
+        let mut program = Recipe::default().program();
+        program.purpose = Purpose::AirCut {
+            lift: Length::mm(100.0),
+        };
+        assert_eq!(lines(&program)[0], "AIR CUT: lifted by 100 mm, generator off");
+    }
+
+    #[test]
+    fn lines_are_short_enough_for_every_control() {
+        let mut program = Recipe::default().program();
+        program.purpose = Purpose::AirCut {
+            lift: Length::mm(9999.999),
+        };
+        program.head = Some(Head {
+            job: "f".repeat(64),
+            time: Duration::s(359_999.0),
+        });
+        for line in head_lines(&program, "cell") {
+            assert!(line.ours.len() <= 60 && line.ours.is_ascii(), "{}", line.ours);
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The argument for air cuts.
+
+use crate::driver::air_cut_height;
+use clap::Args;
+use vcutc_backend_api::units::Length;
+
+/// What a program is for.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct AirArgs {
+    /// Lift the program by this height, such as 100mm, with the generator off: for a first run through the air
+    ///
+    /// The same cuts, named NAME_air, at no more than 100 mm/s and 30 deg/s. It is proven that the blade stays above the stock
+    /// and that the machine carries the lifted program out.
+    #[arg(long, value_name = "HEIGHT", value_parser = air_cut_height)]
+    pub(in crate::cli) air_cut: Option<Length>,
+}

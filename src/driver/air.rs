@@ -1,0 +1,212 @@
+//! From what came of a job to its air cut: the program that cuts is compiled and proven first, then lifted, and what comes of
+//! that takes its place.
+
+use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
+use crate::air::{least_gap, least_lift, lifted};
+use crate::diag::{Code, Diagnostic};
+use crate::job::{CheckedJob, Operation};
+use crate::plan::parameters::show;
+use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
+use crate::reach_summary;
+use crate::reach_verdict;
+use crate::sema::units;
+use crate::sim::timing::times;
+use crate::summary::air::{AirFigures, Mover, summary};
+use crate::summary::times::figures as time_figures;
+use vcutc_backend_api::ir::{Head, Program, Purpose};
+use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::units::Length;
+use vcutc_backend_api::verify::{VerifiedProgram, verify};
+
+/// Nothing in a cell is higher, in mm.
+const HIGHEST: f64 = 10_000.0;
+
+/// The height of an air cut as people write it: mm unless another unit follows.
+///
+/// # Errors
+/// What to write instead.
+pub fn air_cut_height(text: &str) -> Result<Length, String> {
+    let trimmed = text.trim();
+    let end = trimmed.find(|c: char| c.is_alphabetic()).unwrap_or(trimmed.len());
+    let (number, unit) = trimmed.split_at(end);
+    let unit = if unit.is_empty() { "mm" } else { unit };
+    let number = number.trim().parse::<f64>().ok();
+    let found = number.and_then(|number| units::quantity(number, unit));
+    let one = units::quantity(1.0, "mm");
+    match (found, one) {
+        (Some(found), Some(one)) if found.dimension == one.dimension => {
+            if found.value > 0.0 && found.value <= HIGHEST {
+                Ok(Length::mm(found.value))
+            } else {
+                Err("a height is above 0 mm and at most 10 m".to_owned())
+            }
+        }
+        _ => Err("write a length with its unit, such as 100mm".to_owned()),
+    }
+}
+
+/// Puts the air cut in the place of an outcome's program. An outcome without a program stays as it is; where there is no air
+/// cut at that height the outcome says why, and has no program any more.
+pub fn into_air_cut(outcome: &mut Outcome, lift: Length, progress: &mut dyn FnMut(Stage)) {
+    let Some(compiled) = outcome.compiled.take() else { return };
+    let Some(job) = &outcome.job else { return };
+    match air_cut(job, compiled, lift, progress) {
+        Ok(compiled) => outcome.compiled = Some(compiled),
+        Err(diagnostic) => outcome.diagnostics.push(*diagnostic),
+    }
+}
+
+fn air_cut(
+    job: &CheckedJob,
+    compiled: Compiled,
+    lift: Length,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Compiled, Box<Diagnostic>> {
+    let cutting = compiled.program.verified().program();
+    let least = least_lift(cutting, clearance(job));
+    if lift < least {
+        return Err(Box::new(too_low(job, lift, least)));
+    }
+    progress(Stage::Reaching);
+    let lifted = Lifted {
+        job,
+        cutting,
+        lift,
+        least,
+    };
+    let program = lifted.reached()?;
+    Ok(told(job, &compiled, program))
+}
+
+/// The widest clearance that the job keeps from its stock.
+fn clearance(job: &CheckedJob) -> Length {
+    let operations = job.operations.iter();
+    let all = operations.map(|Operation::RoughVcut(asked)| asked.clearance.value);
+    all.fold(Length::ZERO, Length::max)
+}
+
+/// A program on its way up.
+struct Lifted<'l> {
+    job: &'l CheckedJob,
+    cutting: &'l Program,
+    lift: Length,
+    least: Length,
+}
+
+impl Lifted<'_> {
+    fn reached(&self) -> Result<Finished, Box<Diagnostic>> {
+        let program = self.verified(self.lift)?;
+        let Some(machine) = &self.job.machine else {
+            return Ok(Finished::WithoutMachine(Box::new(program)));
+        };
+        match solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir) {
+            Ok(reached) => Ok(Finished::Reached(Box::new(reached))),
+            Err(unreached) => Err(Box::new(self.refused(&unreached))),
+        }
+    }
+
+    fn verified(&self, lift: Length) -> Result<VerifiedProgram, Box<Diagnostic>> {
+        verify(lifted(self.cutting, lift)).map_err(|faults| Box::new(internal(self.job, &rules_broken(&faults))))
+    }
+
+    /// Why the machine does not carry it out, and the least height if it carries that out.
+    fn refused(&self, unreached: &Unreached) -> Diagnostic {
+        let unreachable = match unreached {
+            Unreached::Unreachable(unreachable) => unreachable,
+            Unreached::Rules(faults) => return internal(self.job, &rules_broken(faults)),
+            Unreached::Motion(faults) => return internal(self.job, &motions_broken(faults)),
+        };
+        let base = self.job.machine.as_ref().and_then(|machine| machine.base.span);
+        let lift = show(self.lift.to_mm());
+        let diagnostic = Diagnostic::new(
+            Code::AirCut,
+            format!("the machine does not carry out the air cut {lift} mm above the program"),
+            base.unwrap_or(self.job.name_span),
+            "with the work in this place",
+        );
+        let diagnostic = match reach_verdict::in_words(self.job, unreachable) {
+            Some(why) => diagnostic.note(why.message),
+            None => diagnostic,
+        };
+        if self.is_carried_out(self.least) {
+            diagnostic.help(format!("use `--air-cut {}mm`, which it carries out", show(self.least.to_mm())))
+        } else {
+            diagnostic
+                .note(format!(
+                    "nor {} mm above it, the least that keeps the blade clear of the stock",
+                    show(self.least.to_mm())
+                ))
+                .help("run the program itself without stock, blade and generator, in manual mode")
+        }
+    }
+
+    fn is_carried_out(&self, lift: Length) -> bool {
+        let (Ok(program), Some(machine)) = (self.verified(lift), &self.job.machine) else {
+            return false;
+        };
+        lift < self.lift && solve(program, &machine.model, &LEAST_CLEARANCE, Changes::InTheAir).is_ok()
+    }
+}
+
+fn too_low(job: &CheckedJob, lift: Length, least: Length) -> Diagnostic {
+    Diagnostic::new(
+        Code::AirCut,
+        format!("an air cut {} mm above the program would meet the stock", show(lift.to_mm())),
+        job.stock_span,
+        "this stock",
+    )
+    .note("the lowest tip has to pass above the stock by the job's `clearance` and half the blade's thickness, at least")
+    .help(format!("use `--air-cut {}mm`, or more", show(least.to_mm())))
+}
+
+/// What there is to tell of an air cut.
+fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
+    let paced = paced(job, &program);
+    let mut report = cutting.report.clone();
+    report.times = times(program.verified(), &paced.times);
+    let figures = program.reached().map(reach_summary::figures);
+    let head = cutting.program.verified().program().head.as_ref();
+    let head = head.map(|head| Head {
+        time: report.times.all.total(),
+        ..head.clone()
+    });
+    let program = program.headed(head);
+    let summary = summary(
+        &air_figures(cutting, &program),
+        &report,
+        paced.basis,
+        figures.as_ref(),
+    );
+    Compiled {
+        numbers: cutting.numbers.clone(),
+        times: time_figures(&report, paced.basis),
+        op_times: paced.times,
+        summary,
+        program,
+        figures,
+        report,
+    }
+}
+
+fn air_figures(cutting: &Compiled, air: &Finished) -> AirFigures {
+    let program = air.verified().program();
+    let machine = match (air.reached(), cutting.program.reached()) {
+        (None, _) | (_, None) => Mover::None,
+        (Some(air), Some(cutting)) if branches(air).eq(branches(cutting)) => Mover::StandsAlike,
+        (Some(_), Some(_)) => Mover::StandsOtherwise,
+    };
+    AirFigures {
+        name: program.name.clone(),
+        lift: match program.purpose {
+            Purpose::AirCut { lift } => lift,
+            Purpose::Work => Length::ZERO,
+        },
+        gap: least_gap(program),
+        machine,
+    }
+}
+
+/// The branches in order, whatever the ops at which they begin: the air cut has fewer ops.
+fn branches(reached: &Reached) -> impl Iterator<Item = Branch> {
+    reached.report.stretches.iter().map(|stretch| stretch.branch)
+}

@@ -1,0 +1,88 @@
+//! The figures of an air cut for people: what was proven of it, and what was not.
+
+use super::{row, time, times};
+use crate::air::{TIP_SPEED, TURNING_RATE};
+use crate::pace::Basis;
+use crate::plan::parameters::show;
+use crate::reach_summary::{self, ReachFigures};
+use crate::sim::report::Report;
+use vcutc_backend_api::units::Length;
+
+/// An air cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AirFigures {
+    /// The program's name.
+    pub name: String,
+    /// By how much it is lifted.
+    pub lift: Length,
+    /// How far its lowest tip is above the stock; none where it moves no tip.
+    pub gap: Option<Length>,
+    /// Whether it can be proven that a machine carries it out.
+    pub machine: Mover,
+}
+
+/// Who moves the blade.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mover {
+    /// Nobody: the job has no machine.
+    None,
+    /// A machine that stands as it does in the program that cuts.
+    StandsAlike,
+    /// A machine that stands in another way.
+    StandsOtherwise,
+}
+
+/// The lines of the summary.
+#[must_use]
+pub fn summary(air: &AirFigures, report: &Report, basis: Basis, reach: Option<&ReachFigures>) -> Vec<String> {
+    let mut lines = vec![
+        format!(
+            "{}: AIR CUT, lifted by {} mm, generator off; {} cuts through the air in {}",
+            air.name,
+            show(air.lift.to_mm()),
+            report.cuts(),
+            time(report.times.all.total()),
+        ),
+        row("proven", &proven(air, reach)),
+        row(
+            "not proven",
+            "chips, contour and scallop, as nothing is cut: compile without --air-cut for those",
+        ),
+        row(
+            "speeds",
+            &format!(
+                "at most {} mm/s and {} deg/s, or the job's where lower; moves of all axes as the target sets them",
+                show(TIP_SPEED.to_mm_per_s()),
+                show(TURNING_RATE.to_deg_per_s())
+            ),
+        ),
+    ];
+    match air.machine {
+        Mover::None | Mover::StandsAlike => {}
+        Mover::StandsOtherwise => lines.push(row(
+            "posture",
+            "NOT the program's: up there another way to stand has more room, so cables and limits are not those of the real run",
+        )),
+    }
+    lines.push(row("time", &times::in_all(&report.times.all)));
+    lines.push(row("basis", &times::basis(basis)));
+    let reach = reach.into_iter().flat_map(reach_summary::lines);
+    lines.extend(reach.map(|(name, text)| row(name, &text)));
+    lines
+}
+
+fn proven(air: &AirFigures, reach: Option<&ReachFigures>) -> String {
+    let gap = match air.gap {
+        Some(gap) => format!("every tip stays {} mm above the stock or more", show(gap.to_mm())),
+        None => "no tip moves".to_owned(),
+    };
+    let Some(reach) = reach else {
+        return format!("{gap}; not that a machine reaches it, as the job has none");
+    };
+    let rates = if reach.axes.iter().all(|axis| axis.rate_limit.is_some()) {
+        "limits and rates"
+    } else {
+        "limits"
+    };
+    format!("{gap}; every motion is within the {rates} of the axes")
+}
