@@ -39,7 +39,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &["diag", "geom", "job", "lower", "plan", "sim", "source", "wanted"],
     ),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
-    ("summary", &["job", "pace", "plan", "reach_summary", "sim"]),
+    ("summary", &["checks", "job", "pace", "plan", "reach_summary", "sim"]),
     (
         "checks",
         &["diag", "job", "kinematics", "machine", "pace", "reach"],
