@@ -4,9 +4,9 @@ use crate::plan::parameters::show;
 use crate::reach::demand::{Extreme, axis_margin};
 use crate::reach::describe::{branch_words, kuka_status, site_words};
 use crate::reach::solve::Reached;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker, Program};
-use vcutc_backend_api::motion::Stretch;
+use vcutc_backend_api::motion::{Branch, Stretch};
 
 /// What a program asks of its machine.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -16,6 +16,7 @@ pub struct ReachFigures {
     /// How many travels through the air became moves of all axes, because no branch carries the program without.
     pub changes: usize,
     /// The smallest share that anything has left; see `src/reach/demand.rs`.
+    #[serde(serialize_with = "rounded")]
     pub margin: f64,
     /// What has the smallest share: an axis or a kind of singular pose.
     pub least: Least,
@@ -36,6 +37,9 @@ pub struct BranchFigure {
     pub ops: u32,
     /// What it is.
     pub words: String,
+    /// Whether it has a number only, of a machine whose branches have no names.
+    #[serde(skip)]
+    pub is_numbered: bool,
     /// KUKA's status bits, for KUKA robots.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kuka_status: Option<u8>,
@@ -67,20 +71,27 @@ pub struct AxisFigure {
     /// `deg` or `mm`.
     pub unit: &'static str,
     /// Its lowest value.
+    #[serde(serialize_with = "rounded")]
     pub low: f64,
     /// Its highest value.
+    #[serde(serialize_with = "rounded")]
     pub high: f64,
     /// Its lower limit.
+    #[serde(serialize_with = "rounded")]
     pub min: f64,
     /// Its upper limit.
+    #[serde(serialize_with = "rounded")]
     pub max: f64,
     /// Its distance to the nearer limit over half of its range.
+    #[serde(serialize_with = "rounded")]
     pub margin: f64,
     /// Where it is nearest to a limit.
     pub margin_at: PlaceFigure,
     /// Its highest rate, in units a second.
+    #[serde(serialize_with = "rounded")]
     pub rate: f64,
     /// Its highest rate by its maker, when known.
+    #[serde(serialize_with = "rounded_if_known")]
     pub rate_limit: Option<f64>,
     /// Where it is fastest.
     pub rate_at: PlaceFigure,
@@ -94,11 +105,27 @@ pub struct SingularFigure {
     /// `deg` or `mm`.
     pub unit: &'static str,
     /// How far it stays away.
+    #[serde(serialize_with = "rounded")]
     pub distance: f64,
     /// The same as a share of all one could wish for.
+    #[serde(serialize_with = "rounded")]
     pub share: f64,
     /// Where it is nearest.
     pub at: PlaceFigure,
+}
+
+/// To a ten thousandth, of a degree, a millimetre or a share: what is less is noise of the arithmetic.
+fn rounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(ten_thousandths(*value))
+}
+
+fn rounded_if_known<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    value.map(ten_thousandths).serialize(serializer)
+}
+
+fn ten_thousandths(value: f64) -> f64 {
+    // Adding nothing takes the sign from a zero.
+    (value * 1e4).round() / 1e4 + 0.0
 }
 
 /// The figures of a program.
@@ -174,6 +201,7 @@ fn branches(stretches: &[Stretch], ops: usize, is_kuka: bool) -> Vec<BranchFigur
             op: stretch.from.0,
             ops: end.saturating_sub(stretch.from.0),
             words: branch_words(stretch.branch),
+            is_numbered: matches!(stretch.branch, Branch::Numbered(_)),
             kuka_status: kuka_status(stretch.branch).filter(|_| is_kuka),
         })
         .collect()
@@ -240,7 +268,7 @@ pub fn lines(figures: &ReachFigures) -> Vec<(&'static str, String)> {
             ..
         } = nearest;
         let text = format!(
-            "nearest is the {kind}, {} {unit} away at {}",
+            "nearest is the {kind}, {} {unit} away, at {}",
             show_tenths(*distance),
             at.words
         );
@@ -275,7 +303,12 @@ fn reach_line(figures: &ReachFigures) -> String {
     if words.is_empty() {
         return "nothing moves".to_owned();
     }
-    format!("{}{changes}", words.join("; for less of it "))
+    // A number alone says nothing.
+    let words = match ops.as_slice() {
+        [(BranchFigure { is_numbered: true, .. }, _)] => "same configuration throughout".to_owned(),
+        _ => words.join("; for less of it "),
+    };
+    format!("{words}{changes}")
 }
 
 fn margins_line(figures: &ReachFigures) -> String {
@@ -285,40 +318,30 @@ fn margins_line(figures: &ReachFigures) -> String {
         .map(|axis| format!("{} {}", axis.name, margin_words(axis.margin)))
         .collect();
     format!(
-        "{}; least {} at {}",
-        axes.join(", "),
+        "smallest {} {} at {} (100 % = middle of the range); {}",
         figures.least.of,
-        figures.least.at.words
+        margin_words(figures.margin),
+        figures.least.at.words,
+        axes.join(", "),
     )
 }
 
+/// The axis that comes nearest to its rate. Rates that are not known are among what is not checked.
 fn rates_line(figures: &ReachFigures) -> Option<String> {
     let known = figures
         .axes
         .iter()
         .filter_map(|axis| Some((axis, axis.rate_share()?)));
-    let slowest = known
+    known
         .max_by(|(_, a), (_, b)| a.total_cmp(b))
         .map(|(axis, share)| {
             format!(
-                "slowest is {}, at {:.0} % of its rate at {}",
+                "{} comes nearest to its limit: {:.0} % at {}",
                 axis.name,
                 share * 100.0,
                 axis.rate_at.words
             )
-        });
-    let unknown: Vec<&str> = figures
-        .axes
-        .iter()
-        .filter(|axis| axis.rate_limit.is_none())
-        .map(|axis| axis.name.as_str())
-        .collect();
-    let unknown =
-        (!unknown.is_empty()).then(|| format!("rates of {} unknown: not checked", unknown.join(", ")));
-    match (slowest, unknown) {
-        (Some(slowest), Some(unknown)) => Some(format!("{slowest}; {unknown}")),
-        (slowest, unknown) => slowest.or(unknown),
-    }
+        })
 }
 
 /// The figures of every axis, a line each under a heading.
@@ -382,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_without_a_known_rate_are_named() {
+    fn the_axis_that_comes_nearest_to_its_rate_is_named() {
         let mut figures = ReachFigures {
             branches: Vec::new(),
             changes: 0,
@@ -397,7 +420,7 @@ mod tests {
         };
         assert_eq!(
             rates_line(&figures).unwrap(),
-            "slowest is A3, at 83 % of its rate at layer 3, cut 4; rates of A2 unknown: not checked"
+            "A3 comes nearest to its limit: 83 % at layer 3, cut 4"
         );
         figures.axes.truncate(0);
         assert_eq!(rates_line(&figures), None);

@@ -25,6 +25,7 @@ use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
+use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
 use rayon::prelude::*;
@@ -62,8 +63,8 @@ impl FoundBy {
     /// In words.
     pub(super) const fn words(self) -> &'static str {
         match self {
-            Self::Formulas => "by the lattice's bound",
-            Self::Simulation => "as simulated",
+            Self::Formulas => "by formulas alone",
+            Self::Simulation => "by simulation",
         }
     }
 }
@@ -270,6 +271,8 @@ struct Trials<'t> {
     /// The best first.
     sound: Vec<Sound>,
     turned_down: Vec<TurnedDown>,
+    /// The least time by the model of those that were not planned, because they must leave too much.
+    passed_over: Option<Duration>,
     goal: Goal,
     effort: Effort,
 }
@@ -288,6 +291,7 @@ impl<'t> Trials<'t> {
             ahead: Vec::new(),
             sound: Vec::new(),
             turned_down: Vec::new(),
+            passed_over: None,
             goal: Goal::Best,
             effort: Effort::UNBOUNDED,
         }
@@ -343,6 +347,12 @@ impl<'t> Trials<'t> {
     fn held_by_simulation(&self, sound: &Sound) -> VcutParameters {
         let mut parameters = sound.parameters.clone().found_by_simulation(self.asked);
         parameters.binding = met::binding(self.asked, sound, &self.turned_down);
+        let is_faster = self.passed_over.is_some_and(|model| model < sound.model);
+        if self.asked.objective.value == Objective::Time && is_faster {
+            parameters.binding.push(Bound::Scallop);
+            parameters.binding.sort_unstable();
+            parameters.binding.dedup();
+        }
         parameters
     }
 
@@ -356,10 +366,15 @@ impl<'t> Trials<'t> {
         if let Some(known) = known {
             return Some(known.standing);
         }
-        if !self.may_go_on() || !self.may_be_sound(&found) {
+        if !self.may_go_on() || self.is_too_large(&found) {
             return None;
         }
         let model = self.model(&found);
+        if self.must_leave_too_much(&found) {
+            let least = self.passed_over.map_or(model, |least| least.min(model));
+            self.passed_over = Some(least);
+            return None;
+        }
         let known = self.ahead.iter().find(|(planned, _)| *planned == found);
         let outcome = known.map_or_else(|| self.outcome(&found), |(_, outcome)| *outcome);
         let (standing, figures) = match outcome {

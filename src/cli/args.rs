@@ -10,6 +10,7 @@ pub(super) use convert::ConvertArgs;
 pub(super) use air::AirArgs;
 
 use super::Targets;
+use super::console::Warnings;
 use super::files::Disk;
 use crate::diag::suggest::nearest;
 use crate::driver::{Request, Typed};
@@ -48,7 +49,7 @@ Examples:
 
 Exit status:
   0  all is well
-  1  a job has errors, or --check found a difference
+  1  a job has errors, --check found a difference, or there are warnings under --deny-warnings
   2  wrong usage, or a file that cannot be read or written";
 
 /// Compiler for V-shaped ultrasonic knife cutting of honeycomb core.
@@ -96,6 +97,16 @@ impl Arguments {
                 format!("{stray} cannot stand in front of a command"),
             )),
             Some(_) | None => Ok(arguments),
+        }
+    }
+
+    /// How warnings are taken. Commands that write no program only show them.
+    pub(super) fn warnings(&self) -> Warnings {
+        match &self.command {
+            None => self.compile.warnings.taken(),
+            Some(Command::Build(args)) => args.warnings.taken(),
+            Some(Command::Check(args)) => args.warnings.taken(),
+            Some(_) => Warnings::Shown,
         }
     }
 
@@ -323,6 +334,29 @@ pub(super) struct CompileArgs {
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
+
+    #[command(flatten)]
+    pub(super) warnings: WarningArgs,
+}
+
+/// How warnings are taken.
+#[derive(Clone, Copy, Debug, Args)]
+pub(super) struct WarningArgs {
+    /// End with 1 and write nothing where there is a warning
+    ///
+    /// For continuous integration: what a person would read and accept then fails the run.
+    #[arg(long)]
+    deny_warnings: bool,
+}
+
+impl WarningArgs {
+    fn taken(self) -> Warnings {
+        if self.deny_warnings {
+            Warnings::Denied
+        } else {
+            Warnings::Shown
+        }
+    }
 }
 
 impl CompileArgs {
@@ -337,6 +371,10 @@ impl CompileArgs {
         let check = self.check.then(|| "--check".to_owned());
         let option = self.options.option.first().map(|_| "--option".to_owned());
         let air_cut = self.air.air_cut.map(|_| "--air-cut".to_owned());
+        let denied = self
+            .warnings
+            .deny_warnings
+            .then(|| "--deny-warnings".to_owned());
         job.or(target)
             .or(output)
             .or(check)
@@ -345,6 +383,7 @@ impl CompileArgs {
             .or(air_cut)
             .or(set)
             .or(machine)
+            .or(denied)
     }
 }
 
@@ -383,6 +422,9 @@ pub(super) struct CheckArgs {
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
+
+    #[command(flatten)]
+    pub(super) warnings: WarningArgs,
 }
 
 #[derive(Debug, Args)]
@@ -415,6 +457,9 @@ pub(super) struct BuildArgs {
     /// The list of programs [default: vcut.toml in the current folder or above it]
     #[arg(long, value_name = "FILE")]
     pub(super) manifest: Option<String>,
+
+    #[command(flatten)]
+    pub(super) warnings: WarningArgs,
 }
 
 #[derive(Debug, Args)]

@@ -5,16 +5,18 @@
 //! work than processors.
 
 use super::baseline::Keeper;
-use super::console::{Console, Failure, Summary};
+use super::console::{Console, Failure, Summary, Warnings};
 use super::files::Disk;
 use super::output::{Destination, Placed};
-use super::snapshot::{self, Fate, Made, NotReady, Ready};
+use super::snapshot::{self, Complete, Fate, Made, NotReady};
 use super::{Exit, Targets, compile, targets};
+use crate::checks::Checks;
 use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{self, Request, RequestError, Typed};
 use crate::numbers::Numbers;
 use crate::numbers::baseline::{Name, Record};
 use crate::source::{SourceMap, Span};
+use crate::summary::chosen::OperationFigures;
 use crate::summary::times::TimeFigures;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -79,6 +81,8 @@ impl From<Exit> for Ran {
 struct Figures {
     numbers: Numbers,
     times: TimeFigures,
+    checks: Checks,
+    parameters: Vec<OperationFigures>,
 }
 
 /// A program that was made, or why not.
@@ -86,7 +90,7 @@ struct Done {
     sources: SourceMap,
     diagnostics: Vec<Diagnostic>,
     figures: Option<Figures>,
-    made: Result<Option<(Ready, Vec<String>)>, Failure>,
+    made: Result<Option<Complete>, Failure>,
 }
 
 /// How a program ended.
@@ -216,6 +220,8 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
         figures: outcome.compiled.filter(|compiled| compiled.numbers_of_cuts().is_some()).map(|compiled| Figures {
             numbers: compiled.numbers,
             times: compiled.times,
+            checks: compiled.checks,
+            parameters: compiled.parameters,
         }),
         made,
     }
@@ -225,10 +231,10 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
 fn same_file<'u>(units: &'u [Unit], done: &[Done]) -> Option<(&'u Unit, &'u Unit, String)> {
     let mut first: BTreeMap<String, &Unit> = BTreeMap::new();
     for (unit, done) in units.iter().zip(done) {
-        let Ok(Some((_, names))) = &done.made else {
+        let Ok(Some(complete)) = &done.made else {
             continue;
         };
-        for name in names {
+        for name in &complete.names {
             let path = unit.folder.join(name).display().to_string();
             if let Some(earlier) = first.insert(path.to_lowercase(), unit) {
                 return Some((earlier, unit, path));
@@ -283,9 +289,16 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
             return (End::Failed, Exit::JobHasErrors);
         }
     };
-    let settled = made.and_then(|ready| {
-        ready
-            .map(|(ready, _)| ready.settle().map_err(Failure::new))
+    let made = match made {
+        Ok(Some(complete)) if is_denied(&diagnostics, &complete, console) => {
+            diagnostics.extend_from_slice(complete.ready.warnings());
+            Ok(None)
+        }
+        other => other,
+    };
+    let settled = made.and_then(|complete| {
+        complete
+            .map(|complete| complete.settle().map_err(Failure::new))
             .transpose()
     });
     let made = match settled {
@@ -300,13 +313,19 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
     if let Some(found) = &made.differences {
         console.differences(&unit.job, found);
     }
-    let end = end(&diagnostics, &made);
+    let end = end(&diagnostics, &made, console);
     tell(unit, &diagnostics, &made, (fate, figures.as_ref()), console);
     let exit = match end {
         End::Written | End::Unchanged => Exit::Success,
         End::Different | End::Failed => Exit::JobHasErrors,
     };
     (end, exit)
+}
+
+/// Whether warnings keep a complete program from being written.
+fn is_denied(diagnostics: &[Diagnostic], complete: &Complete, console: &Console) -> bool {
+    let all = [diagnostics, complete.ready.warnings()].concat();
+    console.warnings().remark(&all).is_some()
 }
 
 /// What has become worse than the list allows.
@@ -331,16 +350,18 @@ fn tell(
         numbers: figures.map(|figures| &figures.numbers),
         times: figures.map(|figures| &figures.times),
         reach: None,
+        checks: figures.map(|figures| compile::checked(&figures.checks, made.read_back)),
+        parameters: figures.map_or(&[], |figures| &figures.parameters),
         placed: &made.placed,
-        remark: Some(&remark(unit, diagnostics, made, fate)),
+        remark: Some(&remark(unit, diagnostics, made, fate, console.warnings())),
         timings: &[],
     });
 }
 
-fn end(diagnostics: &[Diagnostic], made: &Made) -> End {
+fn end(diagnostics: &[Diagnostic], made: &Made, console: &Console) -> End {
     let differs = made.differences.as_ref().map(|found| !found.changes.is_empty());
     match differs {
-        _ if has_errors(diagnostics) => End::Failed,
+        _ if console.warnings().refuse(diagnostics) => End::Failed,
         Some(true) => End::Different,
         Some(false) => End::Unchanged,
         None if made.placed.iter().any(|file| matches!(file, Placed::Written(_))) => End::Written,
@@ -348,12 +369,16 @@ fn end(diagnostics: &[Diagnostic], made: &Made) -> End {
     }
 }
 
-fn remark(unit: &Unit, diagnostics: &[Diagnostic], made: &Made, fate: Fate) -> String {
+fn remark(unit: &Unit, diagnostics: &[Diagnostic], made: &Made, fate: Fate, warnings: Warnings) -> String {
     let target = format!("for {}", unit.backend.id());
-    if has_errors(diagnostics) {
-        return match fate {
+    if warnings.refuse(diagnostics) {
+        let nothing = match fate {
             Fate::Write => format!("{target} nothing was written"),
             Fate::Compare => format!("{target} nothing was compared"),
+        };
+        return match warnings.remark(diagnostics) {
+            Some(why) => format!("{why}; {nothing}"),
+            None => nothing,
         };
     }
     let said = match &made.differences {

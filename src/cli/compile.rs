@@ -2,7 +2,7 @@
 
 use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::batch::{self, Unit};
-use super::console::{Console, Failure, Summary};
+use super::console::{Console, Failure, Summary, Warnings};
 use super::files::Disk;
 use super::inner::{self, Progressed};
 use super::output::{Destination, Headings, Output, Placed};
@@ -10,6 +10,7 @@ use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
+use crate::checks::{Checks, ReadBack};
 use crate::diag::has_errors;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
@@ -233,7 +234,7 @@ pub(super) fn carried_out(
         }
     };
     let made = (carried.amend)(&mut outcome).and_then(|amended| {
-        let mut made = make(product, &outcome, carried.disk, &mut progress)?;
+        let mut made = make(product, &outcome, carried.disk, console.warnings(), &mut progress)?;
         made.placed.splice(0..0, amended.placed);
         made.remarks = amended.remarks;
         Ok(made)
@@ -273,7 +274,7 @@ pub(super) fn tell(
     console: &Console,
 ) -> Exit {
     let diagnostics = [outcome.diagnostics.as_slice(), &made.diagnostics].concat();
-    let is_wrong = has_errors(&diagnostics);
+    let is_wrong = console.warnings().refuse(&diagnostics);
     let exit = match &made.differences {
         Some(differences) if !differences.changes.is_empty() => Exit::JobHasErrors,
         Some(_) | None if is_wrong => Exit::JobHasErrors,
@@ -292,17 +293,29 @@ pub(super) fn tell(
         numbers: compiled.and_then(Compiled::numbers_of_cuts),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
+        checks: compiled.map(|compiled| checked(&compiled.checks, made.read_back)),
+        parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
         placed: &made.placed,
-        remark: remark(product, is_wrong, made).as_deref(),
+        remark: remark(product, is_wrong, made, console.warnings().remark(&diagnostics)).as_deref(),
         timings,
     });
     exit
 }
 
+/// The checks of a program, with that of its text where one was made.
+pub(super) fn checked(checks: &Checks, read_back: Option<ReadBack>) -> Checks {
+    let checks = checks.clone();
+    match read_back {
+        Some(read_back) => checks.written(read_back),
+        None => checks,
+    }
+}
+
 /// What needs saying of files.
-fn remark(product: &Product, is_wrong: bool, made: &Made) -> Option<String> {
-    let remarks = of_the_product(product, is_wrong, made).into_iter();
+fn remark(product: &Product, is_wrong: bool, made: &Made, denied: Option<&str>) -> Option<String> {
+    let remarks = denied.map(str::to_owned).into_iter();
     remarks
+        .chain(of_the_product(product, is_wrong, made))
         .chain(made.remarks.iter().cloned())
         .reduce(|one, other| format!("{one}; {other}"))
 }
@@ -329,30 +342,42 @@ pub(super) fn make(
     product: &Product,
     outcome: &Outcome,
     disk: &Disk,
+    warnings: Warnings,
     progress: &mut Progress,
 ) -> Result<Made, Failure> {
+    let is_refused = warnings.remark(&outcome.diagnostics).is_some();
     match product {
+        Product::Program(_) | Product::Inner(..) if is_refused => Ok(Made::default()),
         Product::Program(program) => {
             if outcome.compiled.is_none() {
                 return Ok(Made::default());
             }
             progress.enter(Stage::Emitting);
-            make_program(program, outcome, disk)
+            make_program(program, outcome, disk, warnings)
         }
         Product::Inner(form, destination) => write_inner(*form, destination, outcome, disk.job()),
         Product::Verdict { .. } => Ok(Made::default()),
     }
 }
 
-fn make_program(program: &Program, outcome: &Outcome, disk: &Disk) -> Result<Made, Failure> {
+fn make_program(
+    program: &Program,
+    outcome: &Outcome,
+    disk: &Disk,
+    warnings: Warnings,
+) -> Result<Made, Failure> {
     match snapshot::make(outcome, program.backend, &program.to, program.fate) {
-        Ok(Some((ready, names))) => {
+        Ok(Some(complete)) if warnings.refuse(complete.ready.warnings()) => Ok(Made {
+            diagnostics: complete.ready.warnings().to_vec(),
+            ..Made::default()
+        }),
+        Ok(Some(complete)) => {
             if let (Destination::Folder(folder), Fate::Write) = (&program.to, program.fate) {
-                for name in &names {
+                for name in &complete.names {
                     disk.spares(&folder.join(name)).map_err(Failure::new)?;
                 }
             }
-            ready.settle().map_err(Failure::new)
+            complete.settle().map_err(Failure::new)
         }
         Ok(None) => Ok(Made::default()),
         Err(NotReady::Diagnostics(diagnostics)) => Ok(Made {

@@ -8,11 +8,14 @@ use super::args::{Color, DisplayArgs, MessageFormat};
 use super::differences;
 use super::output::Placed;
 use super::snapshot::Differences;
-use crate::diag::{Diagnostic, Severity, github, json, render};
+use crate::checks::{CheckFigure, Checks};
+use crate::diag::{Diagnostic, Severity, github, has_errors, json, render};
 use crate::numbers::Numbers;
 use crate::reach_summary::{self, ReachFigures};
 use crate::source::SourceMap;
+use crate::summary::chosen::OperationFigures;
 use crate::summary::times::{self, TimeFigures};
+use crate::summary::verdict;
 use anstream::AutoStream;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
@@ -30,6 +33,7 @@ pub(super) struct Console {
     format: MessageFormat,
     color: render::ColorChoice,
     detail: Detail,
+    warnings: Warnings,
     /// Whether the reader of standard error has gone away.
     is_unheard: AtomicBool,
 }
@@ -73,7 +77,34 @@ impl Failure {
     }
 }
 
+/// What is made of warnings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Warnings {
+    /// They are shown.
+    Shown,
+    /// They end a run as errors do: nothing is written.
+    Denied,
+}
+
+impl Warnings {
+    /// Whether what there is to tell keeps a run from writing anything.
+    pub(super) fn refuse(self, diagnostics: &[Diagnostic]) -> bool {
+        has_errors(diagnostics)
+            || match self {
+                Self::Shown => false,
+                Self::Denied => !diagnostics.is_empty(),
+            }
+    }
+
+    /// Why nothing was written, where it is not for errors.
+    pub(super) fn remark(self, diagnostics: &[Diagnostic]) -> Option<&'static str> {
+        let is_for_warnings = self.refuse(diagnostics) && !has_errors(diagnostics);
+        is_for_warnings.then_some("warnings are denied")
+    }
+}
+
 /// What came of one job.
+#[derive(Default)]
 pub(super) struct Summary<'a> {
     /// The job's path as given.
     pub(super) job: &'a str,
@@ -87,6 +118,10 @@ pub(super) struct Summary<'a> {
     pub(super) times: Option<&'a TimeFigures>,
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
+    /// Which checks were made of the program, and which were not.
+    pub(super) checks: Option<Checks>,
+    /// Its parameters.
+    pub(super) parameters: &'a [OperationFigures],
     /// Files of its program, as people see them.
     pub(super) placed: &'a [Placed],
     /// What else there is to say of files, or of there being none.
@@ -111,7 +146,11 @@ struct SummaryBody<'a> {
     failure: Option<&'a str>,
     errors: usize,
     warnings: usize,
-    lines: &'a [String],
+    lines: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verdict: Option<VerdictBody>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    operations: &'a [OperationFigures],
     #[serde(skip_serializing_if = "Option::is_none")]
     numbers: Option<&'a Numbers>,
     times: Option<&'a TimeFigures>,
@@ -124,6 +163,27 @@ struct SummaryBody<'a> {
     stages: Vec<StageBody>,
 }
 
+/// What is proven, and what is not checked.
+#[derive(Serialize)]
+struct VerdictBody {
+    standing: &'static str,
+    proven: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_checked: Option<String>,
+    checks: Vec<CheckFigure>,
+}
+
+impl VerdictBody {
+    fn of(checks: &Checks) -> Self {
+        Self {
+            standing: checks.standing().name(),
+            proven: checks.proven(),
+            not_checked: checks.not_checked(),
+            checks: checks.figures(),
+        }
+    }
+}
+
 #[derive(Serialize)]
 struct StageBody {
     stage: &'static str,
@@ -131,7 +191,7 @@ struct StageBody {
 }
 
 impl Console {
-    pub(super) fn new(display: &DisplayArgs) -> Self {
+    pub(super) fn new(display: &DisplayArgs, warnings: Warnings) -> Self {
         Self {
             format: display.message_format,
             color: choose_color(display.color),
@@ -140,8 +200,14 @@ impl Console {
                 (false, false) => Detail::Summary,
                 (false, true) => Detail::Everything,
             },
+            warnings,
             is_unheard: AtomicBool::new(false),
         }
+    }
+
+    /// What is made of warnings.
+    pub(super) const fn warnings(&self) -> Warnings {
+        self.warnings
     }
 
     /// Whether a passing progress line may be drawn (if standard error is a terminal).
@@ -287,7 +353,9 @@ impl Console {
             failure,
             errors,
             warnings,
-            lines: summary.lines,
+            lines: lines(summary),
+            verdict: summary.checks.as_ref().map(VerdictBody::of),
+            operations: summary.parameters,
             numbers: summary.numbers,
             times: summary.times,
             reach: summary.reach,
@@ -299,7 +367,7 @@ impl Console {
 
     fn human_summary(&self, summary: &Summary<'_>) {
         let (errors, warnings) = count(summary.diagnostics);
-        let mut text: String = summary.lines.iter().map(|line| format!("{line}\n")).collect();
+        let mut text: String = lines(summary).iter().map(|line| format!("{line}\n")).collect();
         if self.detail == Detail::Everything {
             let mut table = summary.reach.map(reach_summary::table).unwrap_or_default();
             table.extend(summary.times.map(times::table).unwrap_or_default());
@@ -351,6 +419,13 @@ impl Console {
             self.is_unheard.store(true, Ordering::SeqCst);
         }
     }
+}
+
+/// What was planned, and the verdict below it. Of several programs neither is told.
+fn lines(summary: &Summary<'_>) -> Vec<String> {
+    let checks = summary.checks.as_ref().filter(|_| !summary.lines.is_empty());
+    let verdict = checks.map(verdict).unwrap_or_default();
+    summary.lines.iter().cloned().chain(verdict).collect()
 }
 
 /// A JSON object in a line.

@@ -97,7 +97,7 @@ pub fn run(linked: &Targets) -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return refuse(&error),
     };
-    let console = Console::new(&arguments.display);
+    let console = Console::new(&arguments.display, arguments.warnings());
     let outside = external::found(&arguments.outside);
     let all = targets::all(linked, &outside);
     let targets = all.as_slice();

@@ -81,6 +81,8 @@ fn tell(job: &str, outcome: &Outcome, placed: &[Placed], remark: Option<&str>, c
         numbers: None,
         times: None,
         reach: None,
+        checks: None,
+        parameters: &[],
         placed,
         remark,
         timings: &[],

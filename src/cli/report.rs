@@ -50,6 +50,8 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         numbers: compiled.map(|compiled| &compiled.numbers),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
+        checks: compiled.map(|compiled| compiled.checks.clone()),
+        parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
         placed: &placed,
         remark: has_errors(&outcome.diagnostics).then_some("nothing was written"),
         timings: &timings,

@@ -2,6 +2,7 @@
 
 use super::files::load_program;
 use super::output::{Destination, Output, Placed};
+use crate::checks::ReadBack;
 use crate::comparison::{Change, FileChange, Sides, compare, family};
 use crate::diag::{Code, Diagnostic};
 use crate::driver::{self, EmitFailure, Outcome};
@@ -41,6 +42,18 @@ pub(super) struct Made {
     pub(super) differences: Option<Differences>,
     /// What else needs saying of files.
     pub(super) remarks: Vec<String>,
+    /// How the text was looked at, where one was made.
+    pub(super) read_back: Option<ReadBack>,
+}
+
+/// A program of which all files are complete.
+pub(super) struct Complete {
+    /// What is done with it.
+    pub(super) ready: Ready,
+    /// The names of its files.
+    pub(super) names: Vec<String>,
+    /// How its text was looked at.
+    pub(super) read_back: ReadBack,
 }
 
 /// A complete program that has not taken its place yet.
@@ -69,14 +82,21 @@ impl From<EmitFailure> for NotReady {
 }
 
 impl Ready {
+    /// What there is to warn of before the files take their places.
+    pub(super) fn warnings(&self) -> &[Diagnostic] {
+        match self {
+            Self::Staged(_, diagnostics) => diagnostics,
+            Self::Compared(_) => &[],
+        }
+    }
+
     /// Lets the files take their places.
-    pub(super) fn settle(self) -> Result<Made, String> {
+    fn settle(self) -> Result<Made, String> {
         match self {
             Self::Staged(output, diagnostics) => Ok(Made {
                 diagnostics,
                 placed: output.publish()?,
-                differences: None,
-                remarks: Vec::new(),
+                ..Made::default()
             }),
             Self::Compared(differences) => Ok(Made {
                 differences: Some(differences),
@@ -86,13 +106,23 @@ impl Ready {
     }
 }
 
-/// The program of an outcome that has one, and the names of its files.
+impl Complete {
+    /// Lets the files take their places.
+    pub(super) fn settle(self) -> Result<Made, String> {
+        Ok(Made {
+            read_back: Some(self.read_back),
+            ..self.ready.settle()?
+        })
+    }
+}
+
+/// The program of an outcome that has one.
 pub(super) fn make(
     outcome: &Outcome,
     backend: &dyn Backend,
     to: &Destination,
     fate: Fate,
-) -> Result<Option<(Ready, Vec<String>)>, NotReady> {
+) -> Result<Option<Complete>, NotReady> {
     let Some(written) = driver::write(outcome, backend)? else {
         return Ok(None);
     };
@@ -116,7 +146,14 @@ pub(super) fn make(
             Ready::Staged(Box::new(staged(&written, to)?), Vec::new())
         }
     };
-    Ok(Some((ready, names)))
+    Ok(Some(Complete {
+        ready,
+        names,
+        read_back: match &written.places {
+            Some(_) => ReadBack::Same,
+            None => ReadBack::NoReader,
+        },
+    }))
 }
 
 fn staged(written: &Written, to: &Destination) -> Result<Output, NotReady> {

@@ -67,6 +67,8 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         numbers: None,
         times: None,
         reach: None,
+        checks: None,
+        parameters: &[],
         placed: &[],
         remark: None,
         timings: &timings,

@@ -27,6 +27,7 @@ use crate::sema;
 use crate::sim::report::Report;
 use crate::sim::timing::times;
 use crate::source::{Loader, SourceMap};
+use crate::summary::chosen::{self, OperationFigures};
 use crate::summary::summary;
 use crate::summary::times::{TimeFigures, figures as time_figures};
 use crate::syntax::ast::Ast;
@@ -152,6 +153,8 @@ pub struct Compiled {
     pub times: TimeFigures,
     /// Which checks were made, and which were not.
     pub checks: Checks,
+    /// The parameters of its operations.
+    pub parameters: Vec<OperationFigures>,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
 }
@@ -377,6 +380,7 @@ fn compiled(
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     Compiled {
         checks: Checks::of(carried, paced.basis),
+        parameters: chosen::figures(plan),
         numbers: Numbers::of(plan, &report),
         summary: summary(plan, &report, paced.basis, figures.as_ref()),
         times: time_figures(&report, paced.basis),

@@ -153,6 +153,12 @@ impl VcutParameters {
             + self.drop
     }
 
+    /// Whether the limit on scallop kept the open parameters from coming out better.
+    #[must_use]
+    pub fn is_bound_by_scallop(&self) -> bool {
+        self.binding.contains(&Bound::Scallop)
+    }
+
     /// The same, found by simulation: where the lattice's bound breaks the limit on scallop, simulation has held it.
     #[must_use]
     pub fn found_by_simulation(self, asked: &RoughVcut) -> Self {

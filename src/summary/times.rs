@@ -84,13 +84,18 @@ pub fn figures(report: &Report, basis: Basis) -> TimeFigures {
 
 fn kinds(timing: &Timing) -> KindFigures {
     KindFigures {
-        total_s: timing.total().to_s(),
-        cutting_s: timing.cutting.to_s(),
-        turning_s: timing.turning.to_s(),
-        travel_s: timing.travel.to_s(),
-        axes_s: timing.axes.to_s(),
-        waiting_s: timing.waiting.to_s(),
+        total_s: thousandths(timing.total().to_s()),
+        cutting_s: thousandths(timing.cutting.to_s()),
+        turning_s: thousandths(timing.turning.to_s()),
+        travel_s: thousandths(timing.travel.to_s()),
+        axes_s: thousandths(timing.axes.to_s()),
+        waiting_s: thousandths(timing.waiting.to_s()),
     }
+}
+
+/// To a millisecond: what is less is noise of the arithmetic.
+fn thousandths(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
 }
 
 /// The whole time and what it is made of.

@@ -10,6 +10,8 @@
 
 mod backends_page;
 mod check;
+#[cfg(feature = "krl")]
+mod checks;
 #[cfg(all(unix, feature = "cli", feature = "gcode", feature = "krl", feature = "rapid"))]
 mod chromium;
 #[cfg(all(feature = "cli", feature = "krl"))]

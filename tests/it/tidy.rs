@@ -41,7 +41,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &["diag", "geom", "job", "lower", "plan", "sim", "source", "wanted"],
     ),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
-    ("summary", &["air", "job", "pace", "plan", "reach_summary", "sim"]),
+    (
+        "summary",
+        &["air", "checks", "job", "pace", "plan", "reach_summary", "sim"],
+    ),
     (
         "checks",
         &["diag", "job", "kinematics", "machine", "pace", "reach"],

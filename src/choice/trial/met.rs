@@ -1,7 +1,8 @@
 //! What parameters that were found by simulation came up against.
 //!
 //! A limit on scallop, time or cuts is one of these where a plan that was simulated is better by the objective and breaks
-//! it; a limit on a parameter where that lies at it; the blade's edge where it does not reach what the least change of the
+//! it, and the limit on scallop also where one that is faster by the model must leave too much, whatever its plan; a limit on a
+//! parameter where that lies at it; the blade's edge where it does not reach what the least change of the
 //! layer asks for.
 
 use super::around::FACTORS;

@@ -107,7 +107,7 @@ impl<'a> Watched<'a> {
             Ok(Ok(outcome)) => outcome,
         };
         see(&Seen::Outcome(&outcome, None));
-        let made = make(&self.product, &outcome, &disk, &mut progress);
+        let made = make(&self.product, &outcome, &disk, console.warnings(), &mut progress);
         let timings = progress.finish();
         match made {
             Ok(made) => {
@@ -137,7 +137,7 @@ impl<'a> Watched<'a> {
     ) -> Came {
         let outcome = &unwritten.outcome;
         let mut progress = Progress::start(false);
-        match make(&self.product, outcome, &unwritten.disk, &mut progress) {
+        match make(&self.product, outcome, &unwritten.disk, console.warnings(), &mut progress) {
             Ok(made) => {
                 see(&Seen::Outcome(outcome, None));
                 console.clear_screen();
@@ -176,6 +176,8 @@ impl<'a> Watched<'a> {
             numbers: compiled.map(|compiled| &compiled.numbers),
             times: compiled.map(|compiled| &compiled.times),
             reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
+            checks: compiled.map(|compiled| compiled.checks.clone()),
+            parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
             placed: &[],
             remark: None,
             timings,

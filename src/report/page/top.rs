@@ -4,11 +4,9 @@ use super::Subject;
 use super::html::escaped;
 use crate::checks::{Checks, Standing};
 use crate::diag::render::{ColorChoice, render};
-use crate::plan::PlannedOperation;
 use crate::plan::parameters::show;
 use crate::reach_summary::margin_words;
-use crate::summary::time;
-use vcutc_backend_api::units::Length;
+use crate::summary::{self, time};
 
 /// The header: job, machine, verdict, warnings.
 pub(super) fn header(subject: Subject<'_>) -> String {
@@ -91,7 +89,7 @@ fn rows(subject: Subject<'_>) -> Vec<(&'static str, String, String)> {
         (
             "Edge in use",
             format!("{} mm", show(report.longest_edge.to_mm())),
-            format!("of {} mm", show(longest_blade(subject).to_mm())),
+            format!("of {} mm", show(summary::longest_blade(material.plan).to_mm())),
         ),
         (
             "Removed",
@@ -114,26 +112,11 @@ fn rows(subject: Subject<'_>) -> Vec<(&'static str, String, String)> {
     rows
 }
 
-/// The tightest limit that an operation sets.
 fn scallop_limit(subject: Subject<'_>) -> String {
-    let limits = subject
-        .material
-        .plan
-        .operations
-        .iter()
-        .filter_map(|PlannedOperation::RoughVcut(vcut)| vcut.asked.limits.scallop);
-    let least = limits.map(|limit| limit.value).reduce(Length::min);
-    least.map_or_else(
+    summary::scallop_limit(subject.material.plan).map_or_else(
         || "no limit".to_owned(),
         |limit| format!("limit {} mm", show(limit.to_mm())),
     )
-}
-
-fn longest_blade(subject: Subject<'_>) -> Length {
-    let operations = subject.material.plan.operations.iter();
-    operations
-        .map(|PlannedOperation::RoughVcut(vcut)| vcut.asked.blade.cutting_length.value)
-        .fold(Length::ZERO, Length::max)
 }
 
 /// `1 layer`, `2 layers`.

@@ -1,0 +1,242 @@
+//! What is said to be proven was computed: every machine of the catalogue carries out a job, and what the page of the report, the
+//! warnings and the JSON list say of it is compared with the text of its sheet.
+
+use crate::pipeline::{Files, compile, told};
+use crate::repository::read;
+use vcutc::checks::{Check, Outcome as Came};
+use vcutc::choice;
+use vcutc::diag::Code;
+use vcutc::driver::{Compiled, Outcome, Typed};
+use vcutc::job::CheckedJob;
+use vcutc::lower::lower;
+use vcutc::machine::catalogue;
+use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, solve};
+use vcutc::report::page::page;
+use vcutc::sema;
+use vcutc::source::SourceMap;
+use vcutc_backend_api::verify::verify;
+
+const JOB: &str = "job.vcut";
+
+/// A few slow cuts in front of an arm.
+const SMALL: &str = r#"job "small"
+stock { size = (12 mm, 10 mm, 12 mm) }
+profile { start (0 mm, 6 mm) line to (12 mm, 6 mm) }
+blade dagger { cutting_length = 12 mm half_apex = 7.13 deg thickness = 0 mm edges = double }
+rough vcut {
+  blade = dagger
+  rake = 60 deg
+  lattice = orthogonal
+  swing = 35 deg
+  overlap = 0 %
+  residual = mixed
+  order = point
+  sequence = rows
+  feed { cut = 20 mm/s, travel = 20 mm/s, reorient = 5 deg/s }
+  clearance = 5 mm
+}
+machine cell = robot "MODEL" {
+  tool = frame(x = 0 mm, y = 0 mm, z = 120 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  base = frame(x = X mm, y = 0 mm, z = Z mm, a = TURN deg, b = 0 deg, c = 0 deg)
+}
+"#;
+
+/// The robots of the catalogue that no trustworthy source states rates for.
+const WITHOUT_RATES: [&str; 3] = [
+    "kuka/kr120_r2500_pro",
+    "kuka/kr210_r2700_prime",
+    "kuka/kr240_r2900_ultra",
+];
+
+fn checked(text: &str) -> CheckedJob {
+    let files = Files::default().with(JOB, text);
+    let choices = sema::Choices {
+        overrides: &[],
+        machine: None,
+        options: Typed::default(),
+    };
+    let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
+    let (_, job) = sema::check(JOB, &files, choices, &mut sources, &mut diagnostics).unwrap();
+    job.unwrap_or_else(|| panic!("{diagnostics:#?}"))
+}
+
+/// Whether the robot carries out the job, by reach alone: nothing is searched for where it does not.
+fn is_reached(text: &str) -> bool {
+    let job = checked(text);
+    let plan = choice::choose(&job).0.unwrap();
+    let program = verify(lower(&plan, &SourceMap::default())).unwrap();
+    let model = &job.machine.as_ref().unwrap().model;
+    solve(program, model, &LEAST_CLEARANCE, Changes::Never).is_ok()
+}
+
+/// A number of a sheet, by the text alone.
+fn number(sheet: &str, key: &str) -> f64 {
+    let line = sheet.lines().find_map(|line| line.strip_prefix(key)).unwrap();
+    let value = line.trim_start_matches([' ', '=']).split_whitespace().next().unwrap();
+    value.parse().unwrap()
+}
+
+/// The job where the robot carries it out.
+fn job_of(name: &str) -> String {
+    let reach = number(catalogue::text(name).unwrap(), "designation_reach_mm");
+    let shares = [0.5, 0.6, 0.4, 0.7];
+    let heights = [0.15, 0.3, 0.0, 0.45];
+    for turn in [0, 90, 180, -90] {
+        for share in shares {
+            for height in heights {
+                let text = SMALL
+                    .replace("MODEL", name)
+                    .replace("X mm", &format!("{:.0} mm", reach * share))
+                    .replace("Z mm", &format!("{:.0} mm", reach * height))
+                    .replace("TURN", &turn.to_string());
+                if is_reached(&text) {
+                    return text;
+                }
+            }
+        }
+    }
+    panic!("{name}: no place was found for the work");
+}
+
+fn compiled(outcome: &Outcome) -> &Compiled {
+    let messages = told(&outcome.diagnostics, outcome);
+    outcome.compiled.as_ref().unwrap_or_else(|| panic!("{messages}"))
+}
+
+/// The paragraphs of the page that say what is proven and what is not, without their tags.
+struct Said {
+    class: String,
+    proven: String,
+    not_checked: String,
+}
+
+impl Said {
+    fn of(outcome: &Outcome) -> Self {
+        let page = page(outcome).unwrap();
+        let paragraph = |start: &str| {
+            let rest = page.split(start).nth(1).unwrap_or_else(|| panic!("no {start}"));
+            rest.split("</p>").next().unwrap().to_owned()
+        };
+        let verdict = paragraph("<p class=\"verdict");
+        let (class, proven) = verdict.split_once("\">").unwrap();
+        Self {
+            class: class.trim().to_owned(),
+            proven: proven.to_owned(),
+            not_checked: paragraph("<p class=\"unchecked\">"),
+        }
+    }
+}
+
+fn warns(outcome: &Outcome) -> bool {
+    outcome
+        .diagnostics
+        .iter()
+        .any(|diagnostic| diagnostic.code == Code::RatesNotChecked)
+}
+
+/// How many axes of a list were checked against a rate.
+fn rates_made(outcome: &Outcome) -> usize {
+    let is_rate = |check: &Check| matches!(check, Check::AxisRate(_));
+    compiled(outcome)
+        .checks
+        .iter()
+        .filter(|checked| is_rate(&checked.check) && checked.outcome == Came::Made)
+        .count()
+}
+
+#[test]
+fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
+    let mut without = Vec::new();
+    for name in catalogue::names().filter(|name| !name.starts_with("generic/")) {
+        let sheet = catalogue::text(name).unwrap();
+        let has_rates = sheet.lines().any(|line| line.starts_with("speeds_deg_s"));
+        let outcome = compile(JOB, &Files::default().with(JOB, job_of(name)));
+        let said = Said::of(&outcome);
+        assert_eq!(rates_made(&outcome), if has_rates { 6 } else { 0 }, "{name}");
+        assert_eq!(warns(&outcome), !has_rates, "{name}");
+        assert_eq!(said.proven.contains("rates"), has_rates, "{name}: {}", said.proven);
+        assert_eq!(
+            said.not_checked.contains("the rates of all axes"),
+            !has_rates,
+            "{name}: {}",
+            said.not_checked
+        );
+        let is_parallelogram = sheet.contains("j2_j3_parallelogram = true");
+        let is_whole = has_rates && !is_parallelogram;
+        assert_eq!(said.class == "", is_whole, "{name}: {}", said.class);
+        assert_eq!(said.proven.starts_with("Proven: "), is_whole, "{name}");
+        assert_eq!(said.not_checked.contains("J3 - J2"), is_parallelogram, "{name}");
+        assert!(said.proven.contains("clear of singular poses"), "{name}");
+        let has_accelerations = sheet.lines().any(|line| line.starts_with("accelerations_deg_s2"));
+        assert_eq!(
+            said.not_checked.contains("times with accelerations"),
+            !has_accelerations,
+            "{name}"
+        );
+        for never in ["shank and holder of the blade", "collisions of the machine"] {
+            assert!(said.not_checked.contains(never), "{name}: {}", said.not_checked);
+        }
+        if !has_rates {
+            without.push(name);
+        }
+    }
+    assert_eq!(without, WITHOUT_RATES);
+}
+
+#[test]
+fn the_page_claims_of_every_five_axis_machine_what_its_sheet_lets_check() {
+    // Those that can hold a V-cut at all; `five_axis.rs` has the others.
+    for name in [
+        "generic/head_head_ba",
+        "generic/head_table_ab",
+        "generic/table_table_ab",
+        "generic/head_head_ac_spindle",
+    ] {
+        let sheet = catalogue::text(name).unwrap();
+        let axes = sheet.matches("\n[axis.").count();
+        let rates = sheet.lines().filter(|line| line.starts_with("rate_")).count();
+        let job = read("tests/process/err/VC0516_no_spindle.vcut")
+            .replace("generic/head_head_ac", name)
+            .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
+        let outcome = compile(JOB, &Files::default().with(JOB, job));
+        let said = Said::of(&outcome);
+        assert_eq!((rates_made(&outcome), warns(&outcome)), (rates, rates < axes), "{name}");
+        assert_eq!(said.proven.contains("the limits and rates"), rates == axes, "{name}");
+        assert!(!said.proven.contains("singular"), "{name}: {}", said.proven);
+        assert!(said.not_checked.contains("the sweep of the edge"), "{name}");
+        assert_eq!(said.class, "in-part", "{name}");
+    }
+}
+
+/// A sheet that leaves out the rate of one axis is named with that axis alone.
+#[test]
+fn an_axis_without_a_rate_is_named() {
+    let sheet = catalogue::text("generic/head_head_ba").unwrap();
+    let mut is_b = false;
+    let lines = sheet.lines().filter(|line| {
+        if line.starts_with('[') {
+            is_b = *line == "[axis.b]";
+        }
+        !(is_b && line.starts_with("rate_"))
+    });
+    let sheet = lines.collect::<Vec<_>>().join("\n");
+    let job = read("tests/process/err/VC0516_no_spindle.vcut")
+        .replace("generic/head_head_ac", "mill.toml")
+        .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
+    let outcome = compile(JOB, &Files::default().with(JOB, job).with("mill.toml", sheet));
+    let said = Said::of(&outcome);
+    assert!(said.proven.contains("the rates of X, Y, Z and A"), "{}", said.proven);
+    assert!(said.not_checked.contains("the rates of B (not known"), "{}", said.not_checked);
+    let messages = told(&outcome.diagnostics, &outcome);
+    assert!(messages.contains("warning[VC0517]: the rate of B is not known"), "{messages}");
+}
+
+#[test]
+fn without_a_machine_nothing_is_claimed_of_one() {
+    let (text, _) = SMALL.split_once("machine").unwrap();
+    let outcome = compile(JOB, &Files::default().with(JOB, text));
+    let said = Said::of(&outcome);
+    assert!(!said.proven.contains("the machine"), "{}", said.proven);
+    assert!(said.not_checked.contains("reach and the limits of axes"), "{}", said.not_checked);
+    assert!(!warns(&outcome));
+}
