@@ -83,12 +83,12 @@ pub fn summary(
 pub fn chosen_limit(asked: &RoughVcut) -> Option<String> {
     let (limit, chosen) = (asked.limits.scallop?, asked.limits.chosen?);
     let why = match chosen.why {
-        WhyChosen::LittleStays => "the widest tried that leaves at most a tenth of what is to go",
-        WhyChosen::MoreStays => "more than a tenth of what is to go stays under tighter ones too",
-        WhyChosen::TightestKept => "the tightest tried that a plan keeps",
+        WhyChosen::LittleStays => "",
+        WhyChosen::MoreStays => "; more than a tenth of that stays under tighter ones, too",
+        WhyChosen::TightestKept => "; no plan keeps a tighter one",
     };
     Some(format!(
-        "scallop <= {} mm (chosen, the job sets none: {:.1} mm are to go in the mean; {why})",
+        "scallop <= {} mm (chosen, the job sets none: on average {:.1} mm are to be cut away{why})",
         show(limit.value.to_mm()),
         chosen.depth.to_mm()
     ))

@@ -10,6 +10,7 @@
 //! Soundness does not grow or shrink steadily with a parameter, so this is a search, not a proof of least time: the best of a
 //! bounded number of plans.
 
+mod anew;
 mod around;
 mod climb;
 mod met;
@@ -106,10 +107,18 @@ pub(super) fn parameters(
     };
     let mut trials = Trials::new(bench, asked, lattices, cuts_left);
     let first = trials.search(by_bound.as_ref().ok());
-    let finalists = trials.finalists(by_bound.as_ref().ok());
+    let mut finalists = trials.finalists(by_bound.as_ref().ok());
     if finalists.is_empty() {
         return by_bound.map(plain).map_err(Unplanned::from);
     }
+    trials.anew();
+    let is_new = |one: &Finalist| {
+        let known = finalists.iter();
+        !known.into_iter().any(|known| alike(&known.parameters, &one.parameters))
+    };
+    let found_anew = trials.finalists(by_bound.as_ref().ok());
+    let found_anew: Vec<Finalist> = found_anew.into_iter().filter(is_new).collect();
+    finalists.extend(found_anew);
     let is_in = finalists.iter().any(|one| one.found == FoundBy::Formulas);
     Ok(Found {
         finalists,

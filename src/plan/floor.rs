@@ -6,7 +6,7 @@
 //! need not be planned. Only tips that are moved sideways escape it.
 
 use super::Work;
-use super::lattice::{Layout, Row};
+use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
 use crate::geom::cone;
 use crate::geom::curve::Point2;
@@ -68,6 +68,18 @@ impl Followed<'_> {
     /// have no columns: what their flanks can leave is theirs.
     #[must_use]
     pub fn of_lattice(&self, parameters: &VcutParameters, most: Length) -> Option<Length> {
+        self.of_tips(parameters, most, |column, _| Some(column.floor))
+    }
+
+    /// What a lattice leaves whose columns are cut down to these heights at last; none where that is more than `most`, or, of
+    /// free lattices, where their flanks cannot leave so little.
+    #[must_use]
+    pub fn of_tips(
+        &self,
+        parameters: &VcutParameters,
+        most: Length,
+        last: impl Fn(Column, Parity) -> Option<f64>,
+    ) -> Option<Length> {
         let slope = self.slope;
         let layout = Layout::new(
             self.floor.job.stock,
@@ -78,13 +90,12 @@ impl Followed<'_> {
         let mut surface = self.floor.before.clone();
         for layer in [1, 2] {
             match layout.row(layer) {
-                Row::Columns { columns, .. } => {
-                    for column in columns {
-                        let tip = Point2 {
-                            x: column.x,
-                            z: column.floor,
-                        };
-                        surface.release(Vee { tip, slope });
+                Row::Columns { parity, columns } => {
+                    for &column in columns {
+                        if let Some(z) = last(column, parity) {
+                            let tip = Point2 { x: column.x, z };
+                            surface.release(Vee { tip, slope });
+                        }
                     }
                 }
                 Row::Free(_) => return self.of_flanks(parameters.drop, most),

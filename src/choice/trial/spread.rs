@@ -82,8 +82,8 @@ enum Outlook {
 }
 
 /// Parameters of the spread.
-struct Spot {
-    parameters: VcutParameters,
+pub(super) struct Spot {
+    pub(super) parameters: VcutParameters,
     model: Duration,
 }
 
@@ -144,7 +144,7 @@ impl Trials<'_> {
     }
 
     /// All parameters of the spread, the fastest by the model first.
-    fn spots(&self) -> Vec<Spot> {
+    pub(super) fn spots(&self) -> Vec<Spot> {
         let mut spots = Vec::new();
         for &lattice in self.lattices {
             for swing in self.swings() {
@@ -167,7 +167,7 @@ impl Trials<'_> {
     }
 
     /// The swings that are open and can leave little enough.
-    fn swings(&self) -> Vec<Angle> {
+    pub(super) fn swings(&self) -> Vec<Angle> {
         let limits = self.asked.limits.swing;
         let widest = match (self.asked.swing.value, limits.most) {
             (Auto::Given(swing), _) => return vec![swing],
@@ -269,15 +269,28 @@ impl Trials<'_> {
             return;
         }
         for step in self.steps(swung) {
-            let layers: Vec<Length> = match self.asked.layer.value {
-                Auto::Given(layer) => vec![layer],
-                Auto::Auto => shares(swung.layer_at_step(step).unwrap_or(Length::ZERO)),
-            };
-            for layer in layers {
-                let overlap = swung.overlap(layer, step);
-                if layer >= swung.least_layer(step) && overlap <= MOST_OVERLAP {
-                    self.add(swung.parameters(layer, step, overlap), spots);
-                }
+            self.spots_of_step(swung, step, spots);
+        }
+    }
+
+    /// The largest layer at a step, on the grid, and smaller ones.
+    pub(super) fn spots_of_step(&self, swung: &Swung<'_>, step: Length, spots: &mut Vec<Spot>) {
+        if !self.has_open_overlap() {
+            return;
+        }
+        // Half a step of an interlaced lattice lies on the grid too.
+        let step = Length::mm(2.0 * grid::down(step.to_mm() / 2.0));
+        if step <= Length::ZERO || !self.asked.limits.step.hold(step) {
+            return;
+        }
+        let layers: Vec<Length> = match self.asked.layer.value {
+            Auto::Given(layer) => vec![layer],
+            Auto::Auto => shares(swung.layer_at_step(step).unwrap_or(Length::ZERO)),
+        };
+        for layer in layers {
+            let overlap = swung.overlap(layer, step);
+            if layer >= swung.least_layer(step) && overlap <= MOST_OVERLAP {
+                self.add(swung.parameters(layer, step, overlap), spots);
             }
         }
     }
