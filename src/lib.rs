@@ -12,6 +12,7 @@ pub mod document;
 pub mod driver;
 pub mod format;
 pub mod geom;
+pub mod hints;
 pub mod job;
 pub mod kinematics;
 pub mod lower;

@@ -22,7 +22,7 @@ mod tests;
 mod trial;
 
 pub use effort::Effort;
-pub use leeway::{Latitude, Leeway, Narrowed, is_swing_open};
+pub use leeway::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 
 use crate::diag::Diagnostic;
 use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
@@ -82,7 +82,7 @@ pub fn choose_while(
         match within_limits(&bench, &within, cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
-                    leeway::told(&mut vcut, asked.limits.swing, swing);
+                    leeway::told(&mut vcut, asked.limits.swing, swing, job.machine.as_ref());
                 }
                 cuts_left -= vcut.cuts.len();
                 before = after;

@@ -6,6 +6,8 @@
 mod target;
 mod yielding;
 
+pub use yielding::Yielded;
+
 pub use crate::sema::Typed;
 
 use crate::choice;
@@ -137,6 +139,8 @@ pub struct Compiled {
     pub times: TimeFigures,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
+    /// What its machine did not follow before; none where it follows what the job makes of itself.
+    pub yielded: Option<Box<Yielded>>,
 }
 
 /// Why nothing was compiled at all.
@@ -220,6 +224,20 @@ fn as_far_as_wanted(
     Ok(outcome)
 }
 
+/// Compiles a job that was checked before, perhaps changed since. None where it has errors, or is not wanted any more.
+#[must_use]
+pub fn compile_checked(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob, Compiled)> {
+    let mut memory = Memory::none();
+    let mut kept = Kept {
+        memory: &mut memory,
+        wanted,
+    };
+    match along_its_routes(job, &SourceMap::default(), &mut kept, &mut |_| ()) {
+        Ended::Compiled(plan, _, compiled) if !wanted.is_needless() => Some((plan, *compiled)),
+        Ended::Compiled(..) | Ended::Refused(..) | Ended::Unreached(..) => None,
+    }
+}
+
 /// How far a job came.
 enum Ended {
     /// It cannot be planned, or is not sound.
@@ -301,7 +319,8 @@ fn along_its_routes(
         let changes = yielding.changes(&plan);
         match reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
-                let compiled = compiled(job, program, &plan, proven.report);
+                let mut compiled = compiled(job, program, &plan, proven.report);
+                compiled.yielded = yielding.into_first();
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
             Err(_) if wanted.is_needless() => return Ended::Refused(Some(plan), told),
@@ -334,6 +353,7 @@ fn compiled(job: &CheckedJob, program: Finished, plan: &PlannedJob, mut report: 
         program,
         figures,
         report,
+        yielded: None,
     }
 }
 
