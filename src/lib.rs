@@ -15,6 +15,7 @@ pub mod driver;
 pub mod fingerprint;
 pub mod format;
 pub mod geom;
+pub mod hints;
 pub mod job;
 pub mod kinematics;
 pub mod lower;

@@ -1,11 +1,12 @@
 //! What is considered of what a job leaves open: all of it, or less where the machine does not follow.
 
 use super::route;
-use crate::job::{Auto, Bounds, Operation, Order, RoughVcut, Sourced};
+use crate::job::{Auto, Bounds, Machine, Operation, Order, RoughVcut, Sourced};
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
+use vcutc_backend_api::ir::AxisKind;
 use vcutc_backend_api::units::Angle;
 
 /// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,
@@ -70,6 +71,29 @@ pub struct Narrowed {
     pub widest: Angle,
     /// The swing that the machine did not follow.
     pub refused: Angle,
+    /// What it lacked for that.
+    pub lack: Lack,
+}
+
+/// What a machine lacked for a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lack {
+    /// It does not reach that far.
+    Reach,
+    /// An axis, by its number from 0, has too little range.
+    Range {
+        /// The axis.
+        axis: usize,
+    },
+    /// An axis, by its number from 0, is too slow.
+    Rate {
+        /// The axis.
+        axis: usize,
+        /// How fast it would have to move, in rad/s or mm/s.
+        needed: f64,
+    },
+    /// Room around its singular poses.
+    Clearance,
 }
 
 /// What is considered.
@@ -119,7 +143,12 @@ pub(super) fn within(asked: &RoughVcut, swing: Option<Narrowed>) -> RoughVcut {
 }
 
 /// Gives a planned operation the job's own limits back, and says what narrowed its swing.
-pub(super) fn told(vcut: &mut PlannedVcut, limits: Bounds<Angle>, swing: Narrowed) {
+pub(super) fn told(
+    vcut: &mut PlannedVcut,
+    limits: Bounds<Angle>,
+    swing: Narrowed,
+    machine: Option<&Machine>,
+) {
     vcut.asked.limits.swing = limits;
     vcut.parameters.binding.retain(|&bound| bound != Bound::SwingMost);
     let degrees = |swing: Angle| format!("{} deg", show(swing.to_deg()));
@@ -130,9 +159,35 @@ pub(super) fn told(vcut: &mut PlannedVcut, limits: Bounds<Angle>, swing: Narrowe
             standing: Standing::Narrowed,
         },
         others: vec![Candidate {
-            what: degrees(swing.refused),
+            what: format!("{} at {}", lack_in_words(swing.lack, machine), degrees(swing.refused)),
             standing: Standing::NotFollowed,
         }],
     };
     vcut.decisions.insert(0, decision);
+}
+
+/// `A4 too slow`, with how fast it would have to be.
+fn lack_in_words(lack: Lack, machine: Option<&Machine>) -> String {
+    let axis = |index: usize| machine.and_then(|machine| machine.model.axes.get(index));
+    match lack {
+        Lack::Reach => "out of reach".to_owned(),
+        Lack::Clearance => "too near to a singular pose".to_owned(),
+        Lack::Range { axis: index } => match axis(index) {
+            Some(axis) => format!("{} leaves its range", axis.name),
+            None => "an axis leaves its range".to_owned(),
+        },
+        Lack::Rate { axis: index, needed } => match axis(index) {
+            Some(axis) => {
+                let shown = |rate: f64| match axis.kind {
+                    AxisKind::Rotary => format!("{:.1} deg/s", rate.to_degrees()),
+                    AxisKind::Linear => format!("{rate:.1} mm/s"),
+                };
+                let limit = axis
+                    .rate
+                    .map_or_else(String::new, |limit| format!(" of {}", shown(limit)));
+                format!("{} would need {}{limit}", axis.name, shown(needed))
+            }
+            None => "an axis is too slow".to_owned(),
+        },
+    }
 }

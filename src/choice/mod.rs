@@ -24,7 +24,7 @@ mod trial;
 
 pub use chosen::{LITTLE, settled};
 pub use effort::Effort;
-pub use leeway::{Latitude, Leeway, Narrowed, is_swing_open};
+pub use leeway::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 
 use crate::diag::Diagnostic;
 use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
@@ -84,7 +84,7 @@ pub fn choose_while(
         match chosen::within_all_limits(&bench, asked, &within, cuts_left) {
             Ok(LaidOut { mut vcut, after, .. }) => {
                 if let Some(swing) = leeway::narrowed(asked, leeway.swing) {
-                    leeway::told(&mut vcut, asked.limits.swing, swing);
+                    leeway::told(&mut vcut, asked.limits.swing, swing, job.machine.as_ref());
                 }
                 cuts_left -= vcut.cuts.len();
                 before = after;

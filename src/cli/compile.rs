@@ -4,6 +4,7 @@ use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::batch::{self, Unit};
 use super::console::{Console, Failure, Summary, Warnings};
 use super::files::Disk;
+use super::hints;
 use super::inner::{self, Progressed};
 use super::output::{Destination, Headings, Output, Placed};
 use super::progress::Progress;
@@ -242,7 +243,16 @@ pub(super) fn carried_out(
     let timings = progress.finish();
 
     match made {
-        Ok(made) => tell(job, &outcome, &made, &timings, product, console),
+        Ok(made) => {
+            // A line of JSON that is a summary ends what there is to tell; people want to have the summary at once.
+            if console.speaks_json() {
+                hints::tell(&outcome, &made, &timings, console);
+                return tell(job, &outcome, &made, &timings, product, console);
+            }
+            let exit = tell(job, &outcome, &made, &timings, product, console);
+            hints::tell(&outcome, &made, &timings, console);
+            exit
+        }
         Err(failure) => {
             console.diagnostics(&outcome.diagnostics, &outcome.sources);
             console.failure(&failure)

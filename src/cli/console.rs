@@ -10,6 +10,7 @@ use super::output::Placed;
 use super::snapshot::Differences;
 use crate::checks::{CheckFigure, Checks};
 use crate::diag::{Diagnostic, Severity, github, has_errors, json, render};
+use crate::hints::Hint;
 use crate::numbers::Numbers;
 use crate::reach_summary::{self, ReachFigures};
 use crate::source::SourceMap;
@@ -185,6 +186,16 @@ impl VerdictBody {
 }
 
 #[derive(Serialize)]
+struct HintBody<'a> {
+    /// How long the changed job takes.
+    seconds: f64,
+    /// The share of the time that is saved.
+    saved: f64,
+    #[serde(flatten)]
+    fix: json::FixJson<'a>,
+}
+
+#[derive(Serialize)]
 struct StageBody {
     stage: &'static str,
     milliseconds: f64,
@@ -309,6 +320,24 @@ impl Console {
             MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
             MessageFormat::Human | MessageFormat::Github => self.stderr(text),
         }
+    }
+
+    /// Whether there is anything to tell but diagnostics.
+    pub(super) fn tells_more(&self) -> bool {
+        match self.detail {
+            Detail::DiagnosticsOnly => false,
+            Detail::Summary | Detail::Everything => true,
+        }
+    }
+
+    /// Prints what would make a job better: a line for people, an object for programs.
+    pub(super) fn hint(&self, hint: &Hint, sources: &SourceMap) {
+        let body = HintBody {
+            seconds: hint.time.to_s(),
+            saved: hint.saved,
+            fix: json::fix_in_json(&hint.fix, sources),
+        };
+        self.note("hint", &format!("help: {}\n", hint.fix.title), body);
     }
 
     /// Prints why nothing could be judged.

@@ -44,6 +44,7 @@ mod explain;
 mod external;
 mod files;
 mod fmt;
+mod hints;
 mod inner;
 mod joints;
 mod kinematics;

@@ -33,8 +33,9 @@ struct LabelJson<'a> {
     primary: bool,
 }
 
+/// A change of the source.
 #[derive(Serialize)]
-struct FixJson<'a> {
+pub struct FixJson<'a> {
     title: &'a str,
     edits: Vec<EditJson<'a>>,
 }
@@ -101,7 +102,9 @@ fn label_in_json<'a>(label: &'a Label, primary: bool, sources: &'a SourceMap) ->
     }
 }
 
-fn fix_in_json<'a>(fix: &'a Fix, sources: &'a SourceMap) -> FixJson<'a> {
+/// A change of the source, as it is part of a diagnostic.
+#[must_use]
+pub fn fix_in_json<'a>(fix: &'a Fix, sources: &'a SourceMap) -> FixJson<'a> {
     let edit = |edit: &'a Edit| EditJson {
         file: sources.name(edit.span.file),
         start: edit.span.start,

@@ -7,6 +7,8 @@ mod air;
 mod target;
 mod yielding;
 
+pub use yielding::Yielded;
+
 pub use crate::sema::Typed;
 pub use air::{air_cut_height, into_air_cut};
 
@@ -157,6 +159,8 @@ pub struct Compiled {
     pub parameters: Vec<OperationFigures>,
     /// The figures for people, a line each.
     pub summary: Vec<String>,
+    /// What its machine did not follow before; none where it follows what the job makes of itself.
+    pub yielded: Option<Box<Yielded>>,
 }
 
 impl Compiled {
@@ -251,6 +255,20 @@ fn as_far_as_wanted(
     Ok(outcome)
 }
 
+/// Compiles a job that was checked before, perhaps changed since. None where it has errors, or is not wanted any more.
+#[must_use]
+pub fn compile_checked(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob, Compiled)> {
+    let mut memory = Memory::none();
+    let mut kept = Kept {
+        memory: &mut memory,
+        wanted,
+    };
+    match along_its_routes(job, &SourceMap::default(), &mut kept, &mut |_| ()) {
+        Ended::Compiled(plan, _, compiled) if !wanted.is_needless() => Some((plan, *compiled)),
+        Ended::Compiled(..) | Ended::Refused(..) | Ended::Unreached(..) => None,
+    }
+}
+
 /// How far a job came.
 enum Ended {
     /// It cannot be planned, or is not sound.
@@ -340,8 +358,9 @@ fn along_its_routes(
         let changes = yielding.changes(&plan);
         match reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
-                let compiled = compiled(job, program, &plan, proven.report, sources);
+                let mut compiled = compiled(job, program, &plan, proven.report, sources);
                 told.extend(verdict::much_stays(job, &plan, &compiled.report, wanted));
+                compiled.yielded = yielding.into_first();
                 return Ended::Compiled(plan, told, Box::new(compiled));
             }
             Err(_) if wanted.is_needless() => return Ended::Refused(Some(plan), told),
@@ -388,6 +407,7 @@ fn compiled(
         program,
         figures,
         report,
+        yielded: None,
     }
 }
 

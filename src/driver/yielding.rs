@@ -4,13 +4,14 @@
 //! few telling motions say much sooner ([`Strokes`]): those that they rule out are not planned. How many plans are
 //! proven is bounded by [`MOST_PLANS`].
 
-use crate::choice::{Latitude, Leeway, Narrowed, is_swing_open};
+use crate::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 use crate::job::{Auto, CheckedJob, Operation, Order, Sequence};
 use crate::lower;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::place::strokes::Strokes;
+use crate::reach::path::Violation;
 use crate::reach::rig::Rig;
-use crate::reach::solve::{Changes, Unreached};
+use crate::reach::solve::{Changes, Unreachable, Unreached};
 use crate::reach::trouble::Trouble;
 use crate::sim::surface::Surface;
 use crate::source::SourceMap;
@@ -27,12 +28,23 @@ const NARROWER: f64 = 0.95;
 /// The narrowest swing that is looked at.
 const NARROWEST: Angle = Angle::deg(10.0);
 
+/// The plan that a job makes of itself, where its machine does not follow it and another one was taken.
+#[derive(Clone, Debug)]
+pub struct Yielded {
+    /// The plan.
+    pub plan: PlannedJob,
+    /// What keeps the machine from it.
+    pub unreachable: Unreachable,
+}
+
 /// What was tried for a job, and what is tried next.
 pub(super) struct Yielding<'j> {
     job: &'j CheckedJob,
     leeway: Leeway,
     plans: usize,
     wanted: &'j Wanted,
+    /// What was refused first.
+    first: Option<Box<Yielded>>,
 }
 
 impl<'j> Yielding<'j> {
@@ -42,7 +54,13 @@ impl<'j> Yielding<'j> {
             leeway: Leeway::along(Latitude::Full),
             plans: 0,
             wanted,
+            first: None,
         }
+    }
+
+    /// What the machine refused first, if it refused anything.
+    pub(super) fn into_first(self) -> Option<Box<Yielded>> {
+        self.first
     }
 
     /// What is considered now.
@@ -70,11 +88,19 @@ impl<'j> Yielding<'j> {
     /// Goes on to what is considered where the machine does not follow a plan. Without effect where there is nothing left.
     pub(super) fn narrow(&mut self, plan: &PlannedJob, unreached: &Unreached) -> bool {
         self.plans += 1;
+        if let (None, Unreached::Unreachable(unreachable)) = (&self.first, unreached) {
+            self.first = Some(Box::new(Yielded {
+                plan: plan.clone(),
+                unreachable: (**unreachable).clone(),
+            }));
+        }
         if self.plans >= MOST_PLANS || self.wanted.is_needless() {
             return false;
         }
         let next = self.other_routes(plan).or_else(|| match trouble(unreached)? {
-            Trouble::Motion { .. } | Trouble::NoCommonBranch { .. } => self.narrower_swing(plan),
+            trouble @ (Trouble::Motion { .. } | Trouble::NoCommonBranch { .. }) => {
+                self.narrower_swing(plan, lack(trouble))
+            }
             Trouble::Way { .. } | Trouble::Nowhere => None,
         });
         self.leeway = next.unwrap_or(self.leeway);
@@ -103,7 +129,7 @@ impl<'j> Yielding<'j> {
     }
 
     /// The widest of some narrower swings whose telling motions are followed in some order.
-    fn narrower_swing(&self, plan: &PlannedJob) -> Option<Leeway> {
+    fn narrower_swing(&self, plan: &PlannedJob, lack: Lack) -> Option<Leeway> {
         let now = widest_open(plan)?;
         let least = self.least_swing();
         let mut swing = now;
@@ -125,6 +151,7 @@ impl<'j> Yielding<'j> {
             swing: Some(Narrowed {
                 widest: swing,
                 refused: self.leeway.swing.map_or(now, |swing| swing.refused),
+                lack: self.leeway.swing.map_or(lack, |swing| swing.lack),
             }),
         })
     }
@@ -174,6 +201,21 @@ fn widest_open(plan: &PlannedJob) -> Option<Angle> {
         (vcut.asked.swing.value == Auto::Auto).then_some(vcut.parameters.swing)
     });
     swings.reduce(|one, other| if other > one { other } else { one })
+}
+
+/// What the machine lacks, where it lacks most.
+fn lack(trouble: &Trouble) -> Lack {
+    let failing = match trouble {
+        Trouble::Motion { failing, hardest, .. } => hardest.as_ref().unwrap_or(failing),
+        Trouble::NoCommonBranch { failing, .. } => failing,
+        Trouble::Way { .. } | Trouble::Nowhere => return Lack::Reach,
+    };
+    match failing.worst.what {
+        Violation::OutOfReach => Lack::Reach,
+        Violation::Limit { axis, .. } => Lack::Range { axis },
+        Violation::Rate { axis, rate } => Lack::Rate { axis, needed: rate },
+        Violation::Singular(_) => Lack::Clearance,
+    }
 }
 
 fn trouble(unreached: &Unreached) -> Option<&Trouble> {

@@ -63,6 +63,27 @@ impl Shift {
 
 /// The base moved by the least, along one axis or several.
 pub(super) fn moved(case: &mut Case<'_>) -> Option<Remedy> {
+    let elsewhere = moved_to(case)?;
+    Some(remedy(case, &elsewhere))
+}
+
+/// The base turned about the root's z by the least.
+pub(super) fn turned(case: &mut Case<'_>) -> Option<Remedy> {
+    let elsewhere = turned_to(case)?;
+    Some(remedy(case, &elsewhere))
+}
+
+/// Another place for the base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elsewhere {
+    /// How it comes there, in the imperative.
+    pub how: String,
+    /// The place, as it is written.
+    pub base: PlacedFrame,
+}
+
+/// Where the base comes to when it is moved by the least.
+pub(super) fn moved_to(case: &mut Case<'_>) -> Option<Elsewhere> {
     let ways = || [-1.0, 0.0, 1.0].into_iter();
     let directions = ways().flat_map(|x| ways().flat_map(move |y| ways().map(move |z| [x, y, z])));
     let shifts = directions
@@ -80,29 +101,28 @@ pub(super) fn moved(case: &mut Case<'_>) -> Option<Remedy> {
             format!("{axis} {sign}{} mm", show(part))
         })
         .collect();
-    Some(remedy(
-        case,
-        &base,
-        &format!("move the base by {}", parts.join(", ")),
-    ))
+    Some(Elsewhere {
+        how: format!("move the base by {}", parts.join(", ")),
+        base,
+    })
 }
 
-/// The base turned about the root's z by the least.
-pub(super) fn turned(case: &mut Case<'_>) -> Option<Remedy> {
+/// Where the base comes to when it is turned by the least.
+pub(super) fn turned_to(case: &mut Case<'_>) -> Option<Elsewhere> {
     let turns = TURNS.into_iter().flat_map(|turn| [turn, -turn]);
     let shifts = turns.map(|turn| Shift { by: [0.0; 3], turn });
     let (shift, base) = nearest(case, shifts.collect())?;
     let turn = show(shift.turn);
-    Some(remedy(
-        case,
-        &base,
-        &format!("turn the base by {turn} deg about z"),
-    ))
+    Some(Elsewhere {
+        how: format!("turn the base by {turn} deg about z"),
+        base,
+    })
 }
 
-fn remedy(case: &Case<'_>, base: &PlacedFrame, what: &str) -> Remedy {
+fn remedy(case: &Case<'_>, elsewhere: &Elsewhere) -> Remedy {
+    let Elsewhere { how, base } = elsewhere;
     let text = wording::frame_text(base);
-    Remedy::replace(format!("{what}: `base = {text}`"), case.machine.base.span, text)
+    Remedy::replace(format!("{how}: `base = {text}`"), case.machine.base.span, text)
 }
 
 /// The motion that fails.

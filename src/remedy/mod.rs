@@ -16,12 +16,14 @@
 mod base;
 mod home;
 mod process;
-mod speed;
+pub mod speed;
 pub mod trial;
 pub mod wording;
 
+pub use base::Elsewhere;
+
 use crate::diag::Diagnostic;
-use crate::job::{CheckedJob, Machine};
+use crate::job::{CheckedJob, Direction, Machine, RoughVcut};
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
 use crate::reach::solve::Unreachable;
@@ -127,6 +129,31 @@ pub fn remedies(
     };
     found.truncate(MOST_OFFERED);
     found
+}
+
+/// The nearest place for the base, moved or turned, where the machine carries out this very plan.
+#[must_use]
+pub fn elsewhere_for(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    unreachable: &Unreachable,
+    wanted: &Wanted,
+) -> Option<Elsewhere> {
+    let mut case = Case {
+        job,
+        plan,
+        machine: job.machine.as_ref()?,
+        unreachable,
+        tries_left: tries(plan),
+        wanted,
+    };
+    base::moved_to(&mut case).or_else(|| base::turned_to(&mut case))
+}
+
+/// What to write where, so that an operation is cut in another direction.
+#[must_use]
+pub fn stated_direction(asked: &RoughVcut, direction: Direction) -> Vec<(Span, String)> {
+    process::stated(asked, "direction", asked.direction.span, direction.word()).edits
 }
 
 /// Lower speeds, and where they would be far lower, another posture before them.

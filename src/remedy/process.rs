@@ -55,7 +55,7 @@ pub(super) fn smaller_swing(case: &mut Case<'_>) -> Option<Remedy> {
 }
 
 /// A field with a word in place of the one it has, or added behind another where it is left out.
-fn stated(asked: &RoughVcut, field: &str, span: Option<Span>, word: &str) -> Remedy {
+pub(super) fn stated(asked: &RoughVcut, field: &str, span: Option<Span>, word: &str) -> Remedy {
     let behind_rake = asked.rake.span.map(|rake| Span {
         start: rake.end,
         ..rake

@@ -11,6 +11,7 @@ use crate::machine::Model;
 use crate::plan::parameters::show;
 use crate::reach::demand::Demand;
 use crate::reach::legs::{Leg, Pace, legs};
+use crate::source::Span;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, MOST_AXES, OpId, Program};
@@ -27,10 +28,46 @@ pub(super) enum Loss {
 
 /// A speed of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Field {
+pub enum Field {
+    /// Of cuts.
     Cut,
+    /// Of ways beside and above the work.
     Travel,
+    /// Of turns of the blade.
     Reorient,
+}
+
+impl Field {
+    /// What an operation asks for, in mm/s or deg/s.
+    #[must_use]
+    pub fn value(self, asked: &RoughVcut) -> f64 {
+        match self {
+            Self::Cut => asked.cut_feed.value.to_mm_per_s(),
+            Self::Travel => asked.travel_feed.value.to_mm_per_s(),
+            Self::Reorient => asked.reorient_rate.value.to_rad_per_s().to_degrees(),
+        }
+    }
+
+    /// Asks for another speed, in mm/s or deg/s.
+    pub fn set(self, asked: &mut RoughVcut, speed: f64) {
+        match self {
+            Self::Cut => asked.cut_feed.value = Speed::mm_per_s(speed),
+            Self::Travel => asked.travel_feed.value = Speed::mm_per_s(speed),
+            Self::Reorient => {
+                asked.reorient_rate.value = AngularSpeed::rad_per_s(Angle::deg(speed).to_rad());
+            }
+        }
+    }
+
+    /// What it is called, its unit, and where it is written.
+    #[must_use]
+    pub const fn written(self, asked: &RoughVcut) -> (&'static str, &'static str, Option<Span>) {
+        match self {
+            Self::Cut => ("cut", "mm/s", asked.cut_feed.span),
+            Self::Travel => ("travel", "mm/s", asked.travel_feed.span),
+            Self::Reorient => ("reorient", "deg/s", asked.reorient_rate.span),
+        }
+    }
 }
 
 /// Speeds by operation and field, in mm/s and deg/s.
@@ -69,7 +106,7 @@ pub(super) fn lowered(case: &mut Case<'_>) -> Option<(Remedy, Loss)> {
         let now = speeds
             .get(&(operation.0, field))
             .copied()
-            .unwrap_or(value(asked, field));
+            .unwrap_or(field.value(asked));
         speeds.insert((operation.0, field), lower(now / share)?);
     }
     if speeds.is_empty() || !case.may_try() {
@@ -105,7 +142,8 @@ fn slowest(demand: &Demand, model: &Model) -> Option<(OpId, f64)> {
 }
 
 /// The field that says how fast an op goes.
-fn pacing(program: &Program, op: OpId) -> Option<Field> {
+#[must_use]
+pub fn pacing(program: &Program, op: OpId) -> Option<Field> {
     let index = op.0 as usize;
     let legs = legs(program);
     let Leg::Along(stroke) = legs.get(index)? else {
@@ -124,16 +162,9 @@ fn asked(operations: &[Operation], operation: u16) -> Option<&RoughVcut> {
         .map(|Operation::RoughVcut(asked)| asked)
 }
 
-fn value(asked: &RoughVcut, field: Field) -> f64 {
-    match field {
-        Field::Cut => asked.cut_feed.value.to_mm_per_s(),
-        Field::Travel => asked.travel_feed.value.to_mm_per_s(),
-        Field::Reorient => asked.reorient_rate.value.to_rad_per_s().to_degrees(),
-    }
-}
-
 /// A value below another that people like to write: whole numbers from ten on, else tenths.
-fn lower(value: f64) -> Option<f64> {
+#[must_use]
+pub fn lower(value: f64) -> Option<f64> {
     let scale = if value >= 10.0 { 1.0 } else { 10.0 };
     let rounded = (value * scale * (1.0 - 1e-6)).floor() / scale;
     (rounded > 0.0).then_some(rounded)
@@ -144,13 +175,7 @@ fn set(operations: &mut [Operation], speeds: &Speeds) {
         let Some(Operation::RoughVcut(asked)) = operations.get_mut(usize::from(operation)) else {
             continue;
         };
-        match field {
-            Field::Cut => asked.cut_feed.value = Speed::mm_per_s(speed),
-            Field::Travel => asked.travel_feed.value = Speed::mm_per_s(speed),
-            Field::Reorient => {
-                asked.reorient_rate.value = AngularSpeed::rad_per_s(Angle::deg(speed).to_rad());
-            }
-        }
+        field.set(asked, speed);
     }
 }
 
@@ -160,14 +185,10 @@ fn remedy(operations: &[Operation], speeds: &Speeds) -> Option<(Remedy, Loss)> {
     let mut loss = Loss::Bearable;
     for (&(operation, field), &speed) in speeds {
         let asked = asked(operations, operation)?;
-        if speed < SEVERE * value(asked, field) {
+        if speed < SEVERE * field.value(asked) {
             loss = Loss::Severe;
         }
-        let (name, unit, span) = match field {
-            Field::Cut => ("cut", "mm/s", asked.cut_feed.span),
-            Field::Travel => ("travel", "mm/s", asked.travel_feed.span),
-            Field::Reorient => ("reorient", "deg/s", asked.reorient_rate.span),
-        };
+        let (name, unit, span) = field.written(asked);
         let text = format!("{} {unit}", show(speed));
         let word = format!("`{name} = {text}`");
         // Two operations may ask for the same.

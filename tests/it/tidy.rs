@@ -93,6 +93,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "hints",
+        &[
+            "diag", "driver", "job", "lower", "plan", "reach", "remedy", "source", "summary", "wanted",
+        ],
+    ),
+    (
         "optimisation",
         &["diag", "driver", "job", "picture", "plan", "source"],
     ),
@@ -177,6 +183,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "document",
             "driver",
             "format",
+            "hints",
             "job",
             "kinematics",
             "lsp",

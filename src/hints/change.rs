@@ -1,0 +1,85 @@
+//! Changes of a job that a hint may speak of: what they do to the checked job, and what to write where.
+
+use crate::diag::Edit;
+use crate::job::{CheckedJob, Direction, Operation, RoughVcut};
+use crate::plan::parameters::show;
+use crate::remedy::speed::Field;
+use crate::remedy::{self, Elsewhere, wording};
+use crate::source::Span;
+
+/// A change of a job.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Change {
+    /// A speed is no higher than this, in mm/s or deg/s.
+    Speed { field: Field, most: f64 },
+    /// The work is cut in another direction.
+    Direction(Direction),
+    /// The base is somewhere else.
+    Base(Elsewhere),
+}
+
+impl Change {
+    /// Changes an operation, as far as the change is one of operations.
+    pub(super) fn apply_to(&self, asked: &mut RoughVcut) {
+        match self {
+            Self::Speed { field, most } if field.value(asked) > *most => field.set(asked, *most),
+            Self::Direction(direction) => asked.direction.value = *direction,
+            Self::Speed { .. } | Self::Base(_) => {}
+        }
+    }
+
+    /// The job with this change.
+    pub(super) fn of(&self, job: &CheckedJob) -> CheckedJob {
+        let mut changed = job.clone();
+        for Operation::RoughVcut(asked) in &mut changed.operations {
+            self.apply_to(asked);
+        }
+        if let (Self::Base(elsewhere), Some(machine)) = (self, &mut changed.machine) {
+            machine.base.value = elsewhere.base;
+        }
+        changed
+    }
+
+    /// What to write: `reorient = 65 deg/s`.
+    pub(super) fn written(&self, job: &CheckedJob) -> String {
+        match self {
+            Self::Speed { field, most } => {
+                let of = |Operation::RoughVcut(asked): &Operation| field.written(asked);
+                let (name, unit, _) = job.operations.first().map_or(("", "", None), of);
+                format!("{name} = {} {unit}", show(*most))
+            }
+            Self::Direction(direction) => format!("direction = {}", direction.word()),
+            Self::Base(elsewhere) => format!("base = {}", wording::frame_text(&elsewhere.base)),
+        }
+    }
+
+    /// The same as edits; empty where something of it is not written anywhere.
+    pub(super) fn edits(&self, job: &CheckedJob) -> Vec<Edit> {
+        let operations = job.operations.iter();
+        let edits: Option<Vec<(Span, String)>> = match self {
+            Self::Speed { field, most } => operations
+                .filter(|Operation::RoughVcut(asked)| field.value(asked) > *most)
+                .map(|Operation::RoughVcut(asked)| {
+                    let (_, unit, span) = field.written(asked);
+                    Some((span?, format!("{} {unit}", show(*most))))
+                })
+                .collect(),
+            Self::Direction(direction) => {
+                let stated = operations
+                    .map(|Operation::RoughVcut(asked)| remedy::stated_direction(asked, *direction))
+                    .map(|edits| (!edits.is_empty()).then_some(edits));
+                stated.collect::<Option<Vec<_>>>().map(|edits| edits.concat())
+            }
+            Self::Base(elsewhere) => job.machine.as_ref().and_then(|machine| {
+                let text = wording::frame_text(&elsewhere.base);
+                Some(vec![(machine.base.span?, text)])
+            }),
+        };
+        let mut edits = edits.unwrap_or_default();
+        // Two operations may take a value from one place.
+        edits.sort_by_key(|(span, _)| *span);
+        edits.dedup();
+        let edit = |(span, replacement)| Edit { span, replacement };
+        edits.into_iter().map(edit).collect()
+    }
+}

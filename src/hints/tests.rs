@@ -1,0 +1,1 @@
+//! Hints are tried: applied, a job takes the time that they state.
