@@ -89,10 +89,17 @@ pub fn summary(
         "edge",
         &format!("{} mm in use at most", show(report.longest_edge.to_mm())),
     ));
+    if reach.is_some() {
+        lines.push(row("in hand", IN_HAND));
+    }
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
 }
+
+/// What of the blade no proof can see.
+const IN_HAND: &str =
+    "check how the blade is clamped: leading edge at tool x, flat square to tool y (docs/language.md, `tool`)";
 
 /// `mixed: 1 min 52.0 s; lift 1 min 58.3 s; discard leaves 11.2 mm (limit 10 mm)`.
 #[must_use]
