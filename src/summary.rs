@@ -73,6 +73,9 @@ pub fn summary(
     lines.push(row("contours", &correlation));
     let (edge, blade) = (show(report.longest_edge.to_mm()), show(longest_blade(plan).to_mm()));
     lines.push(row("edge", &format!("{edge} of {blade} mm used at most")));
+    if reach.is_some() {
+        lines.push(row("in hand", IN_HAND));
+    }
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
@@ -182,6 +185,10 @@ fn scallop_spent(vcut: &PlannedVcut, report: &Report) -> Option<String> {
     parts.push(format!("cusp {}", shown(cusp)));
     Some(format!("{of} = {}", parts.join(" + ")))
 }
+
+/// What of the blade no proof can see.
+const IN_HAND: &str =
+    "check how the blade is clamped: leading edge at tool x, flat square to tool y (docs/language.md, `tool`)";
 
 /// `interlaced 1 min 52.0 s; orthogonal 1 min 58.3 s; free leaves 11.2 mm (limit 10 mm)`: what was taken comes first.
 #[must_use]

@@ -177,6 +177,8 @@ codes! {
 
     /// An air cut that cannot be made at the height that was asked for.
     AirCut = "VC0521", Error, "an air cut at a height that does not do";
+    /// A tool frame that no mount gives.
+    ToolFrame = "VC0522", Warning, "a tool frame that no mount gives";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";

@@ -128,16 +128,18 @@ impl Lifted<'_> {
             Some(why) => diagnostic.note(why.message),
             None => diagnostic,
         };
+        let least = show(self.least.to_mm());
         if self.is_carried_out(self.least) {
-            diagnostic.help(format!("use `--air-cut {}mm`, which it carries out", show(self.least.to_mm())))
+            return diagnostic.help(format!("use `--air-cut {least}mm`, which it carries out"));
+        }
+        let diagnostic = if self.least < self.lift {
+            diagnostic.note(format!(
+                "nor {least} mm above it, the least that keeps the blade clear of the stock"
+            ))
         } else {
             diagnostic
-                .note(format!(
-                    "nor {} mm above it, the least that keeps the blade clear of the stock",
-                    show(self.least.to_mm())
-                ))
-                .help("run the program itself without stock, blade and generator, in manual mode")
-        }
+        };
+        diagnostic.help("run the program itself without stock, blade and generator, in manual mode")
     }
 
     fn is_carried_out(&self, lift: Length) -> bool {

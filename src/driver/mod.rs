@@ -4,6 +4,7 @@
 //! caller's [`Sink`].
 
 mod air;
+mod mount;
 mod target;
 mod yielding;
 
@@ -247,6 +248,7 @@ fn as_far_as_wanted(
     outcome.ast = ast;
     if let Some(job) = &job {
         outcome.diagnostics.extend(target::unknown_targets(job, targets));
+        outcome.diagnostics.extend(mount::doubts(job));
     }
     outcome.job = job;
     if !has_errors(&outcome.diagnostics) {

@@ -4,6 +4,7 @@
 //! with its headings and legend (`sheet`), scales with round values (`scale`), the x-z section (`section`), plots of
 //! curves (`plot`), paths in relative coordinates (`trace`), and curves of any number of points in as many as can be seen (`thin`).
 
+pub mod blade;
 pub mod contour;
 pub mod correlation;
 pub mod deviation;

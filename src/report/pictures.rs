@@ -3,10 +3,12 @@
 //! Chips and the machined contour are those of the proof: the program's cuts are replayed, and each chip is what the surface
 //! before it loses.
 
+mod blade;
 mod joints;
 mod paths;
 mod time;
 
+pub use blade::blade;
 pub use joints::joints;
 pub use paths::paths;
 pub use time::time;

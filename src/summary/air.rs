@@ -1,6 +1,6 @@
 //! The figures of an air cut for people: what was proven of it, and what was not.
 
-use super::{row, time, times};
+use super::{IN_HAND, row, time, times};
 use crate::air::{TIP_SPEED, TURNING_RATE};
 use crate::pace::Basis;
 use crate::plan::parameters::show;
@@ -66,6 +66,9 @@ pub fn summary(air: &AirFigures, report: &Report, basis: Basis, reach: Option<&R
     }
     lines.push(row("time", &times::in_all(&report.times.all)));
     lines.push(row("basis", &times::basis(basis)));
+    if reach.is_some() {
+        lines.push(row("in hand", IN_HAND));
+    }
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines

@@ -14,6 +14,12 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "the planner keeps every cut out of the part; the proof is there to find its mistakes",
     ),
     (
+        Code::AirCut,
+        "tests/it/air.rs",
+        "a_height_that_does_not_do_is_refused_with_one_that_does",
+        "it takes a height on the command line",
+    ),
+    (
         Code::OutsideProgram,
         "tests/it/cli/outside.rs",
         "what_is_no_program_is_not_written",

@@ -8,6 +8,7 @@
     reason = "tests read files, start the compiler, and stop at the first surprise"
 )]
 
+mod air;
 mod backends_page;
 mod check;
 #[cfg(feature = "krl")]

@@ -11,7 +11,7 @@ pub(crate) const FAILING: &[(&str, &[&str])] = &[
 ];
 
 /// The machines of the shop, with the target that drives each.
-const CELLS: &[(&str, &str)] = &[
+pub(crate) const CELLS: &[(&str, &str)] = &[
     ("large_cell", "krl"),
     ("abb_cell", "rapid"),
     ("gantry", "gcode"),

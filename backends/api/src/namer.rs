@@ -100,6 +100,8 @@ mod tests {
         assert_eq!(namer.name("12"), "v_12");
         assert_eq!(namer.name("Flügel"), "Fl_gel");
         assert_eq!(namer.name(""), "v_");
+        assert_eq!(namer.name("spoiler rib_air"), "spoi_air");
+        assert_eq!(namer.name("spoiler rob_air"), "sp_air_2");
     }
 
     proptest! {

@@ -168,3 +168,42 @@ fn a_job_with_errors_has_no_program_to_compare_with() {
         run.stderr
     );
 }
+
+#[test]
+fn an_air_cut_is_verified_with_its_height() {
+    let folder = bench();
+    let run = vcutc(
+        folder.path(),
+        &["-q", "bench.vcut", "--target", "krl", "--air-cut", "100mm"],
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let files = ["verify", "bench.vcut", "bench_air.dat", "bench_air.src"];
+    let with_height = [files.as_slice(), &["--air-cut", "100mm"]].concat();
+    let run = vcutc(folder.path(), &with_height);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("byte for byte"), "{}", run.stderr);
+    // Without its height it is not the program of the job.
+    assert_eq!(vcutc(folder.path(), &files).code, Some(1));
+    // A cut that comes down into the stock.
+    edit(folder.path(), "bench_air.src", "Z 107.433", "Z 7.433");
+    let run = vcutc(folder.path(), &with_height);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("error[VC0701]"), "{}", run.stderr);
+    assert!(run.stderr.contains("error[VC0708]"), "{}", run.stderr);
+    assert!(run.stderr.contains("comes down to the stock"), "{}", run.stderr);
+}
+
+#[test]
+fn the_summary_of_an_air_cut_claims_no_surface() {
+    let folder = bench();
+    let run = vcutc(folder.path(), &["check", "bench.vcut", "--air-cut", "100mm"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("AIR CUT, lifted by 100 mm, generator off"), "{}", run.stderr);
+    assert!(run.stderr.contains("not proven chips, contour and scallop"), "{}", run.stderr);
+    let json = vcutc(
+        folder.path(),
+        &["--message-format", "json", "check", "bench.vcut", "--air-cut", "100mm"],
+    );
+    let summary = json_lines(&json.stderr).pop().unwrap();
+    assert!(summary.get("numbers").is_none_or(serde_json::Value::is_null), "{summary}");
+}

@@ -1,8 +1,9 @@
 //! Each rule about axes and moves of all axes broken once, in a program that is right otherwise.
 
 use super::{Fault, Rule, verify};
-use crate::ir::{Action, AxisValues, FeedId, OpId, OrientationId, Program, RateId};
+use crate::ir::{Action, AxisValues, FeedId, OpId, OrientationId, Program, Purpose, RateId, Switch};
 use crate::testkit::{Crossing, Recipe};
+use crate::units::Length;
 
 /// Two operations with a move of all axes between them.
 fn program() -> Program {
@@ -162,4 +163,58 @@ fn a_home_that_is_no_number() {
 
 fn axis(program: &mut Program) -> &mut crate::ir::Axis {
     &mut program.cell.as_mut().unwrap().axes[0]
+}
+
+/// The program as an air cut, by hand: 500 mm up, the generator off.
+fn air_cut() -> Program {
+    let mut program = program();
+    program.purpose = Purpose::AirCut {
+        lift: Length::mm(500.0),
+    };
+    for op in &mut program.ops {
+        match &mut op.action {
+            Action::Travel { to, .. }
+            | Action::AxisTravel { to, .. }
+            | Action::Approach { to, .. }
+            | Action::Retract { to, .. }
+            | Action::Cut { to, .. } => to.z += 500.0,
+            Action::Ultrasonic { state } => *state = Switch::Off,
+            _ => {}
+        }
+    }
+    program.ops.retain(|op| op.action != Action::AwaitReady);
+    program
+}
+
+#[test]
+fn an_air_cut_cuts_without_vibration() {
+    assert_eq!(faults(air_cut()), []);
+    let mut working = air_cut();
+    working.purpose = Purpose::Work;
+    assert!(rules(working).contains(&Rule::SilentCut));
+}
+
+#[test]
+fn an_air_cut_does_not_start_the_generator() {
+    let mut program = air_cut();
+    let switch = program.ops.iter().position(|op| matches!(op.action, Action::Ultrasonic { .. }));
+    program.ops[switch.unwrap()].action = Action::Ultrasonic { state: Switch::On };
+    assert!(rules(program).contains(&Rule::AirCut));
+}
+
+#[test]
+fn an_air_cut_stays_above_the_stock_by_half_the_blade() {
+    let top = program().stock.height.to_mm();
+    let thickness = program().operations[0].blade.thickness.to_mm().max(1.0);
+    for (gap, is_clear) in [(thickness / 2.0 + 0.01, true), (thickness / 2.0 - 0.01, false), (-5.0, false)] {
+        let mut program = air_cut();
+        for operation in &mut program.operations {
+            operation.blade.thickness = Length::mm(thickness);
+        }
+        let cut = program.ops.iter().position(|op| matches!(op.action, Action::Retract { .. }));
+        if let Action::Retract { to, .. } = &mut program.ops[cut.unwrap()].action {
+            to.z = top + gap;
+        }
+        assert_eq!(!rules(program).contains(&Rule::AirCut), is_clear, "{gap}");
+    }
 }

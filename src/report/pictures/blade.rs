@@ -1,0 +1,33 @@
+//! The blade of a job as it is held: for people who clamp it.
+
+use crate::picture::{Prefix, blade};
+use crate::plan::PlannedOperation;
+use crate::plan::parameters::show;
+use crate::report::Material;
+use vcutc_backend_api::ir::Edges;
+
+/// The blade of the first operation with the axes of its frame (`picture::blade`); none for a job that plans nothing.
+#[must_use]
+pub fn blade(material: &Material<'_>, ids: Prefix) -> Option<String> {
+    let PlannedOperation::RoughVcut(vcut) = material.plan.operations.first()?;
+    let held = &vcut.asked.blade;
+    let subtitle = format!(
+        "blade `{}`, {} mm long, {} mm thick, over the work at swing 0",
+        held.name,
+        show(held.cutting_length.value.to_mm()),
+        show(held.thickness.value.to_mm())
+    );
+    Some(blade::draw(&blade::Blade {
+        heading: blade::Heading {
+            ids,
+            title: "The blade in the hand: the axes of `tool`",
+            subtitle: &subtitle,
+        },
+        rake: vcut.asked.rake.value.to_rad(),
+        half_apex: held.half_apex.value.to_rad(),
+        back: match held.edges {
+            Edges::Double => blade::Back::Edge,
+            Edges::Single => blade::Back::Blunt,
+        },
+    }))
+}
