@@ -41,6 +41,7 @@ pub mod report;
 pub mod sema;
 pub mod sim;
 pub mod source;
+pub mod starter;
 pub mod summary;
 pub mod syntax;
 pub mod verdict;

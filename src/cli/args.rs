@@ -17,8 +17,13 @@ use crate::driver::{Request, Typed};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
+/// The version of the package, with the commit where a release was built from one (`build.rs`).
+const VERSION: &str = env!("VCUTC_VERSION");
+
 const EXAMPLES: &str = "\
 Examples:
+  vcutc init rib --robot kuka/kr210_r3100_ultra
+                                          Write a first job that this robot can cut
   vcutc rib.vcut --target krl -o out      Write the KUKA program of a job into the folder out
   vcutc rib.vcut --target krl -o - | less Read the program without writing a file
   vcutc rib.vcut --target krl --set width=90mm --set depth=40mm
@@ -27,7 +32,7 @@ Examples:
                                           Fail with a diff unless out holds the job's program
   vcutc build                             Write all programs that vcut.toml lists
   vcutc check *.vcut                      Look for errors, write nothing
-  vcutc report rib.vcut -o rib.html       See the cuts, what they leave, and what the machine does
+  vcutc report rib.vcut --open            See the cuts, what they leave, and what the machine does
   vcutc explain VC0203                    Read what an error means and how to mend it
   vcutc machines                          See the machines of the catalogue
   vcutc machines kuka/kr210_r3100_ultra   Read all numbers of one, and where they come from
@@ -36,6 +41,7 @@ Examples:
                                           Where these axis values bring the flange
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
                                           All axis values that bring the flange there
+  vcutc plot rib.vcut -o pictures         See all pictures, in the folder pictures
   vcutc plot rib.vcut --what contour -o rib.svg
                                           See what the cuts leave on the part
   vcutc optimize rib.vcut                 See what limits cost, and what a finer surface would take
@@ -44,13 +50,27 @@ Examples:
                                           The same after every change, with the report in a browser
   vcutc convert rib_3x.src --rake 60deg --swing 34deg --extension 8mm --stock 85x50x50 --as-job
                                           Turn a milling program of three axes into a job of V-cuts
-  vcutc verify rib.vcut out/rib.src out/rib.dat
-                                          See whether a program still is what its job says
+  vcutc verify rib.vcut out               See whether a program still is what its job says
+  vcutc completions bash                  Let the shell complete commands and options
+
+Streams:
+  standard output  what was asked for: pages, lists, tables, and programs and pictures with `-o -`
+  standard error   errors, warnings, the summary of a job, progress
+  `vcutc check rib.vcut 2>&1 | less` shows all of it a page at a time.
 
 Exit status:
   0  all is well
   1  a job has errors, --check found a difference, or there are warnings under --deny-warnings
   2  wrong usage, or a file that cannot be read or written";
+
+/// What `-h` shows.
+const FIRST_EXAMPLES: &str = "\
+Examples:
+  vcutc init rib --robot kuka/kr210_r3100_ultra   Write a first job
+  vcutc check rib.vcut                            Look for errors, write nothing
+  vcutc rib.vcut --target krl -o out              Write the KUKA program of a job into the folder out
+
+`vcutc --help` has more of them, `vcutc COMMAND --help` everything about a command.";
 
 /// Compiler for V-shaped ultrasonic knife cutting of honeycomb core.
 ///
@@ -59,11 +79,11 @@ Exit status:
 #[derive(Debug, Parser)]
 #[command(
     name = "vcutc",
-    version,
+    version = VERSION,
     subcommand_negates_reqs = true,
     arg_required_else_help = true,
     override_usage = "vcutc [OPTIONS] <JOB>...\n       vcutc [OPTIONS] <COMMAND>",
-    after_help = EXAMPLES,
+    after_help = FIRST_EXAMPLES,
     after_long_help = EXAMPLES
 )]
 pub(super) struct Arguments {
@@ -124,11 +144,34 @@ impl Arguments {
     }
 }
 
-/// A mistyped command is taken for a job, and what follows it for one argument too many: says what was meant.
+/// Options whose value is a list of numbers with commas.
+const LISTS: [&str; 5] = ["--joints", "--pose", "--quaternion", "--tool", "--base"];
+
+/// The numbers behind an option that takes them with commas, where they were given with blanks: the option, and all of them.
+fn list_with_blanks(words: &[String]) -> Option<(&str, String)> {
+    let is_number = |word: &&String| word.trim_end_matches(',').parse::<f64>().is_ok();
+    let at = words.iter().position(|word| LISTS.contains(&word.as_str()))?;
+    let numbers: Vec<&str> = words
+        .iter()
+        .skip(at + 1)
+        .take_while(is_number)
+        .map(|word| word.trim_end_matches(','))
+        .collect();
+    (numbers.len() > 1).then(|| (words[at].as_str(), numbers.join(",")))
+}
+
+/// Says what was meant: lists of numbers with blanks between them are taken for several arguments, a mistyped command for a
+/// job, and what follows it for one argument too many.
 fn suggest_command(mut error: clap::Error) -> clap::Error {
     if error.kind() == ErrorKind::UnknownArgument {
-        let first_word = std::env::args().skip(1).find(|word| !word.starts_with('-'));
-        if let Some(command) = first_word.and_then(|word| Arguments::command_near(&word)) {
+        let words: Vec<String> = std::env::args().collect();
+        if let Some((option, list)) = list_with_blanks(&words) {
+            let text = format!("{option} takes its numbers with commas between them: {option} {list}");
+            return Arguments::command().error(ErrorKind::ValueValidation, text);
+        }
+        let first_word = words.into_iter().skip(1).find(|word| !word.starts_with('-'));
+        let mistyped = first_word.filter(|word| !Arguments::is_command(word));
+        if let Some(command) = mistyped.and_then(|word| Arguments::command_near(&word)) {
             error.insert(
                 ContextKind::SuggestedSubcommand,
                 ContextValue::Strings(vec![command]),
@@ -153,6 +196,14 @@ pub(super) enum Command {
     /// flank back. What the command line does not say is taken from the program where that leaves one possibility, and told.
     #[cfg(feature = "krl")]
     Convert(Box<ConvertArgs>),
+    /// Print what a shell needs to complete commands, options and their values
+    ///
+    /// Put it where your shell looks for completions: docs/command_line.md says where that is.
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
     /// Explain a diagnostic code, or list them all
     ///
     /// Every error and warning has a permanent code such as VC0203. Its page says what it means, shows a job that has
@@ -161,17 +212,22 @@ pub(super) enum Command {
         /// The code, such as VC0203 (203 will do); without it, the list of all codes
         code: Option<String>,
     },
-    /// Bring job files into the one layout that all job files have
+    /// Format job files
     ///
     /// Comments stay where they are, and what a job says does not change; a file with mistakes is left as it is. Files are
     /// replaced whole or not at all. docs/fmt.md says what the layout is.
     Fmt(FmtArgs),
+    /// Write a first job that compiles, to change into one of your own
+    ///
+    /// With --robot the job has that machine, with a tool, a base and a home with which it was compiled before it is written.
+    /// A file that is there is not written over.
+    Init(InitArgs),
     /// Search the base frame that leaves the machine the most room
     ///
     /// Looks for the place of the work (and its turn about z) where the smallest margin of the whole job is largest, proves
     /// the whole program there, and prints the frame to paste. The job file is not changed.
     Place(PlaceArgs),
-    /// Tell what open parameters come out as, what binds them, and what a finer surface costs
+    /// Show what `auto` chose, which limits are active, and the cost of a finer surface
     ///
     /// Solves each operation's parameters on every lattice, by the formulas of the paper and by the exact ones; plans and
     /// simulates the chosen ones; tells which limits bind and what relaxing each by 1 % would save; and lists the least
@@ -179,10 +235,12 @@ pub(super) enum Command {
     Optimize(OptimizeArgs),
     /// List the machines of the catalogue, or show one
     ///
+    /// A part of a name, such as kuka or r3100, lists those that have it.
+    ///
     /// Shown are lengths, limits and speeds, where the numbers come from, where sources differ, and how far they can be
     /// trusted.
     Machines {
-        /// A name of the catalogue, or a file that describes a machine (.toml, .urdf); without it, the list
+        /// A name of the catalogue or a part of one, or a file that describes a machine (.toml, .urdf); without it, the list
         machine: Option<String>,
     },
     /// Tell where axis values bring a machine's flange or blade
@@ -199,8 +257,8 @@ pub(super) enum Command {
     },
     /// List all axis values that bring a machine's flange or blade to a pose
     ///
-    /// All ways to stand are listed, with all turns of each axis within its limits; ways that leave the limits too, with
-    /// the axes that do and by how much. For robots each comes with status and turn (KUKA) or confdata (ABB).
+    /// All ways to stand are listed, with all turns of each axis within its limits; with --verbose those that leave the limits
+    /// too, with the axes that do and by how much. For robots each comes with status and turn (KUKA) or confdata (ABB).
     Ik {
         #[command(flatten)]
         cell: CellArgs,
@@ -223,9 +281,18 @@ pub(super) enum Command {
         #[arg(long)]
         stdio: bool,
     },
-    /// Draw a picture of a job as SVG
+    /// Write the manual pages of all commands into a folder
     ///
-    /// Compiles the job and draws one aspect of what comes of it. docs/pictures.md shows each of them.
+    /// For those who make packages: vcutc.1, vcutc-check.1 and so on.
+    #[command(hide = true)]
+    Man {
+        /// The folder
+        #[arg(short, long, value_name = "DIR", default_value = ".")]
+        output: String,
+    },
+    /// Draw pictures of a job as SVG
+    ///
+    /// Compiles the job once and draws all there is to see of it, or with --what one aspect. docs/pictures.md shows each of them.
     Plot(PlotArgs),
     /// List the targets and their options, or describe one
     ///
@@ -256,7 +323,9 @@ pub(super) struct VerifyArgs {
     /// The job file (.vcut), or - to read it from standard input
     pub(super) job: String,
 
-    /// All files of one program, in any order
+    /// All files of one program, in any order, or the folder that holds them
+    ///
+    /// Of a folder only the files of this job's program are read.
     #[arg(required = true, value_name = "PROGRAM")]
     pub(super) programs: Vec<String>,
 
@@ -441,6 +510,16 @@ pub(super) struct FmtArgs {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct InitArgs {
+    /// The name of the job; its file is NAME.vcut [default: first]
+    pub(super) name: Option<String>,
+
+    /// The robot or five-axis machine that cuts it: a name of the catalogue (see `vcutc machines`), or a file (.toml, .urdf)
+    #[arg(long, visible_alias = "machine", value_name = "MODEL")]
+    pub(super) robot: Option<String>,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct BuildArgs {
     /// Only these: names of sections, names of jobs, or paths of job files
     #[arg(value_name = "NAME|JOB")]
@@ -499,8 +578,14 @@ pub(super) struct ReportArgs {
     pub(super) job: String,
 
     /// The file to write, or - for standard output
+    ///
+    /// Without it: JOB.html in the current folder.
     #[arg(short, long, value_name = "FILE.html|-")]
-    pub(super) output: String,
+    pub(super) output: Option<String>,
+
+    /// Open the page in a browser: that of the variable BROWSER, or the system's
+    #[arg(long)]
+    pub(super) open: bool,
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
@@ -511,12 +596,14 @@ pub(super) struct PlotArgs {
     /// The job file (.vcut), or - to read it from standard input
     pub(super) job: String,
 
-    /// What to draw
+    /// What to draw [default: all pictures]
     #[arg(long, value_enum, value_name = "PICTURE")]
-    pub(super) what: What,
+    pub(super) what: Option<What>,
 
-    /// The file to draw into, or - for standard output [default: standard output]
-    #[arg(short, long, value_name = "FILE.svg|-")]
+    /// One picture: the file to draw into, or - for standard output [default]; all: the folder [default: the current one]
+    ///
+    /// All pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine.
+    #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(super) output: Option<String>,
 
     #[command(flatten)]
@@ -607,31 +694,34 @@ pub(super) struct OutsideArgs {
     /// Look for programs `vcutc-backend-NAME` in this folder, too; can be given several times
     ///
     /// Such a program is the target NAME. These folders come before those of the PATH.
-    #[arg(long, global = true, value_name = "DIR")]
+    #[arg(long, global = true, value_name = "DIR", help_heading = "Targets of your own", hide_short_help = true)]
     pub(super) backend_path: Vec<String>,
 
     /// Stop a program `vcutc-backend-NAME` that is not done after so many seconds
-    #[arg(long, global = true, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    #[arg(long, global = true, value_name = "SECONDS", help_heading = "Targets of your own", hide_short_help = true, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     pub(super) backend_timeout: u64,
 }
+
+/// The heading of what is said how.
+const MESSAGES: &str = "Messages";
 
 /// How to talk to the user.
 #[derive(Debug, Args)]
 pub(super) struct DisplayArgs {
     /// How diagnostics are written to standard error
-    #[arg(long, value_enum, global = true, default_value_t, value_name = "FORMAT")]
+    #[arg(long, value_enum, global = true, default_value_t, value_name = "FORMAT", help_heading = MESSAGES)]
     pub(super) message_format: MessageFormat,
 
     /// When to use colours
-    #[arg(long, value_enum, global = true, default_value_t, value_name = "WHEN")]
+    #[arg(long, value_enum, global = true, default_value_t, value_name = "WHEN", help_heading = MESSAGES)]
     pub(super) color: Color,
 
     /// Print diagnostics only: no summary, no progress
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, conflicts_with = "verbose", help_heading = MESSAGES)]
     pub(super) quiet: bool,
 
-    /// Print what is asked of every axis of the machine and how long each stage took, too
-    #[arg(short, long, global = true)]
+    /// Print what is asked of every axis of the machine and how long each stage took, too; and what a long run does
+    #[arg(short, long, global = true, help_heading = MESSAGES)]
     pub(super) verbose: bool,
 }
 

@@ -3,7 +3,7 @@
 use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::batch::{self, Unit};
 use super::console::{Console, Failure, Summary, Warnings};
-use super::files::Disk;
+use super::files::{Disk, job_near};
 use super::hints;
 use super::inner::{self, Progressed};
 use super::output::{Destination, Headings, Output, Placed};
@@ -15,7 +15,7 @@ use crate::checks::{Checks, ReadBack};
 use crate::diag::has_errors;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::units::Length;
@@ -67,11 +67,13 @@ fn units(
         Product::Program(program) => program,
         Product::Inner(..) => return Err(Failure::new("`--emit` shows one job at a time")),
         Product::Verdict { .. } => {
-            let failure = Failure::new("several jobs were given without `--target`");
-            let meant = jobs.first().and_then(|word| Arguments::command_near(word));
+            let word = jobs.first().filter(|word| !Path::new(word).exists());
+            let meant = word.and_then(|word| Some((word, Arguments::command_near(word)?)));
             return Err(match meant {
-                Some(command) => failure.help(format!("did you mean the command `vcutc {command}`?")),
-                None => failure.help("use `vcutc check JOB...` to look for errors in all of them"),
+                Some((word, command)) => Failure::new(format!("there is no command `{word}`"))
+                    .help(format!("did you mean `vcutc {command}`?")),
+                None => Failure::new("several jobs were given without `--target`")
+                    .help("use `vcutc check JOB...` to look for errors in all of them"),
             });
         }
     };
@@ -132,8 +134,23 @@ fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
             options: args.options.option.clone(),
         })),
         (None, Some(form)) => Ok(Product::Inner(form, inner_destination(output))),
-        (None, None) => Ok(nothing(targets)),
+        (None, None) => match output {
+            Some(output) => Err(pointless_output(output, targets)),
+            None => Ok(nothing(targets)),
+        },
     }
+}
+
+/// A place for files without any that would go there.
+pub(super) fn pointless_output(output: &str, targets: &Targets) -> Failure {
+    let target = targets.first().map_or("TARGET", |backend| backend.id());
+    Failure::new(format!(
+        "`-o {output}` says where files go, but no target was given, so there are none"
+    ))
+    .help(format!(
+        "write `--target {target} -o {output}` (targets: {}), or leave `-o` out to check the job only",
+        targets::names(targets)
+    ))
 }
 
 /// A verdict alone, and how to get more.
@@ -425,6 +442,9 @@ pub(super) fn without_machine() -> Failure {
 
 pub(super) fn unreadable(job: &str, reason: &str) -> Failure {
     let failure = Failure::new(format!("cannot read the job {job}: {reason}"));
+    if let Some(file) = job_near(job).filter(|_| !Path::new(job).exists()) {
+        return failure.help(format!("did you mean the job `{file}`?"));
+    }
     match Arguments::command_near(job) {
         Some(command) => failure.help(format!("did you mean the command `vcutc {command}`?")),
         None => failure,

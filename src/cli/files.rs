@@ -1,5 +1,6 @@
 //! Job files on the real file system.
 
+use crate::diag::suggest::nearest;
 use crate::source::{LARGEST_FILE, LoadError, Loader};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -79,6 +80,35 @@ const LARGEST_PROGRAM: u64 = 256 << 20;
 /// The bytes of a file of a program.
 pub(super) fn load_program(path: &Path) -> Result<Vec<u8>, LoadError> {
     load_bounded(path, LARGEST_PROGRAM)
+}
+
+/// The name of a job's file without folder and ending; what comes from standard input is called so.
+pub(super) fn stem(job: &str) -> &str {
+    let file = job.rsplit('/').next().unwrap_or(job);
+    let stem = file.strip_suffix(".vcut").unwrap_or(file);
+    if stem.starts_with('<') { "stdin" } else { stem }
+}
+
+/// The job file that was most likely meant by a path that leads nowhere: the one that lacks only its ending, else one of the
+/// folder that is spelt alike.
+pub(super) fn job_near(path: &str) -> Option<String> {
+    let with_ending = format!("{path}.vcut");
+    if Path::new(&with_ending).is_file() {
+        return Some(with_ending);
+    }
+    let path = Path::new(path);
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    let wanted = path.file_name()?.to_str()?;
+    let wanted = wanted.strip_suffix(".vcut").unwrap_or(wanted);
+    let entries = fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let jobs: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter_map(|name| Some(name.strip_suffix(".vcut")?.to_owned()))
+        .collect();
+    let near = nearest(wanted, jobs.iter().map(String::as_str));
+    let name = format!("{}.vcut", near.first()?);
+    let found = folder.map_or_else(|| PathBuf::from(&name), |folder| folder.join(&name));
+    Some(found.display().to_string())
 }
 
 /// The bytes of a file of ordinary size.

@@ -82,6 +82,9 @@ struct Tally {
     unchanged: usize,
     /// How many have mistakes, or could not be read or written.
     refused: usize,
+    /// How many of those have mistakes.
+    #[serde(skip)]
+    mistaken: usize,
 }
 
 struct Run<'c> {
@@ -140,6 +143,7 @@ impl Run<'_> {
             Ok(formatted) => formatted,
             Err(exit) => {
                 self.tally.refused += 1;
+                self.tally.mistaken += 1;
                 return exit;
             }
         };
@@ -186,20 +190,24 @@ impl Tally {
             1 => "1 file".to_owned(),
             _ => format!("{count} files"),
         };
-        let done = match fate {
-            Fate::Write => "formatted",
-            Fate::Compare => "to format (run again without --check)",
+        let changed = match (self.formatted.len(), fate) {
+            (0, _) => None,
+            (count, Fate::Write) => Some(format!("{} formatted", files(count))),
+            (count, Fate::Compare) => Some(format!("{} to format (run again without --check)", files(count))),
         };
-        let refused = match self.refused {
-            0 => String::new(),
-            1 => ", 1 file left as it is because of errors".to_owned(),
-            count => format!(", {} left as they are because of errors", files(count)),
+        let unchanged = match (self.unchanged, &changed) {
+            (0, Some(_)) => None,
+            (count, None) => Some(format!("{} already formatted", files(count))),
+            (count, Some(_)) => Some(format!("{count} already formatted")),
         };
-        let unchanged = self.unchanged;
-        format!(
-            "{} {done}, {unchanged} in order{refused}\n",
-            files(self.formatted.len())
-        )
+        let why = match (self.refused, self.mistaken) {
+            (1, 1) => "syntax error",
+            (refused, mistaken) if refused == mistaken => "syntax errors",
+            (_, _) => "see above",
+        };
+        let skipped = (self.refused > 0).then(|| format!("{} skipped ({why})", self.refused));
+        let parts: Vec<String> = [changed, unchanged, skipped].into_iter().flatten().collect();
+        format!("{}\n", parts.join(", "))
     }
 }
 

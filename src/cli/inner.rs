@@ -7,6 +7,7 @@ use super::args::InnerForm;
 use super::joints;
 use crate::driver::Outcome;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
+use super::files::stem;
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
@@ -61,9 +62,7 @@ pub(super) enum Progressed {
 
 /// `jobs/rib.vcut` as a tree is `rib.ast.txt`.
 fn file_name(form: InnerForm, job: &str) -> String {
-    let file = job.rsplit('/').next().unwrap_or(job);
-    let stem = file.strip_suffix(".vcut").unwrap_or(file);
-    let stem = if stem.starts_with('<') { "stdin" } else { stem };
+    let stem = stem(job);
     let ending = match form {
         InnerForm::Ast => "ast.txt",
         InnerForm::Plan => "plan.csv",

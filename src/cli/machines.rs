@@ -11,6 +11,7 @@ use crate::document::flaw::Flaw;
 use crate::machine::facts::{Dynamics, Facts, FkCheck};
 use crate::machine::path_limits::PathLimits;
 use crate::machine::sheet::{self, Sheet};
+use crate::machine::catalogue::Summary;
 use crate::machine::{self, FileKind, Model, Origin, catalogue};
 use crate::source::{Loader, SourceMap, text_from_bytes};
 use serde_json::{Value, json};
@@ -22,7 +23,8 @@ pub(super) const SCHEMA: u32 = 1;
 /// Prints the list, or one machine.
 pub(super) fn machines(name: Option<&str>, console: &Console) -> Exit {
     match name {
-        None => list(console),
+        None => list(&catalogue::summaries(), console),
+        Some(part) if !matching(part).is_empty() => list(&matching(part), console),
         Some(name) => match description(name, console) {
             Ok(description) => show(&description, console),
             Err(exit) => exit,
@@ -103,10 +105,21 @@ fn tell(flaws: &[Flaw], path: &str, text: String, console: &Console) -> Exit {
     Exit::JobHasErrors
 }
 
-fn list(console: &Console) -> Exit {
-    let summaries = catalogue::summaries();
+/// The machines whose name or model holds a word that is the name of none of them.
+fn matching(part: &str) -> Vec<Summary> {
+    if catalogue::text(part).is_some() || matches!(Origin::of(part), Origin::File(_)) {
+        return Vec::new();
+    }
+    let part = part.to_lowercase();
+    let holds = |text: &str| text.to_lowercase().contains(&part);
+    let all = catalogue::summaries().into_iter();
+    all.filter(|summary| holds(summary.name) || holds(&summary.model))
+        .collect()
+}
+
+fn list(summaries: &[Summary], console: &Console) -> Exit {
     if !console.speaks_json() {
-        return console.document(&text::list(&summaries));
+        return console.document(&text::list(summaries));
     }
     let lines = summaries.iter().map(|summary| {
         let line = json!({

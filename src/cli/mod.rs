@@ -6,10 +6,13 @@
 //! | --- | --- |
 //! | programs | files in the folder of `-o` (the current one without it), or standard output with `-o -` |
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
-//! | the picture of `plot` | standard output, or the file of `-o` |
-//! | the page of `report` | the file of `-o`, or standard output with `-o -` |
+//! | the picture of `plot --what` | standard output, or the file of `-o` |
+//! | all pictures of `plot` | files in the folder of `-o` (the current one without it) |
+//! | the page of `report` | the file of `-o` (`JOB.html` without it), or standard output with `-o -` |
+//! | the job of `init` | a file in the current folder, never over one that is there |
+//! | manual pages of `man` | files in the folder of `-o` |
 //! | messages of `lsp` | standard output |
-//! | pages of `explain`, `machines`, answers of `fk` and `ik`, list of `targets`, help | standard output |
+//! | pages of `explain`, `machines`, `completions`, answers of `fk` and `ik`, list of `targets`, help | standard output |
 //! | diagnostics, summary, timings, progress, what `verify` finds | standard error |
 //!
 //! A run ends with 0 when all is well, with 1 when a job has errors or a program is not its job's, and with 2 when there was nothing to judge: a
@@ -34,6 +37,7 @@
 mod args;
 mod baseline;
 mod batch;
+mod browser;
 mod build;
 mod compile;
 mod console;
@@ -45,6 +49,7 @@ mod external;
 mod files;
 mod fmt;
 mod hints;
+mod init;
 mod inner;
 mod joints;
 mod kinematics;
@@ -57,6 +62,7 @@ mod place;
 mod plot;
 mod progress;
 mod report;
+mod shell;
 mod snapshot;
 mod targets;
 mod verify;
@@ -64,6 +70,7 @@ mod watch;
 
 use args::{Arguments, Command};
 use console::Console;
+use std::path::Path;
 use std::process::ExitCode;
 use vcutc_backend_api::backend::Backend;
 
@@ -107,8 +114,11 @@ pub fn run(linked: &Targets) -> ExitCode {
         Some(Command::Check(check)) => compile::check(check, targets, &console),
         #[cfg(feature = "krl")]
         Some(Command::Convert(args)) => convert::convert(args, targets, &console),
+        Some(Command::Completions { shell }) => shell::completions(*shell, &console),
+        Some(Command::Man { output }) => shell::manual(Path::new(output), &console),
         Some(Command::Explain { code }) => explain::explain(code.as_deref(), &console),
         Some(Command::Fmt(args)) => fmt::fmt(args, &console),
+        Some(Command::Init(args)) => init::init(args, targets, &console),
         Some(Command::Optimize(optimize)) => optimize::optimize(optimize, targets, &console),
         Some(Command::Place(place)) => place::place(place, targets, &console),
         Some(Command::Fk { cell, joints }) => kinematics::forward(cell, joints, &console),

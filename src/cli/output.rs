@@ -189,7 +189,7 @@ impl Folder {
         if self.path.is_file() {
             format!("cannot write into {folder}: it is a file, not a folder")
         } else {
-            format!("cannot write into {folder}: {error}")
+            format!("cannot write into {folder}: {}", without_path(error))
         }
     }
 
@@ -236,6 +236,12 @@ impl Folder {
         }
         Ok(placed)
     }
+}
+
+/// What went wrong, without the passing name that errors of temporary files carry: people never see that name.
+fn without_path(error: &io::Error) -> String {
+    let inner = error.get_ref().and_then(|carried| carried.source());
+    inner.map_or_else(|| error.to_string(), ToString::to_string)
 }
 
 /// Whether two files hold the same bytes.

@@ -1,21 +1,33 @@
-//! `vcutc plot JOB --what ...`: one picture of a job.
+//! `vcutc plot JOB`: pictures of a job, one of them or all.
 
 use super::args::{PlotArgs, What};
 use super::compile::{unreadable, without_machine};
 use super::console::{Console, Failure, Summary};
-use super::files::Disk;
-use super::output::{Placed, one_file};
+use super::files::{Disk, stem};
+use super::output::{Destination, Output, Placed, one_file};
 use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::driver::{self, Outcome, RequestError};
 use crate::picture::Prefix;
 use crate::report::{Material, pictures};
+use clap::ValueEnum;
 use std::path::Path;
+use vcutc_backend_api::bundle::Sink;
 
-/// Draws a picture of one job.
+/// Where pictures go.
+enum To<'a> {
+    /// One to standard output.
+    Stdout(What),
+    /// One into a file.
+    File(What, &'a Path),
+    /// All into a folder.
+    Folder(&'a Path),
+}
+
+/// Draws one picture of a job, or all.
 pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exit {
-    let file = match file(args.output.as_deref()) {
-        Ok(file) => file,
+    let to = match To::of(args) {
+        Ok(to) => to,
         Err(failure) => return console.failure(&failure),
     };
     let disk = Disk::around(&args.job);
@@ -32,14 +44,20 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
         tell(disk.job(), &outcome, &[], Some("nothing was drawn"), console);
         return Exit::JobHasErrors;
     };
-    let Some(svg) = picture(args.what, &material) else {
-        return console.failure(&without_machine());
+    let placed = match to {
+        To::Stdout(what) => {
+            return match picture(what, &material) {
+                Some(svg) => console.document(&svg),
+                None => console.failure(&without_machine()),
+            };
+        }
+        To::File(what, path) => match picture(what, &material) {
+            Some(svg) => disk.spares(path).and_then(|()| one_file(path, svg.as_bytes())),
+            None => return console.failure(&without_machine()),
+        },
+        To::Folder(folder) => all(folder, &material, &disk),
     };
-    let Some(path) = file else {
-        return console.document(&svg);
-    };
-    let path = Path::new(path);
-    match disk.spares(path).and_then(|()| one_file(path, svg.as_bytes())) {
+    match placed {
         Ok(placed) => {
             tell(disk.job(), &outcome, &placed, None, console);
             Exit::Success
@@ -48,14 +66,40 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
     }
 }
 
-/// The file to draw into; none for standard output.
-fn file(output: Option<&str>) -> Result<Option<&str>, Failure> {
-    match output {
-        None | Some("-") => Ok(None),
-        Some(path) if path.to_ascii_lowercase().ends_with(".svg") => Ok(Some(path)),
-        Some(path) => Err(Failure::new(format!(
-            "pictures are in SVG: give `-o` the name of a file that ends in .svg, not {path}"
-        ))),
+/// Draws every picture that the job has into a folder: `rib_contour.svg` and so on, all or none.
+fn all(folder: &Path, material: &Material<'_>, disk: &Disk) -> Result<Vec<Placed>, String> {
+    let mut output = Output::to(&Destination::Folder(folder.to_owned()));
+    for what in What::value_variants() {
+        let (Some(svg), Some(word)) = (picture(*what, material), what.to_possible_value()) else {
+            continue;
+        };
+        let name = format!("{}_{}.svg", stem(disk.job()), word.get_name());
+        disk.spares(&folder.join(&name))?;
+        let taken = output.file(&name).and_then(|()| output.write(svg.as_bytes()));
+        taken.map_err(|error| error.to_string())?;
+    }
+    output.publish()
+}
+
+impl<'a> To<'a> {
+    fn of(args: &'a PlotArgs) -> Result<Self, Failure> {
+        match (args.what, args.output.as_deref()) {
+            (Some(what), None | Some("-")) => Ok(Self::Stdout(what)),
+            (Some(what), Some(path)) if path.to_ascii_lowercase().ends_with(".svg") => {
+                Ok(Self::File(what, Path::new(path)))
+            }
+            (Some(_), Some(path)) => Err(Failure::new(format!(
+                "pictures are in SVG: give `-o` the name of a file that ends in .svg, not {path}"
+            ))),
+            (None, None) => Ok(Self::Folder(Path::new("."))),
+            (None, Some("-")) => Err(Failure::new("standard output takes one picture")
+                .help("choose one, such as `--what contour`, or give a folder with `-o`")),
+            (None, Some(path)) if path.to_ascii_lowercase().ends_with(".svg") => {
+                Err(Failure::new(format!("{path} takes one picture"))
+                    .help("choose one, such as `--what contour`, or give a folder with `-o`"))
+            }
+            (None, Some(folder)) => Ok(Self::Folder(Path::new(folder))),
+        }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::args::ReportArgs;
 use super::compile::unreadable;
+use super::browser;
 use super::console::{Console, Failure, Summary};
-use super::files::Disk;
+use super::files::{Disk, stem};
 use super::output::{Placed, one_file};
 use super::progress::Progress;
 use super::{Exit, Targets};
@@ -14,13 +15,11 @@ use std::path::Path;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {
-    if args.output != "-" && !args.output.to_ascii_lowercase().ends_with(".html") {
-        return console.failure(&Failure::new(format!(
-            "the report is a page in HTML: give `-o` the name of a file that ends in .html, not {}",
-            args.output
-        )));
-    }
     let disk = Disk::around(&args.job);
+    let output = match destination(args, &disk) {
+        Ok(output) => output,
+        Err(failure) => return console.failure(&failure),
+    };
     let mut progress = Progress::start(console.shows_progress());
     let request = args.overrides.request(&disk, targets);
     let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
@@ -35,7 +34,7 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
     let timings = progress.finish();
     let placed = match page
         .as_deref()
-        .map(|page| write(page, &args.output, &disk, console))
+        .map(|page| write(page, &output, &disk, console))
     {
         Some(Err(exit)) => return exit,
         Some(Ok(placed)) => placed,
@@ -56,7 +55,38 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         remark: has_errors(&outcome.diagnostics).then_some("nothing was written"),
         timings: &timings,
     });
+    if args.open && !placed.is_empty() {
+        return shown(&output, exit(&outcome), console);
+    }
     exit(&outcome)
+}
+
+/// Where the page goes: the file of `-o`, or one named after the job in the current folder.
+fn destination(args: &ReportArgs, disk: &Disk) -> Result<String, Failure> {
+    let output = match &args.output {
+        Some(output) => output.clone(),
+        None => format!("{}.html", stem(disk.job())),
+    };
+    if output == "-" && args.open {
+        return Err(Failure::new("`--open` shows a file, but `-o -` writes none").help("leave one of the two out"));
+    }
+    if output != "-" && !output.to_ascii_lowercase().ends_with(".html") {
+        return Err(Failure::new(format!(
+            "the report is a page in HTML: give `-o` the name of a file that ends in .html, not {output}"
+        )));
+    }
+    Ok(output)
+}
+
+/// Opens a page that has been written; the run ends as it would have without.
+fn shown(page: &str, exit: Exit, console: &Console) -> Exit {
+    match browser::open(Path::new(page)) {
+        Ok(()) => exit,
+        Err(reason) => console.failure(
+            &Failure::new(format!("cannot open {page}: {reason}"))
+                .help("the page is written: open it by hand, or name a browser in the variable BROWSER"),
+        ),
+    }
 }
 
 fn exit(outcome: &Outcome) -> Exit {

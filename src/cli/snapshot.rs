@@ -209,7 +209,7 @@ fn earlier_bytes(path: &Path) -> Result<Option<Vec<u8>>, String> {
 }
 
 /// The names in a folder; none for one that is not there. Those that are no text belong to nobody here.
-fn names_in(folder: &Path) -> Vec<String> {
+pub(super) fn names_in(folder: &Path) -> Vec<String> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
     };

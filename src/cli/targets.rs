@@ -59,11 +59,46 @@ pub(super) fn find(targets: &Targets, id: &str) -> Result<&'static dyn Backend, 
     }
 }
 
+/// A target under the name of a maker, a control or a language.
+struct Meant {
+    target: &'static str,
+    /// The dialect of G-code.
+    dialect: Option<&'static str>,
+}
+
+impl Meant {
+    fn flags(&self) -> String {
+        let target = self.target;
+        match self.dialect {
+            Some(dialect) => format!("--target {target} --option dialect={dialect}"),
+            None => format!("--target {target}"),
+        }
+    }
+}
+
+/// The target that people mean who know its machines or controls by these names.
+fn known_otherwise(name: &str) -> Option<Meant> {
+    let (target, dialect) = match name.to_ascii_lowercase().as_str() {
+        "kuka" | "krc" | "krc2" | "krc4" | "krc5" | "src" => ("krl", None),
+        "abb" | "irc5" | "omnicore" | "mod" => ("rapid", None),
+        "fanuc" => ("gcode", Some("fanuc")),
+        "sinumerik" | "siemens" | "840d" | "mpf" => ("gcode", Some("sinumerik")),
+        "heidenhain" | "tnc" | "itnc" => ("gcode", Some("heidenhain")),
+        "linuxcnc" | "emc2" | "ngc" => ("gcode", Some("linuxcnc")),
+        "cnc" | "nc" | "iso" | "g-code" => ("gcode", None),
+        _ => return None,
+    };
+    Some(Meant { target, dialect })
+}
+
 fn unknown(targets: &Targets, id: &str) -> Failure {
     let failure = Failure::new(format!("there is no target `{id}`"));
-    let failure = match nearest(id, targets.iter().map(|backend| backend.id())).first() {
-        Some(near) => failure.help(format!("did you mean `--target {near}`?")),
-        None => failure,
+    let meant = known_otherwise(id).filter(|meant| targets.iter().any(|backend| backend.id() == meant.target));
+    let near = nearest(id, targets.iter().map(|backend| backend.id()));
+    let failure = match (meant, near.first()) {
+        (Some(meant), _) => failure.help(format!("did you mean `{}`?", meant.flags())),
+        (None, Some(near)) => failure.help(format!("did you mean `--target {near}`?")),
+        (None, None) => failure,
     };
     failure.help(format!(
         "targets: {}; others are programs `{PROGRAM_PREFIX}NAME` on the PATH or in a folder of `--backend-path`",

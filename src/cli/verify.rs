@@ -4,10 +4,11 @@ use super::args::VerifyArgs;
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, load_program};
 use super::progress::Progress;
-use super::{Exit, Targets, compile, targets};
+use super::{Exit, Targets, compile, snapshot, targets};
+use crate::comparison::family;
 use crate::diag::has_errors;
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
-use crate::readback::{Fresh, Reference, Verdict};
+use crate::readback::{Fresh, Reference, Verdict, Written};
 use std::path::Path;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
@@ -17,9 +18,12 @@ use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
 /// Of the targets those that are linked in are asked whether they know the files. One that is a program of its own has to be named:
 /// it would be run to find out.
 pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, console: &Console) -> Exit {
-    let ready = program(&args.programs)
-        .and_then(|files| Ok((target(args.target.as_deref(), &files, linked, targets)?, files)));
-    let ((backend, reader), files) = match ready {
+    let ready = given(args, linked, targets).and_then(|(paths, found)| {
+        let files = program(&paths)?;
+        let readable = target(args.target.as_deref(), &files, linked, targets)?;
+        Ok((readable, files, paths, found))
+    });
+    let ((backend, reader), mut files, mut paths, found) = match ready {
         Ok(ready) => ready,
         Err(failure) => return console.failure(&failure),
     };
@@ -44,7 +48,7 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         driver::into_air_cut(&mut outcome, height, &mut |stage| progress.enter(stage));
     }
     progress.enter(Stage::Verifying);
-    let verdict = compared(&mut outcome, backend, reader, &files, &args.programs);
+    let verdict = compared(&mut outcome, backend, reader, (&mut files, &mut paths), found);
     let timings = progress.finish();
     let verdict = match verdict {
         Ok(verdict) => verdict,
@@ -81,8 +85,8 @@ fn compared(
     outcome: &mut Outcome,
     backend: &dyn Backend,
     reader: &dyn Reader,
-    files: &[ProgramFile],
-    shown: &[String],
+    (files, shown): (&mut Vec<ProgramFile>, &mut Vec<String>),
+    found: Found,
 ) -> Result<Verdict, Failure> {
     let written = match driver::write(outcome, backend) {
         Ok(Some(written)) => written,
@@ -95,6 +99,9 @@ fn compared(
         }
         Err(EmitFailure::Sink(reason)) => return Err(Failure::new(reason)),
     };
+    if let Found::InFolder = found {
+        keep_own(&written, files, shown)?;
+    }
     let reached = outcome
         .compiled
         .as_ref()
@@ -107,7 +114,61 @@ fn compared(
         reader,
     );
     let fresh = fresh.ok_or_else(|| Failure::new("the job has no program to compare with"))?;
-    Ok(Reference::new(fresh).verify(files, shown, &mut outcome.sources))
+    Ok(Reference::new(fresh).verify(files, shown.as_slice(), &mut outcome.sources))
+}
+
+/// How the files of a program came to be known.
+#[derive(Clone, Copy)]
+enum Found {
+    /// Each was named.
+    ByName,
+    /// A folder was named, which may hold programs of other jobs too.
+    InFolder,
+}
+
+/// The paths of the program's files. Of a folder: of all files in it that the target may have written.
+fn given(args: &VerifyArgs, linked: &Targets, targets: &Targets) -> Result<(Vec<String>, Found), Failure> {
+    let [folder] = args.programs.as_slice() else {
+        return Ok((args.programs.clone(), Found::ByName));
+    };
+    if !Path::new(folder).is_dir() {
+        return Ok((args.programs.clone(), Found::ByName));
+    }
+    let readers: Vec<&dyn Reader> = match args.target.as_deref() {
+        Some(id) => targets::find(targets, id)?.reader().into_iter().collect(),
+        None => linked.iter().filter_map(|backend| backend.reader()).collect(),
+    };
+    let is_program = |name: &String| readers.iter().any(|reader| reader.recognises(name));
+    let mut names: Vec<String> = snapshot::names_in(Path::new(folder));
+    names.retain(is_program);
+    names.sort();
+    if names.is_empty() {
+        return Err(Failure::new(format!("the folder {folder} holds no programs"))
+            .help("give the folder that the program was written into, or its files"));
+    }
+    let paths = names.iter().map(|name| Path::new(folder).join(name).display().to_string());
+    Ok((paths.collect(), Found::InFolder))
+}
+
+/// Leaves the files of a folder that belong to the job: those of its program, and parts of an earlier one.
+fn keep_own(written: &Written, files: &mut Vec<ProgramFile>, shown: &mut Vec<String>) -> Result<(), Failure> {
+    let own: Vec<String> = written.bundle.files().iter().map(|(name, _)| name.clone()).collect();
+    let there: Vec<String> = files.iter().map(|file| file.name.clone()).collect();
+    let stale = family::stale(&own, &there);
+    let is_own = |name: &str| {
+        let mut names = own.iter().chain(&stale);
+        names.any(|own| own.eq_ignore_ascii_case(name))
+    };
+    let kept: Vec<bool> = there.iter().map(|name| is_own(name)).collect();
+    let mut keeps = kept.iter().copied();
+    files.retain(|_| keeps.next().unwrap_or(false));
+    let mut keeps = kept.iter().copied();
+    shown.retain(|_| keeps.next().unwrap_or(false));
+    if files.is_empty() {
+        return Err(Failure::new("the folder holds no program of this job")
+            .help(format!("its program would be {}", own.join(", "))));
+    }
+    Ok(())
 }
 
 /// The files of the program.

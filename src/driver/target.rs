@@ -11,6 +11,7 @@ use vcutc_backend_api::backend::{
 use vcutc_backend_api::ir::{Action, AxisKind, MachineKind, Maker, OpId, Program};
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
+use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
 
 /// The option that a profile can set too.
@@ -174,6 +175,10 @@ fn nearest_fitting(kind: OptionKind, given: &GivenValue) -> Option<String> {
         }
         (OptionKind::Length { min, max, .. }, GivenValue::Length(length)) => {
             Some(format!("{} mm", length.max(min).min(max).to_mm()))
+        }
+        // A number that lacks its unit.
+        (OptionKind::Length { min, max, .. }, GivenValue::Ratio(ratio)) if ratio.is_finite() => {
+            Some(format!("{} mm", Length::mm(*ratio).max(min).min(max).to_mm()))
         }
         (OptionKind::Choice { of }, GivenValue::Word(word)) => nearest(word, of.iter().copied())
             .first()

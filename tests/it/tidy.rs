@@ -103,6 +103,19 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &["diag", "driver", "job", "picture", "plan", "source"],
     ),
     (
+        "starter",
+        &[
+            "diag",
+            "driver",
+            "format",
+            "kinematics",
+            "machine",
+            "reach",
+            "remedy",
+            "source",
+        ],
+    ),
+    (
         "convert",
         &[
             "diag", "format", "geom", "plan", "sema", "sim", "source", "syntax",
@@ -201,6 +214,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "registry",
             "report",
             "source",
+            "starter",
             "summary",
             "syntax",
             "wanted",
@@ -233,6 +247,8 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ),
     ("anstream::", &["src/cli/"]),
     ("clap::", &["src/cli/"]),
+    ("clap_complete::", &["src/cli/"]),
+    ("clap_mangen::", &["src/cli/"]),
     ("indicatif::", &["src/cli/"]),
     ("lsp_types::", &["src/lsp/"]),
     ("tempfile::", &["src/cli/"]),

@@ -4,7 +4,7 @@
 use super::stamps::{Asked, Recorder};
 use crate::cli::Targets;
 use crate::cli::args::WatchArgs;
-use crate::cli::compile::{Product, make, nothing, program_of, tell, unreadable};
+use crate::cli::compile::{Product, make, nothing, pointless_output, program_of, tell, unreadable};
 use crate::cli::console::{Console, Failure, Summary};
 use crate::cli::files::Disk;
 use crate::cli::progress::Progress;
@@ -64,6 +64,7 @@ impl<'a> Watched<'a> {
         let output = args.output.as_deref();
         let product = match &args.target {
             Some(target) => program_of(target, output, &args.options.option, targets)?,
+            None if output.is_some() => return Err(pointless_output(output.unwrap_or_default(), targets)),
             None if args.serve.is_some() => Product::Verdict { remark: None },
             None => nothing(targets),
         };

@@ -1,0 +1,220 @@
+//! `vcutc init`: the text of a first job, and for a machine a set-up that was compiled before anybody gets it.
+//!
+//! The cuts do not depend on the machine, so the job is planned without one first. Then places for the work in front of
+//! the machine are judged by the poses that this program teaches, the best of them are asked whether the axes are fast
+//! enough, and the job is compiled with the first few of these until one passes. Nothing here is a table of machines:
+//! what works for the catalogue works for a sheet of the user's own.
+
+mod places;
+mod text;
+
+use crate::diag::{Diagnostic, has_errors};
+use crate::driver::{self, Request, Typed};
+use crate::format;
+use crate::machine::Model;
+use crate::reach::legs::{Leg, Poses, Taught, legs};
+use crate::reach::place::score::Judge;
+use crate::reach::place::strokes::Strokes;
+use crate::reach::place::taught::TaughtPoses;
+use crate::reach::rig::Rig;
+use crate::remedy::wording;
+use crate::source::{LoadError, Loader, SourceMap};
+use places::{Place, Tool};
+use vcutc_backend_api::backend::Backend;
+use vcutc_backend_api::geometry::{Frame, Point3};
+use vcutc_backend_api::ir::{Axis, AxisValues, Program};
+
+/// Rates of turning the blade that are tried, in deg/s, the usual one first.
+const REORIENT: [u32; 3] = [60, 40, 20];
+/// How many poses beside the outermost ones judge a place.
+const SPREAD: usize = 4;
+/// Most places for each tool and rate that the axes are asked about.
+const MOST_ASKED: usize = 24;
+/// Most set-ups for each tool and rate that are compiled.
+const MOST_COMPILED: usize = 3;
+/// How far above the first pose of the program the blade is at home, in mm.
+const RAISED: f64 = 100.0;
+
+/// What a first job is asked for.
+pub struct Asked<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its path, as it will be called.
+    pub path: &'a str,
+    /// The machine that it is cut on.
+    pub model: Option<&'a Model>,
+    /// Where the files of machines come from.
+    pub loader: &'a dyn Loader,
+    /// The targets whose options the machine may hold.
+    pub targets: &'a [&'static dyn Backend],
+}
+
+/// Why there is no job.
+#[derive(Debug)]
+pub enum Refusal {
+    /// The job's name cannot be one.
+    Name(Vec<Diagnostic>, SourceMap),
+    /// None of the set-ups that were tried works on the machine.
+    NoPlace,
+}
+
+/// How the machine is set up.
+#[derive(Clone, Debug)]
+struct Setup {
+    tool: Tool,
+    base: Frame,
+    home: AxisValues,
+    reorient: u32,
+}
+
+/// The text of a first job. With a machine it has been compiled, home, frames and all.
+///
+/// # Errors
+/// When the name is none for a job, or the machine cannot cut what the job cuts.
+pub fn job(asked: &Asked<'_>) -> Result<String, Refusal> {
+    let Some(model) = asked.model else {
+        let text = text::without_machine(asked.name);
+        return match compiled(asked, &text) {
+            Ok(_) => Ok(laid_out(text)),
+            Err((diagnostics, sources)) => Err(Refusal::Name(diagnostics, sources)),
+        };
+    };
+    for tool in places::tools(model) {
+        for reorient in REORIENT {
+            let draft = text::cuts(asked.name, tool.rake, reorient);
+            let outcome =
+                compiled(asked, &draft).map_err(|(found, sources)| Refusal::Name(found, sources))?;
+            let Some(planned) = outcome.compiled else {
+                continue;
+            };
+            let verified = planned.program.verified();
+            let setups = setups(model, tool, reorient, verified.program(), &TaughtPoses::of(verified));
+            let texts = setups
+                .iter()
+                .map(|setup| text::with_machine(asked.name, model, setup, asked.targets));
+            if let Some(text) = texts.map(laid_out).find(|text| compiled(asked, text).is_ok()) {
+                return Ok(text);
+            }
+        }
+    }
+    Err(Refusal::NoPlace)
+}
+
+/// What comes of a text, or what is wrong with it.
+fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagnostic>, SourceMap)> {
+    let draft = Draft {
+        path: asked.path,
+        text,
+        files: asked.loader,
+    };
+    let request = Request {
+        path: asked.path,
+        loader: &draft,
+        overrides: &[],
+        machine: None,
+        options: Typed::default(),
+        targets: asked.targets,
+    };
+    match driver::compile(request, &mut |_| {}) {
+        Ok(outcome) if has_errors(&outcome.diagnostics) => Err((outcome.diagnostics, outcome.sources)),
+        Ok(outcome) => Ok(outcome),
+        // The draft is in memory: it can always be read.
+        Err(driver::RequestError::Unreadable(_)) => Err((Vec::new(), SourceMap::default())),
+    }
+}
+
+/// A text that is not on the disk yet, over the files that are.
+struct Draft<'a> {
+    path: &'a str,
+    text: &'a str,
+    files: &'a dyn Loader,
+}
+
+impl Loader for Draft<'_> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        if path == self.path {
+            Ok(self.text.as_bytes().to_vec())
+        } else {
+            self.files.load(path)
+        }
+    }
+}
+
+/// The text in the layout of all job files.
+fn laid_out(text: String) -> String {
+    let mut sources = SourceMap::default();
+    let file = sources.add("", text.clone());
+    format::format(file, &text).unwrap_or(text)
+}
+
+/// Set-ups that are likely to work, the one with the most room first.
+fn setups(
+    model: &Model,
+    tool: Tool,
+    reorient: u32,
+    program: &Program,
+    taught: &TaughtPoses,
+) -> Vec<Setup> {
+    let rig = Rig::new(model, tool.frame(), Frame::from(Place::ROOT));
+    let judge = Judge::new(
+        rig.mechanism,
+        rig.axes,
+        &rig.flange_in_blade,
+        taught.telling(SPREAD),
+    );
+    let mut scored: Vec<_> = places::around(model)
+        .into_iter()
+        .map(|place| (judge.score(&Frame::from(place).into()), place))
+        .filter(|(score, _)| score.reached().is_some())
+        .collect();
+    // Stable, so that of equals the first stays first.
+    scored.sort_by(|(a, _), (b, _)| b.better(a));
+    let strokes = Strokes::of(program);
+    let setup = |(_, place): (_, Place)| {
+        let base = Frame::from(place);
+        let rig = Rig::new(model, tool.frame(), base);
+        let home = strokes.are_followed(&rig).then(|| home(&rig, program))??;
+        Some(Setup {
+            tool,
+            base,
+            home,
+            reorient,
+        })
+    };
+    scored
+        .into_iter()
+        .take(MOST_ASKED)
+        .filter_map(setup)
+        .take(MOST_COMPILED)
+        .collect()
+}
+
+/// Axis values above the first pose of a program, in whole degrees and millimetres: of all ways to stand there the one that
+/// keeps farthest from the limits.
+fn home(rig: &Rig<'_>, program: &Program) -> Option<AxisValues> {
+    let first = legs(program).into_iter().find_map(|leg| match leg {
+        Leg::ByAxes(taught) => Some(taught),
+        Leg::Along(_) | Leg::Still | Leg::Home => None,
+    })?;
+    let tip = Point3 {
+        z: first.tip.z + RAISED,
+        ..first.tip
+    };
+    let above = Poses::of(program).blade_in_work(Taught { tip, ..first })?;
+    let ways = rig.mechanism.all(&rig.flange_in_root(&above));
+    let room = |values: &AxisValues| {
+        let pairs = rig.axes.iter().zip(values.0);
+        pairs
+            .map(|(axis, value)| share_left(axis, value))
+            .fold(f64::INFINITY, f64::min)
+    };
+    ways.iter()
+        .map(|way| wording::rounded_home(rig.axes, &AxisValues(way.joints)))
+        .filter(|values| room(values) > 0.0)
+        .max_by(|a, b| room(a).total_cmp(&room(b)))
+}
+
+/// How much of its range an axis has left towards the nearer limit.
+fn share_left(axis: &Axis, value: f64) -> f64 {
+    (value - axis.min).min(axis.max - value) / (axis.max - axis.min)
+}

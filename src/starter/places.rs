@@ -1,0 +1,182 @@
+//! Where the work of a first job may stand, and how the blade may be mounted.
+
+use super::text::BLOCK;
+use crate::kinematics::Joints;
+use crate::kinematics::pose::Pose;
+use crate::machine::Model;
+use core::f64::consts::TAU;
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
+use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
+use vcutc_backend_api::units::Angle;
+
+/// How the blade is mounted, and the rake at which it cuts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tool {
+    /// From the flange to the tip, in mm.
+    pub(super) length: f64,
+    /// Turn about the shank, in degrees.
+    pub(super) turn: i32,
+    /// Angle between tool axis and feed, in degrees.
+    pub(super) rake: u32,
+}
+
+impl Tool {
+    /// The blade seen from the flange.
+    pub(super) fn frame(self) -> Frame {
+        Frame {
+            origin: Point3::new(0.0, 0.0, self.length),
+            orientation: about_z(self.turn),
+        }
+    }
+}
+
+/// A place of the work, in mm and whole degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    x: f64,
+    y: f64,
+    z: f64,
+    turn: i32,
+}
+
+impl Place {
+    /// The machine's root.
+    pub(super) const ROOT: Self = Self {
+        x: 0.0,
+        y: 0.0,
+        z: 0.0,
+        turn: 0,
+    };
+
+    /// The place that has the middle of the block's bottom there, to ten millimetres.
+    fn with_middle(x: f64, y: f64, z: f64, turn: i32) -> Self {
+        let tens = |value: f64| (value / 10.0).round() * 10.0;
+        let (sin, cos) = libm::sincos(f64::from(turn).to_radians());
+        let (across, along) = (f64::from(BLOCK[0]) / 2.0, f64::from(BLOCK[1]) / 2.0);
+        Self {
+            x: tens(x - cos * across + sin * along),
+            y: tens(y - sin * across - cos * along),
+            z: tens(z),
+            turn,
+        }
+    }
+}
+
+impl From<Place> for Frame {
+    fn from(place: Place) -> Self {
+        Self {
+            origin: Point3::new(place.x, place.y, place.z),
+            orientation: about_z(place.turn),
+        }
+    }
+}
+
+fn about_z(degrees: i32) -> Orientation {
+    Orientation::from_zyx(Zyx {
+        a: Angle::deg(f64::from(degrees)),
+        b: Angle::ZERO,
+        c: Angle::ZERO,
+    })
+}
+
+/// Arms that reach less far than this carry a short blade, in mm.
+const SMALL_ARM: f64 = 1300.0;
+/// The rake of the examples.
+const RAKE: u32 = 60;
+/// A blade that does not lean along the cut. Heads in which C carries A or B hold it without an orientable spindle.
+const UPRIGHT: u32 = 90;
+
+/// Ways to mount the blade, the usual one first.
+pub(super) fn tools(model: &Model) -> Vec<Tool> {
+    let tool = |length, turn, rake| Tool { length, turn, rake };
+    match model.kind() {
+        MachineKind::Robot if reach(model) < SMALL_ARM => vec![tool(120.0, 0, RAKE)],
+        MachineKind::Robot => vec![tool(310.0, 0, RAKE)],
+        // A leading side that points along Y of an upright head stands in the middle of its postures.
+        MachineKind::FiveAxis => vec![
+            tool(160.0, -90, RAKE),
+            tool(160.0, -90, UPRIGHT),
+            tool(160.0, 0, UPRIGHT),
+        ],
+    }
+}
+
+/// Places in front of a robot, or over the mount of a five-axis machine.
+pub(super) fn around(model: &Model) -> Vec<Place> {
+    match model.kind() {
+        MachineKind::Robot => before_the_arm(model),
+        MachineKind::FiveAxis => over_the_mount(model),
+    }
+}
+
+/// Distances of the block's middle from the first axis, as shares of the reach.
+const AWAY: [f64; 6] = [0.35, 0.42, 0.5, 0.58, 0.66, 0.74];
+/// Heights of the block's bottom over the foot, as shares of the reach.
+const HEIGHTS: [f64; 6] = [-0.1, 0.0, 0.1, 0.2, 0.3, 0.4];
+/// Turns of the work about z, in degrees: first those with cuts along x and y of the root.
+const TURNS: [i32; 8] = [90, 0, -90, 180, 45, -45, 135, -135];
+
+fn before_the_arm(model: &Model) -> Vec<Place> {
+    let reach = reach(model);
+    let mut places = Vec::with_capacity(AWAY.len() * HEIGHTS.len() * TURNS.len());
+    for turn in TURNS {
+        for height in HEIGHTS {
+            places.extend(AWAY.map(|away| Place::with_middle(away * reach, 0.0, height * reach, turn)));
+        }
+    }
+    places
+}
+
+/// How many values of an axis a reach is looked for over.
+const SAMPLES: u32 = 24;
+
+/// How far from its first axis the flange comes, in mm: the farthest of a grid over the two axes that stretch an arm.
+fn reach(model: &Model) -> f64 {
+    let values = |place: usize| {
+        let axis = model.axes.get(place);
+        (0..=SAMPLES).filter_map(move |step| axis.map(|axis| at(axis, step)))
+    };
+    let mut farthest = 0.0_f64;
+    for second in values(1) {
+        for third in values(2) {
+            let joints: Joints = core::array::from_fn(|place| match place {
+                1 => second,
+                2 => third,
+                _ => 0.0,
+            });
+            let flange = Frame::from(model.mechanism.flange_in_root(&joints));
+            farthest = farthest.max(libm::hypot(flange.origin.x, flange.origin.y));
+        }
+    }
+    farthest
+}
+
+/// A value within an axis's range; ranges of several turns say nothing beyond one.
+fn at(axis: &Axis, step: u32) -> f64 {
+    let (least, most) = match axis.kind {
+        AxisKind::Rotary => (axis.min.max(-TAU / 2.0), axis.max.min(TAU / 2.0)),
+        AxisKind::Linear => (axis.min, axis.max),
+    };
+    least + (most - least) * f64::from(step) / f64::from(SAMPLES)
+}
+
+/// Heights of the block's bottom over the mount, in mm.
+const OVER_THE_MOUNT: [f64; 7] = [100.0, 0.0, 50.0, 200.0, 300.0, 400.0, 500.0];
+
+fn over_the_mount(model: &Model) -> Vec<Place> {
+    let mut middle = Joints::default();
+    for (joint, axis) in middle.iter_mut().zip(&model.axes) {
+        *joint = match axis.kind {
+            AxisKind::Linear => (axis.min + axis.max) / 2.0,
+            AxisKind::Rotary => 0.0,
+        };
+    }
+    let nose: Pose = model.mechanism.flange_in_root(&middle);
+    let nose = Frame::from(nose).origin;
+    let mut places = Vec::with_capacity(OVER_THE_MOUNT.len() * TURNS.len());
+    // Machines of this kind have their axes along the work: quarters of a turn only.
+    for turn in TURNS.into_iter().filter(|turn| turn % 90 == 0).rev() {
+        places.extend(OVER_THE_MOUNT.map(|z| Place::with_middle(nose.x, nose.y, z, turn)));
+    }
+    places
+}
