@@ -6,12 +6,13 @@ use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::inner::{self, Progressed};
 use super::output::{Destination, Headings, Output, Placed};
+use super::patience;
 use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
-use crate::driver::{self, Outcome, Request, RequestError, Stage, Typed};
+use crate::driver::{Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -204,8 +205,7 @@ pub(super) fn carried_out(
         ..request
     };
     let mut progress = Progress::start(console.shows_progress());
-    let mut outcome = match driver::compile_again(request, carried.memory, &mut |stage| progress.enter(stage))
-    {
+    let mut outcome = match patience::compile(request, carried.memory, console.help_budget(), &mut progress) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);

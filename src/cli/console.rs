@@ -7,6 +7,7 @@ use super::Exit;
 use super::args::{Color, DisplayArgs, MessageFormat};
 use super::differences;
 use super::output::Placed;
+use super::patience::HelpBudget;
 use super::snapshot::Differences;
 use crate::diag::{Diagnostic, Severity, github, json, render};
 use crate::numbers::Numbers;
@@ -32,6 +33,7 @@ pub(super) struct Console {
     detail: Detail,
     /// Whether the reader of standard error has gone away.
     is_unheard: AtomicBool,
+    help_budget: HelpBudget,
 }
 
 /// How much is told besides diagnostics.
@@ -140,8 +142,21 @@ impl Console {
                 (false, false) => Detail::Summary,
                 (false, true) => Detail::Everything,
             },
+            help_budget: match (display.help_budget, display.message_format) {
+                (Some(budget), _) => budget,
+                // Programs compare what they read.
+                (None, MessageFormat::Json) => HelpBudget::Unlimited,
+                (None, MessageFormat::Human | MessageFormat::Github) => {
+                    HelpBudget::Of(Duration::from_secs(1))
+                }
+            },
             is_unheard: AtomicBool::new(false),
         }
+    }
+
+    /// How long help with a refused job is looked for.
+    pub(super) const fn help_budget(&self) -> HelpBudget {
+        self.help_budget
     }
 
     /// Whether a passing progress line may be drawn (if standard error is a terminal).

@@ -52,6 +52,7 @@ mod lsp;
 mod machines;
 mod optimize;
 mod output;
+mod patience;
 mod place;
 mod plot;
 mod progress;
