@@ -25,6 +25,7 @@ pub fn diagnose(
     plan: &PlannedJob,
     unreachable: &Unreachable,
     wanted: &Wanted,
+    works: &mut remedy::Works<'_>,
 ) -> Vec<Diagnostic> {
     let Some(machine) = &job.machine else {
         return Vec::new();
@@ -34,8 +35,16 @@ pub fn diagnose(
         return vec![diagnostic];
     }
     let diagnostic = scene.trouble(&unreachable.trouble);
-    let remedies = remedy::remedies(job, plan, unreachable, wanted);
+    let remedies = remedy::remedies(job, plan, unreachable, wanted, works);
     vec![remedy::offer(diagnostic, &remedies, general(unreachable))]
+}
+
+/// The same before any change is tried.
+#[must_use]
+pub fn at_once(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic> {
+    let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
+    let lacks = scene.lacks_an_axis(&unreachable.trouble);
+    Some(lacks.unwrap_or_else(|| scene.trouble(&unreachable.trouble).help(general(unreachable))))
 }
 
 /// The same without remedies, for a program that is not what its job makes of itself. A job without a machine has nothing
@@ -136,7 +145,10 @@ impl<'s> Scene<'s> {
             )
             .and(
                 self.machine.model_span,
-                format!("`{}` is too short, or too near", self.machine.model.name),
+                format!(
+                    "out of the range of `{}`: too far, or too close",
+                    self.machine.model.name
+                ),
             ),
             Violation::Limit { axis, value } => self.limit(&place, axis, value, base),
             Violation::Rate { axis, rate } => self.rate(&place, axis, rate, failing.op),
@@ -167,19 +179,19 @@ impl<'s> Scene<'s> {
             Violation::OutOfReach => format!("{place} is out of reach altogether"),
             Violation::Limit { axis, value } => match named(axis) {
                 Some(axis) => format!(
-                    "most is lacking at {place}: {} to {}",
+                    "worst at {place}: {} would be at {}",
                     axis.name,
                     value_words(axis, value)
                 ),
-                None => format!("most is lacking at {place}"),
+                None => format!("worst at {place}"),
             },
             Violation::Rate { axis, rate } => match named(axis) {
                 Some(axis) => format!(
-                    "most is lacking at {place}: {} at {}/s",
+                    "worst at {place}: {} would need {}/s",
                     axis.name,
                     value_words(axis, rate)
                 ),
-                None => format!("most is lacking at {place}"),
+                None => format!("worst at {place}"),
             },
             Violation::Singular(_) => format!("{place} comes nearest to a singular pose"),
         }
@@ -213,10 +225,13 @@ impl<'s> Scene<'s> {
         let fastest = axis.rate.map_or_else(String::new, |fastest| {
             format!("{name} does {}/s at most", value_words(axis, fastest))
         });
+        let limit = axis.rate.map_or_else(String::new, |fastest| {
+            format!("; its limit is {}/s", value_words(axis, fastest))
+        });
         Diagnostic::new(
             Code::AxisRate,
             format!(
-                "{place} takes {name} to {}/s at {speed}, faster than it moves",
+                "{place} needs {}/s of {name} at {speed}{limit}",
                 value_words(axis, rate)
             ),
             span,
@@ -436,14 +451,14 @@ impl<'s> Scene<'s> {
         };
         let shown = |at: f64| show((at * whole * 10.0).round() / 10.0);
         let begins = format!(
-            "it begins {} {unit} into this motion of {} {unit}",
+            "not possible from {} {unit} of this {} {unit} motion on",
             shown(first),
             shown(1.0)
         );
         if (worst - first) * whole < 0.1 {
             begins
         } else {
-            format!("{begins}, and is worst after {} {unit}", shown(worst))
+            format!("{begins}; worst at {} {unit}", shown(worst))
         }
     }
 

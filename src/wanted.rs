@@ -5,13 +5,15 @@
 //! before each step of their long loops. Interest that is lost does not come back. So an answer that is still wanted when it is
 //! complete was cut short nowhere: to the last bit it is that of a question in which nobody could lose interest. One that is
 //! no longer wanted by then may have been cut short anywhere, and [`Wanted::answer`] gives it to nobody.
+//!
+//! The compiler reads no clock. Who gives a search a limited time drops the interest when that time is over.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Looks at whether anybody still wants to know.
 #[derive(Clone, Debug)]
-pub struct Wanted(Option<Arc<AtomicBool>>);
+pub struct Wanted(Vec<Arc<AtomicBool>>);
 
 /// Interest in an answer. It ends when this is dropped.
 #[derive(Debug)]
@@ -24,19 +26,30 @@ pub struct Needless;
 
 impl Wanted {
     /// For who does not lose interest.
-    pub const ALWAYS: Self = Self(None);
+    pub const ALWAYS: Self = Self(Vec::new());
+
+    /// For who does not want to know.
+    #[must_use]
+    pub fn never() -> Self {
+        Self(vec![Arc::new(AtomicBool::new(true))])
+    }
 
     /// For as long as the interest is held.
     pub fn while_held() -> (Self, Interest) {
         let is_lost = Arc::new(AtomicBool::new(false));
-        (Self(Some(Arc::clone(&is_lost))), Interest(is_lost))
+        (Self(vec![Arc::clone(&is_lost)]), Interest(is_lost))
+    }
+
+    /// For as long as both are wanted.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        Self(self.0.iter().chain(&other.0).cloned().collect())
     }
 
     /// Whether what is done for the answer may be left.
     #[must_use]
     pub fn is_needless(&self) -> bool {
-        let is_lost = |is_lost: &Arc<AtomicBool>| is_lost.load(Ordering::Acquire);
-        self.0.as_ref().is_some_and(is_lost)
+        self.0.iter().any(|is_lost| is_lost.load(Ordering::Acquire))
     }
 
     /// Goes on where somebody wants to know.
@@ -78,5 +91,18 @@ mod tests {
         assert_eq!(wanted.answer(|| drop(interest)), Err(Needless));
         assert!(same.is_needless());
         assert_eq!(same.answer(|| 3), Err(Needless));
+    }
+
+    #[test]
+    fn what_two_want_ends_when_one_of_them_loses_interest() {
+        let (one, _kept) = Wanted::while_held();
+        let (other, lost) = Wanted::while_held();
+        let both = one.and(&other);
+        assert!(!both.is_needless());
+        drop(lost);
+        assert!(both.is_needless());
+        assert!(!one.is_needless(), "the one alone goes on");
+        assert!(one.and(&Wanted::never()).is_needless());
+        assert!(!Wanted::ALWAYS.and(&one).is_needless());
     }
 }

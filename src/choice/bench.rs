@@ -70,6 +70,17 @@ impl<'j> Bench<'j> {
         }
     }
 
+    /// The same work for someone else.
+    pub(super) fn for_whom(&self, wanted: &Wanted) -> Self {
+        Self {
+            job: self.job,
+            before: self.before.clone(),
+            bound: self.bound.clone(),
+            latitude: self.latitude,
+            wanted: wanted.clone(),
+        }
+    }
+
     /// The work as the operation finds it.
     pub(super) const fn work(&self) -> Work<'_> {
         Work {

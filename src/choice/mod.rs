@@ -12,6 +12,7 @@
 
 mod bench;
 mod chosen;
+mod complaints;
 mod effort;
 mod finest;
 mod leeway;
@@ -23,6 +24,7 @@ mod tests;
 mod trial;
 
 pub use chosen::{LITTLE, settled};
+pub use complaints::{Complaints, WorksThere};
 pub use effort::Effort;
 pub use leeway::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 
@@ -59,24 +61,29 @@ pub fn choose(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
 /// Makes every choice, with some routes and swings left out.
 #[must_use]
 pub fn choose_within(job: &CheckedJob, leeway: Leeway) -> (Option<PlannedJob>, Vec<Diagnostic>) {
-    choose_while(job, leeway, &Wanted::ALWAYS)
+    match choose_while(job, leeway, &Wanted::ALWAYS) {
+        Ok(plan) => (Some(plan), Vec::new()),
+        Err(complaints) => (None, complaints.with_help(&Wanted::ALWAYS, &mut |_| true)),
+    }
 }
 
 /// As [`choose_within`] while the plan is wanted. What comes out afterwards is nobody's plan ([`Wanted::answer`]).
-#[must_use]
-pub fn choose_while(
-    job: &CheckedJob,
+///
+/// # Errors
+/// Why there is no plan: at once, before anything that helps is looked for.
+pub fn choose_while<'j>(
+    job: &'j CheckedJob,
     leeway: Leeway,
     wanted: &Wanted,
-) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+) -> Result<PlannedJob, Complaints<'j>> {
+    let mut complaints = Complaints::default();
     if let Some(refused) = refuse_operations(job) {
-        return (None, vec![refused]);
+        complaints.tell(refused);
+        return Err(complaints);
     }
-    let mut diagnostics = Vec::new();
     let mut before = Surface::untouched(job.stock);
     let mut operations = Vec::new();
     let mut cuts_left = MOST_CUTS;
-    let mut effort = Effort::OF_A_REFUSAL;
     for operation in &job.operations {
         let Operation::RoughVcut(asked) = operation;
         let within = leeway::within(asked, leeway.swing);
@@ -90,19 +97,19 @@ pub fn choose_while(
                 before = after;
                 operations.push(PlannedOperation::RoughVcut(vcut));
             }
-            Err(unplanned) => {
-                diagnostics.extend(offers::told(&bench, &within, cuts_left, unplanned, &mut effort));
-            }
+            Err(unplanned) => complaints.seek(bench, within, cuts_left, unplanned),
         }
     }
-    let planned = (operations.len() == job.operations.len()).then(|| PlannedJob {
+    if !complaints.is_empty() {
+        return Err(complaints);
+    }
+    Ok(PlannedJob {
         name: job.name.clone(),
         stock: job.stock,
         profile: job.profile.clone(),
         machine: job.machine.clone(),
         operations,
-    });
-    (planned, diagnostics)
+    })
 }
 
 /// Whether a job of one operation has a plan with nothing wrong that keeps all limits, as far as is seen with so much work.
@@ -148,7 +155,7 @@ pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
 }
 
 /// Why an operation has no plan.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Unplanned {
     /// What there is to tell is known.
     Refused(Vec<Refused>),

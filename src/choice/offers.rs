@@ -1,7 +1,8 @@
 //! What is told of an operation that has no plan. Of the changes that may mend it those are offered whose plan has nothing
-//! wrong: they are planned, written down and replayed before anybody is told.
+//! wrong: they are planned, written down and replayed before anybody is told, and tried on the machine of the job.
 
 use super::bench::{self, Bench, Figures};
+use super::complaints::WorksThere;
 use super::effort::Effort;
 use super::finest::{as_time, limited};
 use super::trial::{self, TurnedDown};
@@ -15,14 +16,26 @@ use vcutc_backend_api::units::Duration;
 /// Longest times that are offered where nothing else holds the layer, as shares of the least time.
 const LONGER: [f64; 3] = [1.5, 2.5, 4.0];
 
-/// Puts into words why there is no plan, with what works of all that may.
+/// An operation that has no plan.
+#[derive(Clone, Copy)]
+pub(super) struct Case<'c> {
+    pub(super) bench: &'c Bench<'c>,
+    pub(super) asked: &'c RoughVcut,
+    pub(super) cuts_left: usize,
+}
+
+/// Puts into words why there is no plan, with what works of all that may: here, and for those who come after planning.
 pub(super) fn told(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    cuts_left: usize,
+    case: Case<'_>,
     unplanned: Unplanned,
     effort: &mut Effort,
+    works_there: &mut WorksThere<'_>,
 ) -> Vec<Diagnostic> {
+    let Case {
+        bench,
+        asked,
+        cuts_left,
+    } = case;
     let refused = match unplanned {
         Unplanned::Refused(refused) => refused,
         Unplanned::Parameters(Refusal::Unbounded) => {
@@ -33,11 +46,9 @@ pub(super) fn told(
     };
     refused
         .into_iter()
-        .map(|mut refused| {
-            // A machine that follows one swing need not follow another, and is not asked here.
-            refused.resort = refused.resort.filter(|_| bench.job.machine.is_none());
+        .map(|refused| {
             with_what_works(refused, effort, |offer, effort| {
-                is_sound(bench, &offer.changed, cuts_left, effort)
+                is_sound(bench, &offer.changed, cuts_left, effort) && works_there(&offer.edits)
             })
         })
         .collect()
@@ -146,6 +157,9 @@ fn keeps_all(contender: Contender, asked: &RoughVcut) -> bool {
 
 /// Times that leave more room than the least there is.
 fn longer_than_the_least(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Vec<Duration> {
+    if bench.wanted.is_needless() {
+        return Vec::new();
+    }
     let fastest = within_limits(bench, &limited(asked, None), cuts_left);
     let least = fastest.ok().and_then(|laid| bench::time(bench.job, &laid.vcut));
     let longer = |least: Duration| LONGER.map(|share| rounded_up(least * share));

@@ -12,6 +12,7 @@ pub(super) use air::AirArgs;
 use super::Targets;
 use super::console::Warnings;
 use super::files::Disk;
+use super::patience::{HelpBudget, help_budget};
 use crate::diag::suggest::nearest;
 use crate::driver::{Request, Typed};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -715,6 +716,13 @@ pub(super) struct DisplayArgs {
     /// When to use colours
     #[arg(long, value_enum, global = true, default_value_t, value_name = "WHEN", help_heading = MESSAGES)]
     pub(super) color: Color,
+
+    /// Look for changes that help a refused job for this long, such as 5s, or none for no limit [default: 1s; none with --message-format json]
+    ///
+    /// With none the search ends after a bounded amount of work, so that what is offered depends on the job alone; with 0s
+    /// nothing is searched.
+    #[arg(long, global = true, value_name = "TIME", value_parser = help_budget)]
+    pub(super) help_budget: Option<HelpBudget>,
 
     /// Print diagnostics only: no summary, no progress
     #[arg(short, long, global = true, conflicts_with = "verbose", help_heading = MESSAGES)]

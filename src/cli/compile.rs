@@ -7,6 +7,7 @@ use super::files::{Disk, job_near};
 use super::hints;
 use super::inner::{self, Progressed};
 use super::output::{Destination, Headings, Output, Placed};
+use super::patience;
 use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
@@ -243,8 +244,7 @@ pub(super) fn carried_out(
         ..request
     };
     let mut progress = Progress::start(console.shows_progress());
-    let mut outcome = match driver::compile_again(request, carried.memory, &mut |stage| progress.enter(stage))
-    {
+    let mut outcome = match patience::compile(request, carried.memory, console.help_budget(), &mut progress) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);

@@ -7,6 +7,7 @@ use super::Exit;
 use super::args::{Color, DisplayArgs, MessageFormat};
 use super::differences;
 use super::output::Placed;
+use super::patience::HelpBudget;
 use super::snapshot::Differences;
 use crate::checks::{CheckFigure, Checks};
 use crate::diag::{Diagnostic, Severity, github, has_errors, json, render};
@@ -37,6 +38,7 @@ pub(super) struct Console {
     warnings: Warnings,
     /// Whether the reader of standard error has gone away.
     is_unheard: AtomicBool,
+    help_budget: HelpBudget,
 }
 
 /// How much is told besides diagnostics.
@@ -212,6 +214,14 @@ impl Console {
                 (false, true) => Detail::Everything,
             },
             warnings,
+            help_budget: match (display.help_budget, display.message_format) {
+                (Some(budget), _) => budget,
+                // Programs compare what they read.
+                (None, MessageFormat::Json) => HelpBudget::Unlimited,
+                (None, MessageFormat::Human | MessageFormat::Github) => {
+                    HelpBudget::Of(Duration::from_secs(1))
+                }
+            },
             is_unheard: AtomicBool::new(false),
         }
     }
@@ -219,6 +229,11 @@ impl Console {
     /// What is made of warnings.
     pub(super) const fn warnings(&self) -> Warnings {
         self.warnings
+    }
+
+    /// How long help with a refused job is looked for.
+    pub(super) const fn help_budget(&self) -> HelpBudget {
+        self.help_budget
     }
 
     /// Whether a passing progress line may be drawn (if standard error is a terminal).

@@ -7,6 +7,7 @@
 use super::Targets;
 use super::console::{Console, Failure};
 use super::files::{load_file, with_forward_slashes};
+use super::patience::{HelpBudget, Waiting};
 use crate::lsp::wire::{self, Broken, Fault, Incoming};
 use crate::lsp::{Done, Ending, Server, Task, Workspace};
 use crate::memory::Memory;
@@ -24,11 +25,16 @@ use vcutc_backend_api::backend::Backend;
 /// How long nothing must have been told, such as a change of a text, before a job is planned. Questions are no reason to wait.
 const PAUSE: Duration = Duration::from_millis(250);
 
+/// How long help with a refused job is looked for: who types on ends it sooner.
+const HELP_BUDGET: HelpBudget = HelpBudget::Of(Duration::from_secs(5));
+
 /// Something that the server has to look at.
 enum Event {
     Message(Incoming),
     Broken(Broken),
     Planned(Box<Done>),
+    /// What a job is refused for; help is still looked for.
+    Refused(Box<Done>),
 }
 
 /// Whether a job is being planned.
@@ -82,7 +88,12 @@ fn planner(targets: Vec<&'static dyn Backend>, events: Sender<Event>) -> Sender<
     thread::spawn(move || {
         let mut memory = Memory::of_some_runs();
         for task in given {
-            let done = task.run(&Disk, &targets, &mut memory);
+            let mut waiting = Waiting::unseen(HELP_BUDGET);
+            let mut tell = |refused: Done| {
+                // Who has gone learns nothing more.
+                let _ = events.send(Event::Refused(Box::new(refused)));
+            };
+            let done = task.run_telling(&Disk, &targets, &mut memory, (&mut waiting, &mut tell));
             if events.send(Event::Planned(Box::new(done))).is_err() {
                 return;
             }
@@ -124,6 +135,7 @@ impl Conversation<'_> {
                     self.planner = Planner::Idle;
                     send(&self.server.finish(*done))?;
                 }
+                Event::Refused(done) => send(&self.server.finish(*done))?,
                 Event::Broken(Broken::Ended) => return Ok(Ending::Abrupt),
                 Event::Broken(Broken::Astray(why)) => return Err(io::Error::other(why)),
             }
@@ -138,7 +150,7 @@ impl Conversation<'_> {
         if let Incoming::Request { id, .. } = &message {
             let is_taken_back = self.waiting.iter().any(|event| match event {
                 Event::Message(later) => later.takes_back() == Some(id),
-                Event::Broken(_) | Event::Planned(_) => false,
+                Event::Broken(_) | Event::Planned(_) | Event::Refused(_) => false,
             });
             if is_taken_back {
                 return vec![wire::refusal(id, Fault::RequestCancelled, "taken back")];

@@ -58,6 +58,7 @@ mod lsp;
 mod machines;
 mod optimize;
 mod output;
+mod patience;
 mod place;
 mod plot;
 mod progress;

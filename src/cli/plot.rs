@@ -5,9 +5,11 @@ use super::compile::{unreadable, without_machine};
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, stem};
 use super::output::{Destination, Output, Placed, one_file};
+use super::patience;
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::driver::{self, Outcome, RequestError};
+use crate::driver::{Outcome, RequestError};
+use crate::memory::Memory;
 use crate::picture::Prefix;
 use crate::report::{Material, pictures};
 use clap::ValueEnum;
@@ -33,7 +35,8 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
     let request = args.overrides.request(&disk, targets);
-    let compiled = driver::compile(request, &mut |stage| progress.enter(stage));
+    let budget = console.help_budget();
+    let compiled = patience::compile(request, &mut Memory::none(), budget, &mut progress);
     progress.finish();
     let outcome = match compiled {
         Ok(outcome) => outcome,

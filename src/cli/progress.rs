@@ -12,6 +12,8 @@ use std::time::{Duration, Instant};
 
 /// How long a run may take before a progress line appears.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// How long help with a refusal may take before the line says what the job is refused for.
+const PATIENCE_WITH_A_REFUSAL: Duration = Duration::from_millis(300);
 /// How often the progress line moves.
 const TICK: Duration = Duration::from_millis(100);
 
@@ -38,7 +40,14 @@ impl Progress {
         self.leave();
         self.running = Some((stage, Instant::now()));
         if let Some(line) = &self.line {
-            line.show(stage);
+            line.tell(Event::Stage(stage));
+        }
+    }
+
+    /// The job is refused, and help is looked for.
+    pub(super) fn refused(&self, headline: &str) {
+        if let Some(line) = &self.line {
+            line.tell(Event::Refused(headline.to_owned()));
         }
     }
 
@@ -61,25 +70,33 @@ impl Progress {
     }
 }
 
+/// What the line is told.
+enum Event {
+    /// A stage begins.
+    Stage(Stage),
+    /// The job is refused, with this headline.
+    Refused(String),
+}
+
 /// The line on the terminal; vanishes when dropped.
 struct ProgressLine {
-    stages: Option<Sender<Stage>>,
+    events: Option<Sender<Event>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl ProgressLine {
     fn start() -> Self {
-        let (stages, receiver) = mpsc::channel();
+        let (events, receiver) = mpsc::channel();
         Self {
-            stages: Some(stages),
+            events: Some(events),
             thread: Some(thread::spawn(move || draw(&receiver))),
         }
     }
 
-    fn show(&self, stage: Stage) {
-        if let Some(stages) = &self.stages {
+    fn tell(&self, event: Event) {
+        if let Some(events) = &self.events {
             // Without a line there is nothing to show it on.
-            let _ = stages.send(stage);
+            let _ = events.send(event);
         }
     }
 }
@@ -87,34 +104,77 @@ impl ProgressLine {
 impl Drop for ProgressLine {
     fn drop(&mut self) {
         // The closed channel ends the thread, which clears the line before it goes.
-        self.stages = None;
+        self.events = None;
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
     }
 }
 
-fn draw(stages: &Receiver<Stage>) {
-    let Some(stage) = wait_patiently(stages) else {
-        return;
+fn draw(events: &Receiver<Event>) {
+    let mut shown = Shown {
+        stage: Stage::Reading,
+        headline: None,
     };
+    if wait_patiently(events, &mut shown).is_none() {
+        return;
+    }
     let line = ProgressBar::new_spinner();
     line.enable_steady_tick(TICK);
-    line.set_message(words(stage));
-    while let Ok(stage) = stages.recv() {
-        line.set_message(words(stage));
+    line.set_message(shown.words());
+    while let Ok(event) = events.recv() {
+        shown.take(event);
+        line.set_message(shown.words());
     }
     line.finish_and_clear();
 }
 
-/// The stage at work when patience ends; none when the run ends before.
-fn wait_patiently(stages: &Receiver<Stage>) -> Option<Stage> {
+/// What the line says.
+struct Shown {
+    stage: Stage,
+    /// What the job is refused for.
+    headline: Option<String>,
+}
+
+/// Most letters of a headline on the line: it must not break.
+const MOST_LETTERS: usize = 60;
+
+impl Shown {
+    fn take(&mut self, event: Event) {
+        match event {
+            Event::Stage(stage) => self.stage = stage,
+            Event::Refused(headline) => {
+                let mut short: String = headline.chars().take(MOST_LETTERS).collect();
+                if short.len() < headline.len() {
+                    short.push_str("...");
+                }
+                self.headline = Some(short);
+            }
+        }
+    }
+
+    fn words(&self) -> String {
+        let stage = words(self.stage);
+        match &self.headline {
+            Some(headline) => format!("error: {headline}; {stage}"),
+            None => stage.to_owned(),
+        }
+    }
+}
+
+/// Waits until patience ends; none when the run ends before. Who learns that the job is refused does not wait as long.
+fn wait_patiently(events: &Receiver<Event>, shown: &mut Shown) -> Option<()> {
     let start = Instant::now();
-    let mut stage = Stage::Reading;
+    let mut until = start + PATIENCE;
     loop {
-        match stages.recv_timeout(PATIENCE.saturating_sub(start.elapsed())) {
-            Ok(next) => stage = next,
-            Err(RecvTimeoutError::Timeout) => return Some(stage),
+        match events.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            Ok(event) => {
+                if matches!(event, Event::Refused(_)) {
+                    until = until.min(Instant::now() + PATIENCE_WITH_A_REFUSAL);
+                }
+                shown.take(event);
+            }
+            Err(RecvTimeoutError::Timeout) => return Some(()),
             Err(RecvTimeoutError::Disconnected) => return None,
         }
     }
@@ -127,6 +187,7 @@ const fn name(stage: Stage) -> &'static str {
         Stage::Proving => "proving",
         Stage::Reaching => "reaching",
         Stage::Placing => "placing",
+        Stage::Helping => "helping",
         Stage::Optimising => "optimising",
         Stage::Emitting => "emitting",
         Stage::Verifying => "verifying",
@@ -140,6 +201,7 @@ const fn words(stage: Stage) -> &'static str {
         Stage::Proving => "proving that every chip comes free and no cut enters the part",
         Stage::Reaching => "proving that the machine reaches every pose at speed",
         Stage::Placing => "searching for the best place of the work",
+        Stage::Helping => "looking for a fix",
         Stage::Optimising => "solving for other parameters",
         Stage::Emitting => "writing the program",
         Stage::Verifying => "holding the program against the job",

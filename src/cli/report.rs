@@ -6,10 +6,12 @@ use super::browser;
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, stem};
 use super::output::{Placed, one_file};
+use super::patience;
 use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::diag::has_errors;
-use crate::driver::{self, Outcome, RequestError, Stage};
+use crate::driver::{Outcome, RequestError, Stage};
+use crate::memory::Memory;
 use crate::report::page::page;
 use std::path::Path;
 
@@ -22,7 +24,8 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
     };
     let mut progress = Progress::start(console.shows_progress());
     let request = args.overrides.request(&disk, targets);
-    let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
+    let budget = console.help_budget();
+    let outcome = match patience::compile(request, &mut Memory::none(), budget, &mut progress) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);

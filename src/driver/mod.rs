@@ -5,17 +5,19 @@
 
 mod air;
 mod mount;
+mod refusal;
 mod target;
+mod trials;
 mod yielding;
-
-pub use yielding::Yielded;
 
 pub use crate::sema::Typed;
 pub use air::{air_cut_height, into_air_cut};
+pub use refusal::{Patience, Unhurried};
+pub use yielding::Yielded;
 
 use crate::checks::{Carried, Checks};
 use crate::choice;
-use crate::diag::{Code, Diagnostic, has_errors};
+use crate::diag::{Code, Diagnostic, Severity, has_errors};
 use crate::fingerprint;
 use crate::job::CheckedJob;
 use crate::memory::Memory;
@@ -24,7 +26,6 @@ use crate::pace::{self, Paced};
 use crate::plan::PlannedJob;
 use crate::reach::solve::{Changes, Reached, Unreached};
 use crate::reach_summary::{self, ReachFigures};
-use crate::reach_verdict;
 use crate::readback::{Astray, Written};
 use crate::sema;
 use crate::sim::report::Report;
@@ -36,6 +37,8 @@ use crate::summary::times::{TimeFigures, figures as time_figures};
 use crate::syntax::ast::Ast;
 use crate::verdict;
 use crate::wanted::{Needless, Wanted};
+use refusal::{NotCarriedOut, NotTaken, Refused};
+use trials::{Machine, Trials};
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
 use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_backend_api::ir::{Head, OpId, Purpose};
@@ -74,6 +77,8 @@ pub enum Stage {
     Reaching,
     /// Searching for the best place of the work.
     Placing,
+    /// Searching for changes that make a refused job compile.
+    Helping,
     /// Solving for other parameters.
     Optimising,
     /// Writing the program.
@@ -199,11 +204,28 @@ pub fn compile_again(
     memory: &mut Memory,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Outcome, RequestError> {
-    let wanted = &Wanted::ALWAYS;
-    as_far_as_wanted(request, Kept { memory, wanted }, progress)
+    compile_patiently(request, memory, &mut Unhurried, progress)
 }
 
-/// As [`compile_again`], for who may lose interest meanwhile. What was found by then is kept as far as it is complete.
+/// As [`compile_again`], for who learns of a refusal at once, and waits for help with it only so long.
+///
+/// # Errors
+/// As for [`compile`].
+pub fn compile_patiently(
+    request: Request<'_>,
+    memory: &mut Memory,
+    patience: &mut dyn Patience,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Outcome, RequestError> {
+    let kept = Kept {
+        memory,
+        wanted: &Wanted::ALWAYS,
+        patience,
+    };
+    as_far_as_wanted(request, kept, progress)
+}
+
+/// As [`compile_patiently`], for who may lose interest meanwhile. What was found by then is kept as far as it is complete.
 ///
 /// # Errors
 /// When the outcome is no longer wanted; within, as for [`compile`].
@@ -211,15 +233,22 @@ pub fn compile_while(
     request: Request<'_>,
     memory: &mut Memory,
     wanted: &Wanted,
+    patience: &mut dyn Patience,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Result<Outcome, RequestError>, Needless> {
-    wanted.answer(|| as_far_as_wanted(request, Kept { memory, wanted }, progress))
+    let kept = Kept {
+        memory,
+        wanted,
+        patience,
+    };
+    wanted.answer(|| as_far_as_wanted(request, kept, progress))
 }
 
 /// What a run knows of others: what they found, and whether a later one has made it needless.
 struct Kept<'k> {
     memory: &'k mut Memory,
     wanted: &'k Wanted,
+    patience: &'k mut dyn Patience,
 }
 
 fn as_far_as_wanted(
@@ -252,7 +281,7 @@ fn as_far_as_wanted(
     }
     outcome.job = job;
     if !has_errors(&outcome.diagnostics) {
-        plan_and_prove(&mut outcome, &mut kept, progress);
+        plan_and_prove(&mut outcome, request, &mut kept, progress);
     }
     Ok(outcome)
 }
@@ -264,98 +293,178 @@ pub fn compile_checked(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob,
     let mut kept = Kept {
         memory: &mut memory,
         wanted,
+        patience: &mut Unhurried,
     };
     match along_its_routes(job, &SourceMap::default(), &mut kept, &mut |_| ()) {
-        Ended::Compiled(plan, _, compiled) if !wanted.is_needless() => Some((plan, *compiled)),
-        Ended::Compiled(..) | Ended::Refused(..) | Ended::Unreached(..) => None,
+        Ended::Compiled(plan, _, compiled) if !wanted.is_needless() => Some((*plan, *compiled)),
+        Ended::Compiled(..) | Ended::Refused(_) | Ended::Overtaken => None,
     }
 }
 
 /// How far a job came.
-enum Ended {
-    /// It cannot be planned, or is not sound.
-    Refused(Option<PlannedJob>, Vec<Diagnostic>),
-    /// Its machine does not carry it out, along whatever route.
-    Unreached(PlannedJob, Vec<Diagnostic>, Unreached),
+enum Ended<'j> {
+    /// It cannot be planned, is not sound, or its machine does not carry it out, along whatever route.
+    Refused(Refused<'j>),
     /// It is compiled.
-    Compiled(PlannedJob, Vec<Diagnostic>, Box<Compiled>),
+    Compiled(Box<PlannedJob>, Vec<Diagnostic>, Box<Compiled>),
+    /// Nobody wants to know any more.
+    Overtaken,
 }
 
-fn plan_and_prove(outcome: &mut Outcome, kept: &mut Kept<'_>, progress: &mut dyn FnMut(Stage)) {
+fn plan_and_prove(
+    outcome: &mut Outcome,
+    request: Request<'_>,
+    kept: &mut Kept<'_>,
+    progress: &mut dyn FnMut(Stage),
+) {
     let Some(job) = &outcome.job else { return };
-    let (plan, told, compiled) = match along_its_routes(job, &outcome.sources, kept, progress) {
-        Ended::Refused(None, told) if !kept.wanted.is_needless() => {
-            let told = with_limits_that_are_kept(job, told, &outcome.sources, kept, progress);
-            (None, told, None)
+    let ended = match along_its_routes(job, &outcome.sources, kept, progress) {
+        Ended::Compiled(plan, told, compiled) => {
+            let objections = target::objections(job, &compiled, request);
+            if objections.is_empty() {
+                Ended::Compiled(plan, told, compiled)
+            } else {
+                let plan = *plan;
+                Ended::Refused(Refused::ByTarget(Box::new(NotTaken {
+                    plan,
+                    told,
+                    objections,
+                })))
+            }
         }
-        Ended::Refused(plan, told) => (plan, told, None),
-        Ended::Unreached(plan, mut told, unreached) => {
-            told.extend(unreached_in_words(job, &plan, &unreached, kept.wanted));
-            (Some(plan), told, None)
-        }
-        Ended::Compiled(plan, mut told, compiled) => {
-            let warned = job.machine.as_ref().map(|machine| compiled.checks.warnings(machine));
-            told.extend(warned.into_iter().flatten());
-            (Some(plan), told, Some(*compiled))
-        }
+        ended @ (Ended::Refused(_) | Ended::Overtaken) => ended,
     };
-    outcome.diagnostics.extend(told);
-    (outcome.plan, outcome.compiled) = (plan, compiled);
+    match ended {
+        Ended::Overtaken => {}
+        Ended::Compiled(plan, told, compiled) => {
+            let warned = job.machine.as_ref().map(|machine| compiled.checks.warnings(machine));
+            outcome.diagnostics.extend(told);
+            outcome.diagnostics.extend(warned.into_iter().flatten());
+            (outcome.plan, outcome.compiled) = (Some(*plan), Some(*compiled));
+        }
+        Ended::Refused(refused) => {
+            let before = (&outcome.sources, outcome.diagnostics.as_slice());
+            let told = helped(job, &refused, before, request, kept, progress);
+            outcome.plan = refused.into_plan();
+            outcome.diagnostics.extend(told);
+        }
+    }
+}
+
+/// What there is to tell of a job that is refused, with what helps. Who waits learns of it before that is looked for.
+fn helped(
+    job: &CheckedJob,
+    refused: &Refused<'_>,
+    (sources, before): (&SourceMap, &[Diagnostic]),
+    request: Request<'_>,
+    kept: &mut Kept<'_>,
+    progress: &mut dyn FnMut(Stage),
+) -> Vec<Diagnostic> {
+    if kept.wanted.is_needless() {
+        return Vec::new();
+    }
+    let at_once = refused.at_once(job);
+    let limited = kept.patience.refused(&[before, &at_once].concat(), sources);
+    let wanted = kept.wanted.and(&limited);
+    progress(Stage::Helping);
+    let machine = match &job.machine {
+        Some(_) => Machine::Here,
+        None => Machine::None,
+    };
+    let mut trials = Trials::of(request, sources, &at_once, machine, &wanted);
+    let told = match with_limits_that_are_kept(job, (refused, &at_once), sources, &wanted) {
+        Some(told) => told,
+        None => refused.with_help(job, &wanted, &mut trials),
+    };
+    let mut told = refusal::tried(told, &at_once, &mut trials);
+    if wanted.is_needless()
+        && let Some(words) = kept.patience.cut_short()
+        && let Some(first) = told.iter_mut().find(|one| one.severity() == Severity::Error)
+    {
+        first.notes.push(words);
+    }
+    told
 }
 
 /// What is told of a limit that no plan keeps offers what the fastest plan keeps; but its machine may follow only a slower one.
 /// So the job is compiled without these limits, and what is told is what that comes to.
 fn with_limits_that_are_kept(
     job: &CheckedJob,
-    told: Vec<Diagnostic>,
+    (refused, at_once): (&Refused<'_>, &[Diagnostic]),
     sources: &SourceMap,
-    kept: &mut Kept<'_>,
-    progress: &mut dyn FnMut(Stage),
-) -> Vec<Diagnostic> {
-    let is_of_limits = told.iter().all(|one| one.code == Code::LimitsConflict);
-    let free = choice::unlimited(job).filter(|free| is_of_limits && free.machine.is_some());
-    let Some(free) = free else { return told };
-    match along_its_routes(&free, sources, kept, progress) {
-        Ended::Compiled(plan, ..) => match choice::broken_limits(job, &plan) {
-            broken if broken.is_empty() => told,
-            broken => broken,
-        },
-        Ended::Refused(..) | Ended::Unreached(..) => told,
+    wanted: &Wanted,
+) -> Option<Vec<Diagnostic>> {
+    let is_of_limits = match refused {
+        Refused::Unplanned(_) => at_once.iter().all(|one| one.code == Code::LimitsConflict),
+        Refused::Broken(..) | Refused::Unsound(..) | Refused::Unreached(_) | Refused::ByTarget(_) => false,
+    };
+    let free = choice::unlimited(job).filter(|free| is_of_limits && free.machine.is_some())?;
+    let mut kept = Kept {
+        memory: &mut Memory::none(),
+        wanted,
+        patience: &mut Unhurried,
+    };
+    match along_its_routes(&free, sources, &mut kept, &mut |_| ()) {
+        Ended::Compiled(plan, ..) => Some(choice::broken_limits(job, &plan)).filter(|told| !told.is_empty()),
+        Ended::Refused(_) | Ended::Overtaken => None,
     }
 }
 
 /// Along fewer routes and with narrower swings where the machine does not follow: the fastest ask the most of it.
-fn along_its_routes(
-    job: &CheckedJob,
+fn along_its_routes<'j>(
+    job: &'j CheckedJob,
     sources: &SourceMap,
     kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
-) -> Ended {
+) -> Ended<'j> {
     let wanted = kept.wanted;
     let mut yielding = Yielding::new(job, wanted);
-    let mut refused: Option<Ended> = None;
+    let mut refused: Option<Box<NotCarriedOut>> = None;
+    let unreached = |refused: Box<NotCarriedOut>| Ended::Refused(Refused::Unreached(refused));
     // Limits that the first plan chose hold for all others, as if the job had set them.
     let mut settled: Option<CheckedJob> = None;
     loop {
         progress(Stage::Planning);
-        let within = settled.as_ref().unwrap_or(job);
-        let (plan, mut told) = kept.memory.choose(within, yielding.leeway(), wanted);
-        let Some(plan) = plan.filter(|_| !wanted.is_needless()) else {
-            return refused.unwrap_or(Ended::Refused(None, told));
+        let plan = match refused.take() {
+            None => kept
+                .memory
+                .choose(job, yielding.leeway(), wanted)
+                .map_err(Refused::Unplanned),
+            Some(before) => {
+                let within = settled.as_ref().unwrap_or(job);
+                match kept.memory.choose(within, yielding.leeway(), wanted) {
+                    Ok(plan) => {
+                        refused = Some(before);
+                        Ok(plan)
+                    }
+                    // What the machine did not follow was sound, and is what there is to tell.
+                    Err(_) => Err(Refused::Unreached(before)),
+                }
+            }
+        };
+        if wanted.is_needless() {
+            return Ended::Overtaken;
+        }
+        let plan = match plan {
+            Ok(plan) => plan,
+            Err(why) => return Ended::Refused(why),
         };
         settled = settled.or_else(|| choice::settled(job, &plan));
         progress(Stage::Proving);
         let proven = match verdict::prove(&plan, sources) {
             Ok(proven) => proven,
             Err(faults) => {
-                told.push(internal(job, &rules_broken(&faults)));
-                return Ended::Refused(Some(plan), told);
+                let fault = Box::new(internal(job, &rules_broken(&faults)));
+                return Ended::Refused(Refused::Broken(Box::new(plan), fault));
             }
         };
-        told.extend(verdict::diagnose_while(job, &plan, &proven, wanted));
+        let mut told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never());
         if has_errors(&told) {
             // What the machine did not follow was sound, and is what there is to tell.
-            return refused.unwrap_or(Ended::Refused(Some(plan), told));
+            return match refused {
+                Some(refused) => unreached(refused),
+                None => Ended::Refused(Refused::Unsound(Box::new(plan), Box::new(proven))),
+            };
         }
         let changes = yielding.changes(&plan);
         match reach(job, proven.program, changes, kept, progress) {
@@ -363,19 +472,25 @@ fn along_its_routes(
                 let mut compiled = compiled(job, program, &plan, proven.report, sources);
                 told.extend(verdict::much_stays(job, &plan, &compiled.report, wanted));
                 compiled.yielded = yielding.into_first();
-                return Ended::Compiled(plan, told, Box::new(compiled));
+                return Ended::Compiled(Box::new(plan), told, Box::new(compiled));
             }
-            Err(_) if wanted.is_needless() => return Ended::Refused(Some(plan), told),
-            Err(unreached) => {
+            Err(_) if wanted.is_needless() => return Ended::Overtaken,
+            Err(why) => {
                 let is_usual = yielding.is_usual();
-                let goes_on = yielding.narrow(&plan, &unreached);
-                let this = Ended::Unreached(plan, told, unreached);
-                let told_of = match refused {
+                let goes_on = yielding.narrow(&plan, &why);
+                let this = Box::new(NotCarriedOut {
+                    plan,
+                    told,
+                    unreached: why,
+                    cut_short: None,
+                });
+                let mut told_of = match refused {
                     Some(usual) if !is_usual => usual,
                     Some(_) | None => this,
                 };
                 if !goes_on {
-                    return told_of;
+                    told_of.cut_short = yielding.cut_short();
+                    return unreached(told_of);
                 }
                 refused = Some(told_of);
             }
@@ -435,19 +550,6 @@ fn reach(
     progress(Stage::Reaching);
     let reached = kept.memory.reach(program, &machine.model, changes, kept.wanted)?;
     Ok(Finished::Reached(Box::new(reached)))
-}
-
-fn unreached_in_words(
-    job: &CheckedJob,
-    plan: &PlannedJob,
-    unreached: &Unreached,
-    wanted: &Wanted,
-) -> Vec<Diagnostic> {
-    match unreached {
-        Unreached::Unreachable(unreachable) => reach_verdict::diagnose(job, plan, unreachable, wanted),
-        Unreached::Rules(faults) => vec![internal(job, &rules_broken(faults))],
-        Unreached::Motion(faults) => vec![internal(job, &motions_broken(faults))],
-    }
 }
 
 /// A program that breaks a rule of its own form is the compiler's fault, whatever the job says.

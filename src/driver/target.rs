@@ -1,14 +1,19 @@
 //! Between a job and a target: options held against what the target takes, and the target's objections in words.
 
+mod speeds;
+
+pub(super) use speeds::with_help;
+
+use super::{Compiled, Request};
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
-use crate::machine::Model;
+use crate::machine::{Model, usual_home};
 use crate::source::{Span, Spanned};
 use vcutc_backend_api::backend::{
-    Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options,
+    Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options, Origin,
 };
-use vcutc_backend_api::ir::{Action, AxisKind, MachineKind, Maker, OpId, Program};
+use vcutc_backend_api::ir::{Action, MachineKind, Maker, OpId, Program};
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 use vcutc_backend_api::units::Length;
@@ -42,6 +47,71 @@ fn unknown_target(block: &TargetOptions, known: &[&str]) -> Diagnostic {
     match nearest(&block.target, known.iter().copied()).first() {
         Some(near) => diagnostic.fix(format!("use `{near}`"), block.span, *near),
         None => diagnostic,
+    }
+}
+
+/// What a target of the job's machine does not take.
+pub(super) struct Objection {
+    /// In words.
+    pub(super) told: Diagnostic,
+    /// The speeds that decide it, and by which factor they are off.
+    off: Option<speeds::Off>,
+}
+
+impl From<Diagnostic> for Objection {
+    fn from(told: Diagnostic) -> Self {
+        Self { told, off: None }
+    }
+}
+
+/// What the targets for which the job's machine has a block object to its program, so that it is known before anything is
+/// written. A block may stand there before the machine's signals and home are known: what is missing of those is told when the
+/// program is written. Targets that are programs of their own are not run for it.
+pub(super) fn objections(job: &CheckedJob, compiled: &Compiled, request: Request<'_>) -> Vec<Objection> {
+    let Some(reached) = compiled.program.reached() else {
+        return Vec::new();
+    };
+    let is_asked = |backend: &&&dyn Backend| {
+        backend.origin() == Origin::Linked
+            && block(job.machine.as_ref(), backend.id()).is_some()
+            // Who writes for a target hears from that one.
+            && request.options.target.is_empty()
+    };
+    let program = reached.program.program();
+    let mut all = Vec::new();
+    for &backend in request.targets.iter().filter(is_asked) {
+        let options = match options(job, backend) {
+            Ok(options) => options,
+            Err(told) => {
+                all.extend(told.into_iter().map(Objection::from));
+                continue;
+            }
+        };
+        let mut issues = missing(backend, reached.program.verified());
+        if issues.is_empty()
+            && let Err(found) = backend.check(&reached.program, &options)
+        {
+            issues = found;
+        }
+        issues.retain(is_of_program);
+        all.extend(issues.iter().map(|issue| Objection {
+            told: objection(job, backend.id(), program, issue),
+            off: speeds::Off::of(job, program, issue),
+        }));
+    }
+    all
+}
+
+/// Whether an objection is to the program, not to what the machine's block says of the machine.
+const fn is_of_program(issue: &BackendIssue) -> bool {
+    match issue {
+        BackendIssue::OutOfRange { .. }
+        | BackendIssue::Unsupported { .. }
+        | BackendIssue::OptionConflict { .. }
+        | BackendIssue::Profile { .. } => true,
+        BackendIssue::WrongMachine { .. }
+        | BackendIssue::MissingMachineField { .. }
+        | BackendIssue::Failed(_) => false,
     }
 }
 
@@ -244,10 +314,7 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             format!("no `{field}` here"),
         )
         .note(*why)
-        .help(format!(
-            "add `{}` to this block",
-            example(field, job.machine.as_ref())
-        )),
+        .help(add_field(field, job.machine.as_ref())),
         BackendIssue::OptionConflict { key, why } => {
             let block = block(job.machine.as_ref(), target);
             match (
@@ -377,32 +444,31 @@ fn wrong_machine(job: &CheckedJob, target: &str, mismatch: MachineMismatch, driv
     }
 }
 
-/// A line to add for a field of the machine.
+/// What to do about a field that the machine lacks.
+fn add_field(field: &str, machine: Option<&Machine>) -> String {
+    let line = format!("add `{field} = {}` to this block", example(field, machine));
+    match field {
+        "ultrasonic" => format!("{line}; 12 is an example: write the output that the generator is wired to"),
+        "load" => {
+            format!("{line}; these values are an example: weigh your tool, or let the controller measure it")
+        }
+        "home" => format!("{line}: a pose of this model, from which the way to the work must be clear"),
+        _ => line,
+    }
+}
+
+/// A value for a field of the machine.
 fn example(field: &str, machine: Option<&Machine>) -> String {
-    let value = match (field, machine.map(|machine| machine.model.as_ref())) {
-        ("home", Some(model)) if model.kind() == MachineKind::FiveAxis => home_of_axes(model),
-        ("home", _) => "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)".to_owned(),
+    match (field, machine) {
+        ("home", Some(machine)) => usual_home(&machine.model),
+        ("home", None) => "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)".to_owned(),
         ("ultrasonic", _) => "output(12)".to_owned(),
         ("load", _) => "load(mass = 12 kg, x = 0 mm, y = 0 mm, z = 100 mm)".to_owned(),
         ("tool" | "base", _) => {
             "frame(x = 0 mm, y = 0 mm, z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)".to_owned()
         }
         _ => "...".to_owned(),
-    };
-    format!("{field} = {value}")
-}
-
-/// A home with the names of the machine's axes: Z at its upper end, clear of the work, the others at zero.
-fn home_of_axes(model: &Model) -> String {
-    let places = model.axes.iter().map(|axis| {
-        let name = axis.name.to_lowercase();
-        match axis.kind {
-            AxisKind::Linear if axis.name == "Z" => format!("{name} = {} mm", axis.max),
-            AxisKind::Linear => format!("{name} = 0 mm"),
-            AxisKind::Rotary => format!("{name} = 0 deg"),
-        }
-    });
-    format!("axes({})", places.collect::<Vec<_>>().join(", "))
+    }
 }
 
 fn unfit_profile(target: &str, key: &str, why: &str, profile: Span) -> Diagnostic {

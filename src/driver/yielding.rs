@@ -2,7 +2,7 @@
 //!
 //! A program that fails as a whole is dear to refute. Whether the cuts of an order, or of a swing, can be followed at all, a
 //! few telling motions say much sooner ([`Strokes`]): those that they rule out are not planned. How many plans are
-//! proven is bounded by [`MOST_PLANS`].
+//! proven is bounded by [`MOST_PLANS`], and for jobs of many cuts by [`MOST_CUTS_PUT`].
 
 use crate::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 use crate::job::{Auto, CheckedJob, Operation, Order, Sequence};
@@ -21,6 +21,12 @@ use vcutc_backend_api::verify::verify;
 
 /// Most plans that are put to the machine.
 const MOST_PLANS: usize = 10;
+
+/// Plans that are put to the machine however many cuts they have: every kind of route, and a narrower swing.
+const LEAST_PLANS: usize = 4;
+
+/// Most cuts of all plans together that are put to the machine, beyond [`LEAST_PLANS`].
+const MOST_CUTS_PUT: usize = 1_500;
 
 /// By which factor swings are narrowed while one is looked for whose telling motions are followed.
 const NARROWER: f64 = 0.95;
@@ -42,9 +48,21 @@ pub(super) struct Yielding<'j> {
     job: &'j CheckedJob,
     leeway: Leeway,
     plans: usize,
+    /// The cuts of all plans so far.
+    cuts: usize,
+    ended: Ended,
     wanted: &'j Wanted,
     /// What was refused first.
     first: Option<Box<Yielded>>,
+}
+
+/// Why nothing more is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ended {
+    /// There is nothing left, or something more is tried.
+    ByItself,
+    /// So many plans are enough.
+    AtTheBound,
 }
 
 impl<'j> Yielding<'j> {
@@ -53,6 +71,8 @@ impl<'j> Yielding<'j> {
             job,
             leeway: Leeway::along(Latitude::Full),
             plans: 0,
+            cuts: 0,
+            ended: Ended::ByItself,
             wanted,
             first: None,
         }
@@ -85,6 +105,17 @@ impl<'j> Yielding<'j> {
         }
     }
 
+    /// What to say of a search that was ended by its bound; nothing of one that looked at all there is.
+    pub(super) fn cut_short(&self) -> Option<String> {
+        match self.ended {
+            Ended::ByItself => None,
+            Ended::AtTheBound => Some(format!(
+                "{} plans with other routes or narrower swings were tried on the machine; the search ended there",
+                self.plans
+            )),
+        }
+    }
+
     /// Goes on to what is considered where the machine does not follow a plan. Without effect where there is nothing left.
     pub(super) fn narrow(&mut self, plan: &PlannedJob, unreached: &Unreached) -> bool {
         self.plans += 1;
@@ -94,7 +125,13 @@ impl<'j> Yielding<'j> {
                 unreachable: (**unreachable).clone(),
             }));
         }
-        if self.plans >= MOST_PLANS || self.wanted.is_needless() {
+        let operations = plan.operations.iter();
+        self.cuts += operations
+            .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len())
+            .sum::<usize>();
+        let is_enough = self.plans >= LEAST_PLANS && self.cuts >= MOST_CUTS_PUT;
+        if self.plans >= MOST_PLANS || is_enough || self.wanted.is_needless() {
+            self.ended = Ended::AtTheBound;
             return false;
         }
         let next = self.other_routes(plan).or_else(|| match trouble(unreached)? {

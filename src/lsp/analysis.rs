@@ -7,7 +7,7 @@
 
 use super::text::Text;
 use crate::diag::Diagnostic;
-use crate::driver::{self, Request, RequestError, Typed};
+use crate::driver::{self, Patience, Request, RequestError, Typed, Unhurried};
 use crate::memory::Memory;
 use crate::plan::PlannedJob;
 use crate::sema::study::{Study, study};
@@ -63,7 +63,12 @@ pub(super) enum Planning {
     /// To be done.
     Due,
     /// Being done, for as long as this is held.
-    UnderWay(#[expect(dead_code, reason = "it is held, and ends when it is dropped")] Interest),
+    UnderWay(Interest),
+    /// Refused, and help is being looked for as long as this is held.
+    Helping(
+        #[expect(dead_code, reason = "it is held, and ends when it is dropped")] Interest,
+        Box<Planned>,
+    ),
     /// Done.
     Done(Box<Planned>),
 }
@@ -148,7 +153,9 @@ impl Analysis {
     /// The latest there is to tell, with the texts that it is about.
     pub(super) fn told(&self) -> (&SourceMap, &[Diagnostic]) {
         match &self.planning {
-            Planning::Done(planned) => (&planned.sources, &planned.diagnostics),
+            Planning::Done(planned) | Planning::Helping(_, planned) => {
+                (&planned.sources, &planned.diagnostics)
+            }
             Planning::Needless | Planning::Due | Planning::UnderWay(_) => (&self.sources, &self.diagnostics),
         }
     }
@@ -156,7 +163,7 @@ impl Analysis {
     /// The plan, if it is there.
     pub(super) fn planned(&self) -> Option<&Planned> {
         match &self.planning {
-            Planning::Done(planned) => Some(planned),
+            Planning::Done(planned) | Planning::Helping(_, planned) => Some(planned),
             Planning::Needless | Planning::Due | Planning::UnderWay(_) => None,
         }
     }
@@ -192,6 +199,8 @@ pub struct Done {
 pub(super) enum Finding {
     /// The job was planned.
     Planned(Box<Planned>),
+    /// The job is refused, and help is looked for: the task goes on.
+    Refused(Box<Planned>),
     /// It could not be read.
     Unreadable,
     /// Nobody wanted to know any more.
@@ -202,6 +211,18 @@ impl Task {
     /// Plans the job and proves the plan, with what is kept of plans before. It ends early when the text has changed.
     #[must_use]
     pub fn run(self, files: &dyn Loader, targets: &[&'static dyn Backend], memory: &mut Memory) -> Done {
+        self.run_telling(files, targets, memory, (&mut Unhurried, &mut |_| ()))
+    }
+
+    /// As [`Self::run`]; what a job is refused for is told at once, before help is looked for.
+    #[must_use]
+    pub fn run_telling(
+        self,
+        files: &dyn Loader,
+        targets: &[&'static dyn Backend],
+        memory: &mut Memory,
+        (patience, tell): (&mut dyn Patience, &mut dyn FnMut(Done)),
+    ) -> Done {
         let overlay = Overlay {
             open: &self.open,
             below: files,
@@ -214,7 +235,13 @@ impl Task {
             options: Typed::default(),
             targets,
         };
-        let result = match driver::compile_while(request, memory, &self.wanted, &mut |_| ()) {
+        let mut early = Early {
+            root: &self.root,
+            stamp: self.stamp,
+            patience,
+            tell,
+        };
+        let result = match driver::compile_while(request, memory, &self.wanted, &mut early, &mut |_| ()) {
             Ok(Ok(outcome)) => Finding::Planned(Box::new(Planned {
                 sources: outcome.sources,
                 diagnostics: outcome.diagnostics,
@@ -232,5 +259,34 @@ impl Task {
             stamp: self.stamp,
             result,
         }
+    }
+}
+
+/// Tells what a job is refused for before help is looked for.
+struct Early<'e> {
+    root: &'e str,
+    stamp: u64,
+    patience: &'e mut dyn Patience,
+    tell: &'e mut dyn FnMut(Done),
+}
+
+impl Patience for Early<'_> {
+    fn refused(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) -> Wanted {
+        let planned = Planned {
+            sources: sources.clone(),
+            diagnostics: diagnostics.to_vec(),
+            plan: None,
+            summary: Vec::new(),
+        };
+        (self.tell)(Done {
+            root: self.root.to_owned(),
+            stamp: self.stamp,
+            result: Finding::Refused(Box::new(planned)),
+        });
+        self.patience.refused(diagnostics, sources)
+    }
+
+    fn cut_short(&self) -> Option<String> {
+        self.patience.cut_short()
     }
 }

@@ -420,7 +420,8 @@ impl Server {
             return;
         };
         for known in self.documents.analyses.values_mut() {
-            if matches!(known.planning, Planning::UnderWay(_)) && known.stamp < latest {
+            let is_busy = matches!(known.planning, Planning::UnderWay(_) | Planning::Helping(..));
+            if is_busy && known.stamp < latest {
                 known.planning = Planning::Due;
             }
         }
@@ -433,6 +434,13 @@ impl Server {
         };
         known.planning = match done.result {
             Finding::Planned(planned) => Planning::Done(planned),
+            Finding::Refused(planned) => match core::mem::replace(&mut known.planning, Planning::Due) {
+                Planning::UnderWay(interest) => Planning::Helping(interest, planned),
+                // Put off meanwhile: it is due again.
+                other @ (Planning::Needless | Planning::Due | Planning::Helping(..) | Planning::Done(_)) => {
+                    other
+                }
+            },
             Finding::Unreadable => Planning::Needless,
             // Put off: it is due again.
             Finding::Needless => return Vec::new(),

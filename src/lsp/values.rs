@@ -5,7 +5,7 @@ use super::analysis::Analysis;
 use super::completion::{Offer, Rank, offer, verbatim};
 use super::manual::{self, Table};
 use super::slots::{Owner, Part, Rest, Slot, Within};
-use crate::machine::catalogue;
+use crate::machine::{catalogue, usual_home};
 use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, Dimension, FieldSpec, Inside, Leaving, Signature, Takes};
 use lsp_types::CompletionItemKind;
@@ -95,6 +95,11 @@ impl Place<'_> {
                 .map(|(axis, value)| format!("{axis} = {value}"))
                 .collect();
             return vec![call_offer("axes", &format!("axes({})", values.join(", ")))];
+        }
+        if field == "home"
+            && let Some(model) = self.model.and_then(catalogue::find)
+        {
+            return vec![call_offer("joints", &usual_home(&model))];
         }
         calls
             .iter()

@@ -9,6 +9,9 @@ pub mod path_limits;
 mod robot;
 pub mod sheet;
 pub mod urdf;
+mod usual_home;
+
+pub use usual_home::usual_home;
 
 use crate::document::flaw::Flaw;
 use crate::kinematics::Mechanism;

@@ -15,8 +15,7 @@ mod shelf;
 #[cfg(test)]
 mod tests;
 
-use crate::choice::{self, Leeway};
-use crate::diag::Diagnostic;
+use crate::choice::{self, Complaints, Leeway};
 use crate::job::{CheckedJob, Operation};
 use crate::machine::Model;
 use crate::plan::{PlannedJob, PlannedOperation};
@@ -78,12 +77,15 @@ impl Memory {
     }
 
     /// As [`choice::choose_while`]. What was cut short is not kept.
-    pub(crate) fn choose(
+    ///
+    /// # Errors
+    /// As for [`choice::choose_while`].
+    pub(crate) fn choose<'j>(
         &mut self,
-        job: &CheckedJob,
+        job: &'j CheckedJob,
         leeway: Leeway,
         wanted: &Wanted,
-    ) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    ) -> Result<PlannedJob, Complaints<'j>> {
         if !self.plans.takes(0) {
             return choice::choose_while(job, leeway, wanted);
         }
@@ -96,18 +98,14 @@ impl Memory {
             leeway,
         };
         if let Some(plan) = self.plans.find(&open) {
-            return (Some(of(job, plan.clone())), Vec::new());
+            return Ok(of(job, plan.clone()));
         }
-        let (plan, told) = choice::choose_while(job, leeway, wanted);
         // Complaints know their places, and are few: they are found anew.
-        if let Some(plan) = &plan
-            && told.is_empty()
-            && !wanted.is_needless()
-            && is_of(job, plan)
-        {
-            self.plans.keep(open, plan.clone(), size(plan));
+        let plan = choice::choose_while(job, leeway, wanted)?;
+        if !wanted.is_needless() && is_of(job, &plan) {
+            self.plans.keep(open, plan.clone(), size(&plan));
         }
-        (plan, told)
+        Ok(plan)
     }
 
     /// As [`solve_while`], nowhere nearer to singular poses than everywhere in the compiler. What was cut short is not kept.

@@ -1,7 +1,7 @@
 //! Compiling with a memory against compiling afresh, over random edits of a job: outcome and files must be the same to the byte.
 
 use super::*;
-use crate::driver::{Request, Stage, Typed, compile, compile_again, compile_while, write};
+use crate::driver::{Request, Stage, Typed, Unhurried, compile, compile_again, compile_while, write};
 use crate::registry;
 use crate::source::{LoadError, Loader};
 use crate::wanted::{Needless, Wanted};
@@ -159,7 +159,7 @@ proptest! {
         let mut interest = Some(interest);
         let mut entered = 0;
         let given_up = std::thread::scope(|scope| {
-            compile_while(request(&text, &targets), &mut memory, &wanted, &mut |_| {
+            compile_while(request(&text, &targets), &mut memory, &wanted, &mut Unhurried, &mut |_| {
                 entered += 1;
                 if entered > stage
                     && let Some(interest) = interest.take()
@@ -190,11 +190,17 @@ fn what_was_cut_short_is_not_kept() {
         let mut memory = Memory::of_some_runs();
         let (wanted, interest) = Wanted::while_held();
         let mut interest = Some(interest);
-        let given_up = compile_while(request(&text, &targets), &mut memory, &wanted, &mut |entered| {
-            if entered == stage {
-                interest = None;
-            }
-        });
+        let given_up = compile_while(
+            request(&text, &targets),
+            &mut memory,
+            &wanted,
+            &mut Unhurried,
+            &mut |entered| {
+                if entered == stage {
+                    interest = None;
+                }
+            },
+        );
         assert_eq!(given_up.map(|_| ()), Err(Needless), "{stage:?}");
         let plans = usize::from(stage != Stage::Planning);
         assert_eq!(

@@ -56,6 +56,10 @@ pub enum Stuck {
 /// Most climbs before giving up; each but the last has found a link that fails.
 const MOST_CLIMBS: usize = 400;
 
+/// Most links that are looked at in all climbs together, but for the first two: it bounds the work on long programs with many
+/// ways to stand.
+const MOST_LOOKS: usize = 120_000_000;
+
 /// A link: the run it leads to, from which rung, to which.
 type Link = (usize, usize, usize);
 
@@ -64,11 +68,12 @@ type Link = (usize, usize, usize);
 /// # Errors
 /// Where it ends when there is none.
 pub fn climb(ladder: &mut dyn Ladder) -> Result<Vec<usize>, Stuck> {
-    let mut refuted = BTreeSet::new();
+    let mut links = Links::of(ladder);
     let mut proven = BTreeSet::new();
     let mut last_refuted = None;
-    for _ in 0..MOST_CLIMBS {
-        let way = match best(ladder, &refuted) {
+    let affordable = MOST_LOOKS / links.count().max(1);
+    for _ in 0..MOST_CLIMBS.min(affordable.max(2)) {
+        let way = match best(ladder, &links) {
             Ok(way) => way,
             Err(run) => return Err(last_refuted.map_or(Stuck::At(run), Stuck::Refuted)),
         };
@@ -82,7 +87,7 @@ pub fn climb(ladder: &mut dyn Ladder) -> Result<Vec<usize>, Stuck> {
             if ladder.holds(run, from, to) {
                 proven.insert(link);
             } else {
-                refuted.insert(link);
+                links.refute(link);
                 last_refuted = Some(run);
                 all_hold = false;
             }
@@ -94,24 +99,65 @@ pub fn climb(ladder: &mut dyn Ladder) -> Result<Vec<usize>, Stuck> {
     Err(Stuck::Refuted(last_refuted.unwrap_or_default()))
 }
 
+/// All links, each asked for once: a long program is climbed many times.
+struct Links {
+    /// For each run, and for each of its rungs, the links from the rungs before.
+    into: Vec<Vec<Vec<Option<Cost>>>>,
+}
+
+impl Links {
+    fn of(ladder: &dyn Ladder) -> Self {
+        let rungs = |run: usize| ladder.rungs(run).len();
+        let into = (0..ladder.runs()).map(|run| {
+            let before = run.checked_sub(1).map_or(0, rungs);
+            let to_rung = |to| (0..before).map(|from| ladder.link(run, from, to)).collect();
+            (0..rungs(run)).map(to_rung).collect()
+        });
+        Self { into: into.collect() }
+    }
+
+    fn count(&self) -> usize {
+        self.into.iter().flatten().map(Vec::len).sum()
+    }
+
+    /// Takes a link away.
+    fn refute(&mut self, (run, from, to): Link) {
+        let links = self.into.get_mut(run).and_then(|run| run.get_mut(to));
+        if let Some(link) = links.and_then(|links| links.get_mut(from)) {
+            *link = None;
+        }
+    }
+
+    /// The links to a rung that are not refuted, with the rungs they come from.
+    fn to(&self, run: usize, to: usize) -> impl Iterator<Item = (usize, Cost)> + '_ {
+        let links = self.into.get(run).and_then(|run| run.get(to));
+        let links = links.map_or(&[][..], Vec::as_slice);
+        links
+            .iter()
+            .enumerate()
+            .filter_map(|(from, link)| Some((from, (*link)?)))
+    }
+}
+
 /// The best way if every link that is not refuted holds; else the run that cannot be reached.
-fn best(ladder: &dyn Ladder, refuted: &BTreeSet<Link>) -> Result<Vec<usize>, usize> {
-    let widest = widest(ladder, refuted)?;
-    cheapest(ladder, refuted, widest - SAME_MARGIN)
+fn best(ladder: &dyn Ladder, links: &Links) -> Result<Vec<usize>, usize> {
+    let widest = widest(ladder, links)?;
+    cheapest(ladder, links, widest - SAME_MARGIN)
 }
 
 /// Margins that differ by less count as equal: nobody changes the way to stand for rounding.
 const SAME_MARGIN: f64 = 1e-6;
 
 /// The largest smallest margin that any way has.
-fn widest(ladder: &dyn Ladder, refuted: &BTreeSet<Link>) -> Result<f64, usize> {
+fn widest(ladder: &dyn Ladder, links: &Links) -> Result<f64, usize> {
     let mut reached: Vec<Option<f64>> = Vec::new();
     for run in 0..ladder.runs() {
         let next = (0..).zip(ladder.rungs(run)).map(|(to, rung)| {
             let before = if run == 0 {
                 Some(f64::INFINITY)
             } else {
-                links_to(ladder, refuted, run, to, reached.len())
+                links
+                    .to(run, to)
                     .filter_map(|(from, link)| Some(link.margin.min((*reached.get(from)?)?)))
                     .max_by(f64::total_cmp)
             };
@@ -125,19 +171,6 @@ fn widest(ladder: &dyn Ladder, refuted: &BTreeSet<Link>) -> Result<f64, usize> {
     }
     let widest = reached.into_iter().flatten().max_by(f64::total_cmp);
     Ok(widest.unwrap_or(f64::INFINITY))
-}
-
-/// The links to a rung that are not refuted, with the rungs they come from.
-fn links_to<'l>(
-    ladder: &'l dyn Ladder,
-    refuted: &'l BTreeSet<Link>,
-    run: usize,
-    to: usize,
-    rungs_before: usize,
-) -> impl Iterator<Item = (usize, Cost)> + 'l {
-    (0..rungs_before)
-        .filter(move |&from| refuted.is_empty() || !refuted.contains(&(run, from, to)))
-        .filter_map(move |from| Some((from, ladder.link(run, from, to)?)))
 }
 
 /// A way to a rung: what it cost, and from which rung of the run before it came.
@@ -158,7 +191,7 @@ impl Arrival {
 }
 
 /// The cheapest way whose margins are nowhere below `least`.
-fn cheapest(ladder: &dyn Ladder, refuted: &BTreeSet<Link>, least: f64) -> Result<Vec<usize>, usize> {
+fn cheapest(ladder: &dyn Ladder, links: &Links, least: f64) -> Result<Vec<usize>, usize> {
     let mut arrivals: Vec<Vec<Option<Arrival>>> = Vec::new();
     for run in 0..ladder.runs() {
         let before: &[Option<Arrival>] = arrivals.last().map_or(&[], Vec::as_slice);
@@ -174,7 +207,7 @@ fn cheapest(ladder: &dyn Ladder, refuted: &BTreeSet<Link>, least: f64) -> Result
                 });
             }
             let mut cheapest: Option<Arrival> = None;
-            for (from, link) in links_to(ladder, refuted, run, to, before.len()) {
+            for (from, link) in links.to(run, to) {
                 let Some(&Some(arrival)) = before.get(from) else {
                     continue;
                 };

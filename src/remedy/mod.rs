@@ -44,8 +44,8 @@ pub struct Remedy {
 const MOST_OFFERED: usize = 3;
 /// Most times that a job is taken through the whole pipeline for one message.
 const MOST_TRIES: u32 = 20;
-/// Most cuts that are tried in all for one message, beyond two tries.
-const MOST_CUTS_TRIED: usize = 100_000;
+/// Most cuts that are tried in all for one message, beyond two tries: a few seconds on one processor.
+const MOST_CUTS_TRIED: usize = 4_000;
 /// Most cuts of a job that is planned again. Beyond it only the machine's side is changed, which leaves the cuts as they are.
 const MOST_CUTS_PLANNED_AGAIN: usize = 20_000;
 
@@ -58,9 +58,19 @@ struct Case<'c> {
     tries_left: u32,
     /// Whether anybody still waits for them.
     wanted: &'c Wanted,
+    /// Whether the job compiles with these changes of its text.
+    works: &'c mut Works<'c>,
 }
 
+/// Whether the job compiles with these changes of its text.
+pub type Works<'w> = dyn FnMut(&[(Span, String)]) -> bool + 'w;
+
 impl Case<'_> {
+    /// A remedy, if the text that comes of it compiles: as soon as it is found, so that none is lost when time is over.
+    fn confirmed(&mut self, remedy: Remedy) -> Option<Remedy> {
+        (remedy.edits.is_empty() || (self.works)(&remedy.edits)).then_some(remedy)
+    }
+
     /// Takes a try from those that are left.
     fn may_try(&mut self) -> bool {
         let left = self.tries_left.checked_sub(1);
@@ -103,6 +113,7 @@ pub fn remedies(
     plan: &PlannedJob,
     unreachable: &Unreachable,
     wanted: &Wanted,
+    works: &mut Works<'_>,
 ) -> Vec<Remedy> {
     let Some(machine) = &job.machine else {
         return Vec::new();
@@ -114,6 +125,7 @@ pub fn remedies(
         unreachable,
         tries_left: tries(plan),
         wanted,
+        works: &mut |edits| works(edits),
     };
     let mut found = match &unreachable.trouble {
         Trouble::Motion { failing, .. } => match failing.worst.what {
@@ -122,10 +134,11 @@ pub fn remedies(
         },
         Trouble::NoCommonBranch { .. } => elsewhere(&mut case),
         Trouble::Way { .. } => {
-            let home = home::raised(&mut case);
-            home.or_else(|| base::moved(&mut case)).into_iter().collect()
+            let home = tried(&mut case, home::raised);
+            let base = home.or_else(|| tried(&mut case, base::moved));
+            base.into_iter().collect()
         }
-        Trouble::Nowhere => base::moved(&mut case).into_iter().collect(),
+        Trouble::Nowhere => tried(&mut case, base::moved).into_iter().collect(),
     };
     found.truncate(MOST_OFFERED);
     found
@@ -146,6 +159,7 @@ pub fn elsewhere_for(
         unreachable,
         tries_left: tries(plan),
         wanted,
+        works: &mut |_| true,
     };
     base::moved_to(&mut case).or_else(|| base::turned_to(&mut case))
 }
@@ -156,11 +170,19 @@ pub fn stated_direction(asked: &RoughVcut, direction: Direction) -> Vec<(Span, S
     process::stated(asked, "direction", asked.direction.span, direction.word()).edits
 }
 
+/// What is found and confirmed.
+fn tried<'c>(case: &mut Case<'c>, find: impl FnOnce(&mut Case<'c>) -> Option<Remedy>) -> Option<Remedy> {
+    let found = find(case)?;
+    case.confirmed(found)
+}
+
 /// Lower speeds, and where they would be far lower, another posture before them.
 fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
-    match speed::lowered(case) {
+    let lowered = speed::lowered(case);
+    let lowered = lowered.and_then(|(remedy, loss)| Some((case.confirmed(remedy)?, loss)));
+    match lowered {
         Some((remedy, speed::Loss::Bearable)) => {
-            let base = base::moved(case);
+            let base = tried(case, base::moved);
             core::iter::once(remedy).chain(base).collect()
         }
         Some((remedy, speed::Loss::Severe)) => {
@@ -175,9 +197,9 @@ fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
 
 /// The same cuts in another way, cuts that ask less of the arm, or the work in another place: one of each kind.
 fn elsewhere(case: &mut Case<'_>) -> Vec<Remedy> {
-    let way = process::other_direction(case).or_else(|| process::other_order(case));
-    let swing = process::smaller_swing(case);
-    let base = base::moved(case).or_else(|| base::turned(case));
+    let way = tried(case, process::other_direction).or_else(|| tried(case, process::other_order));
+    let swing = tried(case, process::smaller_swing);
+    let base = tried(case, base::moved).or_else(|| tried(case, base::turned));
     [way, swing, base].into_iter().flatten().collect()
 }
 
@@ -206,7 +228,7 @@ pub fn offer(diagnostic: Diagnostic, remedies: &[Remedy], general: &str) -> Diag
         return diagnostic
             .help(general)
             .note(
-                "no single change of speeds, direction, order, swing, home or base that was tried is enough",
+                "changing any one of speed, direction, order, swing, home or base did not help, as far as was tried",
             )
             .help("run `vcutc place` on this job: it searches around the base, or as far as `--x`, `--y`, `--z` and `--yaw` say, for a place that works");
     }

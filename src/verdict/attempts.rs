@@ -45,16 +45,8 @@ impl<'a> Attempts<'a> {
         self.case
     }
 
-    /// Whether swings may be changed: a machine that follows one need not follow another, and is not asked here.
-    pub(super) const fn may_change_swings(&self) -> bool {
-        self.case.job.machine.is_none()
-    }
-
     /// All that the operation gives of its cuts left to the compiler, if that works.
     pub(super) fn all_open(&mut self, asked: &RoughVcut) -> Option<Offer> {
-        if !self.may_change_swings() {
-            return None;
-        }
         Offer::all_open(asked).filter(|offer| self.prove(|asked| asked.clone_from(&offer.changed)))
     }
 
@@ -103,8 +95,7 @@ pub(super) fn attempt(
 /// The plan and proof of a job in which nothing is wrong. None for who no longer wants it.
 pub(super) fn planned_and_proven(case: Case<'_>, latitude: Latitude) -> Option<(PlannedJob, Proven)> {
     let choose = || choice::choose_while(case.job, Leeway::along(latitude), case.wanted);
-    let (plan, diagnostics) = case.wanted.answer(choose).ok()?;
-    let plan = plan.filter(|_| diagnostics.is_empty())?;
+    let plan = case.wanted.answer(choose).ok()?.ok()?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
     (proven.findings == Findings::default()).then_some((plan, proven))
 }

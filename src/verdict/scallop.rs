@@ -139,7 +139,6 @@ fn limit_or_swing(
         };
     }
     if let (Auto::Given(swing), Some(span), None) = (asked.swing.value, asked.swing.span, &asked.tips)
-        && attempts.may_change_swings()
         && let Some(narrower) = swing_that_keeps_it(attempts, swing)
     {
         let value = format!("{} deg", show(narrower.to_deg()));

@@ -28,6 +28,8 @@ mod fmt;
 #[cfg(all(feature = "gcode", feature = "krl"))]
 mod gcode;
 #[cfg(feature = "krl")]
+mod help;
+#[cfg(feature = "krl")]
 mod hostile;
 #[cfg(all(feature = "cli", feature = "gcode", feature = "krl", feature = "rapid"))]
 mod jobs;

@@ -7,6 +7,7 @@ use crate::cli::args::WatchArgs;
 use crate::cli::compile::{Product, make, nothing, pointless_output, program_of, tell, unreadable};
 use crate::cli::console::{Console, Failure, Summary};
 use crate::cli::files::Disk;
+use crate::cli::patience::Waiting;
 use crate::cli::progress::Progress;
 use crate::driver::{self, Outcome, Request, RequestError};
 use crate::memory::Memory;
@@ -96,7 +97,8 @@ impl<'a> Watched<'a> {
             ..self.args.overrides.request(&disk, self.targets)
         };
         let enter = &mut |stage| progress.enter(stage);
-        let outcome = match driver::compile_while(request, memory, wanted, enter) {
+        let waiting = &mut Waiting::unseen(console.help_budget());
+        let outcome = match driver::compile_while(request, memory, wanted, waiting, enter) {
             Err(Needless) => return Came::Needless,
             Ok(Err(RequestError::Unreadable(reason))) => {
                 drop(progress);

@@ -354,6 +354,8 @@ fn crossing<'a>(
 
 impl Leaving {
     fn diagnostic(&self, strip: &Strip, trace: &Trace, stock: Spanned<Stock>) -> Diagnostic {
+        // Upwards in the digits that are shown, so that what is offered is enough.
+        let enough = |length: f64| mm(up(length));
         let span = strip.piece_at(trace, self.farthest, stock.span);
         let height = stock.node.height.to_mm();
         let (headline, help) = match self.way {
@@ -361,13 +363,13 @@ impl Leaving {
                 "the profile rises above the stock",
                 format!(
                     "make the stock at least {} high, or lower the profile by {}",
-                    mm(height + self.excess),
-                    mm(self.excess)
+                    enough(height + self.excess),
+                    enough(self.excess)
                 ),
             ),
             Way::Below => (
                 "the profile sinks below the stock",
-                format!("raise the profile by {}", mm(self.excess)),
+                format!("raise the profile by {}", enough(self.excess)),
             ),
         };
         let label = format!(
@@ -382,5 +384,38 @@ impl Leaving {
                 format!("the stock reaches from z = 0 mm to z = {}", mm(height)),
             )
             .help(help)
+    }
+}
+
+/// A length in mm rounded up to what six digits show of it, and no finer than to a micrometre.
+fn up(length: f64) -> f64 {
+    let per_mm = match length {
+        short if short < 1000.0 => 1000.0,
+        long if long < 10_000.0 => 100.0,
+        _ => 10.0,
+    };
+    ((length - SAME) * per_mm).ceil() / per_mm
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_offered_is_enough_in_the_digits_that_are_shown() {
+        for length in [
+            0.000_048_8,
+            51.987_548_8,
+            151.987_51,
+            1000.000_1,
+            1051.987_548_8,
+            10_000.04,
+        ] {
+            let text = mm(up(length));
+            let shown: f64 = text.trim_end_matches(" mm").parse().unwrap();
+            assert!(shown >= length - SAME, "{text} for {length}");
+            assert!(shown <= length + 0.1, "{text} for {length}");
+        }
+        assert_eq!(mm(up(52.0)), "52 mm", "a length that can be written stays");
     }
 }

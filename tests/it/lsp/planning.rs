@@ -2,6 +2,7 @@
 
 use super::editor::{BLADES, Editor, RIB, uri};
 use serde_json::{Value, json};
+use vcutc::driver::Unhurried;
 use vcutc::lsp::Task;
 use vcutc::memory::Memory;
 use vcutc::registry;
@@ -65,6 +66,35 @@ fn what_planning_finds_is_told_and_taken_back() {
     assert_eq!(editor.codes(PATH), [""; 0], "nothing is known of this text yet");
     plan(&mut editor);
     assert_eq!(editor.codes(PATH), ["VC0401"]);
+}
+
+#[test]
+fn a_refusal_is_told_before_help_is_looked_for() {
+    let deep = RIB
+        .replace("layer = 5 mm", "layer = 8 mm")
+        .replace("swing = auto", "swing = 45 deg")
+        .replace("step  = auto", "step  = 16 mm");
+    let mut editor = Editor::with(&[("rib.vcut", &deep), ("blades.vcut", BLADES)]);
+    editor.open(PATH);
+    let task = editor.server.task().unwrap();
+    let mut early = Vec::new();
+    let done = task.run_telling(
+        &editor.files,
+        &registry::backends(),
+        &mut Memory::none(),
+        (&mut Unhurried, &mut |done| early.push(done)),
+    );
+    assert_eq!(early.len(), 1);
+    let mut texts = Vec::new();
+    for done in early.into_iter().chain([done]) {
+        let messages = editor.server.finish(done);
+        texts.push(serde_json::to_string(&messages).unwrap());
+        editor.take(&messages);
+        assert_eq!(editor.codes(PATH), ["VC0401"]);
+        assert!(editor.server.task().is_none(), "it is planned once");
+    }
+    assert!(texts.iter().all(|text| text.contains("VC0401")), "{texts:#?}");
+    assert_ne!(texts[0], texts[1], "help comes with the second message");
 }
 
 /// An answer for a text that has changed meanwhile is nobody's answer.

@@ -1,0 +1,174 @@
+//! A job that is refused: what there is to tell at once, and then what helps.
+//!
+//! A refusal is known as soon as a plan, a proof or the machine has failed, and whoever waits learns of it then
+//! ([`Patience::refused`]). Changes that help are looked for afterwards, for as long as they are wanted: each costs a plan, and
+//! mostly a proof of the whole program. What is offered for a job with a machine has been compiled as the text that comes of it
+//! ([`Trials`]).
+
+use super::target::{self, Objection};
+use super::trials::Trials;
+use crate::choice::Complaints;
+use crate::diag::Diagnostic;
+use crate::job::CheckedJob;
+use crate::plan::PlannedJob;
+use crate::reach::solve::Unreached;
+use crate::reach_verdict;
+use crate::source::SourceMap;
+use crate::verdict::{self, Proven};
+use crate::wanted::Wanted;
+
+/// Who waits for an outcome, and for how long.
+pub trait Patience {
+    /// The job is refused, and this is what there is to tell but for changes that help. They are looked for afterwards, while
+    /// that is wanted.
+    fn refused(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) -> Wanted;
+
+    /// What to say of a search for help that ended because it was not wanted any longer.
+    fn cut_short(&self) -> Option<String>;
+}
+
+/// Who waits for as long as it takes. What is found then depends on the job alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Unhurried;
+
+impl Patience for Unhurried {
+    fn refused(&mut self, _: &[Diagnostic], _: &SourceMap) -> Wanted {
+        Wanted::ALWAYS
+    }
+
+    fn cut_short(&self) -> Option<String> {
+        None
+    }
+}
+
+/// Why a job is not compiled.
+pub(super) enum Refused<'j> {
+    /// There is no plan.
+    Unplanned(Complaints<'j>),
+    /// The plan's program breaks a rule, which is a fault of the compiler.
+    Broken(Box<PlannedJob>, Box<Diagnostic>),
+    /// The cuts are not sound.
+    Unsound(Box<PlannedJob>, Box<Proven>),
+    /// The machine does not carry it out.
+    Unreached(Box<NotCarriedOut>),
+    /// The target of the machine does not take it.
+    ByTarget(Box<NotTaken>),
+}
+
+/// A plan that the machine does not carry out.
+pub(super) struct NotCarriedOut {
+    pub(super) plan: PlannedJob,
+    /// What there is to tell besides.
+    pub(super) told: Vec<Diagnostic>,
+    pub(super) unreached: Unreached,
+    /// What to say of other plans that were tried.
+    pub(super) cut_short: Option<String>,
+}
+
+/// A program that a target does not take.
+pub(super) struct NotTaken {
+    pub(super) plan: PlannedJob,
+    /// What there is to tell besides.
+    pub(super) told: Vec<Diagnostic>,
+    pub(super) objections: Vec<Objection>,
+}
+
+impl Refused<'_> {
+    /// What there is to tell, before anything is tried.
+    pub(super) fn at_once(&self, job: &CheckedJob) -> Vec<Diagnostic> {
+        match self {
+            Self::Unplanned(complaints) => complaints.at_once(),
+            Self::Broken(_, internal) => vec![(**internal).clone()],
+            Self::Unsound(plan, proven) => verdict::diagnose_while(job, plan, proven, &Wanted::never()),
+            Self::Unreached(refused) => refused.in_words(job, |unreachable| {
+                reach_verdict::at_once(job, unreachable).into_iter().collect()
+            }),
+            Self::ByTarget(refused) => {
+                let objections = refused.objections.iter();
+                let objections = objections.map(|objection| objection.told.clone());
+                refused.told.iter().cloned().chain(objections).collect()
+            }
+        }
+    }
+
+    /// The same with changes that help, as far as they are wanted.
+    pub(super) fn with_help(
+        &self,
+        job: &CheckedJob,
+        wanted: &Wanted,
+        trials: &mut Trials<'_>,
+    ) -> Vec<Diagnostic> {
+        match self {
+            Self::Unplanned(complaints) => complaints.with_help(wanted, &mut |edits| trials.works(edits)),
+            Self::Broken(..) => self.at_once(job),
+            Self::Unsound(plan, proven) => verdict::diagnose_while(job, plan, proven, wanted),
+            Self::Unreached(refused) => refused.in_words(job, |unreachable| {
+                reach_verdict::diagnose(job, &refused.plan, unreachable, wanted, &mut |edits| {
+                    trials.works(edits)
+                })
+            }),
+            Self::ByTarget(refused) => {
+                let objections = refused.objections.iter();
+                let helped = objections.map(|objection| target::with_help(objection, trials));
+                refused.told.iter().cloned().chain(helped).collect()
+            }
+        }
+    }
+
+    /// The plan that was refused, if there is one.
+    pub(super) fn into_plan(self) -> Option<PlannedJob> {
+        match self {
+            Self::Unplanned(_) => None,
+            Self::Broken(plan, _) | Self::Unsound(plan, _) => Some(*plan),
+            Self::Unreached(refused) => Some(refused.plan),
+            Self::ByTarget(refused) => Some(refused.plan),
+        }
+    }
+}
+
+impl NotCarriedOut {
+    fn in_words(
+        &self,
+        job: &CheckedJob,
+        of_machine: impl FnOnce(&crate::reach::solve::Unreachable) -> Vec<Diagnostic>,
+    ) -> Vec<Diagnostic> {
+        let mut words = match &self.unreached {
+            Unreached::Unreachable(unreachable) => of_machine(unreachable),
+            Unreached::Rules(faults) => vec![super::internal(job, &super::rules_broken(faults))],
+            Unreached::Motion(faults) => vec![super::internal(job, &super::motions_broken(faults))],
+        };
+        if let Some(first) = words.first_mut() {
+            first.notes.extend(self.cut_short.clone());
+        }
+        self.told.iter().cloned().chain(words).collect()
+    }
+}
+
+/// Leaves out offers that do not work when the job is compiled as it then reads. A diagnostic that loses all of them gets what it
+/// said at once.
+pub(super) fn tried(
+    told: Vec<Diagnostic>,
+    at_once: &[Diagnostic],
+    trials: &mut Trials<'_>,
+) -> Vec<Diagnostic> {
+    let one = |mut diagnostic: Diagnostic| {
+        let before = diagnostic.fixes.len();
+        diagnostic.fixes.retain(|fix| {
+            let edits = fix.edits.iter();
+            let edits: Vec<_> = edits.map(|edit| (edit.span, edit.replacement.clone())).collect();
+            trials.works(&edits)
+        });
+        let is_same = |other: &&Diagnostic| {
+            other.code == diagnostic.code && other.primary.span == diagnostic.primary.span
+        };
+        if before > 0
+            && diagnostic.fixes.is_empty()
+            && diagnostic.help.is_empty()
+            && let Some(other) = at_once.iter().find(is_same)
+        {
+            diagnostic.help.clone_from(&other.help);
+        }
+        diagnostic
+    };
+    told.into_iter().map(one).collect()
+}

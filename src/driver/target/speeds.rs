@@ -1,0 +1,164 @@
+//! A speed that a target cannot write: values of the job's speeds with which it can, each compiled before it is offered.
+//!
+//! A target says of the first motion of a kind what its speed is and what it takes, as text with a unit. Both numbers are in the
+//! same unit, so their quotient is the factor by which the job's speed is off there; another motion may need twice that.
+
+use super::Objection;
+use crate::diag::Diagnostic;
+use crate::driver::trials::Trials;
+use crate::job::{CheckedJob, Operation, RoughVcut};
+use crate::plan::parameters::show;
+use crate::source::Span;
+use vcutc_backend_api::backend::BackendIssue;
+use vcutc_backend_api::ir::{Action, Program};
+
+/// How far beyond the factor of the first motion is looked.
+const FARTHER: [f64; 3] = [1.0, 2.0, 4.0];
+
+/// Speeds of a motion that a target does not take, and by which factor they are off.
+pub(super) struct Off {
+    /// By what the speed would have to be multiplied.
+    factor: f64,
+    speeds: Vec<Stated>,
+}
+
+/// A speed as the job states it.
+struct Stated {
+    field: &'static str,
+    /// In its unit.
+    value: f64,
+    unit: &'static str,
+    span: Span,
+}
+
+impl Off {
+    /// None where an objection is not to a speed.
+    pub(super) fn of(job: &CheckedJob, program: &Program, issue: &BackendIssue) -> Option<Self> {
+        let BackendIssue::OutOfRange {
+            op: Some(op),
+            what: "tip speed" | "reorientation rate",
+            value,
+            allowed,
+        } = issue
+        else {
+            return None;
+        };
+        let op = program.ops.get(op.0 as usize)?;
+        let Operation::RoughVcut(asked) = job.operations.get(usize::from(op.site.operation()?.0))?;
+        let speeds = match op.action {
+            Action::Cut { .. } => vec![cut(asked)],
+            Action::Approach { .. } | Action::Retract { .. } => vec![travel(asked)],
+            // Where the blade turns on its way, either of the two holds it back.
+            Action::Travel { .. } => vec![reorient(asked), travel(asked)],
+            Action::Turn { .. } => vec![reorient(asked)],
+            Action::Home
+            | Action::AxisTravel { .. }
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => Vec::new(),
+        };
+        Some(Self {
+            factor: factor(value, allowed)?,
+            speeds: speeds.into_iter().flatten().collect(),
+        })
+    }
+}
+
+fn cut(asked: &RoughVcut) -> Option<Stated> {
+    Some(Stated {
+        field: "cut",
+        value: asked.cut_feed.value.to_mm_per_s(),
+        unit: "mm/s",
+        span: asked.cut_feed.span?,
+    })
+}
+
+fn travel(asked: &RoughVcut) -> Option<Stated> {
+    Some(Stated {
+        field: "travel",
+        value: asked.travel_feed.value.to_mm_per_s(),
+        unit: "mm/s",
+        span: asked.travel_feed.span?,
+    })
+}
+
+fn reorient(asked: &RoughVcut) -> Option<Stated> {
+    Some(Stated {
+        field: "reorient",
+        value: asked.reorient_rate.value.to_rad_per_s().to_degrees(),
+        unit: "deg/s",
+        span: asked.reorient_rate.span?,
+    })
+}
+
+/// By what a value, such as `0.02 mm/min`, has to be multiplied to lie in a range, such as `0.05 to 99999 mm/min`.
+fn factor(value: &str, allowed: &str) -> Option<f64> {
+    let number = |text: &str| text.split(' ').next()?.parse::<f64>().ok();
+    let (least, most) = allowed.split_once(" to ")?;
+    let (value, least, most) = (number(value)?, number(least)?, number(most)?);
+    let factor = if value < least {
+        least / value
+    } else {
+        most / value
+    };
+    (factor.is_finite() && factor > 0.0).then_some(factor)
+}
+
+/// A speed that people like to write, on the far side of `value` as seen from `from`.
+fn rounded(value: f64, from: f64) -> f64 {
+    let scale = if value >= 10.0 { 1.0 } else { 1000.0 };
+    let scaled = value * scale;
+    let whole = if value > from {
+        (scaled - 1e-9).ceil()
+    } else {
+        (scaled + 1e-9).floor()
+    };
+    whole / scale
+}
+
+/// An objection with the first speed that the target takes and the machine follows.
+pub(in crate::driver) fn with_help(objection: &Objection, trials: &mut Trials<'_>) -> Diagnostic {
+    let told = objection.told.clone();
+    let Some(off) = &objection.off else { return told };
+    let candidates = off.speeds.iter().flat_map(|stated| {
+        FARTHER.map(|farther| {
+            let factor = if off.factor > 1.0 {
+                off.factor * farther
+            } else {
+                off.factor / farther
+            };
+            (stated, rounded(stated.value * factor, stated.value))
+        })
+    });
+    for (stated, value) in candidates.filter(|(_, value)| *value > 0.0) {
+        let text = format!("{} {}", show(value), stated.unit);
+        if trials.works(&[(stated.span, text.clone())]) {
+            let mut told = told;
+            told.help.clear();
+            return told.fix(format!("use `{} = {text}`", stated.field), stated.span, text);
+        }
+    }
+    told
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_factor_leads_into_the_range() {
+        let of = |value: &str| factor(value, "0.05 to 99999.0 mm/min");
+        assert_eq!(of("0.025 mm/min"), Some(2.0));
+        assert_eq!(of("199998 mm/min"), Some(0.5));
+        assert_eq!(factor("12", "1 to many"), None);
+    }
+
+    #[test]
+    fn speeds_are_rounded_away_from_what_does_not_work() {
+        assert_eq!(rounded(82.816, 40.0), 83.0);
+        assert_eq!(rounded(82.816, 100.0), 82.0);
+        assert_eq!(rounded(0.12345, 1.0), 0.123);
+        assert_eq!(rounded(83.0, 40.0), 83.0, "a round number stays");
+    }
+}

@@ -1,0 +1,190 @@
+//! Changes of a job's text, compiled before they are offered.
+//!
+//! What works for the planner need not be followed by the machine of the job, nor be taken by its target. So a change is made in
+//! the text, exactly as an editor would make it, and the text is compiled as far as these two. How often that is done for one
+//! refusal is bounded by a number of cuts.
+
+use super::{Ended, Kept, Request, Stage, Unhurried, along_its_routes, target};
+use crate::diag::{Code, Diagnostic, Edit, fix, has_errors};
+use crate::memory::Memory;
+use crate::plan::{PlannedJob, PlannedOperation};
+use crate::sema;
+use crate::source::{FileId, LoadError, Loader, SourceMap, Span};
+use crate::wanted::Wanted;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most changes that are compiled for one refusal.
+const MOST_TRIALS: usize = 12;
+
+/// Most cuts of the plans that come of them together, beyond two changes.
+const MOST_CUTS: usize = 6_000;
+
+/// What is replaced in a text, and by what.
+type Edits = Vec<(Span, String)>;
+
+/// Changes of one refused job.
+pub(super) struct Trials<'t> {
+    request: Request<'t>,
+    sources: &'t SourceMap,
+    /// What is wrong with the job as it is.
+    errors: Vec<(Code, String)>,
+    wanted: Wanted,
+    known: Vec<(Edits, Verdict)>,
+    cuts: usize,
+    machine: Machine,
+}
+
+/// Whether anybody comes after planning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Machine {
+    /// The job has a machine.
+    Here,
+    /// What was planned and proven is all there is to try.
+    None,
+}
+
+/// What came of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Works,
+    Fails,
+}
+
+impl<'t> Trials<'t> {
+    pub(super) fn of(
+        request: Request<'t>,
+        sources: &'t SourceMap,
+        told: &[Diagnostic],
+        machine: Machine,
+        wanted: &Wanted,
+    ) -> Self {
+        Self {
+            request,
+            sources,
+            errors: told.iter().map(named).collect(),
+            wanted: wanted.clone(),
+            known: Vec::new(),
+            cuts: 0,
+            machine,
+        }
+    }
+
+    /// Whether the job compiles with a change, or what is left of its errors was there before and does not hold all of them.
+    pub(super) fn works(&mut self, edits: &[(Span, String)]) -> bool {
+        match self.machine {
+            Machine::None => return true,
+            Machine::Here => {}
+        }
+        if let Some((_, verdict)) = self.known.iter().find(|(known, _)| known == edits) {
+            return *verdict == Verdict::Works;
+        }
+        let is_enough = self.known.len() >= MOST_TRIALS || (self.known.len() >= 2 && self.cuts >= MOST_CUTS);
+        if is_enough || self.wanted.is_needless() {
+            return false;
+        }
+        let verdict = match self.compiled(edits) {
+            Some(left) if self.is_better(&left) => Verdict::Works,
+            Some(_) | None => Verdict::Fails,
+        };
+        if self.wanted.is_needless() {
+            return false;
+        }
+        self.known.push((edits.to_vec(), verdict));
+        verdict == Verdict::Works
+    }
+
+    fn is_better(&self, left: &[(Code, String)]) -> bool {
+        left.len() < self.errors.len().max(1) && left.iter().all(|one| self.errors.contains(one))
+    }
+
+    /// The errors of the changed job; none where it cannot be compiled at all.
+    fn compiled(&mut self, edits: &[(Span, String)]) -> Option<Vec<(Code, String)>> {
+        let loader = Edited {
+            texts: edited(self.sources, edits)?,
+            below: self.request.loader,
+        };
+        let Request {
+            path,
+            overrides,
+            machine,
+            options,
+            ..
+        } = self.request;
+        let choices = sema::Choices {
+            overrides,
+            machine,
+            options,
+        };
+        let (mut sources, mut told) = (SourceMap::default(), Vec::new());
+        let (_, job) = sema::check(path, &loader, choices, &mut sources, &mut told).ok()?;
+        let job = job.filter(|_| !has_errors(&told))?;
+        let mut kept = Kept {
+            memory: &mut Memory::none(),
+            wanted: &self.wanted,
+            patience: &mut Unhurried,
+        };
+        let ended = along_its_routes(&job, &sources, &mut kept, &mut |_: Stage| ());
+        let (plan, left) = match ended {
+            Ended::Compiled(plan, _, compiled) => {
+                let objections = target::objections(&job, &compiled, self.request);
+                let left = objections
+                    .iter()
+                    .map(|objection| named(&objection.told))
+                    .collect();
+                (Some(*plan), left)
+            }
+            Ended::Refused(refused) => {
+                let left = refused.at_once(&job).iter().map(named).collect();
+                (refused.into_plan(), left)
+            }
+            Ended::Overtaken => return None,
+        };
+        self.cuts += plan.as_ref().map_or(0, cuts);
+        Some(left)
+    }
+}
+
+fn named(diagnostic: &Diagnostic) -> (Code, String) {
+    (diagnostic.code, diagnostic.message.clone())
+}
+
+fn cuts(plan: &PlannedJob) -> usize {
+    let operations = plan.operations.iter();
+    operations
+        .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len())
+        .sum()
+}
+
+/// The texts that come of a change, by the paths of their files.
+fn edited(sources: &SourceMap, edits: &[(Span, String)]) -> Option<BTreeMap<String, String>> {
+    let edits: Vec<Edit> = edits
+        .iter()
+        .map(|(span, replacement)| Edit {
+            span: *span,
+            replacement: replacement.clone(),
+        })
+        .collect();
+    let files: BTreeSet<FileId> = edits.iter().map(|edit| edit.span.file).collect();
+    files
+        .into_iter()
+        .map(|id| {
+            let file = sources.get(id)?;
+            Some((file.name.clone(), fix::apply(&file.text, id, &edits)?))
+        })
+        .collect()
+}
+
+/// Changed texts over the files of a job.
+struct Edited<'e> {
+    texts: BTreeMap<String, String>,
+    below: &'e dyn Loader,
+}
+
+impl Loader for Edited<'_> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        match self.texts.get(path) {
+            Some(text) => Ok(text.clone().into_bytes()),
+            None => self.below.load(path),
+        }
+    }
+}
