@@ -1,4 +1,4 @@
-//! `vcutc report JOB -o FILE.html`: all there is to see of a job as one page.
+//! `vcutc report JOB -o FILE.html`: all there is to see of a job as one page, or its set-up sheet.
 
 use super::args::ReportArgs;
 use super::compile::unreadable;
@@ -6,11 +6,13 @@ use super::console::{Console, Failure, Summary};
 use super::files::Disk;
 use super::output::{Placed, one_file};
 use super::progress::Progress;
-use super::{Exit, Targets};
+use super::{Exit, Targets, targets};
 use crate::diag::has_errors;
-use crate::driver::{self, Outcome, RequestError, Stage};
+use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use crate::report::page::page;
+use crate::report::sheet::sheet;
 use std::path::Path;
+use vcutc_backend_api::backend::Backend;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {
@@ -22,8 +24,24 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
     }
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
-    let request = args.overrides.request(&disk, targets);
-    let outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
+    let target = match args
+        .target
+        .as_deref()
+        .map(|name| targets::find(targets, name))
+        .transpose()
+    {
+        Ok(target) => target,
+        Err(failure) => return console.failure(&failure),
+    };
+    let request = Request {
+        options: target.map_or_else(Typed::default, |target| Typed {
+            target: target.id(),
+            given: &args.options.option,
+            beside: "",
+        }),
+        ..args.overrides.request(&disk, targets)
+    };
+    let mut outcome = match driver::compile(request, &mut |stage| progress.enter(stage)) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);
@@ -31,7 +49,14 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         }
     };
     progress.enter(Stage::Emitting);
-    let page = page(&outcome);
+    let page = match document(args, target, &outcome) {
+        Ok(page) => page,
+        Err(EmitFailure::Diagnostics(refused)) => {
+            outcome.diagnostics.extend(refused);
+            None
+        }
+        Err(EmitFailure::Sink(reason)) => return console.failure(&Failure::new(reason)),
+    };
     let timings = progress.finish();
     let placed = match page
         .as_deref()
@@ -55,6 +80,27 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         timings: &timings,
     });
     exit(&outcome)
+}
+
+/// The report or the sheet; none while the job has errors.
+fn document(
+    args: &ReportArgs,
+    target: Option<&'static dyn Backend>,
+    outcome: &Outcome,
+) -> Result<Option<String>, EmitFailure> {
+    if !args.sheet {
+        return Ok(page(outcome));
+    }
+    let written = match target {
+        Some(target) => driver::write(outcome, target)?,
+        None => None,
+    };
+    let files: Vec<(&str, &[u8])> = written
+        .iter()
+        .flat_map(|written| written.bundle.files())
+        .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+        .collect();
+    Ok(sheet(outcome, &files))
 }
 
 fn exit(outcome: &Outcome) -> Exit {
