@@ -588,6 +588,19 @@ pub(super) struct ReportArgs {
     #[arg(long)]
     pub(super) open: bool,
 
+    /// Write the set-up sheet instead: one page to print, for the person at the machine
+    ///
+    /// Blade, frames with a sketch of the work's zero, stock, cuts by layer, time, and what has to be checked by hand.
+    #[arg(long)]
+    pub(super) sheet: bool,
+
+    /// Name the files of the program for this target, with their SHA-256, on the sheet
+    #[arg(long, value_name = "NAME", requires = "sheet")]
+    pub(super) target: Option<String>,
+
+    #[command(flatten)]
+    pub(super) options: TargetOptions,
+
     #[command(flatten)]
     pub(super) overrides: Overrides,
 }

@@ -1,4 +1,4 @@
-//! `vcutc report JOB -o FILE.html`: all there is to see of a job as one page.
+//! `vcutc report JOB -o FILE.html`: all there is to see of a job as one page, or its set-up sheet.
 
 use super::args::ReportArgs;
 use super::compile::unreadable;
@@ -8,12 +8,14 @@ use super::files::{Disk, stem};
 use super::output::{Placed, one_file};
 use super::patience;
 use super::progress::Progress;
-use super::{Exit, Targets};
+use super::{Exit, Targets, targets};
 use crate::diag::has_errors;
-use crate::driver::{Outcome, RequestError, Stage};
+use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
 use crate::report::page::page;
+use crate::report::sheet::sheet;
 use std::path::Path;
+use vcutc_backend_api::backend::Backend;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {
@@ -23,9 +25,25 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         Err(failure) => return console.failure(&failure),
     };
     let mut progress = Progress::start(console.shows_progress());
-    let request = args.overrides.request(&disk, targets);
+    let target = match args
+        .target
+        .as_deref()
+        .map(|name| targets::find(targets, name))
+        .transpose()
+    {
+        Ok(target) => target,
+        Err(failure) => return console.failure(&failure),
+    };
+    let request = Request {
+        options: target.map_or_else(Typed::default, |target| Typed {
+            target: target.id(),
+            given: &args.options.option,
+            beside: "",
+        }),
+        ..args.overrides.request(&disk, targets)
+    };
     let budget = console.help_budget();
-    let outcome = match patience::compile(request, &mut Memory::none(), budget, &mut progress) {
+    let mut outcome = match patience::compile(request, &mut Memory::none(), budget, &mut progress) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);
@@ -33,7 +51,14 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         }
     };
     progress.enter(Stage::Emitting);
-    let page = page(&outcome);
+    let page = match document(args, target, &outcome) {
+        Ok(page) => page,
+        Err(EmitFailure::Diagnostics(refused)) => {
+            outcome.diagnostics.extend(refused);
+            None
+        }
+        Err(EmitFailure::Sink(reason)) => return console.failure(&Failure::new(reason)),
+    };
     let timings = progress.finish();
     let placed = match page
         .as_deref()
@@ -90,6 +115,27 @@ fn shown(page: &str, exit: Exit, console: &Console) -> Exit {
                 .help("the page is written: open it by hand, or name a browser in the variable BROWSER"),
         ),
     }
+}
+
+/// The report or the sheet; none while the job has errors.
+fn document(
+    args: &ReportArgs,
+    target: Option<&'static dyn Backend>,
+    outcome: &Outcome,
+) -> Result<Option<String>, EmitFailure> {
+    if !args.sheet {
+        return Ok(page(outcome));
+    }
+    let written = match target {
+        Some(target) => driver::write(outcome, target)?,
+        None => None,
+    };
+    let files: Vec<(&str, &[u8])> = written
+        .iter()
+        .flat_map(|written| written.bundle.files())
+        .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+        .collect();
+    Ok(sheet(outcome, &files))
 }
 
 fn exit(outcome: &Outcome) -> Exit {

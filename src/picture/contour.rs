@@ -1,6 +1,6 @@
 //! What the cuts leave: the part, the machined contour above it, the chips that were taken out, and the highest scallop.
 
-use super::lattice::{MOST_DRAWN, PART};
+use super::lattice::{EDGE, PART, SHADES, Surface, is_many, shades, surfaces};
 use super::section::{BELOW, Section};
 use super::sheet::{self, Entry, HALO, INK, ORANGE};
 use super::svg::{Anchor, Svg, number};
@@ -19,8 +19,10 @@ pub struct Contour<'a> {
     pub part: &'a [[f64; 2]],
     /// The machined contour, from left to right.
     pub machined: &'a [[f64; 2]],
-    /// The chips in the order in which they come free. None are drawn when there are more than [`MOST_DRAWN`].
+    /// The chips in the order in which they come free. From a hundred on they are not drawn one by one.
     pub chips: &'a [Chip],
+    /// The surface when each layer is cut, in their order: what is drawn of many cuts.
+    pub surfaces: &'a [Surface],
     /// The highest scallop.
     pub highest: Highest,
 }
@@ -43,7 +45,6 @@ pub struct Highest {
     pub height: f64,
 }
 
-const SHADES: [&str; 2] = ["#f7f2e4", "#e8dec4"];
 const HIGHEST: &str = "#a3005c";
 
 /// The machined contour's line, finer where its teeth are many, so that it can be enlarged.
@@ -56,10 +57,11 @@ fn line(contour: &Contour<'_>) -> String {
 /// Writes the picture as SVG.
 #[must_use]
 pub fn draw(contour: &Contour<'_>) -> String {
-    let section = Section::of(contour.stock);
+    let section = Section::of(contour.stock, contour.heading.ids);
     let legend = legend(contour);
     let mut svg = sheet::sheet(
         contour.heading,
+        section.room,
         &description(contour),
         section.bottom + BELOW,
         &legend,
@@ -96,13 +98,12 @@ fn description(contour: &Contour<'_>) -> String {
 
 fn legend(contour: &Contour<'_>) -> Vec<Entry> {
     let mut legend = Vec::new();
-    if contour.chips.len() <= MOST_DRAWN {
+    if is_many(contour.chips.len()) {
+        legend.push(shades());
+    } else {
         let shade = |index: usize| format!("fill=\"{}\" stroke=\"{EDGE}\"", SHADES[index]);
         legend.push(Entry::area(shade(0), "chips of odd layers"));
-        legend.push(Entry::area(shade(1), "even layers"));
-    } else {
-        let words = format!("more than {MOST_DRAWN} cuts: chips are not drawn");
-        legend.push(Entry::area(format!("fill=\"{}\"", SHADES[0]), words));
+        legend.push(Entry::area(shade(1), "of even layers"));
     }
     legend.push(Entry::area(format!("fill=\"{ORANGE}\""), "stays on the part"));
     legend.push(Entry::line(line(contour), "machined contour"));
@@ -114,15 +115,13 @@ fn legend(contour: &Contour<'_>) -> Vec<Entry> {
     legend
 }
 
-/// Outlines of chips.
-const EDGE: &str = "#8f7f57";
-
 /// Chips of odd and of even layers are a path each.
 fn chips(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
-    section.stock(svg, &format!("fill=\"{}\"", SHADES[0]));
-    if contour.chips.len() > MOST_DRAWN {
+    if is_many(contour.chips.len()) {
+        surfaces(svg, contour.surfaces, section);
         return;
     }
+    section.stock(svg, &format!("fill=\"{}\"", SHADES[0]));
     let mut layers = [Trace::default(), Trace::default()];
     for chip in contour.chips {
         let [odd, even] = &mut layers;
@@ -166,8 +165,13 @@ fn highest(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
         share if share > 0.85 => (to[0].min(right - 6.0), Anchor::End),
         _ => (to[0], Anchor::Middle),
     };
+    // At the top its words would be beside the sheet, or touch the subtitle.
+    let y = match to[1] - 9.0 {
+        above if above > section.room.top + 4.0 => above,
+        _ => from[1] + 21.0,
+    };
     svg.text(
-        (x, to[1] - 9.0),
+        (x, y),
         anchor,
         &format!("font-weight=\"bold\" {HALO}"),
         &format!("{height:.2} mm"),

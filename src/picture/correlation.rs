@@ -1,7 +1,7 @@
 //! How two contours correlate when one is shifted against the other, as in figure 15 of [Cui 2020].
 
 use super::plot::{BELOW, Plot};
-use super::sheet::{self, BLUE, Entry, TOP, VERMILION};
+use super::sheet::{self, BLUE, Entry, Room, VERMILION};
 use super::svg::{Anchor, number};
 
 pub use super::sheet::Heading;
@@ -31,9 +31,15 @@ pub fn draw(correlation: &Correlation<'_>) -> String {
         .copied()
         .max_by(|a, b| a[1].total_cmp(&b[1]))
         .unwrap_or_default();
-    let bottom = TOP + HEIGHT;
+    let room = Room::of(correlation.heading.ids);
+    let bottom = room.top + HEIGHT;
     // Heights are positive, and so are their products.
-    let plot = Plot::new([-farthest, farthest.max(1.0)], [0.0, 1.1], [TOP, bottom]);
+    let plot = Plot::new(
+        room,
+        [-farthest, farthest.max(1.0)],
+        [0.0, 1.1],
+        [room.top, bottom],
+    );
     let words = format!("{:.4} at lag {}", highest[1], number(highest[0]));
     let description = format!(
         "{}. Normalised cross-correlation over the lag in points: a hill that is highest, {words}.",
@@ -43,9 +49,14 @@ pub fn draw(correlation: &Correlation<'_>) -> String {
         Entry::line(CURVE, "normalised cross-correlation"),
         Entry::line(marked(), "lag zero"),
     ];
-    let mut svg = sheet::sheet(correlation.heading, &description, bottom + BELOW, &legend);
+    let mut svg = sheet::sheet(correlation.heading, room, &description, bottom + BELOW, &legend);
     plot.ground(&mut svg);
-    let zero = format!("M{} {}V{}", number(plot.x.at(0.0)), number(TOP), number(bottom));
+    let zero = format!(
+        "M{} {}V{}",
+        number(plot.x.at(0.0)),
+        number(room.top),
+        number(bottom)
+    );
     svg.path(&zero, &marked());
     svg.path(plot.curve(&points).text(), CURVE);
     let [x, y] = plot.at(highest);

@@ -1,18 +1,24 @@
 //! Where the axes of a machine are all along a program: a panel for each, with its angle, how near it comes to its limits, and
 //! its rate.
 
+use super::band::{Band, MANY};
 use super::plot::Plot;
 use super::scale::Scale;
 use super::section::most_ticks;
-use super::sheet::{self, BLUE, Entry, INK, LEFT, RIGHT, TOP, VERMILION};
+use super::sheet::{self, BLUE, Entry, INK, Room, VERMILION};
 use super::svg::{Anchor, Svg, number};
 use super::times::KINDS;
 use super::trace::Trace;
+use super::{Prefix, Setting};
 
 pub use super::sheet::Heading;
 
-/// Columns that curves are looked at in: as many as the plot is wide.
-pub const COLUMNS: u32 = 570;
+/// Columns that curves are looked at in: as many as the widest plot is wide.
+pub const COLUMNS: u32 = 1050;
+/// The narrowest columns in which the turns of many cuts are looked at.
+const NARROWEST: f64 = 2.0;
+/// An axis with less than this share of half its range left, or with less than this share of its rate, is marked.
+const SCARCE: f64 = 0.05;
 
 /// What a picture of axes shows. Times are in s, values in the axis' unit; curves are thinned to [`COLUMNS`].
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +37,8 @@ pub struct Joints<'a> {
     pub spans: &'a [Span],
     /// When layers begin, and what they are called.
     pub layers: &'a [(f64, String)],
+    /// How many cuts there are. What the axes do in a hundred and more is drawn as the band that it fills.
+    pub cuts: usize,
 }
 
 /// An axis.
@@ -67,28 +75,32 @@ const GAP: f64 = 16.0;
 const PANEL: f64 = HEAD + VALUES + RATES + GAP;
 const CURVE: &str = "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-linejoin=\"round\"";
 const BEYOND: &str = "fill=\"#d55e00\" fill-opacity=\"0.25\"";
+const NEAR: &str = "fill=\"#d55e00\"";
+const BAND: &str = "fill=\"#0072b2\" fill-opacity=\"0.35\"";
 const USED: &str = "fill=\"#8a8577\"";
 const RATE: &str = "fill=\"#6d5a8c\"";
 
 /// Writes the picture as SVG.
 #[must_use]
 pub fn draw(joints: &Joints<'_>) -> String {
-    let panels = TOP + STRIP + 34.0;
+    let room = Room::of(joints.heading.ids);
+    let panels = room.top + STRIP + 34.0;
     let margins = panels + PANEL * joints.axes.len() as f64;
     let bottom = margins + HEAD + VALUES;
-    let time = Scale::new([0.0, joints.seconds], [LEFT, RIGHT]);
+    let time = Scale::new([0.0, joints.seconds], [room.left, room.right]);
     let mut svg = sheet::sheet(
         joints.heading,
+        room,
         &description(joints),
         bottom + 66.0,
         &legend(joints),
     );
-    strip(&mut svg, joints, &time);
+    strip(&mut svg, joints, &time, room);
     for (index, axis) in (0_u32..).zip(joints.axes) {
-        panel(&mut svg, axis, &time, panels + PANEL * f64::from(index));
+        panel(&mut svg, joints, axis, room, panels + PANEL * f64::from(index));
     }
-    let plot = margin(&mut svg, joints, margins, bottom);
-    plot.frame(&mut svg, "time, s", "");
+    let plot = margin(&mut svg, joints, room, [margins, bottom]);
+    plot.frame_over_time(&mut svg);
     svg.finish()
 }
 
@@ -118,6 +130,62 @@ fn words(axis: &Axis) -> String {
     )
 }
 
+/// The words above a panel. A telephone has no room for all of them.
+fn headline(axis: &Axis, ids: Prefix) -> String {
+    let [low, high] = extremes(&axis.values);
+    match ids.setting {
+        Setting::Alone | Setting::Page => words(axis),
+        Setting::Phone => {
+            let rate = axis
+                .highest_rate
+                .map(|rate| format!("; rate {:.0} %", rate * 100.0));
+            format!(
+                "{}: {low:.1} to {high:.1} {}{}",
+                axis.name,
+                axis.unit,
+                rate.unwrap_or_default()
+            )
+        }
+    }
+}
+
+/// What an axis has little left of, if anything.
+fn scarcity(axis: &Axis) -> Option<Scarce> {
+    let ([low, high], [min, max]) = (extremes(&axis.values), axis.limits);
+    let left = (low - min).min(max - high) / ((max - min) / 2.0).max(f64::MIN_POSITIVE);
+    let is_fast = axis.highest_rate.is_some_and(|rate| rate > 1.0 - SCARCE);
+    match (left < SCARCE, is_fast) {
+        (true, true) => Some(Scarce::Both),
+        (true, false) => Some(Scarce::Range),
+        (false, true) => Some(Scarce::Rate),
+        (false, false) => None,
+    }
+}
+
+/// What an axis has little left of.
+#[derive(Clone, Copy)]
+enum Scarce {
+    Range,
+    Rate,
+    Both,
+}
+
+impl Scarce {
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Range => "near a limit",
+            Self::Rate => "near its highest rate",
+            Self::Both => "near a limit and its highest rate",
+        }
+    }
+}
+
+/// The band that what many cuts do over time fills: in columns of more than a cut each, so that there are no gaps between them.
+fn turns(joints: &Joints<'_>, room: Room, curve: &[[f64; 2]]) -> Band {
+    let most = joints.cuts as f64 / 1.3;
+    Band::of(curve, most.min(room.across() / NARROWEST) as u32)
+}
+
 fn extremes(points: &[[f64; 2]]) -> [f64; 2] {
     let values = points.iter().map(|point| point[1]);
     let found = values.fold(None, |known: Option<[f64; 2]>, value| {
@@ -134,23 +202,31 @@ fn legend(joints: &Joints<'_>) -> Vec<Entry> {
         .map(|(_, (kind, colour))| Entry::area(format!("fill=\"{colour}\""), *kind))
         .collect();
     legend.extend([
-        Entry::line(CURVE, "value"),
-        Entry::area(RATE, "rate as share of the highest"),
-        Entry::area(BEYOND, "beyond a limit"),
-        Entry::area(USED, "used of the range (right)"),
+        if joints.cuts >= MANY {
+            Entry::area(
+                format!("{BAND} stroke=\"{BLUE}\""),
+                "value (turns drawn as a band)",
+            )
+        } else {
+            Entry::line(CURVE, "value")
+        },
+        Entry::area(RATE, "rate, of the axis' highest"),
+        Entry::area(BEYOND, "out of its limits"),
+        Entry::area(USED, "range used (bar at the right)"),
+        Entry::area(NEAR, "less than 5 % left"),
     ]);
     legend
 }
 
 /// What is done when: each column divided by the shares of kinds, and where layers begin.
-fn strip(svg: &mut Svg, joints: &Joints<'_>, time: &Scale) {
+fn strip(svg: &mut Svg, joints: &Joints<'_>, time: &Scale, room: Room) {
     let mut traces: Vec<Vec<[f64; 4]>> = vec![Vec::new(); joints.kinds.len()];
-    let shares = shares(joints);
-    let width = (RIGHT - LEFT) / f64::from(COLUMNS);
-    let mut left = LEFT;
+    let shares = shares(joints, room.columns());
+    let width = room.across() / f64::from(room.columns());
+    let mut left = room.left;
     for run in shares.chunk_by(|a, b| a == b) {
         let right = left + width * run.len() as f64;
-        let mut top = TOP;
+        let mut top = room.top;
         for (share, rects) in run.iter().take(1).flatten().zip(&mut traces) {
             if *share > 0.0 {
                 rects.push([left, top, right - left, share * STRIP]);
@@ -167,32 +243,37 @@ fn strip(svg: &mut Svg, joints: &Joints<'_>, time: &Scale) {
             );
         }
     }
-    layers(svg, joints, time);
+    layers(svg, joints, time, room);
 }
 
 /// Names of layers above where they begin, as many as there is room for.
-fn layers(svg: &mut Svg, joints: &Joints<'_>, time: &Scale) {
+fn layers(svg: &mut Svg, joints: &Joints<'_>, time: &Scale, room: Room) {
     let mut marks = String::new();
-    let mut free_from = LEFT;
+    let mut free_from = room.left;
     for (start, name) in joints.layers {
         let x = time.at(*start);
         let width = sheet::text_width(name);
-        if x >= free_from - 1e-9 && x + width <= RIGHT {
-            marks += &format!("M{} {}v5", number(x), number(TOP + STRIP));
-            svg.text((x, TOP + STRIP + 20.0), Anchor::Start, "", name);
+        if x >= free_from - 1e-9 && x + width <= room.right {
+            marks += &format!("M{} {}v5", number(x), number(room.top + STRIP));
+            svg.text((x, room.top + STRIP + 20.0), Anchor::Start, "", name);
             free_from = x + width + 10.0;
         }
     }
     if !marks.is_empty() {
         svg.path(&marks, &format!("stroke=\"{INK}\" fill=\"none\""));
     }
-    svg.text((LEFT - 10.0, TOP + STRIP + 20.0), Anchor::End, "", "layer");
+    svg.text(
+        (room.left - 10.0, room.top + STRIP + 20.0),
+        Anchor::End,
+        "",
+        "layer",
+    );
 }
 
 /// For each column, how much of its time each kind takes, in steps of a sixteenth so that neighbours are often alike.
-fn shares(joints: &Joints<'_>) -> Vec<Vec<f64>> {
-    let width = joints.seconds.max(f64::MIN_POSITIVE) / f64::from(COLUMNS);
-    let mut columns = vec![vec![0.0; joints.kinds.len()]; COLUMNS as usize];
+fn shares(joints: &Joints<'_>, count: u32) -> Vec<Vec<f64>> {
+    let width = joints.seconds.max(f64::MIN_POSITIVE) / f64::from(count);
+    let mut columns = vec![vec![0.0; joints.kinds.len()]; count as usize];
     for span in joints.spans {
         let [from, to] = span.time;
         let mut at = from;
@@ -218,36 +299,70 @@ fn shares(joints: &Joints<'_>) -> Vec<Vec<f64>> {
 }
 
 /// The panel of an axis.
-fn panel(svg: &mut Svg, axis: &Axis, time: &Scale, top: f64) {
-    svg.text((24.0, top + 20.0), Anchor::Start, "", &words(axis));
+fn panel(svg: &mut Svg, joints: &Joints<'_>, axis: &Axis, room: Room, top: f64) {
+    let heading = headline(axis, joints.heading.ids);
+    let scarce = scarcity(axis);
+    svg.text((room.left - 42.0, top + 20.0), Anchor::Start, "", &heading);
+    if let Some(scarce) = scarce.filter(|_| joints.heading.ids.setting != Setting::Phone) {
+        let x = room.left - 42.0 + sheet::text_width(&heading) + 12.0;
+        let style = "font-weight=\"bold\"";
+        svg.coloured((x, top + 20.0), Anchor::Start, VERMILION, style, scarce.words());
+    }
     let [low, high] = seen(axis);
-    let plot = Plot::new(time.values, [low, high], [top + HEAD, top + HEAD + VALUES]);
+    let plot = Plot::new(
+        room,
+        [0.0, joints.seconds],
+        [low, high],
+        [top + HEAD, top + HEAD + VALUES],
+    );
     plot.ground(svg);
     let [min, max] = axis.limits;
     for [from, to] in [[low, min], [max, high]] {
         if to > from {
             let (upper, lower) = (plot.y.at(to), plot.y.at(from));
-            svg.rect([LEFT, upper, RIGHT - LEFT, lower - upper], BEYOND);
+            svg.rect([room.left, upper, room.across(), lower - upper], BEYOND);
         }
     }
-    svg.path(plot.curve(&axis.values).text(), CURVE);
+    let is_many = joints.cuts >= MANY;
+    if is_many {
+        let paint = format!("{BAND} stroke=\"{BLUE}\" stroke-width=\"0.8\"");
+        svg.path(plot.between(&turns(joints, room, &axis.values)).text(), &paint);
+    } else {
+        svg.path(plot.curve(&axis.values).text(), CURVE);
+    }
     let mut marks = String::new();
-    for (value, text) in plot.y.ticks(most_ticks(VALUES, 22.0)) {
+    for (value, text) in plot.y.ticks(most_ticks(VALUES, 20.0)) {
         let y = plot.y.at(value);
-        marks += &format!("M{} {}h-5", number(LEFT), number(y));
-        svg.text((LEFT - 9.0, y + 5.0), Anchor::End, "", &text);
+        marks += &format!("M{} {}h-5", number(room.left), number(y));
+        svg.text((room.left - 9.0, y + 5.0), Anchor::End, "", &text);
     }
     let bottom = top + HEAD + VALUES + RATES;
     if let Some(rates) = &axis.rates {
-        let plot = Plot::new(time.values, [0.0, 1.0], [bottom - RATES, bottom]);
-        svg.rect([LEFT, bottom - RATES, RIGHT - LEFT, RATES], "fill=\"#f3f0fa\"");
-        svg.path(plot.area(rates).text(), RATE);
-        svg.text((LEFT - 9.0, bottom - 8.0), Anchor::End, "", "rate");
+        let plot = Plot::new(room, [0.0, joints.seconds], [0.0, 1.0], [bottom - RATES, bottom]);
+        svg.rect(
+            [room.left, bottom - RATES, room.across(), RATES],
+            "fill=\"#f3f0fa\"",
+        );
+        let area = if is_many {
+            plot.area(&turns(joints, room, rates).upper)
+        } else {
+            plot.area(rates)
+        };
+        let paint = match scarce {
+            Some(Scarce::Rate | Scarce::Both) => NEAR,
+            Some(Scarce::Range) | None => RATE,
+        };
+        svg.path(area.text(), paint);
+        svg.text((room.left - 9.0, bottom - 8.0), Anchor::End, "", "rate");
     }
     let frame = format!("stroke=\"{INK}\" fill=\"none\"");
     svg.path(&marks, &frame);
-    svg.rect([LEFT, top + HEAD, RIGHT - LEFT, VALUES], &frame);
-    gauge(svg, axis, [top + HEAD, bottom]);
+    svg.rect([room.left, top + HEAD, room.across(), VALUES], &frame);
+    let used = match scarce {
+        Some(Scarce::Range | Scarce::Both) => NEAR,
+        Some(Scarce::Rate) | None => USED,
+    };
+    gauge(svg, axis, used, [room.right + 12.0, top + HEAD, bottom]);
 }
 
 /// The values that a panel shows: those that are taken, widened, and the limits where these are near.
@@ -270,13 +385,12 @@ fn seen(axis: &Axis) -> [f64; 2] {
 }
 
 /// The whole range of an axis, and what is used of it.
-fn gauge(svg: &mut Svg, axis: &Axis, [top, bottom]: [f64; 2]) {
+fn gauge(svg: &mut Svg, axis: &Axis, used: &str, [left, top, bottom]: [f64; 3]) {
     let range = Scale::new(axis.limits, [bottom, top]);
     let [low, high] = extremes(&axis.values).map(|value| value.clamp(range.values[0], range.values[1]));
-    let left = RIGHT + 12.0;
     svg.rect([left, top, 16.0, bottom - top], "fill=\"#ffffff\"");
     let (upper, lower) = (range.at(high), range.at(low));
-    svg.rect([left, upper, 16.0, (lower - upper).max(1.5)], USED);
+    svg.rect([left, upper, 16.0, (lower - upper).max(1.5)], used);
     svg.rect(
         [left, top, 16.0, bottom - top],
         &format!("fill=\"none\" stroke=\"{INK}\""),
@@ -284,27 +398,34 @@ fn gauge(svg: &mut Svg, axis: &Axis, [top, bottom]: [f64; 2]) {
 }
 
 /// The smallest margin over time.
-fn margin(svg: &mut Svg, joints: &Joints<'_>, top: f64, bottom: f64) -> Plot {
+fn margin(svg: &mut Svg, joints: &Joints<'_>, room: Room, [top, bottom]: [f64; 2]) -> Plot {
     let [_, most] = extremes(joints.margin);
     let words = "smallest margin of any axis, %";
-    svg.text((24.0, top + 20.0), Anchor::Start, "", words);
+    svg.text((room.left - 42.0, top + 20.0), Anchor::Start, "", words);
     let percent: Vec<[f64; 2]> = joints
         .margin
         .iter()
         .map(|[time, share]| [*time, share * 100.0])
         .collect();
     let plot = Plot::new(
+        room,
         [0.0, joints.seconds],
         [0.0, (most * 110.0).clamp(10.0, 100.0)],
         [top + HEAD, bottom],
     );
     plot.ground(svg);
-    svg.path(
-        plot.area(&percent).text(),
-        &format!("fill=\"{BLUE}\" fill-opacity=\"0.18\""),
-    );
-    let line: Trace = plot.curve(&percent);
-    svg.path(line.text(), CURVE);
+    if joints.cuts >= MANY {
+        let band = turns(joints, room, &percent);
+        svg.path(plot.between(&band).text(), BAND);
+        svg.path(plot.curve(&band.lower).text(), CURVE);
+    } else {
+        svg.path(
+            plot.area(&percent).text(),
+            &format!("fill=\"{BLUE}\" fill-opacity=\"0.18\""),
+        );
+        let line: Trace = plot.curve(&percent);
+        svg.path(line.text(), CURVE);
+    }
     svg.path(
         &plot.level(0.0),
         &format!("stroke=\"{VERMILION}\" stroke-width=\"2\" fill=\"none\""),

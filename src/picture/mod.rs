@@ -2,8 +2,10 @@
 //!
 //! Each picture takes plain numbers and knows nothing of jobs, plans and programs. What several of them share: the sheet
 //! with its headings and legend (`sheet`), scales with round values (`scale`), the x-z section (`section`), plots of
-//! curves (`plot`), paths in relative coordinates (`trace`), and curves of any number of points in as many as can be seen (`thin`).
+//! curves (`plot`), what lies between the lowest and the highest of a curve (`band`), colours and their partners on a dark
+//! ground (`palette`), paths in relative coordinates (`trace`), and curves of any number of points in as many as can be seen (`thin`).
 
+mod band;
 pub mod blade;
 pub mod contour;
 pub mod correlation;
@@ -12,30 +14,64 @@ pub mod heat_map;
 pub mod joints;
 pub mod lattice;
 mod marks;
+mod palette;
 pub mod pareto;
 pub mod paths;
 mod plot;
 mod scale;
 mod section;
+pub mod setup;
 mod sheet;
 mod svg;
 pub mod thin;
 pub mod times;
 mod trace;
 
+pub(crate) use palette::dark;
+pub use sheet::{PAGE_WIDTH, PHONE_WIDTH};
 pub(crate) use svg::escaped;
 
-/// What the ids within a picture begin with. Pictures that stand in one page need different ones.
+/// What the ids within a picture begin with, and where it is shown. Pictures that stand in one page need different ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Prefix(&'static str);
+pub struct Prefix {
+    ids: &'static str,
+    setting: Setting,
+}
+
+/// Where a picture is shown: decides how wide it is drawn, and whether its words stand on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Setting {
+    /// By itself, with title and subtitle.
+    Alone,
+    /// In a page on a wide screen or on paper, which has the words.
+    Page,
+    /// In a page on a telephone.
+    Phone,
+}
 
 impl Prefix {
     /// For pictures that stand alone.
-    pub const NONE: Self = Self("");
+    pub const NONE: Self = Self {
+        ids: "",
+        setting: Setting::Alone,
+    };
 
-    /// Ids that begin with a name, which should begin with a letter and have no blanks, such as `lattice-`.
+    /// Ids that begin with a name, which should begin with a letter and have no blanks, such as `lattice-`: for a page that is
+    /// as wide as [`PAGE_WIDTH`].
     #[must_use]
     pub const fn new(name: &'static str) -> Self {
-        Self(name)
+        Self {
+            ids: name,
+            setting: Setting::Page,
+        }
+    }
+
+    /// The same for the screen of a telephone, [`PHONE_WIDTH`] wide.
+    #[must_use]
+    pub const fn for_phones(name: &'static str) -> Self {
+        Self {
+            ids: name,
+            setting: Setting::Phone,
+        }
     }
 }

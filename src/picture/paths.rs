@@ -6,7 +6,7 @@
 pub use super::sheet::Heading;
 
 use super::section::most_ticks;
-use super::sheet::{self, BLUE, Entry, INK, LEFT, RIGHT, TOP, VERMILION};
+use super::sheet::{self, BLUE, Entry, INK, LEFT, RIGHT, Room, TOP, VERMILION, WIDTH};
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 
@@ -45,7 +45,13 @@ const EDGES: &str = "fill=\"none\" stroke=\"#9c8a5c\" stroke-dasharray=\"4 4\"";
 pub fn draw(paths: &Paths<'_>) -> String {
     let view = View::of(paths);
     let legend = legend(paths);
-    let mut svg = sheet::sheet(paths.heading, &description(paths), view.bottom + 30.0, &legend);
+    let mut svg = sheet::sheet(
+        paths.heading,
+        Room::of(paths.heading.ids).of_width(WIDTH),
+        &description(paths),
+        view.bottom + 30.0,
+        &legend,
+    );
     remains(&mut svg, paths, &view);
     let mut blades = Trace::default();
     if paths.blades.len() <= MOST_BLADES {

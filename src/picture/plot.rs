@@ -1,8 +1,9 @@
 //! A plot of curves over a value: its frame, axes and grid.
 
+use super::band::Band;
 use super::scale::Scale;
 use super::section::most_ticks;
-use super::sheet::{INK, LEFT, RIGHT};
+use super::sheet::{INK, Room};
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 
@@ -18,9 +19,9 @@ pub(super) struct Plot {
 
 impl Plot {
     /// A plot over the whole width, from `top` to `bottom`.
-    pub(super) fn new(xs: [f64; 2], ys: [f64; 2], [top, bottom]: [f64; 2]) -> Self {
+    pub(super) fn new(room: Room, xs: [f64; 2], ys: [f64; 2], [top, bottom]: [f64; 2]) -> Self {
         Self {
-            x: Scale::new(xs, [LEFT, RIGHT]),
+            x: Scale::new(xs, [room.left, room.right]),
             y: Scale::new(ys, [bottom, top]),
         }
     }
@@ -33,6 +34,16 @@ impl Plot {
     /// A curve.
     pub(super) fn curve(&self, points: &[[f64; 2]]) -> Trace {
         Trace::through(points.iter().map(|&point| self.at(point)))
+    }
+
+    /// What lies between a lower and an upper curve.
+    pub(super) fn between(&self, band: &Band) -> Trace {
+        let outline = band.upper.iter().chain(band.lower.iter().rev());
+        let mut trace = Trace::default();
+        if !band.upper.is_empty() {
+            trace.closed(outline.map(|&point| self.at(point)));
+        }
+        trace
     }
 
     /// The area between a curve and the lowest value.
@@ -66,12 +77,25 @@ impl Plot {
 
     /// The frame with its values. Comes after curves.
     pub(super) fn frame(&self, svg: &mut Svg, x_label: &str, y_label: &str) {
+        let [left, right] = self.x.places;
+        let ticks = self.x.ticks(most_ticks(right - left, 80.0));
+        self.framed(svg, &ticks, x_label, y_label);
+    }
+
+    /// The same over a time in s, which is written as minutes and seconds.
+    pub(super) fn frame_over_time(&self, svg: &mut Svg) {
+        let [left, right] = self.x.places;
+        let clock = self.x.clock(most_ticks(right - left, 80.0));
+        self.framed(svg, &clock.ticks, clock.label, "");
+    }
+
+    fn framed(&self, svg: &mut Svg, ticks: &[(f64, String)], x_label: &str, y_label: &str) {
         let ([left, right], [bottom, top]) = (self.x.places, self.y.places);
         let mut marks = String::new();
-        for (value, text) in self.x.ticks(most_ticks(right - left, 80.0)) {
-            let at = self.x.at(value);
+        for (value, text) in ticks {
+            let at = self.x.at(*value);
             marks += &format!("M{} {}v6", number(at), number(bottom));
-            svg.text((at, bottom + 23.0), Anchor::Middle, "", &text);
+            svg.text((at, bottom + 23.0), Anchor::Middle, "", text);
         }
         for (value, text) in self.y_ticks() {
             let at = self.y.at(value);
@@ -88,8 +112,8 @@ impl Plot {
             x_label,
         );
         let middle = f64::midpoint(top, bottom);
-        let turned = format!("transform=\"rotate(-90 20 {})\"", number(middle));
-        svg.text((20.0, middle), Anchor::Middle, &turned, y_label);
+        let turned = format!("transform=\"rotate(-90 18 {})\"", number(middle));
+        svg.text((18.0, middle), Anchor::Middle, &turned, y_label);
     }
 
     fn y_ticks(&self) -> Vec<(f64, String)> {

@@ -30,6 +30,34 @@ impl Scale {
         ((self.places[1] - self.places[0]) / (self.values[1] - self.values[0])).abs()
     }
 
+    /// Values in s as times: at most this many steps of a round number of seconds, minutes or hours.
+    pub(super) fn clock(&self, most: u32) -> Clock {
+        const STEPS: [f64; 22] = [
+            0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 900.0, 1800.0, 3600.0,
+            7200.0, 14_400.0, 28_800.0, 86_400.0, 172_800.0, 432_000.0,
+        ];
+        let [from, to] = self.values;
+        let least = (to - from) / f64::from(most.max(1));
+        let step = STEPS.into_iter().find(|step| *step >= least * (1.0 - 1e-9));
+        if to <= 60.0 || step.is_none() {
+            return Clock {
+                ticks: self.ticks(most),
+                label: "time, s",
+            };
+        }
+        let (step, has_hours) = (step.unwrap_or(least), to >= 3600.0);
+        let first = (from / step).ceil();
+        let ticks = (0..=most)
+            .map(|tick| (first + f64::from(tick)) * step)
+            .take_while(|value| *value <= to + step * 1e-9);
+        Clock {
+            ticks: ticks
+                .map(|value| (value, clock_words(value, has_hours)))
+                .collect(),
+            label: if has_hours { "time, h:min:s" } else { "time, min:s" },
+        }
+    }
+
     /// Round values within, at most this many steps of them, and how they are written.
     pub(super) fn ticks(&self, most: u32) -> Vec<(f64, String)> {
         let [from, to] = self.values;
@@ -40,6 +68,25 @@ impl Scale {
             .map(|count| (count * step.size(), step.shown(count)))
             .take_while(|(value, _)| *value <= to + step.size() * 1e-9)
             .collect()
+    }
+}
+
+/// Times beside an axis.
+pub(super) struct Clock {
+    /// Each in s, and as it is written.
+    pub(super) ticks: Vec<(f64, String)>,
+    /// What they are, with their unit.
+    pub(super) label: &'static str,
+}
+
+/// `2:30`, or `1:02:30` where there are hours.
+fn clock_words(seconds: f64, has_hours: bool) -> String {
+    let whole = seconds.round() as u64;
+    let (hours, minutes, rest) = (whole / 3600, whole / 60 % 60, whole % 60);
+    if has_hours {
+        format!("{hours}:{minutes:02}:{rest:02}")
+    } else {
+        format!("{minutes}:{rest:02}")
     }
 }
 
@@ -93,6 +140,28 @@ mod tests {
         assert_eq!(shown([-185.0, 185.0], 4), ["-100", "0", "100"]);
         assert_eq!(shown([3.0, 3.0], 2), ["3.0", "3.5", "4.0"]);
         assert_eq!(shown([0.0, 12_345.0], 5), ["0", "5000", "10000"]);
+    }
+
+    #[test]
+    fn times_are_written_as_on_a_clock() {
+        let shown = |to, most| {
+            let clock = Scale::new([0.0, to], [0.0, 100.0]).clock(most);
+            let words = clock.ticks.into_iter().map(|(_, text)| text);
+            (words.collect::<Vec<_>>().join(" "), clock.label)
+        };
+        assert_eq!(shown(45.0, 3), ("0 20 40".to_owned(), "time, s"));
+        assert_eq!(shown(150.0, 3), ("0:00 1:00 2:00".to_owned(), "time, min:s"));
+        assert_eq!(
+            shown(211.0, 8),
+            (
+                "0:00 0:30 1:00 1:30 2:00 2:30 3:00 3:30".to_owned(),
+                "time, min:s"
+            )
+        );
+        assert_eq!(
+            shown(13_356.0, 4),
+            ("0:00:00 1:00:00 2:00:00 3:00:00".to_owned(), "time, h:min:s")
+        );
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The little of SVG that pictures here need.
 
 use super::Prefix;
+use super::sheet::INK;
 use core::fmt::Write;
 
 /// An SVG text under construction. Coordinates are written with two decimals, so that they are the same everywhere.
@@ -31,7 +32,7 @@ impl Svg {
     ) -> Self {
         let mut svg = Self { text: String::new() };
         let (width, height) = (number(width), number(height));
-        let ids = ids.0;
+        let ids = ids.ids;
         svg.line(&format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
              height=\"{height}\" role=\"img\" aria-labelledby=\"{ids}title {ids}description\" font-family=\"sans-serif\" \
@@ -88,7 +89,19 @@ impl Svg {
     }
 
     /// A text; `style` holds further attributes.
-    pub(super) fn text(&mut self, (x, y): (f64, f64), anchor: Anchor, style: &str, text: &str) {
+    pub(super) fn text(&mut self, at: (f64, f64), anchor: Anchor, style: &str, text: &str) {
+        self.coloured(at, anchor, INK, style, text);
+    }
+
+    /// A text in a colour.
+    pub(super) fn coloured(
+        &mut self,
+        (x, y): (f64, f64),
+        anchor: Anchor,
+        colour: &str,
+        style: &str,
+        text: &str,
+    ) {
         let anchor = match anchor {
             Anchor::Start => "",
             Anchor::Middle => " text-anchor=\"middle\"",
@@ -96,7 +109,7 @@ impl Svg {
         };
         let space = if style.is_empty() { "" } else { " " };
         self.line(&format!(
-            "  <text x=\"{}\" y=\"{}\"{anchor} fill=\"#2b2a27\"{space}{style}>{}</text>",
+            "  <text x=\"{}\" y=\"{}\"{anchor} fill=\"{colour}\"{space}{style}>{}</text>",
             number(x),
             number(y),
             escaped(text)

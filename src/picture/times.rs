@@ -1,8 +1,9 @@
 //! What time is spent on: a bar for each kind of motion, and one for each layer, divided by kind.
 
+use super::Setting;
 use super::scale::Scale;
 use super::section::most_ticks;
-use super::sheet::{self, BLUE, Entry, GREEN, INK, ORANGE, PURPLE, RIGHT, SKY, TOP};
+use super::sheet::{self, BLUE, Entry, GREEN, INK, ORANGE, PURPLE, Room, SKY};
 use super::svg::{Anchor, Svg, number};
 
 pub use super::sheet::Heading;
@@ -42,7 +43,10 @@ pub struct Row {
 pub(super) const KINDS: [&str; 5] = [BLUE, ORANGE, SKY, PURPLE, GREEN];
 /// Most rows: more layers are put together.
 const MOST_ROWS: usize = 30;
-const LEFT: f64 = 118.0;
+/// Room for names of rows.
+const NAMES: f64 = 118.0;
+/// Room for the words behind a bar.
+const WORDS: f64 = 170.0;
 const BAR: f64 = 18.0;
 const ROW: f64 = 25.0;
 
@@ -51,7 +55,13 @@ const ROW: f64 = 25.0;
 pub fn draw(times: &Times<'_>) -> String {
     let total: f64 = times.kinds.iter().map(|kind| kind.seconds).sum();
     let rows = gathered(times.rows);
-    let by_kind = TOP + 22.0;
+    let room = Room::of(times.heading.ids);
+    let edge = match times.heading.ids.setting {
+        Setting::Alone | Setting::Page => 24.0,
+        Setting::Phone => 8.0,
+    };
+    let left = edge + NAMES - 24.0;
+    let by_kind = room.top + 22.0;
     let shown = shown(times);
     let by_row = by_kind + shown.len() as f64 * ROW + 40.0;
     let bottom = by_row + rows.len() as f64 * ROW + 6.0;
@@ -61,20 +71,21 @@ pub fn draw(times: &Times<'_>) -> String {
         .fold(0.0, f64::max);
     let mut svg = sheet::sheet(
         times.heading,
+        room,
         &description(times, total),
         bottom + 62.0,
         &legend(times),
     );
     svg.text(
-        (24.0, TOP + 6.0),
+        (edge, room.top + 6.0),
         Anchor::Start,
         "font-weight=\"bold\"",
         "by kind of motion",
     );
-    let scale = Scale::new([0.0, longest_kind(times)], [LEFT, RIGHT - 170.0]);
+    let scale = Scale::new([0.0, longest_kind(times)], [left, room.right - WORDS]);
     for (number, (kind, colour)) in (0_u32..).zip(shown) {
         let y = by_kind + f64::from(number) * ROW;
-        svg.text((LEFT - 10.0, y + 14.0), Anchor::End, "", kind.name);
+        svg.text((left - 10.0, y + 14.0), Anchor::End, "", kind.name);
         bar(&mut svg, &scale, [0.0, kind.seconds], y, colour);
         let share = if total > 0.0 {
             kind.seconds / total * 100.0
@@ -90,16 +101,16 @@ pub fn draw(times: &Times<'_>) -> String {
         );
     }
     svg.text(
-        (24.0, by_row - 16.0),
+        (edge, by_row - 16.0),
         Anchor::Start,
         "font-weight=\"bold\"",
         "by layer",
     );
-    let scale = Scale::new([0.0, longest], [LEFT, RIGHT - 20.0]);
+    let scale = Scale::new([0.0, longest], [left, room.right - 20.0]);
     axis(&mut svg, &scale, [by_row - 6.0, bottom]);
     for (number, row) in (0_u32..).zip(&rows) {
         let y = by_row + f64::from(number) * ROW;
-        svg.text((LEFT - 10.0, y + 14.0), Anchor::End, "", &row.name);
+        svg.text((left - 10.0, y + 14.0), Anchor::End, "", &row.name);
         let mut from = 0.0;
         for (seconds, colour) in row.seconds.iter().zip(KINDS) {
             bar(&mut svg, &scale, [from, from + seconds], y, colour);
@@ -131,19 +142,21 @@ fn bar(svg: &mut Svg, scale: &Scale, [from, to]: [f64; 2], y: f64, colour: &str)
 
 fn axis(svg: &mut Svg, scale: &Scale, [top, bottom]: [f64; 2]) {
     let mut marks = String::new();
-    for (value, text) in scale.ticks(most_ticks(scale.places[1] - scale.places[0], 80.0)) {
+    let [left, right] = scale.places;
+    let clock = scale.clock(most_ticks(right - left, 80.0));
+    for (value, text) in clock.ticks {
         let at = scale.at(value);
         marks += &format!("M{} {}V{}", number(at), number(top), number(bottom + 6.0));
         svg.text((at, bottom + 23.0), Anchor::Middle, "", &text);
     }
     svg.path(&marks, "stroke=\"#dcd6c8\" fill=\"none\"");
-    let ground = format!("M{} {}H{}", number(LEFT), number(bottom), number(scale.places[1]));
+    let ground = format!("M{} {}H{}", number(left), number(bottom), number(right));
     svg.path(&ground, &format!("stroke=\"{INK}\" fill=\"none\""));
     svg.text(
-        (f64::midpoint(LEFT, scale.places[1]), bottom + 46.0),
+        (f64::midpoint(left, right), bottom + 46.0),
         Anchor::Middle,
         "",
-        "s",
+        clock.label,
     );
 }
 

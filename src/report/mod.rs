@@ -1,9 +1,11 @@
-//! `vcutc report`: all there is to see of a job as one page, and its pictures by themselves.
+//! `vcutc report`: all there is to see of a job as one page, its set-up sheet, and its pictures by themselves.
 
 mod base64;
+mod digest;
 pub mod page;
 pub mod pictures;
 pub mod playback;
+pub mod sheet;
 
 use crate::driver::{Compiled, Outcome};
 use crate::job::CheckedJob;

@@ -5,14 +5,15 @@
 //! all requests, so that a name in a job that got past the escaping would still be no more than text. There is no date and no path
 //! but the job's own in it: the same job gives the same bytes.
 
+mod ansi;
 mod cross_section;
 mod deviation;
 mod figure;
-mod html;
+pub(super) mod html;
 mod live;
 mod machine;
 mod parameters;
-mod policy;
+pub(super) mod policy;
 mod source;
 mod times;
 mod top;
@@ -20,6 +21,7 @@ mod top;
 use super::{Material, playback};
 use crate::diag::Diagnostic;
 use crate::driver::Outcome;
+use crate::picture::dark;
 use crate::source::SourceMap;
 use html::escaped;
 pub use live::Served;
@@ -52,45 +54,93 @@ const SCRIPT: &str = include_str!("assets/page.js");
 /// The page of an outcome; none while its job has errors.
 #[must_use]
 pub fn page(outcome: &Outcome) -> Option<String> {
-    made(outcome, None)
+    Some(document(&Content::of(outcome)?, None))
 }
 
-/// The page of an outcome for a browser that watches it; none while its job has errors.
+/// What a page shows, without what is around it: it can be shown once more below messages of errors.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Content {
+    /// The job's name, as HTML.
+    name: String,
+    /// Job, verdict, warnings and table of contents.
+    top: String,
+    /// Key numbers and sections.
+    body: String,
+}
+
+impl Content {
+    /// Of an outcome; none while its job has errors.
+    #[must_use]
+    pub fn of(outcome: &Outcome) -> Option<Self> {
+        let subject = Subject {
+            material: Material::of(outcome)?,
+            sources: &outcome.sources,
+            warnings: &outcome.diagnostics,
+        };
+        let listing = source::Listing::of(subject);
+        let sections = [
+            Some(played(subject)),
+            Some(cross_section::section(subject)),
+            Some(deviation::section(subject)),
+            machine::section(subject),
+            Some(times::section(subject)),
+            Some(parameters::section(subject, &listing)),
+            Some(listing.section()),
+        ];
+        let sections: Vec<Section> = sections.into_iter().flatten().collect();
+        let mut body = top::key_numbers(subject);
+        for Section {
+            id,
+            title,
+            body: held,
+        } in &sections
+        {
+            body += &format!(
+                "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{title}</h2>\n{held}</section>\n"
+            );
+        }
+        Some(Self {
+            name: escaped(&subject.material.job.name),
+            top: top::header(subject) + &contents(&sections),
+            body,
+        })
+    }
+}
+
+/// The page of an outcome for a browser that watches it.
 #[must_use]
-pub fn served_page(outcome: &Outcome, served: &Served) -> Option<String> {
-    made(outcome, Some(served))
+pub fn served_page(content: &Content, served: &Served) -> String {
+    document(content, Some(served))
 }
 
-/// What stands in place of the page while a job has errors: the messages, as they are printed.
+/// What is shown while a job has errors: the messages as they are printed on a terminal, with its colours (`messages` holds
+/// its sequences), and below them the last report without errors, marked as out of date.
 #[must_use]
-pub fn served_errors(job: &str, messages: &str, served: &Served) -> String {
-    let body = format!(
-        "<main id=\"content\" data-shows=\"errors\">\n<h1>{}</h1>\n<p>This job has errors.</p>\n<pre>{}</pre>\n</main>\n",
-        escaped(job),
-        escaped(messages)
-    );
-    let head = head(&format!("{} - errors", escaped(job)), &[], Some(served));
-    format!("{head}{body}{}</body>\n</html>\n", live::element())
-}
-
-fn made(outcome: &Outcome, served: Option<&Served>) -> Option<String> {
-    let subject = Subject {
-        material: Material::of(outcome)?,
-        sources: &outcome.sources,
-        warnings: &outcome.diagnostics,
+pub fn served_errors(job: &str, messages: &str, last: Option<&Content>, served: &Served) -> String {
+    let (scripts, stale): (&[&str], String) = match last {
+        None => (&[], String::new()),
+        Some(content) => (
+            &[SCRIPT, playback::SCRIPT],
+            format!(
+                "<div class=\"stale\" role=\"region\" aria-label=\"The last report without errors\">\n\
+                 <p class=\"stale-note\">Out of date: the last report without errors</p>\n{}{}</div>\n<script>{SCRIPT}</script>\n",
+                content.top, content.body
+            ),
+        ),
     };
-    let listing = source::Listing::of(subject);
-    let sections = [
-        Some(cross_section::section(subject)),
-        Some(deviation::section(subject)),
-        Some(played(subject)),
-        machine::section(subject),
-        Some(times::section(subject)),
-        Some(parameters::section(subject, &listing)),
-        Some(listing.section()),
-    ];
-    let sections: Vec<Section> = sections.into_iter().flatten().collect();
-    Some(document(subject, &sections, served))
+    let body = format!(
+        "<main id=\"content\" data-shows=\"errors\">\n<h1>{}</h1>\n<p class=\"trouble\" role=\"alert\">This job has errors.{}</p>\n\
+         <pre class=\"messages\" tabindex=\"0\">{}</pre>\n</main>\n",
+        escaped(job),
+        if last.is_some() {
+            " The last report without them is below."
+        } else {
+            ""
+        },
+        ansi::html(messages)
+    );
+    let head = head(&format!("{} - errors", escaped(job)), scripts, Some(served));
+    format!("{head}{body}{stale}{}</body>\n</html>\n", live::element())
 }
 
 /// The cuts played back in space.
@@ -116,27 +166,21 @@ fn head(title: &str, scripts: &[&str], served: Option<&Served>) -> String {
          <meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n{version}\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n",
+         <title>{title}</title>\n<style>\n{STYLE}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>\n</head>\n<body>\n",
         policy::policy(&scripts, requests),
+        dark(".view svg"),
     )
 }
 
-/// The document around the sections.
-fn document(subject: Subject<'_>, sections: &[Section], served: Option<&Served>) -> String {
-    let name = escaped(&subject.material.job.name);
-    let title = format!("{name} - vcutc report");
+/// The document around what it shows.
+fn document(content: &Content, served: Option<&Served>) -> String {
+    let title = format!("{} - vcutc report", content.name);
     let mut page = head(&title, &[SCRIPT, playback::SCRIPT], served);
     page += "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n";
     page += &served.map(Served::banner).unwrap_or_default();
-    page += &top::header(subject);
-    page += &contents(sections);
+    page += &content.top;
     page += "<main id=\"content\">\n";
-    page += &top::key_numbers(subject);
-    for Section { id, title, body } in sections {
-        page += &format!(
-            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{title}</h2>\n{body}</section>\n"
-        );
-    }
+    page += &content.body;
     page += "</main>\n<footer>Made by vcutc ";
     page += env!("CARGO_PKG_VERSION");
     page += ". The file is complete in itself: it loads nothing.</footer>\n<script>";

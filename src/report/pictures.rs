@@ -9,12 +9,13 @@ mod paths;
 mod time;
 
 pub use blade::blade;
-pub use joints::joints;
+pub use joints::{joints, joints_twice};
 pub use paths::paths;
 pub use time::time;
 
 use super::Material;
 use crate::geom::curve::Point2;
+use crate::picture::thin::Thinned;
 use crate::picture::{Prefix, contour, correlation, deviation, lattice};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut, TipOrigin};
@@ -24,7 +25,7 @@ use crate::verdict;
 /// The lattice: tips by origin, flanks, layers (`picture::lattice`).
 #[must_use]
 pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
-    let (_, chips) = machined(material);
+    let Machined { chips, surfaces, .. } = machined(material);
     let vees: Vec<[[f64; 2]; 3]> = chips.iter().filter_map(|chip| vee(&chip.outline)).collect();
     let bounds: Vec<Vec<[f64; 2]>> = vcuts(material)
         .filter(|vcut| vcut.asked.allowance.value.to_mm() > 0.0)
@@ -42,21 +43,33 @@ pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
         bounds: &bounds,
         tips: &tips(material),
         vees: &vees,
+        surfaces: &surfaces,
         layers: &layers(material),
     })
+}
+
+/// What stays on the part, in words.
+#[must_use]
+pub fn scallops(material: &Material<'_>) -> String {
+    let report = &material.compiled.report;
+    format!(
+        "highest scallop {:.2} mm, {:.2} mm on average; {:.2} mm² stay on the part",
+        report.scallop.height.to_mm(),
+        report.mean_scallop.to_mm(),
+        report.residual.to_mm2()
+    )
 }
 
 /// The machined contour, chips and scallops above the part (`picture::contour`).
 #[must_use]
 pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
-    let (machined, chips) = machined(material);
+    let Machined {
+        contour: machined,
+        chips,
+        surfaces,
+    } = machined(material);
     let report = &material.compiled.report;
-    let subtitle = format!(
-        "highest scallop {:.2} mm, {:.2} mm on average; {:.1} mm2 stay on the part",
-        report.scallop.height.to_mm(),
-        report.mean_scallop.to_mm(),
-        report.residual.to_mm2()
-    );
+    let subtitle = scallops(material);
     contour::draw(&contour::Contour {
         heading: contour::Heading {
             ids,
@@ -67,6 +80,7 @@ pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
         part: &pairs(material.plan.profile.points()),
         machined: &machined,
         chips: &chips,
+        surfaces: &surfaces,
         highest: contour::Highest {
             peak: pair(report.scallop.peak),
             height: report.scallop.height.to_mm(),
@@ -82,16 +96,7 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
     let mut points = corners(material);
     points.extend(sampled(&points));
     points.sort_by(|a, b| a.x.total_cmp(&b.x));
-    let subtitle = format!(
-        "largest deviation {:.2} mm, {}; correlation {:.2} %",
-        report.largest_deviation().to_mm(),
-        if report.hollow().is_some() {
-            "part from contour"
-        } else {
-            "contour from part"
-        },
-        report.correlation * 100.0
-    );
+    let subtitle = deviations(material);
     deviation::draw(&deviation::Deviation {
         heading: deviation::Heading {
             ids,
@@ -105,7 +110,26 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
             .map(|hollow| [hollow.peak.x, hollow.height.to_mm()]),
         mean: report.mean_scallop.to_mm(),
         limit: limit(material),
+        cuts: report.cuts(),
     })
+}
+
+/// How far the contours are apart, in words.
+#[must_use]
+pub fn deviations(material: &Material<'_>) -> String {
+    let report = &material.compiled.report;
+    let scallop = format!(
+        "highest scallop {:.2} mm, {:.2} mm on average",
+        report.scallop.height.to_mm(),
+        report.mean_scallop.to_mm()
+    );
+    match report.hollow() {
+        Some(hollow) => format!(
+            "{scallop}; deepest corner no cut reaches {:.2} mm",
+            hollow.height.to_mm()
+        ),
+        None => scallop,
+    }
 }
 
 /// The distance of the machined contour from the part, in mm, at 1000 evenly spaced x, in mm.
@@ -155,11 +179,44 @@ fn corners(material: &Material<'_>) -> Vec<Point2> {
         .collect()
 }
 
-/// The machined contour from left to right, and the chips in the order in which they come free.
-fn machined(material: &Material<'_>) -> (Vec<[f64; 2]>, Vec<contour::Chip>) {
+/// What the cuts make, as the proof replays them.
+struct Machined {
+    /// The machined contour, from left to right.
+    contour: Vec<[f64; 2]>,
+    /// The chips in the order in which they come free.
+    chips: Vec<contour::Chip>,
+    /// The surface after each layer, or after every few layers of many.
+    surfaces: Vec<lattice::Surface>,
+}
+
+/// Most surfaces that are kept: more layers could not be told apart.
+const MOST_SURFACES: usize = 60;
+/// Columns in which a surface is looked at.
+const COLUMNS: u32 = 2400;
+
+fn machined(material: &Material<'_>) -> Machined {
     let mut chips = Vec::new();
+    let mut surfaces = Vec::new();
+    let mut layer = None;
+    let mut passed = 0_usize;
+    let every = material
+        .compiled
+        .report
+        .layers
+        .len()
+        .div_ceil(MOST_SURFACES)
+        .max(1);
     let program = material.compiled.program.verified();
     let replay = verdict::watched(material.plan, program, &mut |surface, release| {
+        if layer
+            .replace(release.layer)
+            .is_some_and(|before| before != release.layer)
+        {
+            passed += 1;
+            if passed.is_multiple_of(every) {
+                surfaces.push(after(&surfaces, surface.corners()));
+            }
+        }
         if let Some(outline) = surface.chip(release.vee) {
             chips.push(contour::Chip {
                 layer: release.layer.get(),
@@ -167,7 +224,25 @@ fn machined(material: &Material<'_>) -> (Vec<[f64; 2]>, Vec<contour::Chip>) {
             });
         }
     });
-    (replay.surface.corners().map(pair).collect(), chips)
+    surfaces.push(after(&surfaces, replay.surface.corners()));
+    Machined {
+        contour: replay.surface.corners().map(pair).collect(),
+        chips,
+        surfaces,
+    }
+}
+
+/// A surface after those that there are.
+fn after(surfaces: &[lattice::Surface], corners: impl Iterator<Item = Point2>) -> lattice::Surface {
+    let corners: Vec<[f64; 2]> = corners.map(pair).collect();
+    lattice::Surface {
+        shade: if surfaces.len().is_multiple_of(2) {
+            lattice::Shade::Light
+        } else {
+            lattice::Shade::Dark
+        },
+        contour: Thinned::of(&corners, COLUMNS),
+    }
 }
 
 /// Where the left flank comes out, the tip, and where the right flank comes out: the ends of a chip's outline.
@@ -227,8 +302,9 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
     layers
 }
 
-/// How the cuts are laid out.
-fn laid_out(material: &Material<'_>) -> String {
+/// How the cuts are laid out, in words.
+#[must_use]
+pub fn laid_out(material: &Material<'_>) -> String {
     let report = &material.compiled.report;
     let (cuts, layers) = (report.cuts(), report.layers.len());
     let counted = |count: usize, one: &str| match count {

@@ -15,9 +15,8 @@ use super::args::WatchArgs;
 use super::console::{Console, Failure};
 use super::{Exit, Targets};
 use crate::diag::render::{ColorChoice, render};
-use crate::driver::Outcome;
 use crate::memory::Memory;
-use crate::report::page::{Served, served_errors, served_page};
+use crate::report::page::{Content, Served, served_errors, served_page};
 use crate::wanted::Wanted;
 use again::{Came, Means, Seen, Watched};
 use serde::Serialize;
@@ -25,6 +24,7 @@ use server::Server;
 use signals::{Attended, Signals, Woken};
 use stamps::{Asked, Stamps};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -73,7 +73,11 @@ fn prepare<'a>(args: &'a WatchArgs, targets: &'a Targets) -> Result<Watch<'a>, F
         Some(port) => Some(Server::start(port).map_err(|error| no_server(port, &error))?),
         None => None,
     };
-    Ok(Watch { watched, server })
+    Ok(Watch {
+        watched,
+        server,
+        last: Mutex::default(),
+    })
 }
 
 fn no_server(port: u16, error: &std::io::Error) -> Failure {
@@ -84,6 +88,8 @@ fn no_server(port: u16, error: &std::io::Error) -> Failure {
 struct Watch<'a> {
     watched: Watched<'a>,
     server: Option<Server>,
+    /// What the last run without errors showed.
+    last: Mutex<Option<Content>>,
 }
 
 /// A run, and the files that it asked for.
@@ -188,17 +194,24 @@ impl Watch<'_> {
     fn show(&self, seen: &Seen<'_>) {
         let Some(server) = &self.server else { return };
         let job = self.watched.job();
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         server.show(|version| match seen {
             Seen::Unreadable(failure) => {
-                let served = Served::new(version);
-                served_errors(job, &format!("{}\n", failure.message()), &served)
+                let message = format!("{}\n", failure.message());
+                served_errors(job, &message, last.as_ref(), &Served::new(version))
             }
             Seen::Outcome(outcome, trouble) => {
                 let served = match trouble {
                     None => Served::new(version),
                     Some(failure) => Served::with_trouble(version, failure.message()),
                 };
-                page(job, outcome, &served)
+                match Content::of(outcome) {
+                    Some(content) => served_page(last.insert(content), &served),
+                    None => {
+                        let messages = render(&outcome.diagnostics, &outcome.sources, ColorChoice::Colored);
+                        served_errors(job, &messages, last.as_ref(), &served)
+                    }
+                }
             }
         });
     }
@@ -221,12 +234,4 @@ impl Watch<'_> {
         };
         console.note("waiting", &text, body);
     }
-}
-
-/// The page of a job, or what is wrong with it.
-fn page(job: &str, outcome: &Outcome, served: &Served) -> String {
-    served_page(outcome, served).unwrap_or_else(|| {
-        let messages = render(&outcome.diagnostics, &outcome.sources, ColorChoice::Plain);
-        served_errors(job, &messages, served)
-    })
 }

@@ -112,7 +112,7 @@
     box.classList.toggle("more", box.scrollLeft + box.clientWidth < box.scrollWidth - 1);
   }
   const sized = new ResizeObserver((changes) => changes.forEach(({ target }) => hint(target)));
-  for (const box of document.querySelectorAll(".wide, [data-zoom] .view")) {
+  for (const box of document.querySelectorAll(".wide")) {
     box.addEventListener("scroll", () => hint(box), { passive: true });
     sized.observe(box);
   }

@@ -1,26 +1,36 @@
 //! The cross-section: where the tips run and what they leave.
 
-use super::figure::{Zoom, figure};
+use super::figure::{Ids, Zoom, figure};
 use super::{Section, Subject};
-use crate::picture::Prefix;
 use crate::report::pictures;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
     let contour = figure(
-        &pictures::contour(material, Prefix::new("contour-")),
+        &Ids {
+            page: "contour-",
+            phone: "contour-phone-",
+        },
         Zoom::Free,
-        "What the cuts leave of the stock, chip by chip, above the part.",
+        &format!(
+            "What the cuts leave of the stock above the part: {}.",
+            pictures::scallops(material)
+        ),
+        &|ids| pictures::contour(material, ids),
     );
     let lattice = figure(
-        &pictures::lattice(material, Prefix::new("lattice-")),
+        &Ids {
+            page: "lattice-",
+            phone: "lattice-phone-",
+        },
         Zoom::Free,
-        "Where the blade's tip runs and the V of each cut.",
+        &format!("Where the blade's tip runs: {}.", pictures::laid_out(material)),
+        &|ids| pictures::lattice(material, ids),
     );
     Section {
         id: "cross-section",
-        title: "Cross-section",
+        title: "Cut",
         body: contour + &lattice,
     }
 }

@@ -1,9 +1,8 @@
 //! How far what the cuts leave is from the part.
 
-use super::figure::{Zoom, figure};
+use super::figure::{Ids, Zoom, figure};
 use super::html::{Column, table};
 use super::{Section, Subject};
-use crate::picture::Prefix;
 use crate::report::pictures;
 use crate::sim::report::Report;
 
@@ -11,19 +10,31 @@ use crate::sim::report::Report;
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
     let deviation = figure(
-        &pictures::deviation(material, Prefix::new("deviation-")),
+        &Ids {
+            page: "deviation-",
+            phone: "deviation-phone-",
+        },
         Zoom::Free,
-        "How far the machined contour stands off the part, all along it.",
+        "How far the machined contour is from the part, all along it.",
+        &|ids| pictures::deviation(material, ids),
     );
     let correlation = figure(
-        &pictures::correlation(material, Prefix::new("correlation-")),
+        &Ids {
+            page: "correlation-",
+            phone: "correlation-phone-",
+        },
         Zoom::Free,
         "How machined and theoretical contour correlate, shifted against each other.",
+        &|ids| pictures::correlation(material, ids),
     );
     Section {
         id: "deviation",
         title: "Deviation",
-        body: figures(subject) + &format!("<div class=\"pair\">\n{deviation}{correlation}</div>\n"),
+        body: deviation
+            + &figures(subject)
+            + &format!(
+                "<details>\n<summary>Correlation of the contours</summary>\n{correlation}</details>\n"
+            ),
     }
 }
 
@@ -37,18 +48,13 @@ fn figures(subject: Subject<'_>) -> String {
     ];
     let rows = [
         (
-            "cross-correlation",
-            format!("{:.2} %", report.correlation * 100.0),
-            "the largest normalised one over all shifts, of both contours at 1000 points [Cui 15]".to_owned(),
-        ),
-        (
             "largest deviation",
-            format!("{:.3} mm", report.largest_deviation().to_mm()),
+            format!("{:.2} mm", report.largest_deviation().to_mm()),
             largest(report),
         ),
         (
             "highest scallop",
-            format!("{:.3} mm", report.scallop.height.to_mm()),
+            format!("{:.2} mm", report.scallop.height.to_mm()),
             format!(
                 "the largest distance of the machined contour from the nearest point of the part, at x {:.1} mm; limits on \
                      the scallop bound this one",
@@ -57,8 +63,13 @@ fn figures(subject: Subject<'_>) -> String {
         ),
         (
             "mean scallop",
-            format!("{:.3} mm", report.mean_scallop.to_mm()),
+            format!("{:.2} mm", report.mean_scallop.to_mm()),
             "area that stays on the part, over the profile's length".to_owned(),
+        ),
+        (
+            "cross-correlation",
+            format!("{:.2} %", report.correlation * 100.0),
+            "the largest normalised one over all shifts, of both contours at 1000 points [Cui 15]".to_owned(),
         ),
     ];
     let rows = rows.map(|(name, value, meaning)| vec![name.to_owned(), value, meaning]);
@@ -70,7 +81,7 @@ fn largest(report: &Report) -> String {
     let both = "the largest distance from a point of one contour to the other";
     match report.hollow() {
         Some(hollow) => format!(
-            "{both}: of the part from the machined contour, at x {:.1} mm, where no cut reaches the part",
+            "{both}: here the deepest corner of the part that no cut reaches, at x {:.1} mm",
             hollow.peak.x
         ),
         None => format!(

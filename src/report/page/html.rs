@@ -1,6 +1,6 @@
 //! The little of HTML that the page needs: texts that cannot break out, and tables.
 
-pub(super) use crate::picture::escaped;
+pub(in crate::report) use crate::picture::escaped;
 
 /// A column of a table.
 #[derive(Clone, Copy)]
@@ -11,16 +11,26 @@ pub(super) enum Column {
     Numbers(&'static str),
 }
 
-/// A table. Cells are HTML; who puts text into them escapes it. On a narrow screen the table scrolls by itself, which is why
-/// its frame can be reached by the keyboard.
+/// From so many columns on a table is folded on a narrow screen: a row becomes a list of names and values.
+const FOLDED: usize = 4;
+
+/// A value that has come to its limit, or nearly: it is seen at once.
+pub(super) fn near(text: &str) -> String {
+    format!("<span class=\"near\">{text}</span>")
+}
+
+/// A table. Cells are HTML; who puts text into them escapes it. Its frame can be reached by the keyboard, because a long one
+/// scrolls by itself.
 pub(super) fn table(
     caption: &str,
     columns: &[Column],
     rows: impl IntoIterator<Item = Vec<String>>,
 ) -> String {
+    let folds = columns.len() >= FOLDED;
     let mut table = format!(
-        "<div class=\"wide\" role=\"region\" aria-label=\"{caption}\" tabindex=\"0\">\n<table>\n\
-         <caption>{caption}</caption>\n<thead><tr>"
+        "<div class=\"wide{}\" role=\"region\" aria-label=\"{caption}\" tabindex=\"0\">\n<table>\n\
+         <caption>{caption}</caption>\n<thead><tr>",
+        if folds { " folds" } else { "" }
     );
     for column in columns {
         table += &match column {
@@ -32,12 +42,13 @@ pub(super) fn table(
     for row in rows {
         table += "<tr>";
         for (place, (cell, column)) in row.iter().zip(columns).enumerate() {
-            let class = match column {
-                Column::Words(_) => "",
-                Column::Numbers(_) => " class=\"n\"",
+            let (class, name) = match column {
+                Column::Words(name) => ("", name),
+                Column::Numbers(name) => (" class=\"n\"", name),
             };
             table += &match place {
                 0 => format!("<th scope=\"row\"{class}>{cell}</th>"),
+                _ if folds => format!("<td{class} data-name=\"{name}\">{cell}</td>"),
                 _ => format!("<td{class}>{cell}</td>"),
             };
         }

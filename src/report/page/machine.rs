@@ -1,12 +1,15 @@
 //! What the job asks of its machine: angles, rates and margins.
 
-use super::figure::{Zoom, figure};
-use super::html::{Column, escaped, table, terms};
+use super::figure::{Zoom, framed};
+use super::html::{Column, escaped, near, table, terms};
 use super::{Section, Subject};
 use crate::picture::Prefix;
 use crate::plan::parameters::show;
 use crate::reach_summary::{self, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use crate::report::pictures;
+
+/// An axis with less than this share of half its range left, or of its rate, is marked, as in the picture.
+const SCARCE: f64 = 0.05;
 
 /// The section; none for a job without a machine.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
@@ -14,10 +17,12 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let mut body = String::new();
     let lines = reach_summary::lines(figures);
     body += &terms(lines.iter().map(|(name, line)| (*name, line.as_str())));
-    if let Some(joints) = pictures::joints(&subject.material, Prefix::new("joints-")) {
+    let ids = [Prefix::new("joints-"), Prefix::for_phones("joints-phone-")];
+    if let Some([page, phone]) = pictures::joints_twice(&subject.material, ids) {
         let caption = "Angles, rates and margins of the axes over time, with the moves of all axes from and to home; the table \
                        below leaves these out. Rates are those at the programmed speeds.";
-        body += &figure(&joints, Zoom::Free, caption);
+        body += &framed(&page, "for-page", Zoom::Free, caption);
+        body += &framed(&phone, "for-phones", Zoom::Free, caption);
     }
     if let Some(blade) = pictures::blade(&subject.material, Prefix::new("blade-")) {
         let caption = "How the blade has to be clamped for this program: hold it beside the flange and compare. Which way edge \
@@ -57,7 +62,14 @@ fn axes(figures: &ReachFigures) -> String {
 fn axis(axis: &AxisFigure) -> Vec<String> {
     let unit = axis.unit;
     let share = match axis.rate_limit {
-        Some(limit) if limit > 0.0 => format!("{:.0} %", axis.rate / limit * 100.0),
+        Some(limit) if limit > 0.0 => {
+            let words = format!("{:.0} %", axis.rate / limit * 100.0);
+            if axis.rate > (1.0 - SCARCE) * limit {
+                near(&words)
+            } else {
+                words
+            }
+        }
         Some(_) | None => "unknown".to_owned(),
     };
     vec![
@@ -65,9 +77,13 @@ fn axis(axis: &AxisFigure) -> Vec<String> {
         format!("{:.2} {unit}", axis.low),
         format!("{:.2} {unit}", axis.high),
         format!("{} to {} {unit}", show(axis.min), show(axis.max)),
-        margin_words(axis.margin),
+        if axis.margin < SCARCE {
+            near(&margin_words(axis.margin))
+        } else {
+            margin_words(axis.margin)
+        },
         escaped(&axis.margin_at.words),
-        format!("{:.1} {unit}/s", axis.rate),
+        format!("{:.2} {unit}/s", axis.rate),
         share,
         escaped(&axis.rate_at.words),
     ]
@@ -90,7 +106,7 @@ fn singular(figures: &ReachFigures) -> String {
          }| {
             vec![
                 (*kind).to_owned(),
-                format!("{distance:.1} {unit}"),
+                format!("{distance:.2} {unit}"),
                 margin_words(*share),
                 escaped(&at.words),
             ]

@@ -3,11 +3,11 @@
 //! Styles are not restricted: without images and fonts a style has nothing to ask for.
 
 use crate::report::base64::base64;
-use hmac_sha256::Hash;
+use crate::report::digest::sha256;
 
 /// What a page may ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Requests {
+pub(in crate::report) enum Requests {
     /// Nothing: it is complete in itself.
     None,
     /// The server that it came from, for changes.
@@ -16,18 +16,22 @@ pub(super) enum Requests {
 
 /// The policy, as the content of a `meta` element, for a page with these scripts. A script is what stands between its tags, to
 /// the byte.
-pub(super) fn policy(scripts: &[&str], requests: Requests) -> String {
+pub(in crate::report) fn policy(scripts: &[&str], requests: Requests) -> String {
     let hashes: Vec<String> = scripts
         .iter()
-        .map(|script| format!("'sha256-{}'", base64(&Hash::hash(script.as_bytes()))))
+        .map(|script| format!("'sha256-{}'", base64(&sha256(script.as_bytes()))))
         .collect();
+    let allowed = if hashes.is_empty() {
+        "'none'".to_owned()
+    } else {
+        hashes.join(" ")
+    };
     let requests = match requests {
         Requests::None => "",
         Requests::OwnServer => " connect-src 'self';",
     };
     format!(
-        "default-src 'none';{requests} script-src {}; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'",
-        hashes.join(" ")
+        "default-src 'none';{requests} script-src {allowed}; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
     )
 }
 
@@ -44,5 +48,7 @@ mod tests {
             "{policy}"
         );
         assert!(!policy.contains("connect-src"), "{policy}");
+        let none = super::policy(&[], Requests::None);
+        assert!(none.contains("script-src 'none';"), "{none}");
     }
 }

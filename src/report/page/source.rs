@@ -3,7 +3,6 @@
 use super::html::escaped;
 use super::{Section, Subject};
 use crate::diag::position::position;
-use crate::job::Operation;
 use crate::source::{FileId, SourceMap, Span};
 
 /// Most lines of a text that are shown.
@@ -12,7 +11,7 @@ const MOST_LINES: usize = 5000;
 /// Most characters of a line that are shown.
 const LONGEST_LINE: usize = 400;
 
-/// The texts that are shown: the job's own first, then those that its machine and operations were read from.
+/// The texts that are shown: the job's own first, then all others that the compiler read for it.
 pub(super) struct Listing<'a> {
     sources: &'a SourceMap,
     shown: Vec<FileId>,
@@ -31,25 +30,11 @@ pub(super) struct Place {
 impl<'a> Listing<'a> {
     /// The texts of a job.
     pub(super) fn of(subject: Subject<'a>) -> Self {
-        let job = subject.material.job;
-        let operations = job.operations.iter().flat_map(|Operation::RoughVcut(vcut)| {
-            let fields = [vcut.cut_feed.span, vcut.travel_feed.span, vcut.reorient_rate.span];
-            [Some(vcut.head_span), Some(vcut.blade.span)]
-                .into_iter()
-                .chain(fields)
-                .flatten()
-        });
-        let machine = job.machine.as_ref().map(|machine| machine.head_span);
-        let mut shown = Vec::new();
-        for span in [job.name_span, job.stock_span, job.profile_span]
-            .into_iter()
-            .chain(operations)
-            .chain(machine)
-        {
-            if !shown.contains(&span.file) {
-                shown.push(span.file);
-            }
-        }
+        let root = subject.material.job.name_span.file;
+        let others = subject.sources.iter().map(|(file, _)| file);
+        let shown = core::iter::once(root)
+            .chain(others.filter(|&file| file != root))
+            .collect();
         Self {
             sources: subject.sources,
             shown,
@@ -78,7 +63,7 @@ impl<'a> Listing<'a> {
         let files = self.shown.iter().enumerate();
         Section {
             id: "job",
-            title: "Job",
+            title: "Sources",
             body: files
                 .filter_map(|(number, &file)| {
                     let file = self.sources.get(file)?;

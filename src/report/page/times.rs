@@ -1,9 +1,8 @@
 //! Where the time goes: by kind of motion and by layer.
 
-use super::figure::{Zoom, figure};
+use super::figure::{Ids, Zoom, figure};
 use super::html::{Column, paragraph, percent, table};
 use super::{Section, Subject};
-use crate::picture::Prefix;
 use crate::plan::PlannedOperation;
 use crate::report::pictures;
 use crate::sim::report::Report;
@@ -19,9 +18,13 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     let basis = &subject.material.compiled.times.basis_words;
     body += &paragraph(&format!("Basis: {basis}."));
     body += &figure(
-        &pictures::time(&subject.material, Prefix::new("time-")),
+        &Ids {
+            page: "time-",
+            phone: "time-phone-",
+        },
         Zoom::Fixed,
         "What the time is spent on.",
+        &|ids| pictures::time(&subject.material, ids),
     );
     body += &by_kind(whole);
     body += &by_layer(report);
@@ -38,12 +41,13 @@ fn agreement(subject: Subject<'_>, total: Duration) -> String {
     let estimate: Duration = operations
         .map(|PlannedOperation::RoughVcut(vcut)| vcut.estimate)
         .sum();
-    let apart = match total.to_s() {
-        seconds if seconds > 0.0 => format!(", {:+.1} %", (estimate.to_s() / seconds - 1.0) * 100.0),
+    let apart = match (estimate.to_s() / total.to_s() - 1.0) * 100.0 {
+        percent if percent >= 0.05 => format!(" ({percent:.1} % too high)"),
+        percent if percent <= -0.05 => format!(" ({:.1} % too low)", -percent),
         _ => String::new(),
     };
     format!(
-        "The program takes {}. The mean-value model says {}{apart}, from the parameters alone.",
+        "The program takes {}. The mean-value formula, which knows the parameters only, gives {}{apart}.",
         time(total),
         time(estimate)
     )
@@ -115,7 +119,7 @@ fn by_layer(report: &Report) -> String {
         };
         row(name, 2 * cuts, &layer.timing)
     });
-    let rows = core::iter::once(row("outside of layers".to_owned(), 0, &report.times.rest)).chain(of_layers);
+    let rows = core::iter::once(row("no layer".to_owned(), 0, &report.times.rest)).chain(of_layers);
     format!(
         "<div class=\"long\">{}</div>\n",
         table("Time by layer", &columns, rows)

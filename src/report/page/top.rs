@@ -4,7 +4,6 @@ use super::Subject;
 use super::html::escaped;
 use crate::checks::{Checks, Standing};
 use crate::diag::render::{ColorChoice, render};
-use crate::plan::parameters::show;
 use crate::reach_summary::margin_words;
 use crate::summary::{self, time};
 
@@ -56,9 +55,19 @@ fn verdict(checks: &Checks) -> String {
 /// The key numbers as a list of terms and values.
 pub(super) fn key_numbers(subject: Subject<'_>) -> String {
     let mut numbers = String::from("<dl class=\"key\">\n");
-    for (name, value, remark) in rows(subject) {
+    for Key {
+        name,
+        value,
+        remark,
+        room,
+    } in rows(subject)
+    {
+        let class = match room {
+            Room::Enough => "",
+            Room::Scarce => " class=\"scarce\"",
+        };
         numbers += &format!(
-            "<div><dt>{name}</dt><dd>{}<small>{}</small></dd></div>\n",
+            "<div{class}><dt>{name}</dt><dd>{}<small>{}</small></dd></div>\n",
             escaped(&value),
             escaped(&remark)
         );
@@ -66,57 +75,93 @@ pub(super) fn key_numbers(subject: Subject<'_>) -> String {
     numbers + "</dl>\n"
 }
 
-/// Name, value and remark of each key number.
-fn rows(subject: Subject<'_>) -> Vec<(&'static str, String, String)> {
+/// A key number.
+struct Key {
+    name: &'static str,
+    value: String,
+    remark: String,
+    room: Room,
+}
+
+/// How far a number is from its limit.
+enum Room {
+    /// Far, or it has none.
+    Enough,
+    /// Less than a twentieth of the limit.
+    Scarce,
+}
+
+impl Room {
+    /// What a share of a limit leaves.
+    fn of(share: f64) -> Self {
+        if share > 0.95 { Self::Scarce } else { Self::Enough }
+    }
+}
+
+/// The key numbers.
+fn rows(subject: Subject<'_>) -> Vec<Key> {
     let material = subject.material;
     let (compiled, report) = (material.compiled, &material.compiled.report);
+    let free = |name, value, remark| Key {
+        name,
+        value,
+        remark,
+        room: Room::Enough,
+    };
+    let (scallop, limit) = (report.scallop.height, summary::scallop_limit(material.plan));
+    let (edge, blade) = (report.longest_edge, summary::longest_blade(material.plan));
+    let (left, removed) = (report.residual.to_mm2(), report.removed.to_mm2());
     let mut rows = vec![
-        (
+        free(
             "Time",
             time(report.times.all.total()),
             format!("cutting {}", time(report.times.all.cutting)),
         ),
-        (
+        free(
             "Cuts",
             report.cuts().to_string(),
             format!("in {}", counted(report.layers.len(), "layer")),
         ),
-        (
-            "Largest scallop",
-            format!("{:.2} mm", report.scallop.height.to_mm()),
-            scallop_limit(subject),
-        ),
-        (
-            "Edge in use",
-            format!("{} mm", show(report.longest_edge.to_mm())),
-            format!("of {} mm", show(summary::longest_blade(material.plan).to_mm())),
-        ),
-        (
+        Key {
+            name: "Largest scallop",
+            value: format!("{:.2} mm", scallop.to_mm()),
+            remark: limit.map_or_else(
+                || "no limit".to_owned(),
+                |limit| format!("limit {:.2} mm", limit.to_mm()),
+            ),
+            room: limit.map_or(Room::Enough, |limit| Room::of(scallop.to_mm() / limit.to_mm())),
+        },
+        Key {
+            name: "Edge in use",
+            value: format!("{:.2} mm", edge.to_mm()),
+            remark: format!("of {:.2} mm", blade.to_mm()),
+            room: Room::of(edge.to_mm() / blade.to_mm()),
+        },
+        free(
             "Removed",
-            format!("{:.0} mm²", report.removed.to_mm2()),
-            format!("{:.1} mm² stay on the part", report.residual.to_mm2()),
+            format!("{removed:.2} mm²"),
+            "of the cross-section".to_owned(),
         ),
-        (
-            "Contours correlate",
-            format!("{:.2} %", report.correlation * 100.0),
-            "machined and theoretical".to_owned(),
+        free(
+            "Material left",
+            format!("{:.2} %", share(left, left + removed) * 100.0),
+            format!("{left:.2} mm² stay on the part"),
         ),
     ];
     if let Some(figures) = &compiled.figures {
-        rows.push((
-            "Least margin",
-            margin_words(figures.margin),
-            format!("{} at {}", figures.least.of, figures.least.at.words),
-        ));
+        rows.push(Key {
+            name: "Least margin",
+            value: margin_words(figures.margin),
+            remark: format!("{} at {}", figures.least.of, figures.least.at.words),
+            room: Room::of(1.0 - figures.margin),
+        });
     }
     rows
 }
 
-fn scallop_limit(subject: Subject<'_>) -> String {
-    summary::scallop_limit(subject.material.plan).map_or_else(
-        || "no limit".to_owned(),
-        |limit| format!("limit {} mm", show(limit.to_mm())),
-    )
+/// A part of a whole; nothing of nothing.
+fn share(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 0.0 }
 }
 
 /// `1 layer`, `2 layers`.

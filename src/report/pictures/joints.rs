@@ -23,6 +23,17 @@ use vcutc_backend_api::units::Duration;
 /// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.
 #[must_use]
 pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
+    let [picture] = drawn(material, [ids])?;
+    Some(picture)
+}
+
+/// The same in two places: the axes are followed once.
+#[must_use]
+pub fn joints_twice(material: &Material<'_>, ids: [Prefix; 2]) -> Option<[String; 2]> {
+    drawn(material, ids)
+}
+
+fn drawn<const PLACES: usize>(material: &Material<'_>, places: [Prefix; PLACES]) -> Option<[String; PLACES]> {
     let reached = material.compiled.program.reached()?;
     let program = reached.program.program();
     let (machine, cell) = (material.job.machine.as_ref()?, program.cell.as_ref()?);
@@ -52,19 +63,25 @@ pub fn joints(material: &Material<'_>, ids: Prefix) -> Option<String> {
             figures.least.of
         )
     });
-    Some(joints::draw(&joints::Joints {
-        heading: joints::Heading {
-            ids,
-            title: &format!("{}: axes over time", material.plan.name),
-            subtitle: &format!("{}{least}", cell.model),
-        },
-        seconds: clock.total,
-        axes: &axes,
-        margin: &margin,
-        kinds: &Kind::ALL.map(name),
-        spans: &clock.spans,
-        layers: &clock.layers,
-    }))
+    let title = format!("{}: axes over time", material.plan.name);
+    let subtitle = format!("{}{least}", cell.model);
+    let draw = |ids| {
+        joints::draw(&joints::Joints {
+            heading: joints::Heading {
+                ids,
+                title: &title,
+                subtitle: &subtitle,
+            },
+            seconds: clock.total,
+            axes: &axes,
+            margin: &margin,
+            kinds: &Kind::ALL.map(name),
+            spans: &clock.spans,
+            layers: &clock.layers,
+            cuts: material.compiled.report.cuts(),
+        })
+    };
+    Some(places.map(draw))
 }
 
 /// From so many ops a column of the picture, samples within an op need not be close.

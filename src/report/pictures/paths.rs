@@ -1,6 +1,6 @@
 //! The path of a milling program beside that of the V-cuts made of it (`picture::paths`).
 
-use super::machined;
+use super::{Machined, machined};
 use crate::picture::{Prefix, paths};
 use crate::report::Material;
 use vcutc_backend_api::geometry::{Orientation, Point3};
@@ -9,7 +9,7 @@ use vcutc_backend_api::ir::{Action, OrientationId, Program};
 /// Both paths, that of the milling program in the axes of the job.
 #[must_use]
 pub fn paths(material: &Material<'_>, milling: &[Vec<[f64; 3]>], ids: Prefix) -> String {
-    let (contour, _) = machined(material);
+    let Machined { contour, .. } = machined(material);
     let program = material.compiled.program.verified().program();
     let track = Track::of(program);
     let stock = program.stock;

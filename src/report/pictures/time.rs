@@ -30,7 +30,7 @@ pub fn time(material: &Material<'_>, ids: Prefix) -> String {
         seconds: seconds(&layer.timing),
     };
     let rest = times::Row {
-        name: "else".to_owned(),
+        name: "no layer".to_owned(),
         seconds: seconds(&spent.rest),
     };
     let rows: Vec<times::Row> = spent

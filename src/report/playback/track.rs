@@ -156,7 +156,18 @@ impl Thinned {
             })
         };
         let spans: Vec<[f64; 2]> = (0..axes.len().min(MOST_AXES)).map(span).collect();
-        let steps = |[low, high]: [f64; 2]| (high - low).max(f64::MIN_POSITIVE) / STEPS;
+        // One step more than the range has, so that the values before the first op, which most programs come back to, lie on
+        // a step exactly.
+        let steps = |[low, high]: [f64; 2]| (high - low).max(f64::MIN_POSITIVE) / (STEPS - 1.0);
+        let spans: Vec<[f64; 2]> = spans
+            .iter()
+            .zip(start)
+            .map(|(&span, start)| {
+                let step = steps(span);
+                let low = start - ((start - span[0]) / step).ceil() * step;
+                [low, low + (span[1] - span[0])]
+            })
+            .collect();
         let values = self.knots.iter().flat_map(|knot| {
             let axes = spans.iter().zip(knot.joints);
             axes.map(move |(&span, value)| whole((value - span[0]) / steps(span)))

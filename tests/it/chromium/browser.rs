@@ -232,6 +232,23 @@ impl Tab<'_> {
         [place("left", "width"), place("top", "height")]
     }
 
+    /// How many pages of A4 it is on paper, in a document of PDF.
+    pub(super) fn pages_on_paper(&self) -> f64 {
+        let paper = json!({ "paperWidth": 8.27, "paperHeight": 11.69, "preferCSSPageSize": true });
+        let printed = self.call("Page.printToPDF", &paper);
+        // The tree of pages says how many there are.
+        self.number(&format!(
+            "Number(/\\/Type\\s*\\/Pages\\s*\\/Count (\\d+)/.exec(atob('{}'))[1])",
+            printed["data"].as_str().unwrap()
+        ))
+    }
+
+    /// Whether what is seen is shown on a dark ground.
+    pub(super) fn darken(&self) {
+        let dark = json!({ "features": [{ "name": "prefers-color-scheme", "value": "dark" }] });
+        self.call("Emulation.setEmulatedMedia", &dark);
+    }
+
     /// A picture of what is seen as PNG, in base 64.
     pub(super) fn picture(&self) -> String {
         let picture = self.call("Page.captureScreenshot", &json!({ "format": "png" }));

@@ -26,6 +26,15 @@ fn a_report_is_where_it_was_after_errors_in_between() {
         ));
         if title.ends_with("report") {
             tab.wait_until("window.scrollY === 777");
+        } else {
+            // Line by line and coloured, and below it what there was before.
+            assert!(tab.holds("document.querySelector('.messages').textContent.split('\\n').length > 5"));
+            assert!(tab.holds("document.querySelector('.messages .c1').textContent.startsWith('error[VC')"));
+            assert!(tab.holds("document.querySelector('.messages').textContent.includes('size.vcut:1:')"));
+            assert!(tab.holds("document.querySelector('.stale h1').textContent === 'rib'"));
+            assert!(tab.holds("document.querySelector('.stale #cross-section svg') !== null"));
+            assert!(tab.holds("vcutPlayback.duration() > 0"));
+            assert!(tab.complaints().is_empty(), "{:#?}", tab.complaints());
         }
     }
 }

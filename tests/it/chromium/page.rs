@@ -145,6 +145,99 @@ fn a_telephone_does_not_scroll_sideways() {
     }
 }
 
+/// A picture is shown as wide as the screen, with letters that can be read, and follows a dark page.
+#[test]
+fn pictures_fit_their_screen_and_follow_a_dark_page() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("spoiler_clarky", &[]);
+    for (width, least) in [(420, 13.0), (1400, 14.0)] {
+        let tab = browser.open(&file, width, 900);
+        tab.value("window.seen = () => [...document.querySelectorAll('.view svg')].filter((svg) => svg.clientWidth > 0)");
+        assert!(tab.number("seen().length") >= 4.0, "{width}");
+        assert!(
+            tab.holds("[...document.querySelectorAll('.view')].every((view) => view.scrollWidth <= view.clientWidth)"),
+            "{width}"
+        );
+        let letters =
+            tab.number("Math.min(...seen().map((svg) => 15 * svg.clientWidth / svg.viewBox.baseVal.width))");
+        assert!(letters >= least, "{width}: letters of {letters}");
+        let ground = "getComputedStyle(seen()[0].querySelector('rect')).fill";
+        let light = tab.value(ground);
+        tab.darken();
+        assert_ne!(tab.value(ground), light, "{width}");
+        assert_is_calm(&tab);
+    }
+}
+
+/// The camera begins at the work, in front of which the machine is faint, goes to where one asks, and follows the tip.
+#[test]
+fn the_camera_is_at_the_work_and_follows_the_tip() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("spoiler_clarky", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    assert!(tab.number("vcutPlayback.machineOpacity()") < 0.2);
+    tab.value("document.getElementById('vcut-playback-whole').click()");
+    assert_eq!(tab.number("vcutPlayback.machineOpacity()"), 1.0);
+    tab.value("document.getElementById('vcut-playback-top').click()");
+    assert!(tab.number("vcutPlayback.machineOpacity()") < 0.2);
+
+    tab.value("vcutPlayback.goToLayer(2)");
+    let layer = tab.number("vcutPlayback.time()");
+    assert!(layer > 0.0);
+    tab.value("vcutPlayback.stepCut(1)");
+    let cut = tab.number("vcutPlayback.time()");
+    assert!(cut > layer);
+    tab.value("vcutPlayback.stepCut(1), vcutPlayback.stepCut(-1)");
+    assert_eq!(tab.number("vcutPlayback.time()"), cut);
+
+    tab.value("document.getElementById('vcut-playback-follow').click()");
+    let looks = "vcutPlayback.looksAt().join()";
+    let before = tab.value(looks);
+    tab.value("vcutPlayback.stepCut(1)");
+    tab.wait_until(&format!("{looks} !== {before}"));
+
+    // The wheel is the picture's at once.
+    let middle = tab.middle("#vcut-playback-canvas");
+    tab.value("new Promise((done) => setTimeout(done, 400))");
+    let scrolled = tab.number("scrollY");
+    tab.mouse("mouseWheel", middle, &json!({ "deltaX": 0, "deltaY": 120 }));
+    tab.value("new Promise((done) => setTimeout(done, 200))");
+    assert_eq!(tab.number("scrollY"), scrolled);
+    assert_is_calm(&tab);
+}
+
+/// What is said at home is what home is, at the beginning and at the end.
+#[test]
+fn at_home_the_axes_are_exactly_there() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("spoiler_clarky", &["--machine", "gantry"]);
+    let tab = browser.open(&file, 1280, 900);
+    let home = tab.value("vcutPlayback.joints().map((value) => value.toFixed(2)).join()");
+    tab.value("vcutPlayback.seek(vcutPlayback.duration())");
+    assert_eq!(
+        tab.value(
+            "vcutPlayback.joints().map((value) => value.toFixed(2)).join().replaceAll('-0.00', '0.00')"
+        ),
+        home.as_str().unwrap().replace("-0.00", "0.00")
+    );
+}
+
+#[test]
+fn a_set_up_sheet_is_one_page_of_paper() {
+    let Some(browser) = Browser::start() else { return };
+    for (example, more) in [
+        ("spoiler_clarky", &["--target", "krl"][..]),
+        ("spoiler_clarky", &["--machine", "gantry"]),
+        ("block_cui", &[]),
+        ("wavy_panel", &[]),
+    ] {
+        let (_folder, file) = report(example, &[&["--sheet"], more].concat());
+        let tab = browser.open(&file, 1280, 900);
+        assert_eq!(tab.pages_on_paper(), 1.0, "{example} {more:?}");
+        assert_is_calm(&tab);
+    }
+}
+
 #[test]
 fn a_link_to_a_line_unfolds_its_text() {
     let Some(browser) = Browser::start() else { return };

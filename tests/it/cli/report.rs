@@ -2,6 +2,7 @@
 
 use super::jobs::RIB;
 use super::{folder, json_lines, names, vcutc, vcutc_reading};
+use crate::repository::root;
 use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
@@ -125,6 +126,71 @@ fn what_the_page_says() {
     let page = without(&page, "'sha256-", "'");
     let page = page.replace(env!("CARGO_PKG_VERSION"), "VERSION");
     assert_snapshot!(page);
+}
+
+/// Also files that only give values to names, and values of the command line.
+#[test]
+fn every_text_that_the_job_was_made_from_is_listed() {
+    let run = vcutc(
+        root(),
+        &[
+            "report",
+            "-q",
+            "examples/spoiler_clarky.vcut",
+            "-o",
+            "-",
+            "--set",
+            "chord=280mm",
+        ],
+    );
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let (_, sources) = run.stdout.split_once("<section id=\"job\"").unwrap();
+    let names: Vec<&str> = sources
+        .split("<summary>")
+        .skip(1)
+        .map(|rest| rest.split_once("</summary>").unwrap().0)
+        .collect();
+    for name in [
+        "spoiler_clarky.vcut",
+        "speeds.vcut",
+        "blades.vcut",
+        "cells.vcut",
+        "--set chord=280mm",
+    ] {
+        assert!(
+            names.iter().any(|shown| shown.ends_with(name)),
+            "{name}: {names:?}"
+        );
+    }
+}
+
+#[test]
+fn a_sheet_has_what_a_set_up_needs() {
+    let shop = shop(RIB);
+    let path = shop.path();
+    let run = vcutc(
+        path,
+        &[
+            "report", "-q", "rib.vcut", "--sheet", "--target", "krl", "-o", "rib.html",
+        ],
+    );
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let sheet = fs::read_to_string(path.join("rib.html")).unwrap();
+    let run = vcutc(path, &["rib.vcut", "-q", "--target", "krl", "-o", "out"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    for name in names(&path.join("out")) {
+        let digest = hmac_sha256::Hash::hash(&fs::read(path.join("out").join(&name)).unwrap());
+        let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        assert!(
+            sheet.contains(&name) && sheet.contains(&digest),
+            "{name} {digest}"
+        );
+    }
+    assert!(sheet.contains("default-src 'none'; script-src 'none'"));
+    let sheet = without(&sheet, "<style", "</style>");
+    assert_snapshot!(sheet.replace(env!("CARGO_PKG_VERSION"), "VERSION"));
+    let run = vcutc(path, &["report", "rib.vcut", "--target", "krl", "-o", "rib.html"]);
+    assert_eq!(run.code, Some(2), "a program is named on the sheet only");
 }
 
 #[test]

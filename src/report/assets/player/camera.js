@@ -3,6 +3,9 @@
 /** Half the angle of view from bottom to top. */
 const HALF_VIEW = Math.PI / 12;
 
+/** Opacity of a machine that is seen from near. */
+const FAINT = 0.14;
+
 class Camera {
   constructor() {
     this.yaw = 0;
@@ -12,6 +15,9 @@ class Camera {
     this.target = [0, 0, 0];
     /** Beyond this nothing is drawn. */
     this.farthest = 1e4;
+    /** From where the work, and the whole machine, fill the picture. */
+    this.near = 1000;
+    this.far = 1e4;
   }
 
   /**
@@ -24,7 +30,24 @@ class Camera {
    */
   lookAt(yaw, pitch, target, radius, aspect) {
     [this.yaw, this.pitch, this.target] = [yaw, pitch, target];
-    this.distance = (radius * 1.05) / (Math.sin(HALF_VIEW) * Math.min(1, aspect));
+    this.distance = this.distanceTo(radius, aspect);
+  }
+
+  /**
+   * From how far a ball fills the picture.
+   * @param {number} radius
+   * @param {number} aspect width by height of the picture
+   */
+  distanceTo(radius, aspect) {
+    return (radius * 1.05) / (Math.sin(HALF_VIEW) * Math.min(1, aspect));
+  }
+
+  /** A machine is solid from where it is seen as a whole, and faint from near, where it would hide the work. */
+  opacityOfMachine() {
+    const whole = this.far * 0.9;
+    const close = Math.min(this.near * 1.5, whole * 0.8);
+    const share = Math.max(0, Math.min(1, (this.distance - close) / (whole - close)));
+    return FAINT + (1 - FAINT) * share;
   }
 
   /** Direction to the camera, and what is right and up in the picture. */

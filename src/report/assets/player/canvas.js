@@ -123,6 +123,16 @@ class Canvas {
   }
 
   /**
+   * Draws without colours: only how deep things are is kept.
+   * @param {() => void} draw
+   */
+  onlyDepth(draw) {
+    this.gl.colorMask(false, false, false, false);
+    draw();
+    this.gl.colorMask(true, true, true, true);
+  }
+
+  /**
    * Draws lines, two corners each. Those that lie on a face are seen because bodies are pushed back (`body`): a bias of the
    * depth itself would be many millimetres from afar, and what is inside a body would shine through.
    * @param {Mesh} mesh

@@ -123,6 +123,27 @@ class Player {
   }
 
   /**
+   * Goes to where the next cut begins, or the one before.
+   * @param {1 | -1} way
+   */
+  stepCut(way) {
+    const { starts } = this.program;
+    const begins = this.timeline.kerfs.filter(({ op }) => this.isSelected(op)).map(({ op }) => starts[op]);
+    const next = way > 0 ? begins.find((time) => time > this.time + 1e-9) : begins.findLast((time) => time < this.time - 1e-9);
+    if (next !== undefined) this.seek(next);
+    else this.seek(way > 0 ? this.end : this.begin);
+  }
+
+  /**
+   * Goes to where a layer begins.
+   * @param {number} layer counted from 1 in the order of work
+   */
+  goToLayer(layer) {
+    const op = this.timeline.layerOf.indexOf(layer);
+    if (op >= 0) this.seek(this.program.starts[op]);
+  }
+
+  /**
    * What is being done. At the end of what is shown it is the op that ends there, not the one that begins.
    * @returns {Moment}
    */
@@ -191,8 +212,8 @@ class Player {
     const { op } = now.moment;
     const several = program.blades.length > 1;
     const parts = [
-      `${this.time.toFixed(2)} s of ${timeline.duration.toFixed(2)} s`,
-      `op ${op} of ${program.ops}: ${CALLED[program.names[program.kinds[op]]]}`,
+      `${clock(this.time)} of ${clock(timeline.duration)} (${this.time.toFixed(2)} s)`,
+      `motion ${op} of ${program.ops}: ${CALLED[program.names[program.kinds[op]]]}`,
     ];
     if (several && program.operations[op] > 0) parts.push(`operation ${program.operations[op]}`);
     if (program.layers[op] > 0) parts.push(`layer ${program.layers[op]}`);
@@ -208,7 +229,7 @@ class Player {
     if (cell === null) return "";
     const shown = this.shownAxes();
     return cell.axes
-      .map(({ name, kind }, axis) => `${name} ${hundredths(shown[axis])} ${kind === "rotary" ? "deg" : "mm"}`)
+      .map(({ name, kind }, axis) => `${name}\u00a0${hundredths(shown[axis])}\u00a0${kind === "rotary" ? "deg" : "mm"}`)
       .join("   ");
   }
 }
@@ -237,6 +258,14 @@ function bindControls(player, changed) {
   click("play", () => toggle(player));
   click("back", () => step(player, -1));
   click("forth", () => step(player, 1));
+  click("cut-back", () => stepCut(player, -1));
+  click("cut-forth", () => stepCut(player, 1));
+  listLayers(player);
+  element("layer").addEventListener("change", () => {
+    player.playing = false;
+    player.goToLayer(Number(element("layer").value));
+    changed();
+  });
   element("time").addEventListener("input", () => {
     player.seek(Number(element("time").value));
     changed();
@@ -270,6 +299,44 @@ function step(player, way) {
 
 /**
  * @param {Player} player
+ * @param {1 | -1} way
+ */
+function stepCut(player, way) {
+  player.playing = false;
+  player.stepCut(way);
+}
+
+/**
+ * The layers to go to, each with the time when it begins.
+ * @param {Player} player
+ */
+function listLayers(player) {
+  const { layers, layerOf } = player.timeline;
+  const several = player.program.blades.length > 1;
+  const firsts = new Map();
+  layerOf.forEach((layer, op) => firsts.has(layer) || firsts.set(layer, op));
+  layers.forEach(({ operation, layer }, i) => {
+    const option = document.createElement("option");
+    option.value = String(i + 1);
+    const start = clock(player.program.starts[firsts.get(i + 1)]);
+    option.textContent = several ? `operation ${operation}, layer ${layer} (${start})` : `layer ${layer} (${start})`;
+    element("layer").append(option);
+  });
+}
+
+/**
+ * A time as minutes and seconds, with hours where there are any.
+ * @param {number} seconds
+ */
+function clock(seconds) {
+  const whole = Math.floor(seconds);
+  const two = (/** @type {number} */ value) => String(value).padStart(2, "0");
+  const [hours, minutes] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60];
+  return hours > 0 ? `${hours}:${two(minutes)}:${two(whole % 60)}` : `${minutes}:${two(whole % 60)}`;
+}
+
+/**
+ * @param {Player} player
  * @param {number} from
  * @param {number} to
  */
@@ -294,6 +361,7 @@ function showState(player) {
   time.value = player.time;
   time.setAttribute("aria-valuetext", `${player.time.toFixed(2)} s`);
   element("speed").value = player.speed;
+  if (player.now.layer > 0) element("layer").value = player.now.layer;
   element("from").value = player.from;
   element("to").value = player.to;
 }

@@ -14,6 +14,7 @@ const COLOURS = {
   cut: [0.8, 0.1, 0.12],
   way: [0.25, 0.45, 0.25],
   kerf: [0.35, 0.05, 0.05],
+  floor: [0.5, 0.53, 0.56],
   axes: [
     [0.85, 0.15, 0.15],
     [0.1, 0.6, 0.15],
@@ -42,6 +43,7 @@ class Scene {
     this.box = canvas.mesh(unitBox());
     this.kerfs = canvas.mesh(new Float32Array(0));
     this.triad = canvas.mesh(triad());
+    this.floor = canvas.mesh(floorOf(program));
     this.shanks = program.blades.map((blade) => shankOf(blade, program.cell));
     this.blades = program.blades.map((blade, i) => canvas.mesh(dagger(blade, this.shanks[i].from)));
     this.layPath();
@@ -84,12 +86,16 @@ class Scene {
     const { workpiece, blade } = picture;
     if (shown.part) canvas.body(this.part, workpiece, COLOURS.part);
     this.drawBlade(picture.operation, blade);
-    if (picture.machine && shown.robot) this.drawMachine(picture);
-    this.drawTriad(workpiece, this.timeline.program.stock[0] * 0.3);
+    const length = Math.max(...this.timeline.program.stock);
+    this.canvas.lines(this.floor, picture.machine ? picture.scene : workpiece, 0.35);
+    this.drawTriad(workpiece, length * 0.3);
+    this.drawTriad(blade, length * 0.12);
     // After what stands in it, because one may look through it.
     canvas.body(this.stock, workpiece, shown.stock ? COLOURS.stock : COLOURS.clear, 1);
     this.drawKerfs(picture);
     if (shown.path) this.drawPath(picture);
+    // Last, because one may look through it.
+    if (picture.machine && shown.robot) this.drawMachine(picture, camera.opacityOfMachine());
   }
 
   /** @param {Picture} picture */
@@ -119,20 +125,37 @@ class Scene {
     this.bar(blade, [0, 0, neck], to, radius, COLOURS.shank);
   }
 
-  /** @param {Picture} picture */
-  drawMachine({ machine, scene }) {
+  /**
+   * @param {Picture} picture
+   * @param {number} opacity
+   */
+  drawMachine(picture, opacity) {
+    if (opacity < 1) {
+      // Only what is in front is seen of a faint machine: first how deep it is, then its colours.
+      this.canvas.onlyDepth(() => this.drawBodies(picture, 1));
+    }
+    this.drawBodies(picture, opacity);
+    const { cell } = this.timeline.program;
+    const size = cell.bodies.reduce((most, body) => Math.max(most, body.radius || 0), 50);
+    this.drawTriad(picture.scene, size * 4);
+  }
+
+  /**
+   * @param {Picture} picture
+   * @param {number} opacity
+   */
+  drawBodies({ machine, scene }, opacity) {
     const { cell } = this.timeline.program;
     for (const body of cell.bodies) {
       const frame = product(scene, machine[body.chain][body.joints]);
-      const colour = body.chain === "work" ? COLOURS.table : COLOURS.machine[body.joints % 2];
+      // A table is under the work and hides nothing.
+      const colour = body.chain === "work" ? COLOURS.table : [...COLOURS.machine[body.joints % 2].slice(0, 3), opacity];
       if (body.shape === "bar") {
         this.bar(frame, body.from, body.to, body.radius, colour);
       } else {
         this.canvas.body(this.box, product(frame, boxed(body.from, body.to)), colour, 2);
       }
     }
-    const size = cell.bodies.reduce((most, body) => Math.max(most, body.radius || 0), 50);
-    this.drawTriad(scene, size * 4);
   }
 
   /**
@@ -172,6 +195,25 @@ function scaled(factor) {
 function triad() {
   const ends = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   return new Float32Array(ends.flatMap((end, i) => [0, 0, 0, ...COLOURS.axes[i], ...end, ...COLOURS.axes[i]]));
+}
+
+/**
+ * Lines on the floor, in the machine's frame; without a machine under the work.
+ * @param {Program} program
+ */
+function floorOf({ stock, cell }) {
+  const ends = cell === null ? [[0, 0, 0], stock] : cell.bodies.flatMap(({ from, to }) => [from, to]);
+  const low = [0, 1, 2].map((i) => Math.min(...ends.map((end) => end[i])));
+  const high = [0, 1, 2].map((i) => Math.max(...ends.map((end) => end[i])));
+  const size = Math.max(high[0] - low[0], high[1] - low[1], 1);
+  const step = size > 1500 ? 1000 : 100;
+  const from = [0, 1].map((i) => Math.floor((low[i] - size * 0.5) / step));
+  const to = [0, 1].map((i) => Math.ceil((high[i] + size * 0.5) / step));
+  const numbers = [];
+  const line = (/** @type {number[]} */ a, /** @type {number[]} */ b) => numbers.push(...a, ...COLOURS.floor, ...b, ...COLOURS.floor);
+  for (let x = from[0]; x <= to[0]; x += 1) line([x * step, from[1] * step, low[2]], [x * step, to[1] * step, low[2]]);
+  for (let y = from[1]; y <= to[1]; y += 1) line([from[0] * step, y * step, low[2]], [to[0] * step, y * step, low[2]]);
+  return new Float32Array(numbers);
 }
 
 /**

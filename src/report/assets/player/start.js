@@ -8,6 +8,9 @@ const SIDES = {
   iso: [0.6, 0.5],
 };
 
+/** How long, in ms, a page is still before the wheel is the picture's. */
+const STILL = 300;
+
 /**
  * The ball around the work, or around the machine as well.
  * @param {Player} player
@@ -17,7 +20,7 @@ const SIDES = {
 function ballAround(player, whole) {
   const { stock, cell } = player.program;
   const target = /** @type {Vector} */ (stock.map((length) => length / 2));
-  const radius = Math.hypot(...target) * 1.15;
+  const radius = Math.hypot(...target) * 0.95;
   if (!whole || cell === null) return { target, radius };
   const ends = cell.bodies.flatMap((body) => {
     const frame = product(player.scene, player.now.machine[body.chain][body.joints]);
@@ -43,6 +46,8 @@ function lookFrom(player, camera, name) {
   // A machine stands behind its work, not before it.
   const behind = (name === "iso" || name === "whole") && whole.target[0] > target[0] ? -yaw : yaw;
   camera.lookAt(behind, pitch, target, radius, clientWidth / Math.max(1, clientHeight));
+  camera.near = camera.distanceTo(ballAround(player, false).radius, clientWidth / Math.max(1, clientHeight));
+  camera.far = camera.distanceTo(whole.radius, clientWidth / Math.max(1, clientHeight));
   camera.farthest = 4 * whole.radius + Math.hypot(...minus(whole.target, target));
 }
 
@@ -86,9 +91,13 @@ function bindPointers(camera, changed) {
     changed();
   });
   canvas.addEventListener("contextmenu", (/** @type {Event} */ event) => event.preventDefault());
+  // Who scrolls past the picture goes on scrolling: the wheel is the picture's when the page has been still for a moment.
+  let scrolled = -Infinity;
+  addEventListener("scroll", () => {
+    scrolled = performance.now();
+  }, { passive: true });
   canvas.addEventListener("wheel", (/** @type {WheelEvent} */ event) => {
-    // Until it is clicked, the wheel belongs to the page.
-    if (document.activeElement !== canvas && !event.ctrlKey) return;
+    if (performance.now() - scrolled < STILL && !event.ctrlKey) return;
     event.preventDefault();
     camera.zoom(Math.exp(Math.max(-100, Math.min(100, event.deltaY)) * 0.002));
     changed();
@@ -110,6 +119,8 @@ function bindKeys(player, camera, changed) {
     "-": () => camera.zoom(1 / 0.85),
     ",": () => step(player, -1),
     ".": () => step(player, 1),
+    PageUp: () => stepCut(player, -1),
+    PageDown: () => stepCut(player, 1),
     1: () => lookFrom(player, camera, "front"),
     2: () => lookFrom(player, camera, "side"),
     3: () => lookFrom(player, camera, "top"),
@@ -158,6 +169,7 @@ function start() {
 
   const show = () => {
     if (player.cut() && scene !== null) scene.cut();
+    if (element("follow").checked) camera.target = origin(player.now.blade);
     if (scene !== null) scene.draw(player.now, camera, shownNow());
     showState(player);
   };
@@ -189,6 +201,7 @@ function start() {
     });
   }
   for (const name of ["robot", "part", "path", "stock"]) element(`show-${name}`).addEventListener("change", changed);
+  element("follow").addEventListener("change", changed);
   for (const part of document.querySelectorAll("[data-vcut-machine]")) {
     /** @type {HTMLElement} */ (part).hidden = player.program.cell === null;
   }
@@ -197,9 +210,9 @@ function start() {
     scene = makeScene(player);
     changed();
   });
-  lookFrom(player, camera, "whole");
+  lookFrom(player, camera, "iso");
   new ResizeObserver(changed).observe(element("canvas"));
-  publish(player, changed);
+  publish(player, camera, changed);
   show();
 }
 
@@ -212,9 +225,10 @@ function shownNow() {
 /**
  * What scripts may do with the playback.
  * @param {Player} player
+ * @param {Camera} camera
  * @param {() => void} changed
  */
-function publish(player, changed) {
+function publish(player, camera, changed) {
   const then = (/** @type {() => void} */ act) => {
     act();
     changed();
@@ -231,6 +245,11 @@ function publish(player, changed) {
       seek: (/** @type {number} */ seconds) => then(() => player.seek(seconds)),
       setSpeed: (/** @type {number} */ speed) => then(() => (player.speed = speed)),
       setLayers: (/** @type {number} */ from, /** @type {number} */ to) => then(() => chooseLayers(player, from, to)),
+      stepCut: (/** @type {1 | -1} */ way) => then(() => stepCut(player, way)),
+      goToLayer: (/** @type {number} */ layer) => then(() => player.goToLayer(layer)),
+      /** where the camera looks, in the scene, and how opaque the machine is from there */
+      looksAt: () => [...camera.target],
+      machineOpacity: () => camera.opacityOfMachine(),
       section: () => {
         player.cut();
         changed();

@@ -1,0 +1,92 @@
+//! Colours of pictures, and their partners where the page is dark.
+//!
+//! A picture says its colours itself, so that it is the same in any viewer. A page that follows the setting of its reader has
+//! rules for each of them, which are stronger than what a picture says.
+
+/// Colours on a light ground, and on a dark one: what is light becomes dark, what stands out stands out.
+const PARTNERS: [(&str, &str); 28] = [
+    // Ground, letters, plots, grid.
+    ("#fbfaf7", "#1c2126"),
+    ("#2b2a27", "#e3e5e8"),
+    ("#ffffff", "#14181c"),
+    ("#dcd6c8", "#353d45"),
+    // Blue, vermilion, green, orange, sky blue, purple [Okabe 2008].
+    ("#0072b2", "#5aaee6"),
+    ("#d55e00", "#ff8a3d"),
+    ("#009e73", "#35c79b"),
+    ("#e69f00", "#f0b43c"),
+    ("#56b4e9", "#8ecbf0"),
+    ("#cc79a7", "#e3a1c6"),
+    // Stock and chips.
+    ("#f6f1e2", "#3b3728"),
+    ("#f7f2e4", "#2b2a22"),
+    ("#e8dec4", "#38342a"),
+    ("#8f7f57", "#8c8265"),
+    ("#9c8a5c", "#a39672"),
+    ("#e4dcc3", "#45402f"),
+    // The part.
+    ("#b7c6d3", "#41566a"),
+    ("#3d5a73", "#9dbad3"),
+    // The highest scallop.
+    ("#a3005c", "#ff7ab8"),
+    // Rates and ranges of axes.
+    ("#f3f0fa", "#1f1c2b"),
+    ("#6d5a8c", "#a893cf"),
+    ("#8a8577", "#8f8b80"),
+    // The sketch of the set-up.
+    ("#efe7d0", "#3b3728"),
+    ("#c62828", "#ff7b72"),
+    ("#2e7d32", "#6fcf74"),
+    ("#1565c0", "#6cb2ff"),
+    ("#57606a", "#a6adb5"),
+    ("#d0d4d9", "#3a424b"),
+];
+
+/// Rules of style for pictures below `within`, for a page on a dark ground.
+pub(crate) fn dark(within: &str) -> String {
+    let rule = |(light, dark): (&str, &str)| {
+        format!(
+            "{within} [fill=\"{light}\"] {{ fill: {dark}; }}\n{within} [stroke=\"{light}\"] {{ stroke: {dark}; }}\n"
+        )
+    };
+    PARTNERS.into_iter().map(rule).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// The relative luminance of WCAG 2.2.
+    fn luminance(colour: &str) -> f64 {
+        let part = |at: usize| {
+            let value = f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
+            if value <= 0.04045 {
+                value / 12.92
+            } else {
+                ((value + 0.055) / 1.055).powf(2.4)
+            }
+        };
+        0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5)
+    }
+
+    fn contrast(a: &str, b: &str) -> f64 {
+        let [a, b] = [luminance(a), luminance(b)];
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn no_colour_has_two_partners() {
+        let lights: BTreeSet<&str> = PARTNERS.iter().map(|(light, _)| *light).collect();
+        assert_eq!(lights.len(), PARTNERS.len());
+    }
+
+    #[test]
+    fn letters_and_curves_stand_out_from_a_dark_ground() {
+        let [(_, ground), (_, ink), (_, plot), ..] = PARTNERS;
+        assert!(contrast(ink, ground) > 12.0 && contrast(ink, plot) > 12.0);
+        for (light, dark) in &PARTNERS[4..10] {
+            assert!(contrast(dark, plot) > 4.5, "{light} as {dark}");
+        }
+    }
+}
