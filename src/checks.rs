@@ -211,7 +211,12 @@ fn of_machine(carried: Carried<'_>) -> Vec<Checked> {
 
 /// The checks of a machine that there is not.
 fn without_machine() -> Vec<Checked> {
-    let all = [Check::AxisLimits, Check::SingularPoses, Check::Branch, Check::Turns];
+    let all = [
+        Check::AxisLimits,
+        Check::SingularPoses,
+        Check::Branch,
+        Check::Turns,
+    ];
     all.map(|check| not_made(check, Reason::NoMachine)).to_vec()
 }
 
@@ -235,11 +240,13 @@ fn singular_poses(mechanism: &Mechanism, report: &ReachReport) -> Option<Checked
             .any(|nearest| nearest.value.is_finite())
     };
     match mechanism {
-        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => Some(if is_measured() {
-            made(Check::SingularPoses)
-        } else {
-            not_made(Check::SingularPoses, Reason::NotMeasured)
-        }),
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => {
+            Some(if is_measured() {
+                made(Check::SingularPoses)
+            } else {
+                not_made(Check::SingularPoses, Reason::NotMeasured)
+            })
+        }
         Mechanism::FiveAxis(_) => None,
     }
 }

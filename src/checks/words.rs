@@ -25,8 +25,7 @@ impl Checks {
     /// What is proven, as a sentence without a full stop.
     #[must_use]
     pub fn proven(&self) -> String {
-        let mut parts =
-            vec!["every chip comes free and no cut enters the part or its allowance".to_owned()];
+        let mut parts = vec!["every chip comes free and no cut enters the part or its allowance".to_owned()];
         if self.is_made(&Check::AxisLimits) {
             parts.push(self.of_motions());
         }
@@ -57,13 +56,12 @@ impl Checks {
     pub fn not_checked(&self) -> Option<String> {
         let mut by_reason: Vec<(Reason, Vec<String>)> = Vec::new();
         let (kept, unknown) = self.axes();
-        let mut add = |reason: Reason, what: String| {
-            match by_reason.iter_mut().find(|(known, _)| *known == reason) {
+        let mut add =
+            |reason: Reason, what: String| match by_reason.iter_mut().find(|(known, _)| *known == reason) {
                 Some((_, all)) if all.contains(&what) => {}
                 Some((_, all)) => all.push(what),
                 None => by_reason.push((reason, vec![what])),
-            }
-        };
+            };
         for checked in self.iter() {
             if let Outcome::NotMade(reason) = checked.outcome {
                 add(

@@ -528,7 +528,10 @@ fn a_limit_on_scallop_that_costs_time_is_named() {
             (proven.report.times.all.total().to_s(), is_named)
         };
         let ((tight, is_named), (wide, _)) = (time_of(scallop), time_of(2.0 * scallop));
-        assert!(wide < 0.9 * tight, "{wide} s, {tight} s: the job says nothing of the limit");
+        assert!(
+            wide < 0.9 * tight,
+            "{wide} s, {tight} s: the job says nothing of the limit"
+        );
         assert!(is_named, "{swing} deg, {scallop} mm");
     }
 }

@@ -361,10 +361,7 @@ impl CompileArgs {
         let machine = self.overrides.machine.as_ref().map(|_| "--machine".to_owned());
         let check = self.check.then(|| "--check".to_owned());
         let option = self.options.option.first().map(|_| "--option".to_owned());
-        let denied = self
-            .warnings
-            .deny_warnings
-            .then(|| "--deny-warnings".to_owned());
+        let denied = self.warnings.deny_warnings.then(|| "--deny-warnings".to_owned());
         job.or(target)
             .or(output)
             .or(check)

@@ -249,7 +249,10 @@ fn plan_and_prove(outcome: &mut Outcome, kept: &mut Kept<'_>, progress: &mut dyn
             (Some(plan), told, None)
         }
         Ended::Compiled(plan, mut told, compiled) => {
-            let warned = job.machine.as_ref().map(|machine| compiled.checks.warnings(machine));
+            let warned = job
+                .machine
+                .as_ref()
+                .map(|machine| compiled.checks.warnings(machine));
             told.extend(warned.into_iter().flatten());
             (Some(plan), told, Some(*compiled))
         }

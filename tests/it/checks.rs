@@ -72,7 +72,11 @@ fn is_reached(text: &str) -> bool {
 /// A number of a sheet, by the text alone.
 fn number(sheet: &str, key: &str) -> f64 {
     let line = sheet.lines().find_map(|line| line.strip_prefix(key)).unwrap();
-    let value = line.trim_start_matches([' ', '=']).split_whitespace().next().unwrap();
+    let value = line
+        .trim_start_matches([' ', '='])
+        .split_whitespace()
+        .next()
+        .unwrap();
     value.parse().unwrap()
 }
 
@@ -154,7 +158,12 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
         let said = Said::of(&outcome);
         assert_eq!(rates_made(&outcome), if has_rates { 6 } else { 0 }, "{name}");
         assert_eq!(warns(&outcome), !has_rates, "{name}");
-        assert_eq!(said.proven.contains("rates"), has_rates, "{name}: {}", said.proven);
+        assert_eq!(
+            said.proven.contains("rates"),
+            has_rates,
+            "{name}: {}",
+            said.proven
+        );
         assert_eq!(
             said.not_checked.contains("the rates of all axes"),
             !has_rates,
@@ -200,8 +209,16 @@ fn the_page_claims_of_every_five_axis_machine_what_its_sheet_lets_check() {
             .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
         let outcome = compile(JOB, &Files::default().with(JOB, job));
         let said = Said::of(&outcome);
-        assert_eq!((rates_made(&outcome), warns(&outcome)), (rates, rates < axes), "{name}");
-        assert_eq!(said.proven.contains("the limits and rates"), rates == axes, "{name}");
+        assert_eq!(
+            (rates_made(&outcome), warns(&outcome)),
+            (rates, rates < axes),
+            "{name}"
+        );
+        assert_eq!(
+            said.proven.contains("the limits and rates"),
+            rates == axes,
+            "{name}"
+        );
         assert!(!said.proven.contains("singular"), "{name}: {}", said.proven);
         assert!(said.not_checked.contains("the sweep of the edge"), "{name}");
         assert_eq!(said.class, "in-part", "{name}");
@@ -225,10 +242,21 @@ fn an_axis_without_a_rate_is_named() {
         .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
     let outcome = compile(JOB, &Files::default().with(JOB, job).with("mill.toml", sheet));
     let said = Said::of(&outcome);
-    assert!(said.proven.contains("the rates of X, Y, Z and A"), "{}", said.proven);
-    assert!(said.not_checked.contains("the rates of B (not known"), "{}", said.not_checked);
+    assert!(
+        said.proven.contains("the rates of X, Y, Z and A"),
+        "{}",
+        said.proven
+    );
+    assert!(
+        said.not_checked.contains("the rates of B (not known"),
+        "{}",
+        said.not_checked
+    );
     let messages = told(&outcome.diagnostics, &outcome);
-    assert!(messages.contains("warning[VC0517]: the rate of B is not known"), "{messages}");
+    assert!(
+        messages.contains("warning[VC0517]: the rate of B is not known"),
+        "{messages}"
+    );
 }
 
 #[test]
@@ -237,6 +265,10 @@ fn without_a_machine_nothing_is_claimed_of_one() {
     let outcome = compile(JOB, &Files::default().with(JOB, text));
     let said = Said::of(&outcome);
     assert!(!said.proven.contains("the machine"), "{}", said.proven);
-    assert!(said.not_checked.contains("reach and the limits of axes"), "{}", said.not_checked);
+    assert!(
+        said.not_checked.contains("reach and the limits of axes"),
+        "{}",
+        said.not_checked
+    );
     assert!(!warns(&outcome));
 }

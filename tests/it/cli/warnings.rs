@@ -51,7 +51,10 @@ fn denied_warnings_end_with_1_and_write_nothing() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let run = vcutc(path, &["slow.vcut", "--target", "krl", "-o", "out"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert_eq!(names(&path.join("out")), ["rib.dat", "rib.src", "slow.dat", "slow.src"]);
+    assert_eq!(
+        names(&path.join("out")),
+        ["rib.dat", "rib.src", "slow.dat", "slow.src"]
+    );
 }
 
 #[test]
@@ -67,7 +70,11 @@ fn a_list_writes_the_programs_without_warnings() {
         "{}",
         run.stderr
     );
-    assert!(run.stderr.contains("2 programs: 1 written, 1 failed"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("2 programs: 1 written, 1 failed"),
+        "{}",
+        run.stderr
+    );
     assert_eq!(names(&shop.path().join("out")), ["rib.dat", "rib.src"]);
     let run = vcutc(shop.path(), &["build"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
@@ -100,14 +107,22 @@ fn json_names_the_checks_with_their_reasons() {
     let shop = shop();
     let of = |summary: &serde_json::Value, name: &str| -> Vec<serde_json::Value> {
         let checks = summary["verdict"]["checks"].as_array().unwrap();
-        checks.iter().filter(|check| check["check"] == name).cloned().collect()
+        checks
+            .iter()
+            .filter(|check| check["check"] == name)
+            .cloned()
+            .collect()
     };
     let slow = summary(&shop, &["check", "slow.vcut"]);
     assert_eq!((&slow["errors"], &slow["warnings"]), (&0.into(), &1.into()));
     assert_eq!(slow["verdict"]["standing"], "in_part");
     let rates = of(&slow, "axis_rate");
     assert_eq!(rates.len(), 6);
-    assert!(rates.iter().all(|rate| rate["made"] == false && rate["reason"] == "not_stated"));
+    assert!(
+        rates
+            .iter()
+            .all(|rate| rate["made"] == false && rate["reason"] == "not_stated")
+    );
     assert!(of(&slow, "read_back").is_empty(), "nothing was written");
 
     let rib = summary(&shop, &["rib.vcut", "--target", "krl", "-o", "out"]);
@@ -129,19 +144,27 @@ fn json_has_the_parameters_as_numbers() {
     let rib = summary(&shop, &["check", "rib.vcut"]);
     let parameters = rib["operations"][0]["parameters"].as_array().unwrap();
     let of = |name: &str| parameters.iter().find(|one| one["name"] == name).unwrap();
-    assert_eq!(of("layer"), &serde_json::json!({"name": "layer", "value": 4.0, "unit": "mm", "origin": "given"}));
+    assert_eq!(
+        of("layer"),
+        &serde_json::json!({"name": "layer", "value": 4.0, "unit": "mm", "origin": "given"})
+    );
     assert_eq!(of("lattice")["value"], "orthogonal");
     assert_eq!(of("step")["origin"], "auto");
     assert_eq!(of("run_out")["origin"], "default");
     // The line for people has the same number.
     let auto = rib["lines"].as_array().unwrap().iter().find_map(|line| {
         let line = line.as_str()?.trim_start().strip_prefix("auto")?;
-        line.trim().split(", ").find_map(|one| one.trim().strip_prefix("step = "))
+        line.trim()
+            .split(", ")
+            .find_map(|one| one.trim().strip_prefix("step = "))
     });
     assert_eq!(auto.unwrap(), format!("{} mm", of("step")["value"]));
     // Nothing has more decimals than the planner tells apart.
     for one in parameters.iter().filter_map(|one| one["value"].as_f64()) {
-        assert!(one.to_string().split('.').nth(1).unwrap_or("").len() <= 3, "{one}");
+        assert!(
+            one.to_string().split('.').nth(1).unwrap_or("").len() <= 3,
+            "{one}"
+        );
     }
 }
 
@@ -160,5 +183,8 @@ fn the_summary_begins_with_the_answer() {
         numbers["layers"],
         rib["reach"]["least"]["of"].as_str().unwrap()
     );
-    assert!(head.starts_with("rib: ") && head.ends_with(&expected), "{head} / {expected}");
+    assert!(
+        head.starts_with("rib: ") && head.ends_with(&expected),
+        "{head} / {expected}"
+    );
 }
