@@ -123,10 +123,12 @@ impl Checks {
             Some(carried) => all.extend(of_machine(carried)),
             None => all.extend(without_machine()),
         }
-        all.push(match (carried, basis.kept) {
-            (_, Kept::Accelerations | Kept::Jerks) => made(Check::Accelerations),
-            (Some(_), Kept::Speeds) => not_made(Check::Accelerations, Reason::NotStated),
-            (None, Kept::Speeds) => not_made(Check::Accelerations, Reason::NoMachine),
+        all.push(match carried {
+            Some(carried) if counts_accelerations(&carried.machine.model, basis) => {
+                made(Check::Accelerations)
+            }
+            Some(_) => not_made(Check::Accelerations, Reason::NotStated),
+            None => not_made(Check::Accelerations, Reason::NoMachine),
         });
         all.push(not_made(Check::Holder, Reason::NoBody));
         all.push(not_made(Check::Collisions, Reason::NoBody));
@@ -207,6 +209,17 @@ fn of_machine(carried: Carried<'_>) -> Vec<Checked> {
     all.extend(elbow(&model.mechanism));
     all.push(turns(&model.mechanism, carried.reached.program.program()));
     all
+}
+
+/// Whether the times keep accelerations of all that moves: of every axis, or of tip and blade along the way. One number among many
+/// that are not known is not enough.
+fn counts_accelerations(model: &Model, basis: Basis) -> bool {
+    let of_axes = model.axes.iter().all(|axis| axis.acceleration.is_some());
+    let of_the_way = model.path.acceleration.is_some() && model.path.turning_acceleration.is_some();
+    match basis.kept {
+        Kept::Speeds => false,
+        Kept::Accelerations | Kept::Jerks => of_axes || of_the_way,
+    }
 }
 
 /// The checks of a machine that there is not.

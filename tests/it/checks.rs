@@ -2,7 +2,7 @@
 //! warnings and the JSON list say of it is compared with the text of its sheet.
 
 use crate::pipeline::{Files, compile, told};
-use crate::repository::read;
+use crate::repository::{read, root};
 use vcutc::checks::{Check, Outcome as Came};
 use vcutc::choice;
 use vcutc::diag::Code;
@@ -271,4 +271,37 @@ fn without_a_machine_nothing_is_claimed_of_one() {
         said.not_checked
     );
     assert!(!warns(&outcome));
+}
+
+/// The parts into which a limit on scallop goes add up to what stays, and are those of the job: the allowance as written, the
+/// standoff over the sine of the swing.
+#[test]
+fn a_limit_that_binds_says_where_it_goes() {
+    let outcome = compile("spoiler_clarky.vcut", &Files::of(root().join("examples")));
+    let compiled = compiled(&outcome);
+    let line = |name: &str| {
+        let lines = compiled.summary.iter();
+        let mut found = lines.filter_map(|line| line.trim_start().strip_prefix(name));
+        found.next().unwrap_or_else(|| panic!("no {name}")).trim()
+    };
+    let chosen = |name: &str| {
+        let rest = line("auto").split(&format!("{name} = ")).nth(1).unwrap();
+        rest.split(' ').next().unwrap().parse::<f64>().unwrap()
+    };
+    let (_, spent) = line("bound by").split_once("; scallop ").unwrap();
+    let (height, parts) = spent.split_once(" of 10 mm = ").unwrap();
+    let parts: Vec<(&str, f64)> = parts
+        .split(" + ")
+        .map(|part| part.split_once(' ').unwrap())
+        .map(|(name, value)| (name, value.parse().unwrap()))
+        .collect();
+    let [("allowance", allowance), ("standoff", standoff), ("cusp", cusp)] = parts[..] else {
+        panic!("{parts:?}");
+    };
+    let rise = chosen("standoff") / chosen("swing").to_radians().sin();
+    assert!((standoff - rise).abs() < 0.005 + 1e-9, "{standoff} {rise}");
+    assert!((allowance - 0.5).abs() < 1e-9, "{allowance}");
+    let height: f64 = height.parse().unwrap();
+    assert!((allowance + standoff + cusp - height).abs() < 1e-9, "{spent}");
+    assert!((height - compiled.numbers.scallop_mm).abs() < 0.006, "{height}");
 }
