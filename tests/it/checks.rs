@@ -172,7 +172,7 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
         );
         let is_parallelogram = sheet.contains("j2_j3_parallelogram = true");
         let is_whole = has_rates && !is_parallelogram;
-        assert_eq!(said.class == "", is_whole, "{name}: {}", said.class);
+        assert_eq!(said.class.is_empty(), is_whole, "{name}: {}", said.class);
         assert_eq!(said.proven.starts_with("Proven: "), is_whole, "{name}");
         assert_eq!(said.not_checked.contains("J3 - J2"), is_parallelogram, "{name}");
         assert!(said.proven.contains("clear of singular poses"), "{name}");

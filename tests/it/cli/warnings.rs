@@ -114,7 +114,8 @@ fn json_names_the_checks_with_their_reasons() {
             .collect()
     };
     let slow = summary(&shop, &["check", "slow.vcut"]);
-    assert_eq!((&slow["errors"], &slow["warnings"]), (&0.into(), &1.into()));
+    assert_eq!(slow["errors"], 0);
+    assert_eq!(slow["warnings"], 1);
     assert_eq!(slow["verdict"]["standing"], "in_part");
     let rates = of(&slow, "axis_rate");
     assert_eq!(rates.len(), 6);
@@ -174,17 +175,20 @@ fn the_summary_begins_with_the_answer() {
     let shop = shop();
     let rib = summary(&shop, &["check", "rib.vcut"]);
     let numbers = &rib["numbers"];
-    let scallop = numbers["scallop_mm"].as_f64().unwrap();
-    let margin = (rib["reach"]["margin"].as_f64().unwrap() * 1000.0).floor() / 10.0;
     let head = rib["lines"][0].as_str().unwrap();
+    let scallop = numbers["scallop_mm"].as_f64().unwrap();
     let expected = format!(
-        ", {} cuts in {} layers, scallop {scallop:.2} mm, margin {} {margin:.1} %",
+        ", {} cuts in {} layers, scallop {scallop:.2} mm, margin {} ",
         numbers["cuts"],
         numbers["layers"],
         rib["reach"]["least"]["of"].as_str().unwrap()
     );
-    assert!(
-        head.starts_with("rib: ") && head.ends_with(&expected),
-        "{head} / {expected}"
-    );
+    let (time, margin) = head
+        .split_once(&expected)
+        .unwrap_or_else(|| panic!("{head} / {expected}"));
+    assert!(time.starts_with("rib: ") && time.ends_with(" s"), "{time}");
+    // Rounded down to a tenth of a percent, from a share of four decimals.
+    let margin: f64 = margin.trim_end_matches(" %").parse().unwrap();
+    let share = rib["reach"]["margin"].as_f64().unwrap() * 100.0;
+    assert!((-0.006..0.11).contains(&(share - margin)), "{share} {margin}");
 }
