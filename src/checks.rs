@@ -24,6 +24,8 @@ pub enum Check {
     Chips,
     /// No cut enters the part or its allowance.
     Part,
+    /// Of an air cut, which cuts nothing: the tip stays above the stock.
+    AboveStock,
     /// Every axis stays within its range.
     AxisLimits,
     /// This axis stays within its rate.
@@ -118,15 +120,27 @@ impl Checks {
     /// The checks of a job whose cuts are proven.
     #[must_use]
     pub fn of(carried: Option<Carried<'_>>, basis: Basis) -> Self {
-        let mut all = vec![made(Check::Chips), made(Check::Part)];
+        Self::after(vec![made(Check::Chips), made(Check::Part)], carried, basis)
+    }
+
+    /// The checks of an air cut.
+    #[must_use]
+    pub fn of_air_cut(carried: Option<Carried<'_>>, basis: Basis) -> Self {
+        Self::after(vec![made(Check::AboveStock)], carried, basis)
+    }
+
+    /// The checks of the cuts, and those of what carries them out.
+    fn after(mut all: Vec<Checked>, carried: Option<Carried<'_>>, basis: Basis) -> Self {
         match carried {
             Some(carried) => all.extend(of_machine(carried)),
             None => all.extend(without_machine()),
         }
-        all.push(match (carried, basis.kept) {
-            (_, Kept::Accelerations | Kept::Jerks) => made(Check::Accelerations),
-            (Some(_), Kept::Speeds) => not_made(Check::Accelerations, Reason::NotStated),
-            (None, Kept::Speeds) => not_made(Check::Accelerations, Reason::NoMachine),
+        all.push(match carried {
+            Some(carried) if counts_accelerations(&carried.machine.model, basis) => {
+                made(Check::Accelerations)
+            }
+            Some(_) => not_made(Check::Accelerations, Reason::NotStated),
+            None => not_made(Check::Accelerations, Reason::NoMachine),
         });
         all.push(not_made(Check::Holder, Reason::NoBody));
         all.push(not_made(Check::Collisions, Reason::NoBody));
@@ -165,6 +179,7 @@ impl Checks {
             (
                 Check::Chips
                 | Check::Part
+                | Check::AboveStock
                 | Check::Accelerations
                 | Check::Holder
                 | Check::Collisions
@@ -209,9 +224,25 @@ fn of_machine(carried: Carried<'_>) -> Vec<Checked> {
     all
 }
 
+/// Whether the times keep accelerations of all that moves: of every axis, or of tip and blade along the way. One number among many
+/// that are not known is not enough.
+fn counts_accelerations(model: &Model, basis: Basis) -> bool {
+    let of_axes = model.axes.iter().all(|axis| axis.acceleration.is_some());
+    let of_the_way = model.path.acceleration.is_some() && model.path.turning_acceleration.is_some();
+    match basis.kept {
+        Kept::Speeds => false,
+        Kept::Accelerations | Kept::Jerks => of_axes || of_the_way,
+    }
+}
+
 /// The checks of a machine that there is not.
 fn without_machine() -> Vec<Checked> {
-    let all = [Check::AxisLimits, Check::SingularPoses, Check::Branch, Check::Turns];
+    let all = [
+        Check::AxisLimits,
+        Check::SingularPoses,
+        Check::Branch,
+        Check::Turns,
+    ];
     all.map(|check| not_made(check, Reason::NoMachine)).to_vec()
 }
 
@@ -235,11 +266,13 @@ fn singular_poses(mechanism: &Mechanism, report: &ReachReport) -> Option<Checked
             .any(|nearest| nearest.value.is_finite())
     };
     match mechanism {
-        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => Some(if is_measured() {
-            made(Check::SingularPoses)
-        } else {
-            not_made(Check::SingularPoses, Reason::NotMeasured)
-        }),
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => {
+            Some(if is_measured() {
+                made(Check::SingularPoses)
+            } else {
+                not_made(Check::SingularPoses, Reason::NotMeasured)
+            })
+        }
         Mechanism::FiveAxis(_) => None,
     }
 }

@@ -305,7 +305,14 @@ fn reach_line(figures: &ReachFigures) -> String {
     }
     // A number alone says nothing.
     let words = match ops.as_slice() {
-        [(BranchFigure { is_numbered: true, .. }, _)] => "same configuration throughout".to_owned(),
+        [
+            (
+                BranchFigure {
+                    is_numbered: true, ..
+                },
+                _,
+            ),
+        ] => "same configuration throughout".to_owned(),
         _ => words.join("; for less of it "),
     };
     format!("{words}{changes}")

@@ -28,26 +28,8 @@ pub fn summary(
 ) -> Vec<String> {
     let mut lines = vec![headline(plan, report, basis, reach)];
     lines.push(row("per layer", &cuts_per_layer(report)));
-    for operation in &plan.operations {
-        let PlannedOperation::RoughVcut(vcut) = operation;
-        let choices: Vec<String> = vcut
-            .parameters
-            .choices(&vcut.asked)
-            .iter()
-            .map(|c| format!("{} = {}", c.name, c.value))
-            .collect();
-        if !choices.is_empty() {
-            lines.push(row("auto", &choices.join(", ")));
-        }
-        lines.extend(chosen_limit(&vcut.asked).map(|limit| row("limit", &limit)));
-        let reasons = vcut.parameters.reasons(&vcut.asked);
-        if !reasons.is_empty() {
-            let spent = scallop_spent(vcut, report).map_or_else(String::new, |spent| format!("; scallop {spent}"));
-            lines.push(row("bound by", &format!("{}{spent}", reasons.join(", "))));
-        }
-        for decision in &vcut.decisions {
-            lines.push(row("compared", &format!("{}: {}", decision.field, compared(decision))));
-        }
+    for PlannedOperation::RoughVcut(vcut) in &plan.operations {
+        lines.extend(of_operation(vcut, report));
     }
     lines.push(row("time", &times::in_all(&report.times.all)));
     lines.push(row("basis", &times::basis(basis)));
@@ -69,9 +51,16 @@ pub fn summary(
             report.mean_scallop.to_mm(),
         ),
     ));
-    let correlation = format!("correlation {:.2} %{}", report.correlation * 100.0, hollow(report));
+    let correlation = format!(
+        "correlation {:.2} %{}",
+        report.correlation * 100.0,
+        hollow(report)
+    );
     lines.push(row("contours", &correlation));
-    let (edge, blade) = (show(report.longest_edge.to_mm()), show(longest_blade(plan).to_mm()));
+    let (edge, blade) = (
+        show(report.longest_edge.to_mm()),
+        show(longest_blade(plan).to_mm()),
+    );
     lines.push(row("edge", &format!("{edge} of {blade} mm used at most")));
     if reach.is_some() {
         lines.push(row("in hand", IN_HAND));
@@ -97,10 +86,41 @@ pub fn chosen_limit(asked: &RoughVcut) -> Option<String> {
     ))
 }
 
+/// What was chosen for an operation, what it came up against, and what it was compared with.
+fn of_operation(vcut: &PlannedVcut, report: &Report) -> Vec<String> {
+    let mut lines = Vec::new();
+    let choices: Vec<String> = vcut
+        .parameters
+        .choices(&vcut.asked)
+        .iter()
+        .map(|c| format!("{} = {}", c.name, c.value))
+        .collect();
+    if !choices.is_empty() {
+        lines.push(row("auto", &choices.join(", ")));
+    }
+    lines.extend(chosen_limit(&vcut.asked).map(|limit| row("limit", &limit)));
+    let reasons = vcut.parameters.reasons(&vcut.asked);
+    if !reasons.is_empty() {
+        let spent =
+            scallop_spent(vcut, report).map_or_else(String::new, |spent| format!("; scallop {spent}"));
+        lines.push(row("bound by", &format!("{}{spent}", reasons.join(", "))));
+    }
+    for decision in &vcut.decisions {
+        lines.push(row(
+            "compared",
+            &format!("{}: {}", decision.field, compared(decision)),
+        ));
+    }
+    lines
+}
+
 /// The lines that say what is proven and what is not checked.
 #[must_use]
 pub fn verdict(checks: &Checks) -> Vec<String> {
-    let proven = row(checks.standing().words().to_lowercase().as_str(), &checks.proven());
+    let proven = row(
+        checks.standing().words().to_lowercase().as_str(),
+        &checks.proven(),
+    );
     let open = checks.not_checked().map(|open| row("not checked", &open));
     core::iter::once(proven).chain(open).collect()
 }

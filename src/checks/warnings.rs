@@ -45,8 +45,8 @@ fn remedy(machine: &Machine, name: &str) -> String {
             "read the rates from the data sheet of your machine, and describe it in a sheet of your own with {key}; `vcutc machines {name}` shows all other numbers"
         ),
         Origin::File(FileKind::Sheet) => format!("add {key} to {name}, from the data sheet of your machine"),
-        Origin::File(FileKind::Urdf) => format!(
-            "add `velocity` to each `limit` of {name}, in rad/s, from the data sheet of your machine"
-        ),
+        Origin::File(FileKind::Urdf) => {
+            format!("add `velocity` to each `limit` of {name}, in rad/s, from the data sheet of your machine")
+        }
     }
 }

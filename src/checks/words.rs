@@ -25,8 +25,13 @@ impl Checks {
     /// What is proven, as a sentence without a full stop.
     #[must_use]
     pub fn proven(&self) -> String {
-        let mut parts =
-            vec!["every chip comes free and no cut enters the part or its allowance".to_owned()];
+        let mut parts = Vec::new();
+        if self.is_made(&Check::Chips) && self.is_made(&Check::Part) {
+            parts.push("every chip comes free and no cut enters the part or its allowance".to_owned());
+        }
+        if self.is_made(&Check::AboveStock) {
+            parts.push("the tip stays above the stock".to_owned());
+        }
         if self.is_made(&Check::AxisLimits) {
             parts.push(self.of_motions());
         }
@@ -57,13 +62,12 @@ impl Checks {
     pub fn not_checked(&self) -> Option<String> {
         let mut by_reason: Vec<(Reason, Vec<String>)> = Vec::new();
         let (kept, unknown) = self.axes();
-        let mut add = |reason: Reason, what: String| {
-            match by_reason.iter_mut().find(|(known, _)| *known == reason) {
+        let mut add =
+            |reason: Reason, what: String| match by_reason.iter_mut().find(|(known, _)| *known == reason) {
                 Some((_, all)) if all.contains(&what) => {}
                 Some((_, all)) => all.push(what),
                 None => by_reason.push((reason, vec![what])),
-            }
-        };
+            };
         for checked in self.iter() {
             if let Outcome::NotMade(reason) = checked.outcome {
                 add(
@@ -111,6 +115,7 @@ impl Checks {
                     Check::AxisRate(axis) => Some(axis.clone()),
                     Check::Chips
                     | Check::Part
+                    | Check::AboveStock
                     | Check::AxisLimits
                     | Check::SingularPoses
                     | Check::Branch
@@ -137,6 +142,7 @@ impl Check {
         match self {
             Self::Chips => "chips",
             Self::Part => "part",
+            Self::AboveStock => "above_stock",
             Self::AxisLimits => "axis_limits",
             Self::AxisRate(_) => "axis_rate",
             Self::SingularPoses => "singular_poses",
@@ -155,6 +161,7 @@ impl Check {
         match self {
             Self::Chips => "whether chips come free",
             Self::Part => "whether cuts enter the part",
+            Self::AboveStock => "whether the tip stays above the stock",
             Self::AxisLimits => "reach and the limits of axes",
             Self::AxisRate(_) => "the rate of an axis",
             Self::SingularPoses => "the distance from singular poses",

@@ -13,7 +13,6 @@ use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
 use crate::checks::{Checks, ReadBack};
-use crate::diag::has_errors;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
 use std::path::{Path, PathBuf};

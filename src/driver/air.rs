@@ -3,6 +3,7 @@
 
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
 use crate::air::{least_gap, least_lift, lifted};
+use crate::checks::{Carried, Checks};
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, Operation};
 use crate::plan::parameters::show;
@@ -179,7 +180,12 @@ fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
         paced.basis,
         figures.as_ref(),
     );
+    let carried = job.machine.as_ref().zip(program.reached());
+    let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     Compiled {
+        checks: Checks::of_air_cut(carried, paced.basis),
+        parameters: cutting.parameters.clone(),
+        yielded: None,
         numbers: cutting.numbers.clone(),
         times: time_figures(&report, paced.basis),
         op_times: paced.times,

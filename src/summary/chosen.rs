@@ -56,10 +56,12 @@ pub fn figures(plan: &PlannedJob) -> Vec<OperationFigures> {
     plan.operations
         .iter()
         .enumerate()
-        .map(|(operation, PlannedOperation::RoughVcut(vcut))| OperationFigures {
-            operation,
-            parameters: parameters(vcut),
-        })
+        .map(
+            |(operation, PlannedOperation::RoughVcut(vcut))| OperationFigures {
+                operation,
+                parameters: parameters(vcut),
+            },
+        )
         .collect()
 }
 
@@ -140,11 +142,7 @@ const fn word(word: &'static str) -> Measured {
     (Value::Word(word), None)
 }
 
-const fn open<T>(
-    name: &'static str,
-    asked: &Sourced<Auto<T>>,
-    (value, unit): Measured,
-) -> ParameterFigure {
+const fn open<T>(name: &'static str, asked: &Sourced<Auto<T>>, (value, unit): Measured) -> ParameterFigure {
     let origin = match &asked.value {
         Auto::Given(_) => Origin::Given,
         Auto::Auto => Origin::Auto,

@@ -2,7 +2,7 @@
 //! warnings and the JSON list say of it is compared with the text of its sheet.
 
 use crate::pipeline::{Files, compile, told};
-use crate::repository::read;
+use crate::repository::{read, root};
 use vcutc::checks::{Check, Outcome as Came};
 use vcutc::choice;
 use vcutc::diag::Code;
@@ -72,7 +72,11 @@ fn is_reached(text: &str) -> bool {
 /// A number of a sheet, by the text alone.
 fn number(sheet: &str, key: &str) -> f64 {
     let line = sheet.lines().find_map(|line| line.strip_prefix(key)).unwrap();
-    let value = line.trim_start_matches([' ', '=']).split_whitespace().next().unwrap();
+    let value = line
+        .trim_start_matches([' ', '='])
+        .split_whitespace()
+        .next()
+        .unwrap();
     value.parse().unwrap()
 }
 
@@ -154,7 +158,12 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
         let said = Said::of(&outcome);
         assert_eq!(rates_made(&outcome), if has_rates { 6 } else { 0 }, "{name}");
         assert_eq!(warns(&outcome), !has_rates, "{name}");
-        assert_eq!(said.proven.contains("rates"), has_rates, "{name}: {}", said.proven);
+        assert_eq!(
+            said.proven.contains("rates"),
+            has_rates,
+            "{name}: {}",
+            said.proven
+        );
         assert_eq!(
             said.not_checked.contains("the rates of all axes"),
             !has_rates,
@@ -163,7 +172,7 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
         );
         let is_parallelogram = sheet.contains("j2_j3_parallelogram = true");
         let is_whole = has_rates && !is_parallelogram;
-        assert_eq!(said.class == "", is_whole, "{name}: {}", said.class);
+        assert_eq!(said.class.is_empty(), is_whole, "{name}: {}", said.class);
         assert_eq!(said.proven.starts_with("Proven: "), is_whole, "{name}");
         assert_eq!(said.not_checked.contains("J3 - J2"), is_parallelogram, "{name}");
         assert!(said.proven.contains("clear of singular poses"), "{name}");
@@ -200,8 +209,16 @@ fn the_page_claims_of_every_five_axis_machine_what_its_sheet_lets_check() {
             .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
         let outcome = compile(JOB, &Files::default().with(JOB, job));
         let said = Said::of(&outcome);
-        assert_eq!((rates_made(&outcome), warns(&outcome)), (rates, rates < axes), "{name}");
-        assert_eq!(said.proven.contains("the limits and rates"), rates == axes, "{name}");
+        assert_eq!(
+            (rates_made(&outcome), warns(&outcome)),
+            (rates, rates < axes),
+            "{name}"
+        );
+        assert_eq!(
+            said.proven.contains("the limits and rates"),
+            rates == axes,
+            "{name}"
+        );
         assert!(!said.proven.contains("singular"), "{name}: {}", said.proven);
         assert!(said.not_checked.contains("the sweep of the edge"), "{name}");
         assert_eq!(said.class, "in-part", "{name}");
@@ -225,10 +242,21 @@ fn an_axis_without_a_rate_is_named() {
         .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
     let outcome = compile(JOB, &Files::default().with(JOB, job).with("mill.toml", sheet));
     let said = Said::of(&outcome);
-    assert!(said.proven.contains("the rates of X, Y, Z and A"), "{}", said.proven);
-    assert!(said.not_checked.contains("the rates of B (not known"), "{}", said.not_checked);
+    assert!(
+        said.proven.contains("the rates of X, Y, Z and A"),
+        "{}",
+        said.proven
+    );
+    assert!(
+        said.not_checked.contains("the rates of B (not known"),
+        "{}",
+        said.not_checked
+    );
     let messages = told(&outcome.diagnostics, &outcome);
-    assert!(messages.contains("warning[VC0517]: the rate of B is not known"), "{messages}");
+    assert!(
+        messages.contains("warning[VC0517]: the rate of B is not known"),
+        "{messages}"
+    );
 }
 
 #[test]
@@ -237,6 +265,43 @@ fn without_a_machine_nothing_is_claimed_of_one() {
     let outcome = compile(JOB, &Files::default().with(JOB, text));
     let said = Said::of(&outcome);
     assert!(!said.proven.contains("the machine"), "{}", said.proven);
-    assert!(said.not_checked.contains("reach and the limits of axes"), "{}", said.not_checked);
+    assert!(
+        said.not_checked.contains("reach and the limits of axes"),
+        "{}",
+        said.not_checked
+    );
     assert!(!warns(&outcome));
+}
+
+/// The parts into which a limit on scallop goes add up to what stays, and are those of the job: the allowance as written, the
+/// standoff over the sine of the swing.
+#[test]
+fn a_limit_that_binds_says_where_it_goes() {
+    let outcome = compile("spoiler_clarky.vcut", &Files::of(root().join("examples")));
+    let compiled = compiled(&outcome);
+    let line = |name: &str| {
+        let lines = compiled.summary.iter();
+        let mut found = lines.filter_map(|line| line.trim_start().strip_prefix(name));
+        found.next().unwrap_or_else(|| panic!("no {name}")).trim()
+    };
+    let chosen = |name: &str| {
+        let rest = line("auto").split(&format!("{name} = ")).nth(1).unwrap();
+        rest.split(' ').next().unwrap().parse::<f64>().unwrap()
+    };
+    let (_, spent) = line("bound by").split_once("; scallop ").unwrap();
+    let (height, parts) = spent.split_once(" of 10 mm = ").unwrap();
+    let parts: Vec<(&str, f64)> = parts
+        .split(" + ")
+        .map(|part| part.split_once(' ').unwrap())
+        .map(|(name, value)| (name, value.parse().unwrap()))
+        .collect();
+    let [("allowance", allowance), ("standoff", standoff), ("cusp", cusp)] = parts[..] else {
+        panic!("{parts:?}");
+    };
+    let rise = chosen("standoff") / chosen("swing").to_radians().sin();
+    assert!((standoff - rise).abs() < 0.005 + 1e-9, "{standoff} {rise}");
+    assert!((allowance - 0.5).abs() < 1e-9, "{allowance}");
+    let height: f64 = height.parse().unwrap();
+    assert!((allowance + standoff + cusp - height).abs() < 1e-9, "{spent}");
+    assert!((height - compiled.numbers.scallop_mm).abs() < 0.006, "{height}");
 }

@@ -22,6 +22,7 @@ mod refusals;
 pub(crate) mod report;
 mod snapshot;
 mod verify;
+mod warnings;
 #[cfg(unix)]
 pub(crate) mod watch;
 

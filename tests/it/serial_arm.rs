@@ -1,6 +1,7 @@
 //! Jobs on an arm without a closed form: a UR10e from its URDF through the whole compiler.
 
 use crate::pipeline::{Files, compile, told};
+use vcutc::checks::Standing;
 use vcutc::diag::Code;
 use vcutc::driver::Outcome;
 use vcutc::kinematics::Mechanism;
@@ -116,6 +117,20 @@ fn the_axes_bring_the_blade_where_the_program_has_it() {
         },
     );
     assert_eq!(jumps, Ok(()));
+}
+
+/// The proof meets no singular pose, and measures no distance from one: nothing is claimed of it.
+#[test]
+fn the_distance_from_singular_poses_is_named_as_not_checked() {
+    let outcome = compile(JOB, &small(700, 30));
+    let checks = &outcome.compiled.as_ref().unwrap().checks;
+    assert_eq!(checks.standing(), Standing::InPart);
+    assert!(!checks.proven().contains("singular"), "{}", checks.proven());
+    let open = checks.not_checked().unwrap();
+    assert!(
+        open.contains("the distance from singular poses (not measured"),
+        "{open}"
+    );
 }
 
 #[test]

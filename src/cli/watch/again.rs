@@ -140,7 +140,13 @@ impl<'a> Watched<'a> {
     ) -> Came {
         let outcome = &unwritten.outcome;
         let mut progress = Progress::start(false);
-        match make(&self.product, outcome, &unwritten.disk, console.warnings(), &mut progress) {
+        match make(
+            &self.product,
+            outcome,
+            &unwritten.disk,
+            console.warnings(),
+            &mut progress,
+        ) {
             Ok(made) => {
                 see(&Seen::Outcome(outcome, None));
                 console.clear_screen();
