@@ -98,8 +98,7 @@ pub fn summary(
 }
 
 /// What of the blade no proof can see.
-const IN_HAND: &str =
-    "check how the blade is clamped: leading edge at tool x, flat square to tool y (docs/language.md, `tool`)";
+const IN_HAND: &str = "check how the blade is clamped: leading edge at tool x, flat square to tool y (docs/language.md, `tool`)";
 
 /// `mixed: 1 min 52.0 s; lift 1 min 58.3 s; discard leaves 11.2 mm (limit 10 mm)`.
 #[must_use]

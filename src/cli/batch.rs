@@ -213,10 +213,13 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
     Done {
         sources: outcome.sources,
         diagnostics: outcome.diagnostics,
-        figures: outcome.compiled.filter(|compiled| compiled.numbers_of_cuts().is_some()).map(|compiled| Figures {
-            numbers: compiled.numbers,
-            times: compiled.times,
-        }),
+        figures: outcome
+            .compiled
+            .filter(|compiled| compiled.numbers_of_cuts().is_some())
+            .map(|compiled| Figures {
+                numbers: compiled.numbers,
+                times: compiled.times,
+            }),
         made,
     }
 }

@@ -197,7 +197,10 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
     ("rayon::", &["src/choice/", "src/pace/", "src/reach/"]),
-    ("hmac_sha256::", &["src/fingerprint.rs", "src/report/page/policy.rs"]),
+    (
+        "hmac_sha256::",
+        &["src/fingerprint.rs", "src/report/page/policy.rs"],
+    ),
     ("strsim::", &["src/diag/suggest.rs"]),
     (
         "glam::",
