@@ -33,7 +33,7 @@ pub enum Back {
 }
 
 /// Height of the picture.
-const HEIGHT: f64 = 430.0;
+const HEIGHT: f64 = 445.0;
 /// Where the tip is in the two views.
 const SIDE: [f64; 2] = [190.0, 330.0];
 const FRONT: [f64; 2] = [540.0, 330.0];
@@ -92,7 +92,7 @@ fn side(svg: &mut Svg, blade: &Blade<'_>) {
             SIDE[1] - (across * x[1] - up * z[1]),
         ]
     };
-    ground(svg, SIDE, [60.0, 345.0]);
+    ground(svg, SIDE, [60.0, 400.0]);
     let half = EDGE * libm::tan(blade.half_apex.max(NARROWEST));
     let shank = half.min(HALF_SHANK);
     let body = [
@@ -126,16 +126,16 @@ fn side(svg: &mut Svg, blade: &Blade<'_>) {
     label(svg, at(6.0, -AXIS - 12.0), Anchor::Start, "tool z");
     label(
         svg,
-        [SIDE[0] - 14.0, SIDE[1] + 24.0],
+        [SIDE[0] - 32.0, SIDE[1] + 22.0],
         Anchor::End,
         "tool y, to you",
     );
     label(svg, at(half + 10.0, EDGE * 0.75), Anchor::Start, "leading edge");
-    label(svg, at(-half - 10.0, EDGE), Anchor::End, words);
-    label(svg, at(0.0, EDGE * 0.62), Anchor::Middle, "flat");
+    label(svg, at(-half - 4.0, EDGE * 0.7), Anchor::End, words);
+    label(svg, at(-half - 10.0, BODY), Anchor::End, "flat, to you");
     label(svg, at(shank + 10.0, WHOLE - 20.0), Anchor::Start, "shank");
     rake(svg, blade.rake);
-    let under = SIDE[1] + 84.0;
+    let under = SIDE[1] + 96.0;
     svg.text(
         (SIDE[0], under),
         Anchor::Middle,
@@ -165,8 +165,8 @@ fn rake(svg: &mut Svg, rake: f64) {
         Anchor::Start,
         &words,
     );
-    arrow(svg, [x + 96.0, y + 18.0], [x + 150.0, y + 18.0], INK);
-    label(svg, [x + 96.0, y + 38.0], Anchor::Start, "feed +y");
+    arrow(svg, [x + 140.0, y - 14.0], [x + 196.0, y - 14.0], INK);
+    label(svg, [x + 140.0, y - 34.0], Anchor::Start, "feed +y");
 }
 
 fn front(svg: &mut Svg, blade: &Blade<'_>) {
@@ -186,7 +186,7 @@ fn front(svg: &mut Svg, blade: &Blade<'_>) {
     arrow(svg, FRONT, [FRONT[0], FRONT[1] + AXIS * short], BLUE);
     label(
         svg,
-        [FRONT[0] + AXIS + 8.0, FRONT[1] + 5.0],
+        [FRONT[0] + AXIS + 8.0, FRONT[1] - 14.0],
         Anchor::Start,
         "tool y",
     );
@@ -204,7 +204,7 @@ fn front(svg: &mut Svg, blade: &Blade<'_>) {
         "left flank: swing -",
     );
     label(svg, [FRONT[0] + 12.0, top - 6.0], Anchor::Start, "right flank: +");
-    let under = FRONT[1] + 84.0;
+    let under = FRONT[1] + 96.0;
     svg.text(
         (FRONT[0], under),
         Anchor::Middle,
