@@ -116,7 +116,12 @@ fn raised(
 }
 
 /// The entries of a table, none above the cap and none twice, and for each of the old ones its place among the new.
-fn capped<T: Copy + PartialEq>(table: &[T], cap: T, least: impl Fn(T, T) -> T, into: &mut Vec<T>) -> Vec<usize> {
+fn capped<T: Copy + PartialEq>(
+    table: &[T],
+    cap: T,
+    least: impl Fn(T, T) -> T,
+    into: &mut Vec<T>,
+) -> Vec<usize> {
     let places = table.iter().map(|&entry| {
         let entry = least(entry, cap);
         into.iter().position(|known| *known == entry).unwrap_or_else(|| {

@@ -112,7 +112,10 @@ mod tests {
         ];
         let hashes: Vec<String> = texts.iter().map(|files| hash(files)).collect();
         for (place, one) in hashes.iter().enumerate() {
-            assert!(!hashes.iter().skip(place + 1).any(|other| other == one), "{place}");
+            assert!(
+                !hashes.iter().skip(place + 1).any(|other| other == one),
+                "{place}"
+            );
         }
     }
 

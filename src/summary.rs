@@ -207,8 +207,7 @@ fn scallop_spent(vcut: &PlannedVcut, report: &Report) -> Option<String> {
 }
 
 /// What of the blade no proof can see.
-const IN_HAND: &str =
-    "check how the blade is clamped: leading edge at tool x, flat square to tool y (docs/language.md, `tool`)";
+const IN_HAND: &str = "check how the blade is clamped: leading edge at tool x, flat square to tool y (docs/language.md, `tool`)";
 
 /// `interlaced 1 min 52.0 s; orthogonal 1 min 58.3 s; free leaves 11.2 mm (limit 10 mm)`: what was taken comes first.
 #[must_use]

@@ -49,7 +49,9 @@ pub fn air_cut_height(text: &str) -> Result<Length, String> {
 /// Puts the air cut in the place of an outcome's program. An outcome without a program stays as it is; where there is no air
 /// cut at that height the outcome says why, and has no program any more.
 pub fn into_air_cut(outcome: &mut Outcome, lift: Length, progress: &mut dyn FnMut(Stage)) {
-    let Some(compiled) = outcome.compiled.take() else { return };
+    let Some(compiled) = outcome.compiled.take() else {
+        return;
+    };
     let Some(job) = &outcome.job else { return };
     match air_cut(job, compiled, lift, progress) {
         Ok(compiled) => outcome.compiled = Some(compiled),
@@ -107,7 +109,8 @@ impl Lifted<'_> {
     }
 
     fn verified(&self, lift: Length) -> Result<VerifiedProgram, Box<Diagnostic>> {
-        verify(lifted(self.cutting, lift)).map_err(|faults| Box::new(internal(self.job, &rules_broken(&faults))))
+        verify(lifted(self.cutting, lift))
+            .map_err(|faults| Box::new(internal(self.job, &rules_broken(&faults))))
     }
 
     /// Why the machine does not carry it out, and the least height if it carries that out.

@@ -67,7 +67,10 @@ fn radians(job: &CheckedJob, machine: &Machine, frame: Frame) -> Option<Diagnost
             diagnostic(
                 job,
                 machine,
-                format!("the tool of `{}` is turned by {degrees:.4} deg, which is {meant} deg in radians", machine.name),
+                format!(
+                    "the tool of `{}` is turned by {degrees:.4} deg, which is {meant} deg in radians",
+                    machine.name
+                ),
                 "this frame",
             )
             .help(format!("write `{name} = {meant} deg` if that is meant")),
@@ -77,10 +80,13 @@ fn radians(job: &CheckedJob, machine: &Machine, frame: Frame) -> Option<Diagnost
 
 /// The eighths of a turn whose radians these degrees are, in degrees.
 fn meant(degrees: f64) -> Option<i32> {
-    [45, 90, 135, 180].into_iter().flat_map(|eighths| [eighths, -eighths]).find(|&whole| {
-        let radians = f64::from(whole).to_radians();
-        (degrees - radians).abs() < SAME_DEGREES
-    })
+    [45, 90, 135, 180]
+        .into_iter()
+        .flat_map(|eighths| [eighths, -eighths])
+        .find(|&whole| {
+            let radians = f64::from(whole).to_radians();
+            (degrees - radians).abs() < SAME_DEGREES
+        })
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{
-    Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, Purpose, RateId, Site, Stock,
+    Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, Purpose, RateId,
+    Site, Stock,
 };
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 

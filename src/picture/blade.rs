@@ -33,7 +33,7 @@ pub enum Back {
 }
 
 /// Height of the picture.
-const HEIGHT: f64 = 430.0;
+const HEIGHT: f64 = 445.0;
 /// Where the tip is in the two views.
 const SIDE: [f64; 2] = [190.0, 330.0];
 const FRONT: [f64; 2] = [540.0, 330.0];
@@ -63,10 +63,21 @@ pub fn draw(blade: &Blade<'_>) -> String {
     let description = "Two views of the blade over the work. From the side: the shank above, the tip below, the tool axis z from \
                        the shank out through the tip, x in the blade's plane towards the edge that leads when the feed is along \
                        plus y. Against the feed: y square to the flat, along plus x of the work.";
-    let mut svg = Svg::new([WIDTH, HEIGHT], 15, blade.heading.ids, blade.heading.title, description);
+    let mut svg = Svg::new(
+        [WIDTH, HEIGHT],
+        15,
+        blade.heading.ids,
+        blade.heading.title,
+        description,
+    );
     let bold = "font-size=\"18\" font-weight=\"bold\"";
     svg.text((24.0, 32.0), Anchor::Start, bold, blade.heading.title);
-    svg.text((24.0, 56.0), Anchor::Start, "font-size=\"14\"", blade.heading.subtitle);
+    svg.text(
+        (24.0, 56.0),
+        Anchor::Start,
+        "font-size=\"14\"",
+        blade.heading.subtitle,
+    );
     side(&mut svg, blade);
     front(&mut svg, blade);
     svg.finish()
@@ -81,12 +92,23 @@ fn side(svg: &mut Svg, blade: &Blade<'_>) {
             SIDE[1] - (across * x[1] - up * z[1]),
         ]
     };
-    ground(svg, SIDE, [60.0, 345.0]);
+    ground(svg, SIDE, [60.0, 400.0]);
     let half = EDGE * libm::tan(blade.half_apex.max(NARROWEST));
     let shank = half.min(HALF_SHANK);
-    let body = [at(0.0, 0.0), at(half, EDGE), at(half, BODY), at(-half, BODY), at(-half, EDGE)];
+    let body = [
+        at(0.0, 0.0),
+        at(half, EDGE),
+        at(half, BODY),
+        at(-half, BODY),
+        at(-half, EDGE),
+    ];
     closed(svg, &body, "fill=\"#dfe7ee\" stroke=\"#2b2a27\"");
-    let held = [at(shank, BODY), at(shank, WHOLE), at(-shank, WHOLE), at(-shank, BODY)];
+    let held = [
+        at(shank, BODY),
+        at(shank, WHOLE),
+        at(-shank, WHOLE),
+        at(-shank, BODY),
+    ];
     closed(svg, &held, "fill=\"#b9b3a3\" stroke=\"#2b2a27\"");
     let edge = format!("stroke=\"{VERMILION}\" stroke-width=\"4\" stroke-linecap=\"round\" fill=\"none\"");
     line(svg, at(0.0, 0.0), at(half, EDGE), &edge);
@@ -102,14 +124,24 @@ fn side(svg: &mut Svg, blade: &Blade<'_>) {
     towards_the_eye(svg, SIDE);
     label(svg, at(AXIS + 10.0, 0.0), Anchor::Start, "tool x");
     label(svg, at(6.0, -AXIS - 12.0), Anchor::Start, "tool z");
-    label(svg, [SIDE[0] - 14.0, SIDE[1] + 24.0], Anchor::End, "tool y, to you");
+    label(
+        svg,
+        [SIDE[0] - 32.0, SIDE[1] + 22.0],
+        Anchor::End,
+        "tool y, to you",
+    );
     label(svg, at(half + 10.0, EDGE * 0.75), Anchor::Start, "leading edge");
-    label(svg, at(-half - 10.0, EDGE), Anchor::End, words);
-    label(svg, at(0.0, EDGE * 0.62), Anchor::Middle, "flat");
+    label(svg, at(-half - 4.0, EDGE * 0.7), Anchor::End, words);
+    label(svg, at(-half - 10.0, BODY), Anchor::End, "flat, to you");
     label(svg, at(shank + 10.0, WHOLE - 20.0), Anchor::Start, "shank");
     rake(svg, blade.rake);
-    let under = SIDE[1] + 84.0;
-    svg.text((SIDE[0], under), Anchor::Middle, "font-weight=\"bold\"", "from the side, +y to the right");
+    let under = SIDE[1] + 96.0;
+    svg.text(
+        (SIDE[0], under),
+        Anchor::Middle,
+        "font-weight=\"bold\"",
+        "from the side, +y to the right",
+    );
 }
 
 /// The angle between the feed and the shank, beyond the tip of the x axis.
@@ -127,9 +159,14 @@ fn rake(svg: &mut Svg, rake: f64) {
     svg.path(&path, &format!("stroke=\"{INK}\" fill=\"none\""));
     let half = rake / 2.0;
     let words = format!("rake {}\u{b0}", number(rake.to_degrees()));
-    label(svg, [x + 54.0 * libm::cos(half), y - 50.0 * libm::sin(half)], Anchor::Start, &words);
-    arrow(svg, [x + 96.0, y + 18.0], [x + 150.0, y + 18.0], INK);
-    label(svg, [x + 96.0, y + 38.0], Anchor::Start, "feed +y");
+    label(
+        svg,
+        [x + 54.0 * libm::cos(half), y - 50.0 * libm::sin(half)],
+        Anchor::Start,
+        &words,
+    );
+    arrow(svg, [x + 140.0, y - 14.0], [x + 196.0, y - 14.0], INK);
+    label(svg, [x + 140.0, y - 34.0], Anchor::Start, "feed +y");
 }
 
 fn front(svg: &mut Svg, blade: &Blade<'_>) {
@@ -137,18 +174,43 @@ fn front(svg: &mut Svg, blade: &Blade<'_>) {
     let short = libm::sin(blade.rake);
     ground(svg, FRONT, [440.0, 650.0]);
     for lean in [-SHOWN_SWING, SHOWN_SWING] {
-        on_edge(svg, short, lean, "fill=\"none\" stroke=\"#8a857a\" stroke-dasharray=\"5 4\"");
+        on_edge(
+            svg,
+            short,
+            lean,
+            "fill=\"none\" stroke=\"#8a857a\" stroke-dasharray=\"5 4\"",
+        );
     }
     on_edge(svg, short, 0.0, "fill=\"#dfe7ee\" stroke=\"#2b2a27\"");
     arrow(svg, FRONT, [FRONT[0] + AXIS, FRONT[1]], GREEN);
     arrow(svg, FRONT, [FRONT[0], FRONT[1] + AXIS * short], BLUE);
-    label(svg, [FRONT[0] + AXIS + 8.0, FRONT[1] + 5.0], Anchor::Start, "tool y");
-    label(svg, [FRONT[0] + 8.0, FRONT[1] + AXIS * short + 4.0], Anchor::Start, "tool z");
+    label(
+        svg,
+        [FRONT[0] + AXIS + 8.0, FRONT[1] - 14.0],
+        Anchor::Start,
+        "tool y",
+    );
+    label(
+        svg,
+        [FRONT[0] + 8.0, FRONT[1] + AXIS * short + 4.0],
+        Anchor::Start,
+        "tool z",
+    );
     let top = FRONT[1] - WHOLE * short;
-    label(svg, [FRONT[0] - 12.0, top - 6.0], Anchor::End, "left flank: swing -");
+    label(
+        svg,
+        [FRONT[0] - 12.0, top - 6.0],
+        Anchor::End,
+        "left flank: swing -",
+    );
     label(svg, [FRONT[0] + 12.0, top - 6.0], Anchor::Start, "right flank: +");
-    let under = FRONT[1] + 84.0;
-    svg.text((FRONT[0], under), Anchor::Middle, "font-weight=\"bold\"", "from -y, +x to the right");
+    let under = FRONT[1] + 96.0;
+    svg.text(
+        (FRONT[0], under),
+        Anchor::Middle,
+        "font-weight=\"bold\"",
+        "from -y, +x to the right",
+    );
 }
 
 /// The blade on edge, leaning to the right by that angle.
@@ -193,7 +255,12 @@ fn line(svg: &mut Svg, from: [f64; 2], to: [f64; 2], paint: &str) {
 }
 
 fn arrow(svg: &mut Svg, from: [f64; 2], to: [f64; 2], colour: &str) {
-    line(svg, from, to, &format!("stroke=\"{colour}\" stroke-width=\"3\" fill=\"none\""));
+    line(
+        svg,
+        from,
+        to,
+        &format!("stroke=\"{colour}\" stroke-width=\"3\" fill=\"none\""),
+    );
     let (x, y) = (to[0] - from[0], to[1] - from[1]);
     let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
     let (x, y) = (x / length, y / length);
@@ -211,7 +278,9 @@ fn towards_the_eye(svg: &mut Svg, [x, y]: [f64; 2]) {
     svg.line(&format!(
         "  <circle cx=\"{x}\" cy=\"{y}\" r=\"8\" fill=\"#fbfaf7\" stroke=\"{GREEN}\" stroke-width=\"3\"/>"
     ));
-    svg.line(&format!("  <circle cx=\"{x}\" cy=\"{y}\" r=\"2.5\" fill=\"{GREEN}\"/>"));
+    svg.line(&format!(
+        "  <circle cx=\"{x}\" cy=\"{y}\" r=\"2.5\" fill=\"{GREEN}\"/>"
+    ));
 }
 
 fn label(svg: &mut Svg, [x, y]: [f64; 2], anchor: Anchor, words: &str) {

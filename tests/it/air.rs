@@ -49,7 +49,11 @@ fn place(action: &Action) -> Option<[f64; 3]> {
 }
 
 fn is_the_same_higher(cutting: &Program, air: &Program) {
-    let kept: Vec<_> = cutting.ops.iter().filter(|op| op.action != Action::AwaitReady).collect();
+    let kept: Vec<_> = cutting
+        .ops
+        .iter()
+        .filter(|op| op.action != Action::AwaitReady)
+        .collect();
     assert_eq!(kept.len(), air.ops.len());
     for (op, up) in kept.into_iter().zip(&air.ops) {
         assert_eq!(op.site, up.site);
@@ -63,7 +67,12 @@ fn is_the_same_higher(cutting: &Program, air: &Program) {
     assert!(air.feeds.iter().all(|feed| feed.to_mm_per_s() <= 100.0));
     assert!(air.rates.iter().all(|rate| rate.to_deg_per_s() <= 30.0 + 1e-9));
     assert_eq!((air.stock, &air.cell), (cutting.stock, &cutting.cell));
-    assert_eq!(air.purpose, Purpose::AirCut { lift: Length::mm(LIFT) });
+    assert_eq!(
+        air.purpose,
+        Purpose::AirCut {
+            lift: Length::mm(LIFT)
+        }
+    );
 }
 
 /// Written, and read back by the target's own reader.
@@ -75,7 +84,10 @@ fn is_written(outcome: &Outcome, target: &dyn Backend, what: &str) {
         assert!(name.to_ascii_lowercase().contains("_air"), "{what}: {name}");
     }
     let head = texts[0].1.to_ascii_uppercase();
-    assert!(head.contains("AIR CUT: LIFTED BY 100 MM, GENERATOR OFF"), "{what}: {head}");
+    assert!(
+        head.contains("AIR CUT: LIFTED BY 100 MM, GENERATOR OFF"),
+        "{what}: {head}"
+    );
 }
 
 #[test]
@@ -101,7 +113,9 @@ fn it_is_written_for_every_control() {
 
 /// The digits behind `Z ` of each line of a KRL program.
 fn heights(text: &str) -> Vec<f64> {
-    let motions = text.lines().filter(|line| line.contains("LIN {") || line.contains("PTP {"));
+    let motions = text
+        .lines()
+        .filter(|line| line.contains("LIN {") || line.contains("PTP {"));
     let height = |line: &str| {
         let rest = line.split_once("Z ")?.1;
         rest.split([',', '}']).next()?.parse().ok()
@@ -116,7 +130,14 @@ fn its_text_is_that_of_the_program_higher_and_silent() {
     let outcome = bench();
     let cutting = texts(&emit_for(krl, &outcome).unwrap());
     let air = texts(&emit_for(krl, &lifted(outcome, LIFT)).unwrap());
-    let of = |texts: &[(String, String)]| texts.iter().find(|(name, _)| name.ends_with(".src")).unwrap().1.clone();
+    let of = |texts: &[(String, String)]| {
+        texts
+            .iter()
+            .find(|(name, _)| name.ends_with(".src"))
+            .unwrap()
+            .1
+            .clone()
+    };
     let (cutting, air) = (of(&cutting), of(&air));
     assert!(cutting.contains("]=TRUE") && cutting.contains("WAIT "));
     assert!(!air.contains("]=TRUE") && !air.contains("WAIT "), "{air}");
@@ -152,8 +173,17 @@ fn a_height_that_does_not_do_is_refused_with_one_that_does() {
 
 #[test]
 fn heights_are_lengths() {
-    for (text, mm) in [("100mm", 100.0), ("100 mm", 100.0), ("100", 100.0), ("10 cm", 100.0), ("0.1m", 100.0)] {
-        assert!((air_cut_height(text).unwrap().to_mm() - mm).abs() < 1e-9, "{text}");
+    for (text, mm) in [
+        ("100mm", 100.0),
+        ("100 mm", 100.0),
+        ("100", 100.0),
+        ("10 cm", 100.0),
+        ("0.1m", 100.0),
+    ] {
+        assert!(
+            (air_cut_height(text).unwrap().to_mm() - mm).abs() < 1e-9,
+            "{text}"
+        );
     }
     for text in ["", "mm", "-5mm", "0", "100deg", "100 mn", "11 m", "nan", "inf mm"] {
         assert!(air_cut_height(text).is_err(), "{text}");
@@ -171,7 +201,11 @@ fn long_names_keep_their_ending() {
     let cutting = texts(&emit_for(krl, &outcome).unwrap());
     let air = texts(&emit_for(krl, &lifted(outcome, LIFT)).unwrap());
     assert!(air[0].0.ends_with("_air.src"), "{}", air[0].0);
-    assert!(cutting.iter().all(|(name, _)| air.iter().all(|(other, _)| other != name)));
+    assert!(
+        cutting
+            .iter()
+            .all(|(name, _)| air.iter().all(|(other, _)| other != name))
+    );
 }
 
 /// `UPDATE_PICTURES=1` writes it anew.

@@ -17,8 +17,8 @@ use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{
-    Action, AxisValues, Cell, IR_VERSION, Maker, Op, OpId, OrientationId, PlacedFrame, Program, Purpose, Ready, Site,
-    Stock,
+    Action, AxisValues, Cell, IR_VERSION, Maker, Op, OpId, OrientationId, PlacedFrame, Program, Purpose,
+    Ready, Site, Stock,
 };
 use vcutc_backend_api::motion::{Motion, ReachableProgram, Stretch};
 use vcutc_backend_api::units::{Angle, Duration, Length};

@@ -434,7 +434,11 @@ impl<'p> Walk<'p> {
         };
         self.at = Where::Tip(to, held);
         self.require(self.crosses_stock(from, to), Rule::CutAcrossStock);
-        let wired = self.program.cell.as_ref().is_some_and(|cell| cell.ultrasonic.is_some());
+        let wired = self
+            .program
+            .cell
+            .as_ref()
+            .is_some_and(|cell| cell.ultrasonic.is_some());
         if wired && self.program.purpose.is_work() {
             match self.generator {
                 Generator::Off => self.fault(Rule::SilentCut),
@@ -625,7 +629,10 @@ impl<'p> Walk<'p> {
 /// Half the thickness of a program's thickest blade: how far below its tip a blade hangs at most, held as it cuts or upright.
 #[must_use]
 pub fn half_thickness(program: &Program) -> Length {
-    let blades = program.operations.iter().map(|operation| operation.blade.thickness * 0.5);
+    let blades = program
+        .operations
+        .iter()
+        .map(|operation| operation.blade.thickness * 0.5);
     blades.fold(Length::ZERO, Length::max)
 }
 

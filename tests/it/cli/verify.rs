@@ -198,12 +198,30 @@ fn the_summary_of_an_air_cut_claims_no_surface() {
     let folder = bench();
     let run = vcutc(folder.path(), &["check", "bench.vcut", "--air-cut", "100mm"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stderr.contains("AIR CUT, lifted by 100 mm, generator off"), "{}", run.stderr);
-    assert!(run.stderr.contains("not proven chips, contour and scallop"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("AIR CUT, lifted by 100 mm, generator off"),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr.contains("not proven chips, contour and scallop"),
+        "{}",
+        run.stderr
+    );
     let json = vcutc(
         folder.path(),
-        &["--message-format", "json", "check", "bench.vcut", "--air-cut", "100mm"],
+        &[
+            "--message-format",
+            "json",
+            "check",
+            "bench.vcut",
+            "--air-cut",
+            "100mm",
+        ],
     );
     let summary = json_lines(&json.stderr).pop().unwrap();
-    assert!(summary.get("numbers").is_none_or(serde_json::Value::is_null), "{summary}");
+    assert!(
+        summary.get("numbers").is_none_or(serde_json::Value::is_null),
+        "{summary}"
+    );
 }

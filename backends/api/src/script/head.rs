@@ -36,10 +36,18 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
     };
     let mut lines = Vec::new();
     if let Purpose::AirCut { lift } = program.purpose {
-        lines.push(ours(format!("AIR CUT: lifted by {} mm, generator off", number(lift))));
+        lines.push(ours(format!(
+            "AIR CUT: lifted by {} mm, generator off",
+            number(lift)
+        )));
     }
     lines.push(with("job ", &program.name));
-    lines.extend(program.head.iter().map(|head| ours(format!("job hash {}", shown(head)))));
+    lines.extend(
+        program
+            .head
+            .iter()
+            .map(|head| ours(format!("job hash {}", shown(head)))),
+    );
     lines.push(with("machine ", machine));
     lines.extend(blades(program).into_iter().map(|blade| HeadLine {
         ours: format!(
@@ -128,20 +136,31 @@ mod tests {
 
     fn lines(program: &Program) -> Vec<String> {
         let lines = head_lines(program, "cell 4");
-        lines.iter().map(|line| format!("{}{}", line.ours, line.theirs)).collect()
+        lines
+            .iter()
+            .map(|line| format!("{}{}", line.ours, line.theirs))
+            .collect()
     }
 
     #[test]
     fn a_head_says_what_the_program_was_made_from() {
         let mut program = Recipe::default().program();
-        let cuts = program.ops.iter().filter(|op| matches!(op.action, Action::Cut { .. })).count() / 2;
+        let cuts = program
+            .ops
+            .iter()
+            .filter(|op| matches!(op.action, Action::Cut { .. }))
+            .count()
+            / 2;
         program.head = Some(Head {
             job: "0123456789abcdef0123".to_owned(),
             time: Duration::s(125.4),
         });
         let text = lines(&program).join("\n");
         assert!(text.contains("job hash 0123456789abcdef\n"), "{text}");
-        assert!(text.ends_with(&format!("{cuts} cuts, 2 min 05.4 s as planned")), "{text}");
+        assert!(
+            text.ends_with(&format!("{cuts} cuts, 2 min 05.4 s as planned")),
+            "{text}"
+        );
         assert!(!text.contains("AIR"), "{text}");
     }
 

@@ -5,8 +5,8 @@ use super::pretend_five_axis::five_axes;
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{
     Action, AxisValues, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Maker, Op,
-    Operation, OperationId, OperationKind, OrientationId, PlacedFrame, Program, Purpose, RateId, Ready, Registered,
-    Site, SourceRef, Stock, Switch,
+    Operation, OperationId, OperationKind, OrientationId, PlacedFrame, Program, Purpose, RateId, Ready,
+    Registered, Site, SourceRef, Stock, Switch,
 };
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 use core::num::NonZeroU32;

@@ -197,7 +197,10 @@ fn an_air_cut_cuts_without_vibration() {
 #[test]
 fn an_air_cut_does_not_start_the_generator() {
     let mut program = air_cut();
-    let switch = program.ops.iter().position(|op| matches!(op.action, Action::Ultrasonic { .. }));
+    let switch = program
+        .ops
+        .iter()
+        .position(|op| matches!(op.action, Action::Ultrasonic { .. }));
     program.ops[switch.unwrap()].action = Action::Ultrasonic { state: Switch::On };
     assert!(rules(program).contains(&Rule::AirCut));
 }
@@ -206,12 +209,19 @@ fn an_air_cut_does_not_start_the_generator() {
 fn an_air_cut_stays_above_the_stock_by_half_the_blade() {
     let top = program().stock.height.to_mm();
     let thickness = program().operations[0].blade.thickness.to_mm().max(1.0);
-    for (gap, is_clear) in [(thickness / 2.0 + 0.01, true), (thickness / 2.0 - 0.01, false), (-5.0, false)] {
+    for (gap, is_clear) in [
+        (thickness / 2.0 + 0.01, true),
+        (thickness / 2.0 - 0.01, false),
+        (-5.0, false),
+    ] {
         let mut program = air_cut();
         for operation in &mut program.operations {
             operation.blade.thickness = Length::mm(thickness);
         }
-        let cut = program.ops.iter().position(|op| matches!(op.action, Action::Retract { .. }));
+        let cut = program
+            .ops
+            .iter()
+            .position(|op| matches!(op.action, Action::Retract { .. }));
         if let Action::Retract { to, .. } = &mut program.ops[cut.unwrap()].action {
             to.z = top + gap;
         }
