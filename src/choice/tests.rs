@@ -518,24 +518,6 @@ fn plans_are_held_to_the_limits_on_time_and_cuts() {
     assert!(told[0].message.contains("takes"), "{}", told[0].message);
 }
 
-/// Where a wider limit is cut clearly faster, the limit on scallop is named among what binds.
-#[test]
-fn a_limit_on_scallop_that_costs_time_is_named() {
-    for (swing, scallop) in [(35.0, 1.5), (50.0, 1.5), (40.0, 3.0)] {
-        let time_of = |scallop: f64| {
-            let (plan, proven) = planned_and_proven(&open_job(swing, scallop)).unwrap();
-            let is_named = vcut(&plan).parameters.is_bound_by_scallop();
-            (proven.report.times.all.total().to_s(), is_named)
-        };
-        let ((tight, is_named), (wide, _)) = (time_of(scallop), time_of(2.0 * scallop));
-        assert!(
-            wide < 0.9 * tight,
-            "{wide} s, {tight} s: the job says nothing of the limit"
-        );
-        assert!(is_named, "{swing} deg, {scallop} mm");
-    }
-}
-
 #[test]
 fn the_same_choice_comes_twice() {
     let job = open_job(40.0, 6.0);
