@@ -1,5 +1,6 @@
 //! Random jobs along every route: the same surface, no cut before those it relies on, and the best of all taken.
 
+mod chosen;
 mod finest;
 
 use super::choose;

@@ -33,8 +33,12 @@ pub(super) fn relaxed(
     asked: &RoughVcut,
     sources: &SourceMap,
 ) -> Vec<Relaxed> {
+    // Below no overlap there is uncut material between Vs: no bound that can be relaxed.
+    let can_be_relaxed =
+        |sensitivity: &&Sensitivity| sensitivity.bound != Bound::OverlapLeast || sensitivity.relaxed >= 0.0;
     let mut found: Vec<Relaxed> = sensitivities(problem, best)
         .iter()
+        .filter(can_be_relaxed)
         .map(|sensitivity| tell(problem, best, sensitivity, asked, sources))
         .collect();
     found.sort_by(|a, b| b.share.total_cmp(&a.share).then(a.bound.cmp(&b.bound)));

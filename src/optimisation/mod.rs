@@ -5,20 +5,23 @@
 //! exact ones, with each binding bound relaxed, and for a row of limits of the scallop. Those answers are the model's alone.
 
 mod bounds;
+mod came;
 pub mod report;
 mod trade_off;
 
 pub use bounds::Relaxed;
+pub use came::{Came, Plan};
 pub use trade_off::TradeOff;
 
 use crate::diag::Diagnostic;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
-use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut};
+use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced};
 use crate::picture::pareto::{self, Curve, Pareto};
 use crate::plan::optimum::{self, Optimum, Problem};
 use crate::plan::parameters::{self, VcutParameters};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::source::SourceMap;
+use came::{Room, came};
 use vcutc_backend_api::ir::{OperationId, Site};
 use vcutc_backend_api::units::{Duration, Length};
 
@@ -71,7 +74,25 @@ pub struct OperationOptimum {
     pub binding: Vec<Relaxed>,
     /// Least times for a row of limits of the scallop.
     pub trade_off: TradeOff,
+    /// The fastest other lattice or model, where by the formulas it is much faster than the marked line.
+    pub faster: Option<Faster>,
 }
+
+/// Another lattice on which the formulas promise a much shorter time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Faster {
+    /// The lattice.
+    pub lattice: Lattice,
+    /// The time by the formulas.
+    pub time: Duration,
+    /// By which share it is shorter than that of the marked line.
+    pub share: f64,
+    /// What it comes to when it is planned.
+    pub came: Came,
+}
+
+/// From which share on another lattice is worth a line.
+const MUCH_FASTER: f64 = 0.1;
 
 /// The best parameters on one lattice, by one kind of formulas.
 #[derive(Clone, Debug, PartialEq)]
@@ -230,6 +251,10 @@ fn operation(
     if asked.tips.is_some() {
         return None;
     }
+    // A limit that was chosen counts as if the job had set it.
+    let mut asked = asked.clone();
+    asked.limits.scallop = vcut.asked.limits.scallop;
+    let asked = &asked;
     let problem = parameters::problem(job, asked)?;
     let chosen = vcut.parameters.lattice;
     let formulas = asked.formulas.value;
@@ -239,6 +264,7 @@ fn operation(
         Role::Other => None,
     });
     let binding = best.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
+    let mut room = Room::OF_AN_OPERATION;
     Some(OperationOptimum {
         number: index.saturating_add(1),
         place: bounds::place(sources, asked.head_span),
@@ -253,8 +279,42 @@ fn operation(
         },
         planned,
         binding,
-        trade_off: TradeOff::of(&problem, chosen, points),
+        faster: faster(job, asked, &rows, chosen, &mut room),
+        trade_off: TradeOff::of(&problem, chosen, points, |point| {
+            came(job, &mut room, point.cuts, |asked| under(asked, point))
+        }),
         rows,
+    })
+}
+
+/// Puts an operation under the limit of a point.
+fn under(asked: &mut RoughVcut, point: &Optimum) {
+    asked.limits.scallop = Some(Sourced {
+        value: point.scallop,
+        span: None,
+    });
+}
+
+/// The fastest other lattice by the job's formulas, if it is much faster than the marked line.
+fn faster(
+    job: &CheckedJob,
+    asked: &RoughVcut,
+    rows: &[Row],
+    chosen: Lattice,
+    room: &mut Room,
+) -> Option<Faster> {
+    let formulas = asked.formulas.value;
+    let of = |row: &Row| row.best.as_ref().ok().filter(|_| row.formulas == formulas).cloned();
+    let marked = rows.iter().filter(|row| row.role == Role::Chosen).find_map(of)?;
+    let others = rows.iter().filter(|row| row.role == Role::Other);
+    let best = others.filter_map(of).min_by(|one, other| one.time.total_cmp(&other.time))?;
+    let share = 1.0 - best.time / marked.time;
+    let is_told = share > MUCH_FASTER && asked.objective.value == Objective::Time && best.lattice != chosen;
+    is_told.then(|| Faster {
+        lattice: best.lattice,
+        time: best.time,
+        share,
+        came: came(job, room, best.cuts, |asked| asked.lattice.value = Auto::Given(best.lattice)),
     })
 }
 
@@ -320,7 +380,7 @@ impl Optimisation {
     /// The Pareto picture of an operation as SVG.
     #[must_use]
     pub fn svg(&self, operation: &OperationOptimum) -> String {
-        let title = format!("{}: time against scallop", self.job);
+        let title = format!("{}: time against scallop, by the formulas", self.job);
         let subtitle = format!(
             "operation {}, {} formulas, {}",
             operation.number,

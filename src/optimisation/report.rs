@@ -1,7 +1,7 @@
 //! What came of optimising, for people and for programs.
 
 use super::bounds::{Relaxed, name, value};
-use super::{FoundBy, GivenOperation, OperationOptimum, Optimisation, Planned, Role, Row};
+use super::{Came, Faster, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Planned, Role, Row};
 use crate::job::Objective;
 use crate::plan::optimum::{Bound, Infeasible, Optimum, Problem};
 use crate::plan::parameters::VcutParameters;
@@ -55,7 +55,7 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
     );
     text += &table(
         &[
-            "", "lattice", "model", "swing", "layer", "step", "overlap", "time", "cuts", "scallop", "edge",
+            "", "lattice", "model", "swing", "layer", "step", "overlap", "formula time", "cuts", "scallop", "edge",
         ],
         &operation.rows.iter().map(row_cells).collect::<Vec<_>>(),
     );
@@ -75,17 +75,31 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
     text += &line_text(&operation.planned);
     text += &proven_text(operation);
     text += &binding_text(operation.objective, &operation.binding);
-    text += "\n  Least time by the model for other limits of the scallop:\n\n";
+    text += &operation.faster.as_ref().map_or(String::new(), faster_text);
+    text += "\n  Other limits of the scallop, planned at programmed speeds, and what the formula says of them:\n\n";
+    let points = operation.trade_off.points.iter().zip(&operation.trade_off.planned);
     text += &table(
-        &["", "scallop", "time", "lattice", "swing", "layer", "step", "cuts"],
-        &operation
-            .trade_off
-            .points
-            .iter()
-            .map(|best| point_cells(best, operation.chosen()))
+        &["", "limit", "time", "cuts", "leaves", "lattice", "swing", "layer", "step", "formula time"],
+        &points
+            .map(|(best, came)| point_cells(best, came, operation.chosen()))
             .collect::<Vec<_>>(),
     );
     text
+}
+
+/// `faster     interlaced: 2 min 50.5 s planned, 2 min 49.3 s by the formula, 45 % below the marked line`.
+fn faster_text(faster: &Faster) -> String {
+    let planned = match &faster.came {
+        Came::Planned(plan) => format!("{} planned, ", seconds(plan.time)),
+        Came::Nothing => "no plan, ".to_owned(),
+        Came::FormulaOnly => "not planned, ".to_owned(),
+    };
+    format!(
+        "  faster     {}: {planned}{} by the formula, {:.0} % below the marked line\n",
+        faster.lattice.word(),
+        seconds(faster.time),
+        faster.share * 100.0
+    )
 }
 
 /// `interlaced, swing 40 deg, layer 4.519 mm, step 7.584 mm`: what the job is cut with, which simulation may have found better
@@ -105,9 +119,9 @@ fn planned_words(planned: &Planned, scallop: Length) -> String {
     let model = match planned.model_above() {
         Some(share) if share.abs() >= 5e-4 => {
             let way = if share > 0.0 { "more" } else { "less" };
-            format!("the model says {:.1} % {way}", share.abs() * 100.0)
+            format!("the formula says {:.1} % {way}", share.abs() * 100.0)
         }
-        Some(_) | None => "as the model says".to_owned(),
+        Some(_) | None => "as the formula says".to_owned(),
     };
     format!(
         "{} for {} {} in {} {}; {model}; simulated scallop of the job {:.2} mm",
@@ -131,7 +145,7 @@ fn line_text(planned: &Planned) -> String {
                 reasons.join(", ")
             };
             format!(
-                "  found      by simulation, bound by {reasons}\n\n  Of the line marked *, by the model (the job is not cut with it):\n\n"
+                "  found      by simulation, bound by {reasons}\n\n  About line * (optimum of the formula; the job is cut with the better plan above):\n\n"
             )
         }
     }
@@ -141,7 +155,7 @@ fn line_text(planned: &Planned) -> String {
 fn proven_text(operation: &OperationOptimum) -> String {
     operation.chosen().map_or(String::new(), |best| {
         format!(
-            "  proven     by the model nothing else on this lattice is better by more than {:.0e} of it\n",
+            "  proven     by the formula nothing else on this lattice is better by more than {:.0e} of it\n",
             best.gap
         )
     })
@@ -158,7 +172,7 @@ fn binding_text(objective: Objective, binding: &[Relaxed]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {head:<10} {}{place}; {} would save {} ({} %)",
+            "  {head:<10} {}{place}; {} would save {} ({} %) by the formula",
             relaxed.words,
             relaxed.relaxed,
             gain(objective, relaxed),
@@ -182,12 +196,12 @@ fn percent(share: f64) -> String {
     if text == "-0.00" { "0.00".to_owned() } else { text }
 }
 
+/// As elsewhere: `2 min 05.4 s`; savings may be below zero.
 fn seconds(time: Duration) -> String {
-    let text = format!("{:.1} s", time.to_s());
-    if text == "-0.0 s" {
-        "0.0 s".to_owned()
+    if time < Duration::s(-0.05) {
+        format!("-{}", crate::summary::time(Duration::ZERO - time))
     } else {
-        text
+        crate::summary::time(time.max(Duration::ZERO))
     }
 }
 
@@ -244,19 +258,37 @@ fn would_do(bounds: &[Bound], nearest: &[Option<f64>]) -> String {
     works.unwrap_or_default()
 }
 
-fn point_cells(best: &Optimum, chosen: Option<&Optimum>) -> Vec<String> {
+fn point_cells(best: &Optimum, came: &Came, chosen: Option<&Optimum>) -> Vec<String> {
     let is_chosen = chosen.is_some_and(|chosen| chosen.lattice == best.lattice && alike(chosen, best));
     let mark = if is_chosen { "*" } else { "" };
-    vec![
-        mark.to_owned(),
-        format!("{:.2} mm", best.scallop.to_mm()),
+    let millimetres = |length: Length| format!("{:.3} mm", length.to_mm());
+    let (results, lattice, swing, layer, step) = match came {
+        Came::Planned(plan) => (
+            [
+                seconds(plan.time),
+                plan.cuts.to_string(),
+                format!("{:.2} mm", plan.leaves.to_mm()),
+            ],
+            plan.parameters.lattice,
+            plan.parameters.swing,
+            plan.parameters.layer,
+            plan.parameters.step,
+        ),
+        Came::Nothing | Came::FormulaOnly => {
+            let word = if *came == Came::Nothing { "no plan" } else { "formula only" };
+            let results = [word.to_owned(), format!("{:.1}", best.cuts), String::new()];
+            (results, best.lattice, best.swing, best.layer, best.step)
+        }
+    };
+    let head = [mark.to_owned(), format!("{:.2} mm", best.scallop.to_mm())];
+    let rest = [
+        lattice.word().to_owned(),
+        format!("{:.3} deg", swing.to_deg()),
+        millimetres(layer),
+        millimetres(step),
         seconds(best.time),
-        best.lattice.word().to_owned(),
-        format!("{:.3} deg", best.swing.to_deg()),
-        format!("{:.3} mm", best.layer.to_mm()),
-        format!("{:.3} mm", best.step.to_mm()),
-        format!("{:.1}", best.cuts),
-    ]
+    ];
+    head.into_iter().chain(results).chain(rest).collect()
 }
 
 /// Scallop and time that are the same as far as they are printed.
@@ -344,7 +376,28 @@ struct OperationBody<'a> {
     best: Vec<RowBody>,
     planned: PlannedBody,
     binding: Vec<BindingBody<'a>>,
-    trade_off: Vec<ParametersBody>,
+    trade_off: Vec<PointBody>,
+}
+
+/// A point of the trade-off: the optimum of the formulas, and the plan under the same limit.
+#[derive(Debug, Serialize)]
+struct PointBody {
+    #[serde(flatten)]
+    formula: ParametersBody,
+    /// None where the formulas alone speak of it.
+    planned: Option<PlanBody>,
+}
+
+/// Lengths in mm, angles in deg, times in s.
+#[derive(Debug, Serialize)]
+struct PlanBody {
+    lattice: &'static str,
+    swing: f64,
+    layer: f64,
+    step: f64,
+    time: f64,
+    cuts: usize,
+    leaves: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -424,6 +477,7 @@ fn given_body(given: &GivenOperation) -> GivenBody<'_> {
 
 fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
     let planned = &operation.planned;
+    let points = operation.trade_off.points.iter().zip(&operation.trade_off.planned);
     OperationBody {
         operation: operation.number,
         place: &operation.place,
@@ -447,7 +501,30 @@ fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
             },
         },
         binding: operation.binding.iter().map(binding_body).collect(),
-        trade_off: operation.trade_off.points.iter().map(parameters_body).collect(),
+        trade_off: points.map(|(best, came)| point_body(best, came)).collect(),
+    }
+}
+
+fn point_body(best: &Optimum, came: &Came) -> PointBody {
+    PointBody {
+        formula: parameters_body(best),
+        planned: match came {
+            Came::Planned(plan) => Some(plan_body(plan)),
+            Came::Nothing | Came::FormulaOnly => None,
+        },
+    }
+}
+
+fn plan_body(plan: &Plan) -> PlanBody {
+    let parameters = &plan.parameters;
+    PlanBody {
+        lattice: parameters.lattice.word(),
+        swing: parameters.swing.to_deg(),
+        layer: parameters.layer.to_mm(),
+        step: parameters.step.to_mm(),
+        time: plan.time.to_s(),
+        cuts: plan.cuts,
+        leaves: plan.leaves.to_mm(),
     }
 }
 

@@ -100,7 +100,9 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ),
     (
         "optimisation",
-        &["diag", "driver", "job", "picture", "plan", "source"],
+        &[
+            "choice", "diag", "driver", "job", "picture", "plan", "sim", "source", "summary", "verdict",
+        ],
     ),
     (
         "starter",

@@ -14,11 +14,11 @@ use crate::job::{Auto, Lattice, Objective, Order};
 use crate::plan::lattice::{Column, Layout, Parity, Row};
 use crate::plan::parameters::{Swung, VcutParameters};
 use crate::plan::residual::least_gain;
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::Angle;
 
 /// Most plans, by the number of cuts of the best one, as [`PLANS`](super::PLANS); and most lattices that are looked at for them.
 const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 16), (MOST_CUTS_COMPARED, 2)];
-const LOOKED_AT: [(usize, usize); 3] = [(500, 400), (2_000, 60), (MOST_CUTS_COMPARED, 8)];
+const LOOKED_AT: [(usize, usize); 3] = [(500, 1_500), (2_000, 200), (MOST_CUTS_COMPARED, 10)];
 
 /// Steps, as shares of the one that leaves as much as may stay on a level part.
 const STEPS: [f64; 6] = [1.0, 0.88, 0.77, 0.68, 0.56, 0.45];
@@ -26,13 +26,35 @@ const STEPS: [f64; 6] = [1.0, 0.88, 0.77, 0.68, 0.56, 0.45];
 /// How many of the swings that can leave little enough, the widest first, are tried with them.
 const SWINGS: usize = 6;
 
-/// Where the last tip of a column lies.
+/// Of which rows of columns the last tips are put onto the part; those of the others lie in their layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ends {
-    /// In a layer, unless more would stay below it than may.
-    InTheLayer,
-    /// On the part, if that takes enough for a cut.
-    OnThePart,
+    /// Of none.
+    None,
+    /// Of those of the first layer; orthogonal lattices have no others.
+    Odd,
+    /// Of the others.
+    Even,
+    /// Of both.
+    Both,
+}
+
+impl Ends {
+    /// All that differ on a lattice.
+    const fn of(lattice: Lattice) -> &'static [Self] {
+        match lattice {
+            Lattice::Interlaced => &[Self::None, Self::Odd, Self::Even, Self::Both],
+            Lattice::Orthogonal => &[Self::None, Self::Odd],
+            Lattice::Free => &[Self::None],
+        }
+    }
+
+    const fn are_on_the_part(self, parity: Parity) -> bool {
+        match (self, parity) {
+            (Self::None, _) | (Self::Odd, Parity::Even) | (Self::Even, Parity::Odd) => false,
+            (Self::Both, _) | (Self::Odd, Parity::Odd) | (Self::Even, Parity::Even) => true,
+        }
+    }
 }
 
 /// Parameters, and what the objective comes to by the count of their cuts.
@@ -111,7 +133,9 @@ impl Trials<'_> {
     fn is_promised(&self, reckoned: f64) -> bool {
         self.sound.first().is_none_or(|best| {
             let found = &best.parameters;
-            reckoned < self.reckon(found, &self.clearance(found), Ends::InTheLayer)
+            let clearance = self.clearance(found);
+            let layout = Layout::new(self.bench.job.stock, found.lattice, found, &clearance);
+            reckoned < self.merit(found, &layout, best.figures.cuts as f64)
         })
     }
 
@@ -128,7 +152,7 @@ impl Trials<'_> {
                 clearance = Some((parameters.swing, self.clearance(&parameters)));
             }
             let Some((_, of_swing)) = &clearance else { continue };
-            for ends in [Ends::InTheLayer, Ends::OnThePart] {
+            for &ends in Ends::of(parameters.lattice) {
                 let merit = self.reckon(&parameters, of_swing, ends);
                 let parameters = parameters.clone();
                 found.push(Reckoned { parameters, ends, merit });
@@ -166,7 +190,11 @@ impl Trials<'_> {
     /// What the objective comes to by the count of cuts: seconds, or cuts.
     fn reckon(&self, found: &VcutParameters, clearance: &Profile, ends: Ends) -> f64 {
         let layout = Layout::new(self.bench.job.stock, found.lattice, found, clearance);
-        let cuts = self.count(found, &layout, ends);
+        self.merit(found, &layout, self.count(found, &layout, ends))
+    }
+
+    /// What the objective comes to with so many cuts.
+    fn merit(&self, found: &VcutParameters, layout: &Layout<'_>, cuts: f64) -> f64 {
         match self.asked.objective.value {
             Objective::Cuts => cuts,
             Objective::Time | Objective::Scallop | Objective::BladeLoad => {
@@ -213,12 +241,8 @@ impl Trials<'_> {
         };
         let count = (((floor - first) / apart).floor() + 1.0).max(0.0);
         let depth = if count > 0.0 { first + (count - 1.0) * apart } else { 0.0 };
-        let most = self.asked.limits.scallop.map_or(Length::ZERO, |limit| limit.value);
-        let worth = match ends {
-            Ends::InTheLayer => most,
-            Ends::OnThePart => least_gain(self.asked, found.layer),
-        };
-        if floor - depth > worth.to_mm() {
+        let worth = least_gain(self.asked, found.layer).to_mm();
+        if ends.are_on_the_part(parity) && floor - depth > worth {
             Visits {
                 count: count + 1.0,
                 depth: floor,
