@@ -170,6 +170,8 @@ codes! {
     WayThroughStock = "VC0515", Error, "a way to or from home through the stock";
     /// A posture for which the machine lacks an axis.
     PostureNeedsAxis = "VC0516", Error, "a posture for which the machine lacks an axis";
+    /// Travels that became moves of all axes.
+    ManyAxisMoves = "VC0527", Warning, "travels that became moves of all axes";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";

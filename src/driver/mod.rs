@@ -3,6 +3,7 @@
 //! Pure: what it needs it asks of the [`Loader`], what it finds out it returns, and what a backend writes goes into the
 //! caller's [`Sink`].
 
+mod axis_moves;
 mod refusal;
 mod target;
 mod trials;
@@ -388,7 +389,7 @@ fn along_its_routes<'j>(
                 return Ended::Refused(Refused::Broken(Box::new(plan), fault));
             }
         };
-        let told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never());
+        let mut told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never());
         if has_errors(&told) {
             // What the machine did not follow was sound, and is what there is to tell.
             return match refused {
@@ -399,6 +400,11 @@ fn along_its_routes<'j>(
         let changes = yielding.changes(&plan);
         match reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
+                told.extend(
+                    program
+                        .reached()
+                        .and_then(|reached| axis_moves::many(job, reached)),
+                );
                 let compiled = compiled(job, program, &plan, proven.report);
                 return Ended::Compiled(Box::new(plan), told, Box::new(compiled));
             }
