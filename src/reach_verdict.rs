@@ -36,6 +36,11 @@ pub fn diagnose(
     }
     let diagnostic = scene.trouble(&unreachable.trouble);
     let remedies = remedy::remedies(job, plan, unreachable, wanted, works);
+    if remedies.is_empty() && wanted.is_needless() {
+        // That nothing helps is not known.
+        let diagnostic = diagnostic.help(general(unreachable));
+        return vec![diagnostic.help(remedy::LOOK_ON)];
+    }
     vec![remedy::offer(diagnostic, &remedies, general(unreachable))]
 }
 

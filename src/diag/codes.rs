@@ -174,11 +174,12 @@ codes! {
     PostureNeedsAxis = "VC0516", Error, "a posture for which the machine lacks an axis";
     /// Axes whose rates are not known.
     RatesNotChecked = "VC0517", Warning, "rates of axes that were not checked";
-
     /// An air cut that cannot be made at the height that was asked for.
     AirCut = "VC0521", Error, "an air cut at a height that does not do";
     /// A tool frame that no mount gives.
     ToolFrame = "VC0522", Warning, "a tool frame that no mount gives";
+    /// Travels that became moves of all axes.
+    ManyAxisMoves = "VC0527", Warning, "travels that became moves of all axes";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";

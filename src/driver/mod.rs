@@ -4,6 +4,7 @@
 //! caller's [`Sink`].
 
 mod air;
+mod axis_moves;
 mod mount;
 mod refusal;
 mod target;
@@ -469,6 +470,11 @@ fn along_its_routes<'j>(
         let changes = yielding.changes(&plan);
         match reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
+                told.extend(
+                    program
+                        .reached()
+                        .and_then(|reached| axis_moves::many(job, reached)),
+                );
                 let mut compiled = compiled(job, program, &plan, proven.report, sources);
                 told.extend(verdict::much_stays(job, &plan, &compiled.report, wanted));
                 compiled.yielded = yielding.into_first();

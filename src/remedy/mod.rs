@@ -221,6 +221,9 @@ impl Remedy {
     }
 }
 
+/// Where to look on.
+pub const LOOK_ON: &str = "run `vcutc place` on this job: it searches around the base, or as far as `--x`, `--y`, `--z` and `--yaw` say, for a place that works";
+
 /// Adds remedies to a diagnostic; says where to look on when there are none.
 #[must_use]
 pub fn offer(diagnostic: Diagnostic, remedies: &[Remedy], general: &str) -> Diagnostic {
@@ -230,7 +233,7 @@ pub fn offer(diagnostic: Diagnostic, remedies: &[Remedy], general: &str) -> Diag
             .note(
                 "changing any one of speed, direction, order, swing, home or base did not help, as far as was tried",
             )
-            .help("run `vcutc place` on this job: it searches around the base, or as far as `--x`, `--y`, `--z` and `--yaw` say, for a place that works");
+            .help(LOOK_ON);
     }
     remedies.iter().fold(diagnostic, |diagnostic, remedy| {
         if remedy.edits.is_empty() {

@@ -20,6 +20,12 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "it takes a height on the command line",
     ),
     (
+        Code::ManyAxisMoves,
+        "tests/it/help.rs",
+        "many_moves_of_all_axes_are_warned_of",
+        "it takes a robot that no program of these tests is written for",
+    ),
+    (
         Code::OutsideProgram,
         "tests/it/cli/outside.rs",
         "what_is_no_program_is_not_written",

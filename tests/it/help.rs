@@ -208,3 +208,43 @@ fn what_the_target_of_the_machine_refuses_is_refused_by_a_check() {
         told(&after.diagnostics, &after)
     );
 }
+
+/// A job that a robot follows only with moves of all axes in the place of nearly all travels.
+const MANY_AXIS_MOVES: &str = r#"job "many"
+stock { size = (120 mm, 60 mm, 45 mm) }
+profile { start (0 mm, 17 mm) line to (120 mm, 20 mm) }
+blade knife { cutting_length = 29 mm half_apex = 6.02 deg thickness = 1.25 mm edges = double }
+rough vcut {
+  blade = knife
+  rake = 50.6 deg
+  lattice = orthogonal
+  swing = 29.07 deg
+  layer = 9.52 mm
+  step = 8.76 mm
+  order = point
+  direction = forward
+  feed { cut = 272 mm/s, travel = 316 mm/s, reorient = 56 deg/s }
+  clearance = 12 mm
+}
+machine m = robot "abb/irb6700_155_285" {
+  tool = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  base = frame(x = 1618 mm, y = -325.4 mm, z = 637.2 mm, a = 90 deg, b = 0 deg, c = 0 deg)
+  home = joints(0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg)
+}
+"#;
+
+#[test]
+fn many_moves_of_all_axes_are_warned_of() {
+    let outcome = compile(JOB, &Files::default().with(JOB, MANY_AXIS_MOVES));
+    assert_eq!(
+        numbers(&outcome.diagnostics),
+        ["VC0527"],
+        "{}",
+        told(&outcome.diagnostics, &outcome)
+    );
+    let compiled = outcome.compiled.as_ref().expect("it is a warning");
+    let changes = compiled.program.reached().unwrap().report.changes.len();
+    assert!(changes > 10, "{changes}");
+    let message = &outcome.diagnostics[0].message;
+    assert!(message.contains(&format!("in {changes} of ")), "{message}");
+}

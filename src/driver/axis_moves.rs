@@ -1,0 +1,37 @@
+//! A program that its machine follows only because all axes move at once in the place of many of its travels.
+//!
+//! Such a move is proven to stay out of the stock, but it is no line and takes longer than the travel, and the arm changes its
+//! posture each time. A few are what a large part may need; where they are many, another place of the work is mostly better, and
+//! whoever writes the job has to know.
+
+use crate::diag::{Code, Diagnostic};
+use crate::job::CheckedJob;
+use crate::reach::solve::Reached;
+use vcutc_backend_api::ir::Action;
+
+/// So few are told in the summary only.
+const FEW: usize = 10;
+
+/// What there is to tell where more than a quarter of the travels, and more than [`FEW`], are made with all axes.
+pub(super) fn many(job: &CheckedJob, reached: &Reached) -> Option<Diagnostic> {
+    let machine = job.machine.as_ref()?;
+    let changes = reached.report.changes.len();
+    let left = reached.program.program().ops.iter();
+    let left = left
+        .filter(|op| matches!(op.action, Action::Travel { .. }))
+        .count();
+    let all = changes + left;
+    if changes <= FEW || changes * 4 <= all {
+        return None;
+    }
+    Some(
+        Diagnostic::new(
+            Code::ManyAxisMoves,
+            format!("in {changes} of {all} travels all axes move at once, because the arm cannot keep its posture"),
+            machine.base.span.unwrap_or(machine.head_span),
+            "with the work in this place",
+        )
+        .note("the blade does not go along a line there, and such moves take longer than the travels that they replace")
+        .help("run `vcutc place` on this job: it searches for a place of the work where one posture carries all of it"),
+    )
+}
