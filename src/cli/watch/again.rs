@@ -7,7 +7,7 @@ use crate::cli::args::WatchArgs;
 use crate::cli::compile::{Product, make, nothing, pointless_output, program_of, tell, unreadable};
 use crate::cli::console::{Console, Failure, Summary};
 use crate::cli::files::Disk;
-use crate::cli::progress::Progress;
+use crate::cli::progress::{Following, Progress};
 use crate::driver::{self, Outcome, Request, RequestError};
 use crate::memory::Memory;
 use crate::wanted::{Needless, Wanted};
@@ -137,7 +137,7 @@ impl<'a> Watched<'a> {
         see: &dyn Fn(&Seen<'_>),
     ) -> Came {
         let outcome = &unwritten.outcome;
-        let mut progress = Progress::start(false);
+        let mut progress = Progress::start(Following::Silent);
         match make(&self.product, outcome, &unwritten.disk, &mut progress) {
             Ok(made) => {
                 see(&Seen::Outcome(outcome, None));
