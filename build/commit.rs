@@ -33,7 +33,9 @@ fn of_checkout(root: &Path) -> Option<String> {
         return Some(read(&git.join("HEAD"))?.trim().to_owned());
     };
     let shared = shared_folder(&git);
-    let loose = [&git, &shared].into_iter().find_map(|folder| read(&folder.join(&name)));
+    let loose = [&git, &shared]
+        .into_iter()
+        .find_map(|folder| read(&folder.join(&name)));
     loose.map(|hash| hash.trim().to_owned()).or_else(|| {
         let packed = read(&shared.join("packed-refs"))?;
         let line = packed.lines().find(|line| line.ends_with(&format!(" {name}")))?;

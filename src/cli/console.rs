@@ -8,6 +8,7 @@ use super::args::{Color, DisplayArgs, MessageFormat};
 use super::differences;
 use super::output::Placed;
 use super::patience::HelpBudget;
+use super::progress::Following;
 use super::snapshot::Differences;
 use crate::checks::{CheckFigure, Checks};
 use crate::diag::{Diagnostic, Severity, github, has_errors, json, render};
@@ -236,9 +237,20 @@ impl Console {
         self.help_budget
     }
 
-    /// Whether a passing progress line may be drawn (if standard error is a terminal).
-    pub(super) fn shows_progress(&self) -> bool {
-        self.format != MessageFormat::Json && self.detail != Detail::DiagnosticsOnly
+    /// How a long run says what it does: a passing line on a terminal, elsewhere lines that stay, where `--verbose` asks for them.
+    pub(super) fn shows_progress(&self) -> Following {
+        let is_terminal = io::stderr().is_terminal();
+        match (self.format, self.detail) {
+            (MessageFormat::Json, _) | (_, Detail::DiagnosticsOnly) => Following::Silent,
+            (MessageFormat::Human | MessageFormat::Github, _) if is_terminal => Following::PassingLine,
+            (MessageFormat::Human | MessageFormat::Github, Detail::Everything) => Following::Lines,
+            (MessageFormat::Human | MessageFormat::Github, Detail::Summary) => Following::Silent,
+        }
+    }
+
+    /// Whether `--verbose` was given.
+    pub(super) fn tells_everything(&self) -> bool {
+        self.detail == Detail::Everything
     }
 
     /// Whether the reader of messages went away, as far as writing has shown it.

@@ -1,20 +1,36 @@
-//! `vcutc explain`: the pages of the diagnostic codes.
+//! `vcutc explain`: the pages of the diagnostic codes, as they are where another program reads them, for people on a terminal.
+
+mod page;
 
 use super::Exit;
 use super::console::{Console, Failure};
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Severity};
+use std::env;
 use std::fmt::Write;
+use std::io::{self, IsTerminal};
 
 /// Prints the page of a code, or the list of all.
 pub(super) fn explain(code: Option<&str>, console: &Console) -> Exit {
     match code {
         None => console.document(&list()),
         Some(text) => match find(text) {
+            Some(code) if io::stdout().is_terminal() => console.document(&page::plain(code.page(), width())),
             Some(code) => console.document(code.page()),
             None => console.failure(&unknown(text)),
         },
     }
+}
+
+/// Most columns of a page: longer lines are hard to read.
+const WIDEST: usize = 100;
+/// Columns of a terminal that does not say.
+const USUAL: usize = 80;
+
+/// How wide pages are on this terminal.
+fn width() -> usize {
+    let columns = env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
+    columns.unwrap_or(USUAL).clamp(40, WIDEST)
 }
 
 /// The code that people mean by `VC0203`, `vc0203`, `0203` or `203`.

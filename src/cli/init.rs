@@ -22,13 +22,22 @@ pub(super) fn init(args: &InitArgs, targets: &Targets, console: &Console) -> Exi
         Ok(file) => file,
         Err(failure) => return console.failure(&failure),
     };
-    let model = match args.robot.as_deref().map(|name| machines::load(name, console)).transpose() {
+    let model = match args
+        .robot
+        .as_deref()
+        .map(|name| machines::load(name, console))
+        .transpose()
+    {
         Ok(model) => model,
         Err(exit) => return exit,
     };
     let path = file.display().to_string();
     let disk = Disk::around(&path);
-    let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = file
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
     let mut progress = Progress::start(console.shows_progress());
     progress.enter(Stage::Placing);
     let job = starter::job(&Asked {
@@ -74,8 +83,10 @@ fn file(args: &InitArgs) -> Result<PathBuf, Failure> {
 }
 
 fn no_place(machine: &str) -> Failure {
-    Failure::new(format!("`{machine}` cuts the first job in none of the places that were tried"))
-        .help("write the job without --robot, add your machine by hand (docs/language.md), and ask `vcutc place`")
+    Failure::new(format!(
+        "`{machine}` cuts the first job in none of the places that were tried"
+    ))
+    .help("write the job without --robot, add your machine by hand (docs/language.md), and ask `vcutc place`")
 }
 
 /// Says what was written, and how to go on.

@@ -100,7 +100,12 @@ pub(super) fn inverse(cell: &CellArgs, pose: &str, quaternion: Option<&str>, con
     if console.speaks_json() {
         console.document(&format!("{}\n", found.in_json()))
     } else {
-        console.document(&found.text())
+        let shown = if console.tells_everything() {
+            answer::Shown::All
+        } else {
+            answer::Shown::WithinLimits
+        };
+        console.document(&found.text(shown))
     }
 }
 

@@ -1,11 +1,12 @@
 //! What the compiler is doing just now, and how long each stage took.
 //!
 //! Most jobs are done before anybody could read a word, so a progress line appears only when a run takes longer than
-//! [`PATIENCE`], and only on a terminal. It is drawn by a thread of its own; the pipeline only says which stage begins.
+//! [`PATIENCE`], with the time that has passed. Where standard error is not a terminal, `--verbose` prints a line for every
+//! stage that takes longer than [`LONG`]. Both are drawn by a thread of its own; the pipeline only says which stage begins.
 
 use crate::driver::Stage;
-use indicatif::ProgressBar;
-use std::io::{self, IsTerminal};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{self, Write};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -14,8 +15,21 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(1);
 /// How long help with a refusal may take before the line says what the job is refused for.
 const PATIENCE_WITH_A_REFUSAL: Duration = Duration::from_millis(300);
+/// How long a stage may take before a line that stays is printed for it.
+const LONG: Duration = Duration::from_secs(5);
 /// How often the progress line moves.
 const TICK: Duration = Duration::from_millis(100);
+
+/// How a run is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Following {
+    /// Not at all.
+    Silent,
+    /// By a line on a terminal that vanishes at the end.
+    PassingLine,
+    /// By lines that stay.
+    Lines,
+}
 
 /// Follows a run through its stages.
 pub(super) struct Progress {
@@ -25,11 +39,15 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// Follows a run; draws if it may and standard error is a terminal.
-    pub(super) fn start(may_draw: bool) -> Self {
-        let draws = may_draw && io::stderr().is_terminal();
+    /// Follows a run.
+    pub(super) fn start(following: Following) -> Self {
+        let line = match following {
+            Following::Silent => None,
+            Following::PassingLine => Some(ProgressLine::start(draw)),
+            Following::Lines => Some(ProgressLine::start(print)),
+        };
         Self {
-            line: draws.then(ProgressLine::start),
+            line,
             running: None,
             timings: Vec::new(),
         }
@@ -85,11 +103,11 @@ struct ProgressLine {
 }
 
 impl ProgressLine {
-    fn start() -> Self {
+    fn start(follow: fn(&Receiver<Event>)) -> Self {
         let (events, receiver) = mpsc::channel();
         Self {
             events: Some(events),
-            thread: Some(thread::spawn(move || draw(&receiver))),
+            thread: Some(thread::spawn(move || follow(&receiver))),
         }
     }
 
@@ -112,6 +130,7 @@ impl Drop for ProgressLine {
 }
 
 fn draw(events: &Receiver<Event>) {
+    let start = Instant::now();
     let mut shown = Shown {
         stage: Stage::Reading,
         headline: None,
@@ -119,7 +138,11 @@ fn draw(events: &Receiver<Event>) {
     if wait_patiently(events, &mut shown).is_none() {
         return;
     }
-    let line = ProgressBar::new_spinner();
+    let line = ProgressBar::new_spinner().with_elapsed(start.elapsed());
+    // The template is ours and right; a spinner without the time would do too.
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
+        line.set_style(style);
+    }
     line.enable_steady_tick(TICK);
     line.set_message(shown.words());
     while let Ok(event) = events.recv() {
@@ -127,6 +150,36 @@ fn draw(events: &Receiver<Event>) {
         line.set_message(shown.words());
     }
     line.finish_and_clear();
+}
+
+/// A line for every stage that takes long, as soon as it has.
+fn print(events: &Receiver<Event>) {
+    let start = Instant::now();
+    let mut shown = Shown {
+        stage: Stage::Reading,
+        headline: None,
+    };
+    let mut is_told = false;
+    loop {
+        let next = if is_told {
+            events.recv().map_err(|_| RecvTimeoutError::Disconnected)
+        } else {
+            events.recv_timeout(LONG)
+        };
+        match next {
+            Ok(event) => {
+                shown.take(event);
+                is_told = false;
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                let passed = start.elapsed().as_secs();
+                // Whoever stops reading has the answer to come all the same.
+                let _ = writeln!(io::stderr(), "{} ({passed} s so far)", shown.words());
+                is_told = true;
+            }
+            Err(RecvTimeoutError::Disconnected) => return,
+        }
+    }
 }
 
 /// What the line says.
@@ -204,6 +257,6 @@ const fn words(stage: Stage) -> &'static str {
         Stage::Helping => "looking for a fix",
         Stage::Optimising => "solving for other parameters",
         Stage::Emitting => "writing the program",
-        Stage::Verifying => "holding the program against the job",
+        Stage::Verifying => "comparing the program with the job",
     }
 }

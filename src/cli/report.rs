@@ -1,8 +1,8 @@
 //! `vcutc report JOB -o FILE.html`: all there is to see of a job as one page, or its set-up sheet.
 
 use super::args::ReportArgs;
-use super::compile::unreadable;
 use super::browser;
+use super::compile::unreadable;
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, stem};
 use super::output::{Placed, one_file};
@@ -60,10 +60,7 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         Err(EmitFailure::Sink(reason)) => return console.failure(&Failure::new(reason)),
     };
     let timings = progress.finish();
-    let placed = match page
-        .as_deref()
-        .map(|page| write(page, &output, &disk, console))
-    {
+    let placed = match page.as_deref().map(|page| write(page, &output, &disk, console)) {
         Some(Err(exit)) => return exit,
         Some(Ok(placed)) => placed,
         None => Vec::new(),
@@ -96,7 +93,9 @@ fn destination(args: &ReportArgs, disk: &Disk) -> Result<String, Failure> {
         None => format!("{}.html", stem(disk.job())),
     };
     if output == "-" && args.open {
-        return Err(Failure::new("`--open` shows a file, but `-o -` writes none").help("leave one of the two out"));
+        return Err(
+            Failure::new("`--open` shows a file, but `-o -` writes none").help("leave one of the two out")
+        );
     }
     if output != "-" && !output.to_ascii_lowercase().ends_with(".html") {
         return Err(Failure::new(format!(

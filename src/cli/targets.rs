@@ -93,7 +93,8 @@ fn known_otherwise(name: &str) -> Option<Meant> {
 
 fn unknown(targets: &Targets, id: &str) -> Failure {
     let failure = Failure::new(format!("there is no target `{id}`"));
-    let meant = known_otherwise(id).filter(|meant| targets.iter().any(|backend| backend.id() == meant.target));
+    let meant =
+        known_otherwise(id).filter(|meant| targets.iter().any(|backend| backend.id() == meant.target));
     let near = nearest(id, targets.iter().map(|backend| backend.id()));
     let failure = match (meant, near.first()) {
         (Some(meant), _) => failure.help(format!("did you mean `{}`?", meant.flags())),

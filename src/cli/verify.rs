@@ -146,13 +146,20 @@ fn given(args: &VerifyArgs, linked: &Targets, targets: &Targets) -> Result<(Vec<
         return Err(Failure::new(format!("the folder {folder} holds no programs"))
             .help("give the folder that the program was written into, or its files"));
     }
-    let paths = names.iter().map(|name| Path::new(folder).join(name).display().to_string());
+    let paths = names
+        .iter()
+        .map(|name| Path::new(folder).join(name).display().to_string());
     Ok((paths.collect(), Found::InFolder))
 }
 
 /// Leaves the files of a folder that belong to the job: those of its program, and parts of an earlier one.
 fn keep_own(written: &Written, files: &mut Vec<ProgramFile>, shown: &mut Vec<String>) -> Result<(), Failure> {
-    let own: Vec<String> = written.bundle.files().iter().map(|(name, _)| name.clone()).collect();
+    let own: Vec<String> = written
+        .bundle
+        .files()
+        .iter()
+        .map(|(name, _)| name.clone())
+        .collect();
     let there: Vec<String> = files.iter().map(|file| file.name.clone()).collect();
     let stale = family::stale(&own, &there);
     let is_own = |name: &str| {

@@ -81,14 +81,20 @@ pub fn job(asked: &Asked<'_>) -> Result<String, Refusal> {
     };
     for tool in places::tools(model) {
         for reorient in REORIENT {
-            let draft = text::cuts(asked.name, tool.rake, reorient);
+            let draft = text::cuts(asked.name, tool.rake, reorient, tool.block);
             let outcome =
                 compiled(asked, &draft).map_err(|(found, sources)| Refusal::Name(found, sources))?;
             let Some(planned) = outcome.compiled else {
                 continue;
             };
             let verified = planned.program.verified();
-            let setups = setups(model, tool, reorient, verified.program(), &TaughtPoses::of(verified));
+            let setups = setups(
+                model,
+                tool,
+                reorient,
+                verified.program(),
+                &TaughtPoses::of(verified),
+            );
             let texts = setups
                 .iter()
                 .map(|setup| text::with_machine(asked.name, model, setup, asked.targets));
@@ -148,13 +154,7 @@ fn laid_out(text: String) -> String {
 }
 
 /// Set-ups that are likely to work, the one with the most room first.
-fn setups(
-    model: &Model,
-    tool: Tool,
-    reorient: u32,
-    program: &Program,
-    taught: &TaughtPoses,
-) -> Vec<Setup> {
+fn setups(model: &Model, tool: Tool, reorient: u32, program: &Program, taught: &TaughtPoses) -> Vec<Setup> {
     let rig = Rig::new(model, tool.frame(), Frame::from(Place::ROOT));
     let judge = Judge::new(
         rig.mechanism,
@@ -162,7 +162,7 @@ fn setups(
         &rig.flange_in_blade,
         taught.telling(SPREAD),
     );
-    let mut scored: Vec<_> = places::around(model)
+    let mut scored: Vec<_> = places::around(model, tool.block)
         .into_iter()
         .map(|place| (judge.score(&Frame::from(place).into()), place))
         .filter(|(score, _)| score.reached().is_some())

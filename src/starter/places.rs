@@ -1,6 +1,5 @@
 //! Where the work of a first job may stand, and how the blade may be mounted.
 
-use super::text::BLOCK;
 use crate::kinematics::Joints;
 use crate::kinematics::pose::Pose;
 use crate::machine::Model;
@@ -18,6 +17,8 @@ pub(super) struct Tool {
     pub(super) turn: i32,
     /// Angle between tool axis and feed, in degrees.
     pub(super) rake: u32,
+    /// The block, in mm: across the cuts, along them, up.
+    pub(super) block: [u32; 3],
 }
 
 impl Tool {
@@ -49,10 +50,10 @@ impl Place {
     };
 
     /// The place that has the middle of the block's bottom there, to ten millimetres.
-    fn with_middle(x: f64, y: f64, z: f64, turn: i32) -> Self {
+    fn with_middle([x, y, z]: [f64; 3], turn: i32, block: [u32; 3]) -> Self {
         let tens = |value: f64| (value / 10.0).round() * 10.0;
         let (sin, cos) = libm::sincos(f64::from(turn).to_radians());
-        let (across, along) = (f64::from(BLOCK[0]) / 2.0, f64::from(BLOCK[1]) / 2.0);
+        let (across, along) = (f64::from(block[0]) / 2.0, f64::from(block[1]) / 2.0);
         Self {
             x: tens(x - cos * across + sin * along),
             y: tens(y - sin * across - cos * along),
@@ -79,6 +80,10 @@ fn about_z(degrees: i32) -> Orientation {
     })
 }
 
+/// Size of the block, in mm: across the cuts, along them, up.
+pub(super) const BLOCK: [u32; 3] = [200, 150, 45];
+/// A block for the smallest arms.
+const SMALL_BLOCK: [u32; 3] = [100, 80, 45];
 /// Arms that reach less far than this carry a short blade, in mm.
 const SMALL_ARM: f64 = 1300.0;
 /// The rake of the examples.
@@ -88,9 +93,23 @@ const UPRIGHT: u32 = 90;
 
 /// Ways to mount the blade, the usual one first.
 pub(super) fn tools(model: &Model) -> Vec<Tool> {
-    let tool = |length, turn, rake| Tool { length, turn, rake };
+    let tool = |length, turn, rake| Tool {
+        length,
+        turn,
+        rake,
+        block: BLOCK,
+    };
     match model.kind() {
-        MachineKind::Robot if reach(model) < SMALL_ARM => vec![tool(120.0, 0, RAKE)],
+        MachineKind::Robot if reach(model) < SMALL_ARM => {
+            let short = tool(120.0, 0, RAKE);
+            vec![
+                short,
+                Tool {
+                    block: SMALL_BLOCK,
+                    ..short
+                },
+            ]
+        }
         MachineKind::Robot => vec![tool(310.0, 0, RAKE)],
         // A leading side that points along Y of an upright head stands in the middle of its postures.
         MachineKind::FiveAxis => vec![
@@ -102,10 +121,10 @@ pub(super) fn tools(model: &Model) -> Vec<Tool> {
 }
 
 /// Places in front of a robot, or over the mount of a five-axis machine.
-pub(super) fn around(model: &Model) -> Vec<Place> {
+pub(super) fn around(model: &Model, block: [u32; 3]) -> Vec<Place> {
     match model.kind() {
-        MachineKind::Robot => before_the_arm(model),
-        MachineKind::FiveAxis => over_the_mount(model),
+        MachineKind::Robot => before_the_arm(model, block),
+        MachineKind::FiveAxis => over_the_mount(model, block),
     }
 }
 
@@ -116,12 +135,14 @@ const HEIGHTS: [f64; 6] = [-0.1, 0.0, 0.1, 0.2, 0.3, 0.4];
 /// Turns of the work about z, in degrees: first those with cuts along x and y of the root.
 const TURNS: [i32; 8] = [90, 0, -90, 180, 45, -45, 135, -135];
 
-fn before_the_arm(model: &Model) -> Vec<Place> {
+fn before_the_arm(model: &Model, block: [u32; 3]) -> Vec<Place> {
     let reach = reach(model);
     let mut places = Vec::with_capacity(AWAY.len() * HEIGHTS.len() * TURNS.len());
     for turn in TURNS {
         for height in HEIGHTS {
-            places.extend(AWAY.map(|away| Place::with_middle(away * reach, 0.0, height * reach, turn)));
+            places.extend(
+                AWAY.map(|away| Place::with_middle([away * reach, 0.0, height * reach], turn, block)),
+            );
         }
     }
     places
@@ -163,7 +184,10 @@ fn at(axis: &Axis, step: u32) -> f64 {
 /// Heights of the block's bottom over the mount, in mm.
 const OVER_THE_MOUNT: [f64; 7] = [100.0, 0.0, 50.0, 200.0, 300.0, 400.0, 500.0];
 
-fn over_the_mount(model: &Model) -> Vec<Place> {
+/// Turns of the work, in degrees: machines of this kind have their axes along the work.
+const QUARTERS: [i32; 4] = [0, 90, -90, 180];
+
+fn over_the_mount(model: &Model, block: [u32; 3]) -> Vec<Place> {
     let mut middle = Joints::default();
     for (joint, axis) in middle.iter_mut().zip(&model.axes) {
         *joint = match axis.kind {
@@ -173,10 +197,9 @@ fn over_the_mount(model: &Model) -> Vec<Place> {
     }
     let nose: Pose = model.mechanism.flange_in_root(&middle);
     let nose = Frame::from(nose).origin;
-    let mut places = Vec::with_capacity(OVER_THE_MOUNT.len() * TURNS.len());
-    // Machines of this kind have their axes along the work: quarters of a turn only.
-    for turn in TURNS.into_iter().filter(|turn| turn % 90 == 0).rev() {
-        places.extend(OVER_THE_MOUNT.map(|z| Place::with_middle(nose.x, nose.y, z, turn)));
+    let mut places = Vec::with_capacity(OVER_THE_MOUNT.len() * QUARTERS.len());
+    for turn in QUARTERS {
+        places.extend(OVER_THE_MOUNT.map(|z| Place::with_middle([nose.x, nose.y, z], turn, block)));
     }
     places
 }

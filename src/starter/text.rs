@@ -1,18 +1,16 @@
 //! The words of a first job.
 
 use super::Setup;
+use super::places::BLOCK;
 use crate::machine::Model;
 use crate::remedy::wording;
 use core::fmt::Write;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker, PlacedFrame};
 
-/// Size of the block, in mm: across the cuts, along them, up.
-pub(super) const BLOCK: [u32; 3] = [200, 150, 45];
-
 /// A job that is planned and proven, but has no machine.
 pub(super) fn without_machine(name: &str) -> String {
-    let mut text = cuts(name, 60, 60);
+    let mut text = cuts(name, 60, 60, BLOCK);
     text += "
 // A program needs a machine. `vcutc init NAME --robot MODEL` writes one, and `vcutc machines` lists the models.
 ";
@@ -20,8 +18,8 @@ pub(super) fn without_machine(name: &str) -> String {
 }
 
 /// The block, the part, the blade and the cuts.
-pub(super) fn cuts(name: &str, rake: u32, reorient: u32) -> String {
-    let [width, depth, height] = BLOCK;
+pub(super) fn cuts(name: &str, rake: u32, reorient: u32, [width, depth, height]: [u32; 3]) -> String {
+    let middle = width / 2;
     format!(
         r#"// A part to begin with. Check it with `vcutc check`, then change the sizes, the profile and the blade to yours.
 // docs/language.md explains every word.
@@ -31,7 +29,7 @@ stock {{ size = ({width} mm, {depth} mm, {height} mm) }}      // x across the cu
 
 profile {{                                      // the part's surface, seen along the cuts; z counts from the block's bottom
   start (0 mm, 12 mm)
-  arc   to ({width} mm, 12 mm) through (100 mm, 28 mm)
+  arc   to ({width} mm, 12 mm) through ({middle} mm, 28 mm)
 }}
 
 blade dagger {{                                 // measure yours
@@ -63,7 +61,7 @@ pub(super) fn with_machine(
     setup: &Setup,
     targets: &[&'static dyn Backend],
 ) -> String {
-    let mut text = cuts(name, setup.tool.rake, setup.reorient);
+    let mut text = cuts(name, setup.tool.rake, setup.reorient, setup.tool.block);
     text.push('\n');
     for remark in remarks(model, setup) {
         // Writing to a string cannot fail.
@@ -71,11 +69,31 @@ pub(super) fn with_machine(
     }
     let placed = |frame| wording::frame_text(&PlacedFrame { frame, number: None });
     let fields = [
-        ("tool", placed(setup.tool.frame()), "the blade's frame in the flange: from calibration"),
-        ("base", placed(setup.base), "the block's corner in the machine's root: from calibration"),
-        ("home", wording::home_text(model, &setup.home), "where the program begins and ends"),
-        ("ultrasonic", "output(1)".to_owned(), "the output that your generator is wired to"),
-        ("ready", "after(0.8 s)".to_owned(), "measured on your generator, or input(...)"),
+        (
+            "tool",
+            placed(setup.tool.frame()),
+            "the blade's frame in the flange: from calibration",
+        ),
+        (
+            "base",
+            placed(setup.base),
+            "the block's corner in the machine's root: from calibration",
+        ),
+        (
+            "home",
+            wording::home_text(model, &setup.home),
+            "where the program begins and ends",
+        ),
+        (
+            "ultrasonic",
+            "output(1)".to_owned(),
+            "the output that your generator is wired to",
+        ),
+        (
+            "ready",
+            "after(0.8 s)".to_owned(),
+            "measured on your generator, or input(...)",
+        ),
     ];
     let kind = match model.kind() {
         MachineKind::Robot => "robot",
@@ -94,25 +112,36 @@ pub(super) fn with_machine(
 /// What needs saying of the machine.
 fn remarks(model: &Model, setup: &Setup) -> Vec<String> {
     let mut remarks = vec![
-        "The frames and the home below were tried on this machine with this job: it compiles. They are not".to_owned(),
+        "The frames and the home below were tried on this machine with this job: it compiles. They are not"
+            .to_owned(),
         "those of your cell: measure tool and base, wire the generator, and put your values in.".to_owned(),
     ];
     if setup.tool.rake == 90 {
-        remarks.push("This machine cannot lean the blade along the cut as well as across it, hence `rake = 90 deg`:".to_owned());
+        remarks.push(
+            "This machine cannot lean the blade along the cut as well as across it, hence `rake = 90 deg`:"
+                .to_owned(),
+        );
         remarks.push("see docs/machines_five_axis.md about an orientable spindle.".to_owned());
     }
     let unknown = |known: &dyn Fn(&Axis) -> bool| -> String {
         let names = model.axes.iter().filter(|axis| !known(axis));
-        names.map(|axis| axis.name.as_str()).collect::<Vec<_>>().join(", ")
+        names
+            .map(|axis| axis.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
     };
     let rates = unknown(&|axis| axis.rate.is_some());
     if !rates.is_empty() {
-        remarks.push(format!("The sheet has no speeds of {rates}: they are not checked. `vcutc machines` shows the sheet;"));
+        remarks.push(format!(
+            "The sheet has no speeds of {rates}: they are not checked. `vcutc machines` shows the sheet;"
+        ));
         remarks.push("a copy of your own can have them (docs/machines.md).".to_owned());
     }
     let accelerations = unknown(&|axis| axis.acceleration.is_some());
     if !accelerations.is_empty() {
-        remarks.push(format!("The sheet has no accelerations of {accelerations}: times are those at programmed speed."));
+        remarks.push(format!(
+            "The sheet has no accelerations of {accelerations}: times are those at programmed speed."
+        ));
     }
     remarks
 }
@@ -143,9 +172,23 @@ fn options(model: &Model, targets: &[&'static dyn Backend]) -> String {
         )),
         (MachineKind::Robot, Maker::Kuka | Maker::Other) => None,
     };
+    // S is a speed in G-code, so the control moves an orientable spindle by another letter.
+    let has = |letter: &str| {
+        model
+            .axes
+            .iter()
+            .any(|axis| axis.name.eq_ignore_ascii_case(letter))
+    };
+    let free = ["c", "b", "a"].into_iter().find(|letter| !has(letter));
+    let spindle = match (has("s"), free) {
+        (true, Some(letter)) => {
+            format!("\n    spindle_axis = {letter} // the letter by which your control moves the spindle")
+        }
+        (_, _) => String::new(),
+    };
     match block {
         Some((id, lines)) if targets.iter().any(|target| target.id() == id) => {
-            format!("  {id} {{\n    {lines}\n  }}\n")
+            format!("  {id} {{\n    {lines}{spindle}\n  }}\n")
         }
         Some(_) | None => String::new(),
     }

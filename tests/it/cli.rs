@@ -9,6 +9,8 @@ mod convert;
 mod dialects;
 mod fmt;
 mod gallery;
+#[cfg(all(feature = "gcode", feature = "rapid"))]
+mod init;
 mod jobs;
 mod kinematics;
 mod machines;
@@ -21,6 +23,10 @@ mod profiles;
 mod refusals;
 pub(crate) mod report;
 mod snapshot;
+#[cfg(unix)]
+mod tour;
+#[cfg(all(feature = "gcode", feature = "rapid"))]
+mod usage;
 mod verify;
 mod warnings;
 #[cfg(unix)]

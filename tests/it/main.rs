@@ -18,6 +18,9 @@ mod chromium;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod cli;
 mod codes;
+#[cfg(all(feature = "cli", feature = "krl"))]
+#[path = "../../build/commit.rs"]
+mod commit;
 #[cfg(feature = "krl")]
 mod convert;
 #[cfg(feature = "krl")]

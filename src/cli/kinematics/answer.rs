@@ -33,6 +33,15 @@ pub(super) struct Found<'m> {
     pub(super) blade_turned: Option<f64>,
 }
 
+/// Which ways to a pose are listed.
+#[derive(Clone, Copy)]
+pub(super) enum Shown {
+    /// Those within the limits of all axes.
+    WithinLimits,
+    /// All.
+    All,
+}
+
 impl Reached<'_> {
     pub(super) fn text(&self) -> String {
         let mut text = format!("{}: {}\n{}", self.model.name, self.pose_of, pose_text(&self.pose));
@@ -63,23 +72,33 @@ impl Reached<'_> {
 }
 
 impl Found<'_> {
-    pub(super) fn text(&self) -> String {
+    pub(super) fn text(&self, shown: Shown) -> String {
+        let is_within = |joints: &Joints| beyond_limits(self.model, joints).is_empty();
         let within = self
             .solutions
             .iter()
-            .filter(|(_, joints)| beyond_limits(self.model, joints).is_empty())
+            .filter(|(_, joints)| is_within(joints))
             .count();
+        let listed: Vec<_> = match shown {
+            Shown::All => self.solutions.iter().collect(),
+            Shown::WithinLimits => self
+                .solutions
+                .iter()
+                .filter(|(_, joints)| is_within(joints))
+                .collect(),
+        };
         let mut text = format!("{}: {}\n{}", self.model.name, self.pose_of, pose_text(&self.pose));
         text += &match self.solutions.len() {
             0 => self.no_way(),
             1 => format!("\n1 set of axis values, {within} within the limits\n"),
             all => format!("\n{all} sets of axis values, {within} within the limits\n"),
         };
-        if !self.solutions.is_empty() {
+        if !listed.is_empty() {
             text += &heading(&self.model.axes);
         }
         let mut before = None;
-        for (branch, joints) in &self.solutions {
+        let left_out = self.solutions.len() - listed.len();
+        for (branch, joints) in listed {
             if before != Some(*branch) {
                 text += &format!("  {}\n", stance(self.model, *branch, joints).join("; "));
                 before = Some(*branch);
@@ -88,6 +107,9 @@ impl Found<'_> {
             let turns =
                 turns(self.model, *branch, joints).map_or_else(String::new, |turns| format!("{turns}; "));
             text += &format!("   {turns}{}\n", limits_text(self.model, joints));
+        }
+        if left_out > 0 {
+            text += &format!("{left_out} outside of the limits left out: --verbose lists them\n");
         }
         text
     }

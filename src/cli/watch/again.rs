@@ -8,7 +8,7 @@ use crate::cli::compile::{Product, make, nothing, pointless_output, program_of, 
 use crate::cli::console::{Console, Failure, Summary};
 use crate::cli::files::Disk;
 use crate::cli::patience::Waiting;
-use crate::cli::progress::Progress;
+use crate::cli::progress::{Following, Progress};
 use crate::driver::{self, Outcome, Request, RequestError};
 use crate::memory::Memory;
 use crate::wanted::{Needless, Wanted};
@@ -139,7 +139,7 @@ impl<'a> Watched<'a> {
         see: &dyn Fn(&Seen<'_>),
     ) -> Came {
         let outcome = &unwritten.outcome;
-        let mut progress = Progress::start(false);
+        let mut progress = Progress::start(Following::Silent);
         match make(
             &self.product,
             outcome,

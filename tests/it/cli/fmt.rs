@@ -36,7 +36,7 @@ fn a_folder_is_formatted_and_files_with_mistakes_are_left() {
     assert!(run.stderr.contains("VC0101"), "{}", run.stderr);
     assert!(
         run.stderr
-            .ends_with("1 file formatted, 1 in order, 1 file left as it is because of errors\n"),
+            .ends_with("1 file formatted, 1 already formatted, 1 skipped (syntax error)\n"),
         "{}",
         run.stderr
     );
@@ -77,7 +77,7 @@ fn check_shows_a_diff_and_writes_nothing() {
         (run.code, run.stderr.as_str()),
         (
             Some(0),
-            "0 files to format (run again without --check), 1 in order\n"
+            "1 file already formatted\n"
         )
     );
 }
@@ -170,7 +170,7 @@ fn files_in_trouble_do_not_keep_others_from_being_formatted() {
         "VC0107",
         "cannot format locked.vcut: it is write-protected",
         "cannot format dead.vcut: there is no such file",
-        "formatted a.vcut\nformatted mark.vcut\n2 files formatted, 0 in order, 4 files left as they are because of errors\n",
+        "formatted a.vcut\nformatted mark.vcut\n2 files formatted, 4 skipped (see above)\n",
     ] {
         assert!(run.stderr.contains(told), "{told}: {}", run.stderr);
     }
@@ -188,5 +188,5 @@ fn files_in_trouble_do_not_keep_others_from_being_formatted() {
     let run = vcutc(path, &["fmt", "--check", "."]);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     assert!(run.stderr.contains("--- locked.vcut\n"), "{}", run.stderr);
-    assert!(run.stderr.ends_with("1 file to format (run again without --check), 2 in order, 2 files left as they are because of errors\n"), "{}", run.stderr);
+    assert!(run.stderr.ends_with("1 file to format (run again without --check), 2 already formatted, 2 skipped (see above)\n"), "{}", run.stderr);
 }

@@ -60,11 +60,11 @@ fn an_unknown_target_is_answered_with_the_known_ones() {
 
 #[test]
 fn a_target_like_no_other_is_answered_without_a_guess() {
-    let run = vcutc(folder().path(), &["rib.vcut", "--target", "fanuc"]);
+    let run = vcutc(folder().path(), &["rib.vcut", "--target", "mazatrol"]);
     assert_eq!(run.code, Some(2));
     assert_eq!(
         run.stderr,
-        format!("error: there is no target `fanuc`\n{}", known_targets())
+        format!("error: there is no target `mazatrol`\n{}", known_targets())
     );
 }
 

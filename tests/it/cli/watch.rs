@@ -37,7 +37,7 @@ impl Watch {
     }
 
     /// A watch in a folder.
-    fn of(mut command: Command, folder: TempDir) -> Self {
+    pub(super) fn of(mut command: Command, folder: TempDir) -> Self {
         let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
         let stderr = BufReader::new(child.stderr.take().unwrap());
         let (sender, lines) = channel();
@@ -91,7 +91,7 @@ impl Watch {
         fs::read_to_string(self.path().join("out/rib.src")).unwrap()
     }
 
-    fn interrupt(mut self) -> Option<i32> {
+    pub(super) fn interrupt(mut self) -> Option<i32> {
         let id = self.child.id().to_string();
         let killed = Command::new("kill").args(["-INT", &id]).status().unwrap();
         assert!(killed.success());
