@@ -23,8 +23,6 @@ pub struct Deviation<'a> {
     pub mean: f64,
     /// The limit, when the job has one.
     pub limit: Option<f64>,
-    /// How many cuts made the contour. The teeth of a hundred and more are drawn as the band that they fill.
-    pub cuts: usize,
 }
 
 const HEIGHT: f64 = 240.0;
@@ -75,13 +73,26 @@ pub fn draw(deviation: &Deviation<'_>) -> String {
     svg.finish()
 }
 
-/// The distances: their curve, or of many cuts the band that their teeth fill.
+/// How many teeth the contour has.
+fn teeth(deviation: &Deviation<'_>) -> usize {
+    let is_tip = |three: &[[f64; 2]]| matches!(three, [a, b, c] if b[1] > a[1] && b[1] >= c[1]);
+    deviation.curve.windows(3).filter(|three| is_tip(three)).count()
+}
+
+/// Whether the teeth are so many, or so close, that they are drawn as the band that they fill.
+fn are_many(deviation: &Deviation<'_>) -> bool {
+    let teeth = teeth(deviation);
+    let across = Room::of(deviation.heading.ids).across();
+    teeth >= MANY || teeth as f64 * NARROWEST > across
+}
+
+/// The distances: their curve, or of many teeth the band that they fill.
 fn curve(svg: &mut Svg, deviation: &Deviation<'_>, plot: &Plot, room: Room) {
-    if deviation.cuts >= MANY {
+    if are_many(deviation) {
         // More than a tooth a column, so that there are no gaps between them.
-        let is_tip = |three: &[[f64; 2]]| matches!(three, [a, b, c] if b[1] > a[1] && b[1] >= c[1]);
-        let teeth = deviation.curve.windows(3).filter(|three| is_tip(three)).count();
-        let columns = (teeth as f64 / 1.3).min(room.across() / NARROWEST).max(1.0);
+        let columns = (teeth(deviation) as f64 / 1.3)
+            .min(room.across() / NARROWEST)
+            .max(1.0);
         let band = Band::of(deviation.curve, columns as u32);
         svg.path(plot.between(&band).text(), BAND);
         svg.path(plot.curve(&band.upper).text(), CURVE);
@@ -121,7 +132,7 @@ fn description(deviation: &Deviation<'_>) -> String {
 }
 
 fn legend(deviation: &Deviation<'_>) -> Vec<Entry> {
-    let distance = if deviation.cuts >= MANY {
+    let distance = if are_many(deviation) {
         Entry::area(
             format!("{BAND} stroke=\"{BLUE}\""),
             "distance (teeth drawn as a band)",
@@ -254,7 +265,6 @@ mod tests {
                 hollow: hollow.map(|height| [99.0, height]),
                 mean: largest / 2.0,
                 limit: Some(10.0),
-                cuts: 3,
             });
             let mut lines = vec![line_of(&picture, &format!("{largest:.2} mm at"))];
             lines.extend(hollow.map(|height| line_of(&picture, &format!("{height:.2} mm at"))));

@@ -110,7 +110,6 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
             .map(|hollow| [hollow.peak.x, hollow.height.to_mm()]),
         mean: report.mean_scallop.to_mm(),
         limit: limit(material),
-        cuts: report.cuts(),
     })
 }
 
