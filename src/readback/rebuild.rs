@@ -18,6 +18,7 @@ use vcutc_backend_api::readback::{Deed, FrameRole, Held, Mismatch, Moment, Pace,
 use vcutc_backend_api::script::Generator;
 use vcutc_backend_api::script::speeds;
 use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::swivel::Apart;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
 
 /// A program as it was read.
@@ -387,13 +388,19 @@ impl Builder<'_> {
         let Some((from, held)) = self.at else {
             return (None, None);
         };
+        if let Pace::Apart { tip, swivel, twist } = pace {
+            let rates = swivel.zip(twist).map(|(swivel, twist)| Apart { swivel, twist });
+            let ends = self.held(held).zip(self.held(to.1)).filter(|_| held != to.1);
+            let turn = rates.zip(ends).map(|(rates, (from, to))| rates.whole(from, to));
+            return (tip, turn);
+        }
         let length = from.distance(to.0);
         let turn = match (self.held(held), self.held(to.1)) {
             (Some(from), Some(to)) => from.angle_to(to),
             (_, _) => Angle::ZERO,
         };
         let duration = match pace {
-            Pace::Speeds { .. } => return (None, None),
+            Pace::Speeds { .. } | Pace::Apart { .. } => return (None, None),
             Pace::Tip(feed) => {
                 let duration = length / feed;
                 let turns = turn > Angle::ZERO && duration > Duration::ZERO && duration.is_finite();

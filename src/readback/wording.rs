@@ -213,6 +213,12 @@ pub(super) fn pace_words(deed: &Deed) -> Option<String> {
             let turn = turn.map(|turn| format!("{} deg/s", fine(turn.to_rad_per_s().to_degrees())));
             Some(tip.into_iter().chain(turn).collect::<Vec<_>>().join(" and "))
         }
+        Pace::Apart { tip, swivel, twist } => {
+            let tip = tip.map(|tip| format!("{} mm/s", fine(tip.to_mm_per_s())));
+            let turns = [swivel, twist].into_iter().flatten();
+            let turns = turns.map(|rate| format!("{} deg/s", fine(rate.to_rad_per_s().to_degrees())));
+            Some(tip.into_iter().chain(turns).collect::<Vec<_>>().join(" and "))
+        }
         Pace::Tip(tip) => Some(format!("{} mm/s", fine(tip.to_mm_per_s()))),
         Pace::PerMinute(times) => Some(format!("{} per minute", fine(times))),
         Pace::Rotary(rate) => Some(format!("{} deg/s", fine(rate.to_rad_per_s().to_degrees()))),

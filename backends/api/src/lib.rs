@@ -51,6 +51,7 @@ pub mod protocol;
 pub mod readback;
 pub mod script;
 pub mod stroke;
+pub mod swivel;
 #[cfg(feature = "testkit")]
 pub mod testkit;
 pub mod units;

@@ -4,17 +4,18 @@ use crate::attitude::Attitudes;
 use crate::configuration::Configuration;
 use crate::keywords::HOME;
 use crate::options::Settings;
+use crate::turns::{Rates, Turns, rounded_down};
 use core::num::NonZeroU32;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, Cell, FeedId, Op, OpId, OperationId, OrientationId, Program, RateId, Ready, Switch,
+    Action, Cell, FeedId, Op, OpId, OperationId, OrientationId, Program, Ready, Switch,
 };
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
     Generator, Layer, Lead, Modal, Part, Place, State, Text, Written, feed, may_round, operation_heading,
-    rate,
+    rate as rate_of,
 };
 use vcutc_backend_api::units::Duration;
 
@@ -31,6 +32,8 @@ pub(crate) struct Source<'a> {
     pub(crate) settings: &'a Settings<'a>,
     /// Its orientations as text.
     pub(crate) attitudes: &'a Attitudes,
+    /// How fast its turns are.
+    pub(crate) turns: &'a Turns,
 }
 
 /// Writes the ops of a part.
@@ -41,13 +44,15 @@ pub(crate) fn write(source: Source<'_>, part: &Part, text: &mut Text<'_>) -> Wri
         text,
         modal: Modal::default(),
         state: part.start,
+        rates: None,
     };
-    body.first_speeds(ops)?;
+    body.first_speeds(part, ops)?;
     body.restate(part.ops.start)?;
     let mut rest = ops;
     let mut index = part.ops.start;
     while let [op, after @ ..] = rest {
         body.lead(op)?;
+        body.turn_rates(source.turns.at(index))?;
         body.op(index, op, after.first())?;
         rest = after;
         index += 1;
@@ -60,6 +65,8 @@ struct Body<'a, 's, 't> {
     text: &'t mut Text<'s>,
     modal: Modal,
     state: State,
+    /// The rates of swivel and twist as last said.
+    rates: Option<Rates>,
 }
 
 impl Body<'_, '_, '_> {
@@ -71,7 +78,7 @@ impl Body<'_, '_, '_> {
             open,
             cut,
             feed,
-            rate,
+            rate: _,
         } = self.modal.lead(op);
         if let Some(layer) = close {
             self.close(layer)?;
@@ -89,9 +96,6 @@ impl Body<'_, '_, '_> {
         }
         if let Some(feed) = feed {
             self.feed(feed)?;
-        }
-        if let Some(rate) = rate {
-            self.rate(rate)?;
         }
         Ok(())
     }
@@ -122,11 +126,17 @@ impl Body<'_, '_, '_> {
         self.assign(b"$VEL.CP=", feed.to_m_per_s())
     }
 
-    fn rate(&mut self, id: RateId) -> Written {
-        let rate = rate(self.source.program, id)?.to_deg_per_s();
-        // The controller limits the swivel of the tool axis (ORI1) and the turn about it (ORI2) apart [K-SI].
-        self.assign(b"$VEL.ORI1=", rate)?;
-        self.assign(b"$VEL.ORI2=", rate)
+    /// The rates of a turn, where they are others than before. The controller limits the swivel of the tool's direction
+    /// (ORI1) and the twist about it (ORI2) apart [K-SI].
+    fn turn_rates(&mut self, rates: Option<Rates>) -> Written {
+        match rates {
+            Some(now) if self.rates != rates => {
+                self.rates = rates;
+                self.assign(b"$VEL.ORI1=", now.swivel)?;
+                self.assign(b"$VEL.ORI2=", now.twist)
+            }
+            Some(_) | None => Ok(()),
+        }
     }
 
     fn assign(&mut self, target: &[u8], value: f64) -> Written {
@@ -137,15 +147,22 @@ impl Body<'_, '_, '_> {
 
     /// The speeds that the straight moves of the part run at first. Both stand at its head, because the first move may set
     /// only one of them, and what `BAS (#INITMOV,0 )` leaves in the other is the fastest there is.
-    fn first_speeds(&mut self, ops: &[Op]) -> Written {
+    fn first_speeds(&mut self, part: &Part, ops: &[Op]) -> Written {
         let (feed, rate) = self.modal.first_speeds(ops);
         if let Some(feed) = feed {
             self.feed(feed)?;
         }
-        if let Some(rate) = rate {
-            self.rate(rate)?;
+        let first = part.ops.clone().find_map(|index| self.source.turns.at(index));
+        match (first, rate) {
+            (Some(_), _) => self.turn_rates(first),
+            (None, Some(id)) => {
+                // The part turns nothing, and does not leave the rates open all the same.
+                let swivel = rounded_down(rate_of(self.source.program, id)?);
+                let twist = swivel;
+                self.turn_rates(Some(Rates { swivel, twist }))
+            }
+            (None, None) => Ok(()),
         }
-        Ok(())
     }
 
     /// Repeats the state in which the part begins, whose first op has this index. Called from the main program this changes

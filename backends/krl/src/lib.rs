@@ -29,7 +29,7 @@
 //! | `Dwell` | `WAIT SEC t` |
 //! | `ToolChange` | refused |
 //!
-//! `$VEL.CP` and `$VEL.ORI1`, `$VEL.ORI2` are written where they change. With the option `motion = spline` the words
+//! `$VEL.CP` and the rates of swivel and twist, `$VEL.ORI1` and `$VEL.ORI2`, are written where they change. With the option `motion = spline` the words
 //! are `SPTP`, `SLIN` and `C_SPL`; the two planners are never mixed in one program.
 //!
 //! # Long programs
@@ -69,12 +69,14 @@ mod module;
 mod options;
 mod profile;
 pub mod read;
+mod turns;
 
 use crate::attitude::Attitudes;
 use crate::body::Source;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
+use crate::turns::Turns;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::Cell;
@@ -90,9 +92,6 @@ const LAYOUT: Layout = Layout {
     longest_comment: 110,
     kept_out_of_comments: b"%",
 };
-
-/// The speeds of swivelling and of twisting are set apart.
-const LINES_OF_A_RATE: u64 = 2;
 
 /// The KRL backend.
 #[derive(Clone, Copy, Debug, Default)]
@@ -131,11 +130,12 @@ impl Backend for Krl {
         options: &'p Options,
     ) -> Result<Box<dyn Emission + 'p>, Vec<BackendIssue>> {
         let settings = Settings::read(options);
+        let turns = Turns::of(program.program());
         let parts = split(
             &program.program().ops,
             settings.common.lines_per_part,
             Borders::BetweenCuts,
-            &|_, lead| lead.lines(LINES_OF_A_RATE),
+            &|index, lead| turns.lines(index, lead),
         );
         let issues = profile::issues(options.profile(), program.program().cell.as_ref());
         let cell = match limits::check(program, &parts) {
@@ -151,6 +151,7 @@ impl Backend for Krl {
             cell,
             settings,
             parts,
+            turns,
         }))
     }
 }
@@ -168,6 +169,7 @@ struct KrlEmission<'p> {
     cell: &'p Cell,
     settings: Settings<'p>,
     parts: Vec<Part>,
+    turns: Turns,
 }
 
 impl Emission for KrlEmission<'_> {
@@ -180,6 +182,7 @@ impl Emission for KrlEmission<'_> {
             cell: self.cell,
             settings: &self.settings,
             attitudes: &attitudes,
+            turns: &self.turns,
         };
         let name = main_name(
             &program.name,

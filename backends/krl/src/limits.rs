@@ -26,8 +26,9 @@ const LARGEST_AXIS_DEG: f64 = 360.0;
 /// Tip speed `$VEL.CP` in m/s: zero is refused, and `$VEL_MA.CP` is 3 as delivered [K-SYS].
 const TIP_SPEED: (f64, f64) = (0.000_001, 3.0);
 
-/// Rates `$VEL.ORI1` and `$VEL.ORI2` in deg/s: `$VEL_MA.ORI1` and `.ORI2` are 400 as delivered [K-SYS].
-const RATE: (f64, f64) = (0.000_001, 400.0);
+/// The rate of a turn in deg/s. Neither of its parts is faster, and `$VEL_MA.ORI1` and `.ORI2` are 400 as delivered [K-SYS];
+/// neither is below a tenth of it, and four decimals say that to a hundredth.
+const RATE: (f64, f64) = (0.1, 400.0);
 
 /// `WAIT SEC` in s; a day.
 const LONGEST_WAIT_S: f64 = 86_400.0;

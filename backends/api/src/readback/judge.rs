@@ -6,6 +6,7 @@ use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, S
 use crate::motion::{ReachableProgram, Waypoint};
 use crate::script::{Generator, Place as Stand, may_round};
 use crate::stroke::{Pose, Stroke};
+use crate::swivel::Apart;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
 /// A difference between an op and a deed.
@@ -358,18 +359,17 @@ impl<'p> Judge<'p> {
         let duration = stroke.duration();
         match pace {
             Pace::Speeds { tip, turn } => {
-                if let Some(should) = stroke.feed
-                    && stroke.length > Length::ZERO
-                    && !tip.is_some_and(|is| self.is_feed(is, should))
-                {
-                    found.push(Mismatch::Feed { is: tip, should });
-                }
+                self.tip_speed(stroke, tip, found);
                 if let Some(should) = stroke.rate
                     && stroke.turn > Angle::ZERO
                     && !turn.is_some_and(|is| self.is_rate(is, should))
                 {
                     found.push(Mismatch::Rate { is: turn, should });
                 }
+            }
+            Pace::Apart { tip, swivel, twist } => {
+                self.tip_speed(stroke, tip, found);
+                self.turns_apart(stroke, [swivel, twist], found);
             }
             Pace::Tip(is) => {
                 let should = stroke.length / duration;
@@ -393,6 +393,36 @@ impl<'p> Judge<'p> {
                 if !self.is_rate(is, should) {
                     found.push(Mismatch::Rate { is: Some(is), should });
                 }
+            }
+        }
+    }
+
+    fn tip_speed(&self, stroke: &Stroke, is: Option<Speed>, found: &mut Vec<Mismatch>) {
+        if let Some(should) = stroke.feed
+            && stroke.length > Length::ZERO
+            && !is.is_some_and(|is| self.is_feed(is, should))
+        {
+            found.push(Mismatch::Feed { is, should });
+        }
+    }
+
+    /// Swivel and twist each at the rate at which the turn takes its time, rounded down by less than a unit.
+    fn turns_apart(&self, stroke: &Stroke, is: [Option<AngularSpeed>; 2], found: &mut Vec<Mismatch>) {
+        let orientation = |(_, held): Pose| self.program().orientations.get(held.0 as usize).copied();
+        let (Some(rate), Some(from), Some(to)) =
+            (stroke.rate, orientation(stroke.from), orientation(stroke.to))
+        else {
+            return;
+        };
+        if stroke.turn == Angle::ZERO {
+            return;
+        }
+        let Apart { swivel, twist } = Apart::rates(from, to, rate);
+        let unit = 2.0 * self.grain.rate.to_rad_per_s();
+        for (is, should) in is.into_iter().zip([swivel, twist]) {
+            let below = |is: AngularSpeed| (should - is).to_rad_per_s();
+            if !is.is_some_and(|is| within(below(is), 0.5 * unit, 0.5 * unit)) {
+                found.push(Mismatch::Rate { is, should });
             }
         }
     }

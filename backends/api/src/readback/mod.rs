@@ -212,6 +212,15 @@ pub enum Pace {
         /// Of the blade.
         turn: Option<AngularSpeed>,
     },
+    /// Speed of the tip and rates of swivel and twist ([`crate::swivel`]), whichever takes longest. They are rounded down.
+    Apart {
+        /// Of the tip.
+        tip: Option<Speed>,
+        /// Of the swivel of the tool's direction.
+        swivel: Option<AngularSpeed>,
+        /// Of the twist about it.
+        twist: Option<AngularSpeed>,
+    },
     /// Speed of the tip alone decides.
     Tip(Speed),
     /// The motion takes a minute divided by this.

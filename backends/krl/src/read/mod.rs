@@ -15,7 +15,7 @@
 //!   as 0, for the arms of this crate have none.
 //! * `C_DIS` behind `LIN` and `C_SPL` behind `SLIN`. Other ways of rounding, and rounded moves of all axes, are not
 //!   understood, because nothing says how far they cut a corner.
-//! * `$VEL.CP`, `$VEL.ORI1` and `.ORI2` (equal, to count as a rate), `$TOOL` and `$BASE` by value or number, `$OUT[n]`,
+//! * `$VEL.CP`, `$VEL.ORI1` and `.ORI2`, `$TOOL` and `$BASE` by value or number, `$OUT[n]`,
 //!   `WAIT SEC`, `WAIT FOR $IN[n]`.
 //! * Modes, load, rounding distance and axis speed, where they are those of the job; anything else is not understood, nor
 //!   is a motion for which one of them was not said (the module `setup`).
@@ -38,6 +38,7 @@ pub mod variables;
 
 use crate::configuration::Configuration;
 use crate::options::Settings;
+use crate::turns::RATES;
 use setup::half_a_unit;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
@@ -69,7 +70,7 @@ impl Reader for KrlReader {
             attitude: angle * 3.0,
             axis: angle,
             speed: Speed::m_per_s(FINE),
-            rate: AngularSpeed::deg_per_s(FINE),
+            rate: AngularSpeed::deg_per_s(half_a_unit(RATES)),
             per_minute: 0.0,
             time: Duration::s(FINE),
         }

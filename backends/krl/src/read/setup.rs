@@ -23,7 +23,7 @@ pub(super) struct Setup {
     said: u32,
     /// `$VEL.CP`.
     tip: Option<Speed>,
-    /// `$VEL.ORI1`, the swivel of the tool axis.
+    /// `$VEL.ORI1`, the swivel of the tool's direction.
     swivel: Option<AngularSpeed>,
     /// `$VEL.ORI2`, the turn about it.
     twist: Option<AngularSpeed>,
@@ -119,13 +119,13 @@ impl Setup {
         first.map(Said::missing)
     }
 
-    /// The speeds of a straight move. The rate of turning counts when both of its parts are the same.
-    pub(super) fn pace(&self) -> Pace {
-        let turn = match (self.swivel, self.twist) {
-            (Some(swivel), Some(twist)) if swivel == twist => Some(swivel),
-            (_, _) => None,
-        };
-        Pace::Speeds { tip: self.tip, turn }
+    /// The speeds of a straight move.
+    pub(super) const fn pace(&self) -> Pace {
+        Pace::Apart {
+            tip: self.tip,
+            swivel: self.swivel,
+            twist: self.twist,
+        }
     }
 
     fn note(&mut self, said: Said, is_as_it_should: bool) -> Says {

@@ -238,8 +238,8 @@ fn speeds_are_written_where_they_change() {
         speeds,
         [
             "$VEL.CP=0.5",
-            "$VEL.ORI1=90.0",
-            "$VEL.ORI2=90.0",
+            "$VEL.ORI1=49.7366",
+            "$VEL.ORI2=77.4968",
             "$VEL.CP=0.2",
             "$VEL.CP=0.5"
         ]

@@ -211,10 +211,10 @@ fn what_was_not_said_is_missing() {
 }
 
 #[test]
-fn rates_of_swivel_and_twist_must_be_one() {
+fn rates_of_swivel_and_twist_must_be_those_of_the_turn() {
     let (program, options) = two_cuts();
     let mut files = by_hand();
-    changed(&mut files[0], "$VEL.ORI2=90", "$VEL.ORI2=91");
+    changed(&mut files[0], "$VEL.ORI2=77.4968", "$VEL.ORI2=90");
     let told = told(&files, &program, &options);
     let departure = retraced(&told, &program, &options).unwrap_err();
     assert!(

@@ -22,6 +22,7 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
     let mut speeds = (f64::NAN, None);
     let mut restart = None;
     let step = |(id, op): (OpId, &vcutc_backend_api::ir::Op)| {
+        let from = at;
         if let Some(pose) = target(&op.action, at) {
             at = Some(pose);
             restart = Some(point(program, id, pose, status));
@@ -38,7 +39,7 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
             | Action::Approach { .. }
             | Action::Retract { .. }
             | Action::Cut { .. }
-            | Action::Turn { .. } => line(program, at.unwrap(), speeds),
+            | Action::Turn { .. } => line(program, from, at.unwrap(), speeds),
             Action::Ultrasonic { state } => Event::Output(cell.ultrasonic.unwrap(), state == Switch::On),
             Action::AwaitReady => match cell.ready {
                 Ready::Input(input) => Event::Await(input),
@@ -110,13 +111,63 @@ fn speeds_of(
     }
 }
 
-fn line(program: &ReachableProgram, at: (Point3, OrientationId), (feed, rate): (f64, Option<f64>)) -> Event {
+fn line(
+    program: &ReachableProgram,
+    from: Option<(Point3, OrientationId)>,
+    at: (Point3, OrientationId),
+    (feed, rate): (f64, Option<f64>),
+) -> Event {
+    let to = pose(program, at);
+    let turned = from.filter(|from| from.1 != at.1);
+    let rates = turned.zip(rate).map(|(from, rate)| {
+        let (swivel, twist, whole) = parts(&pose(program, from).axes, &to.axes);
+        let of = |part: f64| rate * (part / whole).max(0.1);
+        (of(swivel), of(twist))
+    });
     Event::Line {
-        to: pose(program, at),
+        to,
         feed,
-        rate,
+        rates,
         rounded: false,
     }
+}
+
+/// How far a turn swivels the tool's x, twists about it, and turns in all: by matrices, in rad. What is left of the turn when x
+/// has been brought to where it ends, about the line square to both, is the twist.
+pub(crate) fn parts(from: &Matrix, to: &Matrix) -> (f64, f64, f64) {
+    let column = |m: &Matrix, c: usize| [m[0][c], m[1][c], m[2][c]];
+    let (x, x_then) = (column(from, 0), column(to, 0));
+    let square = cross(x, x_then);
+    let (sine, cosine) = (dot(square, square).sqrt(), dot(x, x_then));
+    let y = column(from, 1);
+    let y_swivelled = if sine < 1e-12 {
+        y
+    } else {
+        // Rodrigues' formula.
+        let n = square.map(|part| part / sine);
+        let (along, aside) = (dot(n, y), cross(n, y));
+        core::array::from_fn(|i| y[i] * cosine + aside[i] * sine + n[i] * along * (1.0 - cosine))
+    };
+    let y_then = column(to, 1);
+    let off = cross(y_swivelled, y_then);
+    let twist = dot(off, off).sqrt().atan2(dot(y_swivelled, y_then));
+    let trace: f64 = (0..3).map(|c| dot(column(from, c), column(to, c))).sum();
+    let skew = (0..3).map(|c| cross(column(from, c), column(to, c)));
+    let skew = skew.fold([0.0; 3], |sum: [f64; 3], part| core::array::from_fn(|i| sum[i] + part[i]));
+    let whole = dot(skew, skew).sqrt().atan2(trace - 1.0);
+    (sine.atan2(cosine), twist, whole)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 fn pose(program: &ReachableProgram, (tip, held): (Point3, OrientationId)) -> Pose {
@@ -151,17 +202,17 @@ pub(crate) fn same(got: &Event, want: &Event, rounding: Rounding) -> bool {
         }
         (
             Event::Line {
-                to: got, feed, rate, ..
+                to: got, feed, rates, ..
             },
             Event::Line {
                 to: want,
                 feed: wanted_feed,
-                rate: wanted_rate,
+                rates: wanted_rates,
                 ..
             },
         ) => {
             near(*feed, *wanted_feed, 0.5001e-6)
-                && rates_agree(*rate, *wanted_rate)
+                && rates_agree(*rates, *wanted_rates)
                 && poses_agree(got, want, rounding)
         }
         (
@@ -181,10 +232,11 @@ pub(crate) fn same(got: &Event, want: &Event, rounding: Rounding) -> bool {
     }
 }
 
-/// The reader demands a rate of moves that turn the blade. On others any will do, or none, until an op has set one.
-fn rates_agree(got: Option<f64>, want: Option<f64>) -> bool {
+/// The reader demands rates of moves that turn the blade. They are rounded down to four decimals.
+fn rates_agree(got: Option<(f64, f64)>, want: Option<(f64, f64)>) -> bool {
+    let below = |got: f64, want: f64| (-1e-6..=1.0001e-4).contains(&(want - got));
     let pair = got.zip(want);
-    pair.is_none_or(|(got, want)| (got - want).abs() <= 0.5001e-6)
+    pair.is_none_or(|(got, want)| below(got.0, want.0) && below(got.1, want.1))
 }
 
 pub(crate) fn poses_agree(got: &Pose, want: &Pose, rounding: Rounding) -> bool {
@@ -269,17 +321,17 @@ impl History {
     fn is_same_turn(&self, got: &Event, want: &Event, rounding: Rounding) -> bool {
         let (
             Some(Event::Point { to: from, .. }),
-            Event::Line { to: got, rate, .. },
+            Event::Line { to: got, rates, .. },
             Event::Line {
                 to: want,
-                rate: wanted,
+                rates: wanted,
                 ..
             },
         ) = (&self.restart, got, want)
         else {
             return false;
         };
-        from.tip == want.tip && rates_agree(*rate, *wanted) && poses_agree(got, want, rounding)
+        from.tip == want.tip && rates_agree(*rates, *wanted) && poses_agree(got, want, rounding)
     }
 
     fn expect_again<'e>(

@@ -39,8 +39,8 @@ pub(crate) enum Event {
         to: Pose,
         /// `$VEL.CP` in m/s.
         feed: f64,
-        /// `$VEL.ORI1` in deg/s, which a move that turns the blade must have.
-        rate: Option<f64>,
+        /// `$VEL.ORI1` and `$VEL.ORI2` in deg/s, which a move that turns the blade must have.
+        rates: Option<(f64, f64)>,
         rounded: bool,
     },
     Output(u32, bool),
@@ -237,17 +237,17 @@ impl Robot<'_> {
             return Err("rounding without a distance".into());
         }
         let to = pose(&literal)?;
-        let turns = self.axes.replace(to.axes) != Some(to.axes);
+        let turns = self.axes.replace(to.axes).is_some_and(|before| before != to.axes);
         let feed = self.feed.ok_or("a move without speed")?;
-        let rate = match self.rates {
-            (Some(swivel), Some(turn)) if (swivel - turn).abs() <= 1e-9 => Some(swivel),
-            (None, None) if !turns => None,
+        let rates = match self.rates {
+            _ if !turns => None,
+            (Some(swivel), Some(twist)) => Some((swivel, twist)),
             rates => return Err(format!("a turning move with rates {rates:?}")),
         };
         self.events.push(Event::Line {
             to,
             feed,
-            rate,
+            rates,
             rounded,
         });
         Ok(())

@@ -1,0 +1,102 @@
+//! The rates of swivel and twist at which each turn takes the time for which its axes were proven.
+//!
+//! Most turns of a program are the same turn forward and back, so that the two rates are written once or a few times.
+
+use std::collections::BTreeMap;
+use vcutc_backend_api::ir::{Action, OrientationId, Program, RateId};
+use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::number::FixedDecimal;
+use vcutc_backend_api::script::Lead;
+use vcutc_backend_api::swivel::Apart;
+use vcutc_backend_api::units::AngularSpeed;
+
+/// Decimals of both rates, in deg/s: KRL's `REAL` has seven digits, and the highest rate three before the point.
+pub(crate) const RATES: FixedDecimal = FixedDecimal::new(4);
+
+/// The units of the last of these decimals in 1 deg/s.
+const UNITS: f64 = 10_000.0;
+
+/// What rounding down overlooks, in these units: the rounding of the arithmetic, by which the way back differs from the way
+/// there. It is far below what the proof of rates leaves.
+const NOISE: f64 = 1e-4;
+
+/// Two lines say the rates.
+const LINES: u64 = 2;
+
+/// Rates of swivel and twist in deg/s, as printed.
+pub(crate) type Rates = Apart<f64>;
+
+/// The rates of a program's turns.
+pub(crate) struct Turns {
+    /// For each op that turns the blade.
+    of: Vec<Option<Rates>>,
+    /// For each op whether they are others than those of the turn before.
+    changes: Vec<bool>,
+}
+
+impl Turns {
+    pub(crate) fn of(program: &Program) -> Self {
+        let mut known: BTreeMap<(OrientationId, OrientationId, RateId), Option<Rates>> = BTreeMap::new();
+        let (mut at, mut last) = (None, None);
+        let mut turns = Self {
+            of: Vec::with_capacity(program.ops.len()),
+            changes: Vec::with_capacity(program.ops.len()),
+        };
+        for op in &program.ops {
+            let before = at;
+            at = pose_after(at, &op.action);
+            let rates = match (before, at, rate(&op.action)) {
+                (Some((_, from)), Some((_, to)), Some(rate)) if from != to => {
+                    let new = || rates(program, (from, to), rate);
+                    *known.entry((from, to, rate)).or_insert_with(new)
+                }
+                (_, _, _) => None,
+            };
+            turns.changes.push(rates.is_some() && rates != last);
+            turns.of.push(rates);
+            last = rates.or(last);
+        }
+        turns
+    }
+
+    /// Those of the op at a place; none when it turns nothing.
+    pub(crate) fn at(&self, index: usize) -> Option<Rates> {
+        self.of.get(index).copied().flatten()
+    }
+
+    /// How many lines stand before the op at a place. A part says its first rates whatever was said before it.
+    pub(crate) fn lines(&self, index: usize, lead: Lead) -> u64 {
+        let changes = self.changes.get(index).copied().unwrap_or(false);
+        lead.lines(0) + if changes || lead.rate.is_some() { LINES } else { 0 }
+    }
+}
+
+fn rate(action: &Action) -> Option<RateId> {
+    match *action {
+        Action::Travel { rate, .. } | Action::Turn { rate, .. } => Some(rate),
+        Action::Home
+        | Action::AxisTravel { .. }
+        | Action::Approach { .. }
+        | Action::Retract { .. }
+        | Action::Cut { .. }
+        | Action::Ultrasonic { .. }
+        | Action::AwaitReady
+        | Action::Dwell { .. }
+        | Action::ToolChange { .. } => None,
+    }
+}
+
+fn rates(program: &Program, (from, to): (OrientationId, OrientationId), rate: RateId) -> Option<Rates> {
+    let orientation = |id: OrientationId| program.orientations.get(id.0 as usize).copied();
+    let rate = program.rates.get(usize::from(rate.0)).copied()?;
+    let Apart { swivel, twist } = Apart::rates(orientation(from)?, orientation(to)?, rate);
+    Some(Apart {
+        swivel: rounded_down(swivel),
+        twist: rounded_down(twist),
+    })
+}
+
+/// In deg/s, so that no turn is faster than proven.
+pub(crate) fn rounded_down(rate: AngularSpeed) -> f64 {
+    (rate.to_deg_per_s() * UNITS + NOISE).floor() / UNITS
+}
