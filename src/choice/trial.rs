@@ -114,7 +114,9 @@ pub(super) fn parameters(
     trials.anew();
     let is_new = |one: &Finalist| {
         let known = finalists.iter();
-        !known.into_iter().any(|known| alike(&known.parameters, &one.parameters))
+        !known
+            .into_iter()
+            .any(|known| alike(&known.parameters, &one.parameters))
     };
     let found_anew = trials.finalists(by_bound.as_ref().ok());
     let found_anew: Vec<Finalist> = found_anew.into_iter().filter(is_new).collect();

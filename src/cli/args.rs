@@ -391,10 +391,7 @@ impl CompileArgs {
         let check = self.check.then(|| "--check".to_owned());
         let option = self.options.option.first().map(|_| "--option".to_owned());
         let air_cut = self.air.air_cut.map(|_| "--air-cut".to_owned());
-        let denied = self
-            .warnings
-            .deny_warnings
-            .then(|| "--deny-warnings".to_owned());
+        let denied = self.warnings.deny_warnings.then(|| "--deny-warnings".to_owned());
         job.or(target)
             .or(output)
             .or(check)

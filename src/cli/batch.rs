@@ -217,12 +217,15 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
     Done {
         sources: outcome.sources,
         diagnostics: outcome.diagnostics,
-        figures: outcome.compiled.filter(|compiled| compiled.numbers_of_cuts().is_some()).map(|compiled| Figures {
-            numbers: compiled.numbers,
-            times: compiled.times,
-            checks: compiled.checks,
-            parameters: compiled.parameters,
-        }),
+        figures: outcome
+            .compiled
+            .filter(|compiled| compiled.numbers_of_cuts().is_some())
+            .map(|compiled| Figures {
+                numbers: compiled.numbers,
+                times: compiled.times,
+                checks: compiled.checks,
+                parameters: compiled.parameters,
+            }),
         made,
     }
 }

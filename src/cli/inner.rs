@@ -4,10 +4,10 @@
 //! the plan is a table for people who want to look at the cuts, in a spreadsheet or a plot.
 
 use super::args::InnerForm;
+use super::files::stem;
 use super::joints;
 use crate::driver::Outcome;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
-use super::files::stem;
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;

@@ -338,7 +338,10 @@ fn plan_and_prove(
     match ended {
         Ended::Overtaken => {}
         Ended::Compiled(plan, told, compiled) => {
-            let warned = job.machine.as_ref().map(|machine| compiled.checks.warnings(machine));
+            let warned = job
+                .machine
+                .as_ref()
+                .map(|machine| compiled.checks.warnings(machine));
             outcome.diagnostics.extend(told);
             outcome.diagnostics.extend(warned.into_iter().flatten());
             (outcome.plan, outcome.compiled) = (Some(*plan), Some(*compiled));

@@ -22,11 +22,11 @@ use crate::machine::Origin;
 use crate::source::Span;
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
-    DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation, FoldingRangeParams,
-    GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint, InlayHintKind, InlayHintLabel,
-    InlayHintParams, InlayHintTooltip, InsertTextFormat, Location, MarkupContent, MarkupKind, Position,
-    Range, ReferenceParams, RenameParams, SemanticTokens, SemanticTokensParams, TextDocumentIdentifier,
-    TextDocumentPositionParams, TextEdit,
+    DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation,
+    FoldingRangeParams, GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint, InlayHintKind,
+    InlayHintLabel, InlayHintParams, InlayHintTooltip, InsertTextFormat, Location, MarkupContent, MarkupKind,
+    Position, Range, ReferenceParams, RenameParams, SemanticTokens, SemanticTokensParams,
+    TextDocumentIdentifier, TextDocumentPositionParams, TextEdit,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -304,17 +304,27 @@ fn faster(
     room: &mut Room,
 ) -> Option<Faster> {
     let formulas = asked.formulas.value;
-    let of = |row: &Row| row.best.as_ref().ok().filter(|_| row.formulas == formulas).cloned();
+    let of = |row: &Row| {
+        row.best
+            .as_ref()
+            .ok()
+            .filter(|_| row.formulas == formulas)
+            .cloned()
+    };
     let marked = rows.iter().filter(|row| row.role == Role::Chosen).find_map(of)?;
     let others = rows.iter().filter(|row| row.role == Role::Other);
-    let best = others.filter_map(of).min_by(|one, other| one.time.total_cmp(&other.time))?;
+    let best = others
+        .filter_map(of)
+        .min_by(|one, other| one.time.total_cmp(&other.time))?;
     let share = 1.0 - best.time / marked.time;
     let is_told = share > MUCH_FASTER && asked.objective.value == Objective::Time && best.lattice != chosen;
     is_told.then(|| Faster {
         lattice: best.lattice,
         time: best.time,
         share,
-        came: came(job, room, best.cuts, |asked| asked.lattice.value = Auto::Given(best.lattice)),
+        came: came(job, room, best.cuts, |asked| {
+            asked.lattice.value = Auto::Given(best.lattice)
+        }),
     })
 }
 

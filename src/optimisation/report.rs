@@ -1,7 +1,9 @@
 //! What came of optimising, for people and for programs.
 
 use super::bounds::{Relaxed, name, value};
-use super::{Came, Faster, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Planned, Role, Row};
+use super::{
+    Came, Faster, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Planned, Role, Row,
+};
 use crate::job::Objective;
 use crate::plan::optimum::{Bound, Infeasible, Optimum, Problem};
 use crate::plan::parameters::VcutParameters;
@@ -55,7 +57,17 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
     );
     text += &table(
         &[
-            "", "lattice", "model", "swing", "layer", "step", "overlap", "formula time", "cuts", "scallop", "edge",
+            "",
+            "lattice",
+            "model",
+            "swing",
+            "layer",
+            "step",
+            "overlap",
+            "formula time",
+            "cuts",
+            "scallop",
+            "edge",
         ],
         &operation.rows.iter().map(row_cells).collect::<Vec<_>>(),
     );
@@ -77,9 +89,24 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
     text += &binding_text(operation.objective, &operation.binding);
     text += &operation.faster.as_ref().map_or(String::new(), faster_text);
     text += "\n  Other limits of the scallop, planned at programmed speeds, and what the formula says of them:\n\n";
-    let points = operation.trade_off.points.iter().zip(&operation.trade_off.planned);
+    let points = operation
+        .trade_off
+        .points
+        .iter()
+        .zip(&operation.trade_off.planned);
     text += &table(
-        &["", "limit", "time", "cuts", "leaves", "lattice", "swing", "layer", "step", "formula time"],
+        &[
+            "",
+            "limit",
+            "time",
+            "cuts",
+            "leaves",
+            "lattice",
+            "swing",
+            "layer",
+            "step",
+            "formula time",
+        ],
         &points
             .map(|(best, came)| point_cells(best, came, operation.chosen()))
             .collect::<Vec<_>>(),
@@ -275,7 +302,11 @@ fn point_cells(best: &Optimum, came: &Came, chosen: Option<&Optimum>) -> Vec<Str
             plan.parameters.step,
         ),
         Came::Nothing | Came::FormulaOnly => {
-            let word = if *came == Came::Nothing { "no plan" } else { "formula only" };
+            let word = if *came == Came::Nothing {
+                "no plan"
+            } else {
+                "formula only"
+            };
             let results = [word.to_owned(), format!("{:.1}", best.cuts), String::new()];
             (results, best.lattice, best.swing, best.layer, best.step)
         }
@@ -477,7 +508,11 @@ fn given_body(given: &GivenOperation) -> GivenBody<'_> {
 
 fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
     let planned = &operation.planned;
-    let points = operation.trade_off.points.iter().zip(&operation.trade_off.planned);
+    let points = operation
+        .trade_off
+        .points
+        .iter()
+        .zip(&operation.trade_off.planned);
     OperationBody {
         operation: operation.number,
         place: &operation.place,

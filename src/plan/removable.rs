@@ -46,7 +46,11 @@ pub fn standoff(asked: &RoughVcut) -> Length {
 
 /// The area under a contour that lies above a profile, both over the same span.
 fn area_between(contour: &[Point2], below: &Profile) -> f64 {
-    let mut xs: Vec<f64> = contour.iter().chain(below.points()).map(|point| point.x).collect();
+    let mut xs: Vec<f64> = contour
+        .iter()
+        .chain(below.points())
+        .map(|point| point.x)
+        .collect();
     xs.sort_by(f64::total_cmp);
     xs.dedup();
     let mut upper = Along::new(contour);

@@ -61,7 +61,11 @@ impl Balance {
 
     fn share(&self) -> f64 {
         let whole = self.whole.to_mm2();
-        if whole > 0.0 { (self.stays.to_mm2() / whole).max(0.0) } else { 0.0 }
+        if whole > 0.0 {
+            (self.stays.to_mm2() / whole).max(0.0)
+        } else {
+            0.0
+        }
     }
 }
 
@@ -74,7 +78,12 @@ fn is_chosen(asked: &RoughVcut) -> bool {
 
 /// The warning, if much stays.
 #[must_use]
-pub fn much_stays(job: &CheckedJob, plan: &PlannedJob, report: &Report, wanted: &Wanted) -> Option<Diagnostic> {
+pub fn much_stays(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    report: &Report,
+    wanted: &Wanted,
+) -> Option<Diagnostic> {
     let balance = Balance::of(plan, report)?;
     let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(balance.operation.0))?;
     let asked = &vcut.asked;
@@ -135,7 +144,10 @@ fn with_what_leaves_less(
         let then = Balance::of(&plan, &report)?.share();
         (then < WORTH * balance.share()).then_some(then)
     };
-    let now = asked.limits.scallop.map_or(report.scallop.height, |limit| limit.value);
+    let now = asked
+        .limits
+        .scallop
+        .map_or(report.scallop.height, |limit| limit.value);
     let is_open = asked.swing.value == Auto::Auto || asked.layer.value == Auto::Auto;
     let mut best: Option<(Length, f64)> = None;
     for tighter in TIGHTER.iter().filter(|_| is_open && asked.tips.is_none()) {
@@ -171,9 +183,10 @@ fn with_what_leaves_less(
     }
     let opened = Offer::all_open(asked).filter(|_| asked.tips.is_none() && case.job.machine.is_none());
     match opened.and_then(|offer| Some((share_with(&|asked| asked.clone_from(&offer.changed))?, offer))) {
-        Some((then, offer)) => {
-            told.fix_all(format!("{}; {} % stays then", offer.title, percent(then)), &offer.edits)
-        }
+        Some((then, offer)) => told.fix_all(
+            format!("{}; {} % stays then", offer.title, percent(then)),
+            &offer.edits,
+        ),
         None => told,
     }
 }

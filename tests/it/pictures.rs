@@ -177,7 +177,9 @@ fn every_colour_is_another_one_in_the_dark() {
     for (example, pairings) in compiling() {
         let outcome = compile_on(pairings[0].machine, &example, &folder());
         let page = vcutc::report::page::page(&outcome).unwrap();
-        let (_, dark) = page.split_once("(prefers-color-scheme: dark) {\n.view svg").unwrap();
+        let (_, dark) = page
+            .split_once("(prefers-color-scheme: dark) {\n.view svg")
+            .unwrap();
         let (dark, _) = dark.split_once("</style>").unwrap();
         for what in ALL {
             for ids in [Prefix::new("page-"), Prefix::for_phones("phone-")] {
@@ -191,8 +193,17 @@ fn every_colour_is_another_one_in_the_dark() {
                         }
                     }
                 }
-                let width: f64 = document.root_element().attribute("width").unwrap().parse().unwrap();
-                let most = if ids == Prefix::new("page-") { PAGE_WIDTH } else { PHONE_WIDTH };
+                let width: f64 = document
+                    .root_element()
+                    .attribute("width")
+                    .unwrap()
+                    .parse()
+                    .unwrap();
+                let most = if ids == Prefix::new("page-") {
+                    PAGE_WIDTH
+                } else {
+                    PHONE_WIDTH
+                };
                 assert!(width <= most, "{example} {what}: {width}");
             }
         }

@@ -93,8 +93,9 @@ mod tests {
 
     fn orientation() -> impl Strategy<Value = Orientation> {
         let part = || -1.0..1.0_f64;
-        (part(), part(), part(), part())
-            .prop_filter_map("a rotation", |(w, x, y, z)| Orientation::from_quaternion(w, x, y, z))
+        (part(), part(), part(), part()).prop_filter_map("a rotation", |(w, x, y, z)| {
+            Orientation::from_quaternion(w, x, y, z)
+        })
     }
 
     /// How far a direction of the blade swings: by the columns of matrices.

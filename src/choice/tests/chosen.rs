@@ -34,7 +34,10 @@ fn a_chosen_limit_written_down_gives_the_same_cuts() {
             panic!("there is a plan")
         };
         assert_eq!(vcut(&same).parameters, vcut(&plan).parameters);
-        assert_eq!((&vcut(&same).cuts, &vcut(&same).runs), (&vcut(&plan).cuts, &vcut(&plan).runs));
+        assert_eq!(
+            (&vcut(&same).cuts, &vcut(&same).runs),
+            (&vcut(&plan).cuts, &vcut(&plan).runs)
+        );
         // Settled, it is the job with the limit set.
         let settled = settled(&job, &plan).unwrap();
         let (Some(again), _) = choose(&settled) else {
@@ -74,7 +77,10 @@ fn a_chosen_limit_yields_to_those_of_the_job() {
     let (plan, told) = choose(&job);
     assert!(told.is_empty(), "{told:?}");
     let limits = vcut(plan.as_ref().unwrap()).asked.limits;
-    assert!(limits.scallop.is_none_or(|limit| limit.value > tight), "{limits:?}");
+    assert!(
+        limits.scallop.is_none_or(|limit| limit.value > tight),
+        "{limits:?}"
+    );
 }
 
 #[test]

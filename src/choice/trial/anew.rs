@@ -72,7 +72,10 @@ struct Visits {
 
 /// How much goes with so many cuts.
 fn by_cuts(table: &[(usize, usize)], cuts: usize) -> usize {
-    table.iter().find(|(below, _)| cuts < *below).map_or(1, |&(_, most)| most)
+    table
+        .iter()
+        .find(|(below, _)| cuts < *below)
+        .map_or(1, |&(_, most)| most)
 }
 
 impl Trials<'_> {
@@ -88,7 +91,12 @@ impl Trials<'_> {
         let before = self.best_merit();
         let mut reckoned = self.reckoned();
         reckoned.sort_by(|one, other| one.merit.total_cmp(&other.merit));
-        reckoned.retain(|one| !self.tried.iter().any(|tried| alike(&tried.parameters, &one.parameters)));
+        reckoned.retain(|one| {
+            !self
+                .tried
+                .iter()
+                .any(|tried| alike(&tried.parameters, &one.parameters))
+        });
         let mut next = reckoned.into_iter().take(looked_at).peekable();
         while next.peek().is_some() && self.may_go_on() {
             let mut worth: Vec<Reckoned> = Vec::new();
@@ -120,13 +128,17 @@ impl Trials<'_> {
         }
         let followed = self.floor.followed(found.flanks.slope);
         followed
-            .of_tips(found, limit.value, |column, parity| self.stop(found, column, parity, one.ends))
+            .of_tips(found, limit.value, |column, parity| {
+                self.stop(found, column, parity, one.ends)
+            })
             .is_some()
     }
 
     fn best_merit(&self) -> f64 {
         let best = self.sound.first();
-        best.map_or(f64::INFINITY, |best| best.figures.merit(self.asked.objective.value))
+        best.map_or(f64::INFINITY, |best| {
+            best.figures.merit(self.asked.objective.value)
+        })
     }
 
     /// Whether what is reckoned is better than the best one reckoned in the same way.
@@ -155,7 +167,11 @@ impl Trials<'_> {
             for &ends in Ends::of(parameters.lattice) {
                 let merit = self.reckon(&parameters, of_swing, ends);
                 let parameters = parameters.clone();
-                found.push(Reckoned { parameters, ends, merit });
+                found.push(Reckoned {
+                    parameters,
+                    ends,
+                    merit,
+                });
             }
         }
         found
@@ -212,7 +228,9 @@ impl Trials<'_> {
                 Row::Columns { parity, .. } if seen == Some(parity) => {}
                 Row::Columns { parity, columns } => {
                     seen = Some(parity);
-                    let visits = columns.iter().map(|column| self.visits(found, *column, parity, ends).count);
+                    let visits = columns
+                        .iter()
+                        .map(|column| self.visits(found, *column, parity, ends).count);
                     cuts += visits.sum::<f64>();
                 }
                 Row::Free(_) => {
@@ -240,7 +258,11 @@ impl Trials<'_> {
             (Lattice::Orthogonal | Lattice::Free, Parity::Odd | Parity::Even) => (layer, layer),
         };
         let count = (((floor - first) / apart).floor() + 1.0).max(0.0);
-        let depth = if count > 0.0 { first + (count - 1.0) * apart } else { 0.0 };
+        let depth = if count > 0.0 {
+            first + (count - 1.0) * apart
+        } else {
+            0.0
+        };
         let worth = least_gain(self.asked, found.layer).to_mm();
         if ends.are_on_the_part(parity) && floor - depth > worth {
             Visits {

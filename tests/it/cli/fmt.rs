@@ -75,10 +75,7 @@ fn check_shows_a_diff_and_writes_nothing() {
     let run = vcutc(path, &["fmt", "--check", "rib.vcut"]);
     assert_eq!(
         (run.code, run.stderr.as_str()),
-        (
-            Some(0),
-            "1 file already formatted\n"
-        )
+        (Some(0), "1 file already formatted\n")
     );
 }
 
@@ -188,5 +185,11 @@ fn files_in_trouble_do_not_keep_others_from_being_formatted() {
     let run = vcutc(path, &["fmt", "--check", "."]);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     assert!(run.stderr.contains("--- locked.vcut\n"), "{}", run.stderr);
-    assert!(run.stderr.ends_with("1 file to format (run again without --check), 2 already formatted, 2 skipped (see above)\n"), "{}", run.stderr);
+    assert!(
+        run.stderr.ends_with(
+            "1 file to format (run again without --check), 2 already formatted, 2 skipped (see above)\n"
+        ),
+        "{}",
+        run.stderr
+    );
 }

@@ -287,9 +287,7 @@ fn blocks_and_comments_of_several_lines_fold() {
         .unwrap();
     let text = editor.text(PATH).to_owned();
     let lines: Vec<&str> = text.lines().collect();
-    let line = |fold: &serde_json::Value, key: &str| {
-        usize::try_from(fold[key].as_u64().unwrap()).unwrap()
-    };
+    let line = |fold: &serde_json::Value, key: &str| usize::try_from(fold[key].as_u64().unwrap()).unwrap();
     let folds = folds.as_array().unwrap();
     for fold in folds {
         let (first, last) = (line(fold, "startLine"), line(fold, "endLine"));
@@ -297,7 +295,11 @@ fn blocks_and_comments_of_several_lines_fold() {
             assert!(lines[first].contains("/*") && lines[last].ends_with("*/"));
         } else {
             assert!(lines[first].ends_with('{'), "{}", lines[first]);
-            assert!(lines[last + 1].trim_start().starts_with('}'), "{}", lines[last + 1]);
+            assert!(
+                lines[last + 1].trim_start().starts_with('}'),
+                "{}",
+                lines[last + 1]
+            );
         }
     }
     let of_several_lines = lines.iter().filter(|line| line.ends_with('{')).count();

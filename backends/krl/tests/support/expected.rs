@@ -153,7 +153,9 @@ pub(crate) fn parts(from: &Matrix, to: &Matrix) -> (f64, f64, f64) {
     let twist = dot(off, off).sqrt().atan2(dot(y_swivelled, y_then));
     let trace: f64 = (0..3).map(|c| dot(column(from, c), column(to, c))).sum();
     let skew = (0..3).map(|c| cross(column(from, c), column(to, c)));
-    let skew = skew.fold([0.0; 3], |sum: [f64; 3], part| core::array::from_fn(|i| sum[i] + part[i]));
+    let skew = skew.fold([0.0; 3], |sum: [f64; 3], part| {
+        core::array::from_fn(|i| sum[i] + part[i])
+    });
     let whole = dot(skew, skew).sqrt().atan2(trace - 1.0);
     (sine.atan2(cosine), twist, whole)
 }
