@@ -60,7 +60,9 @@ impl Reader<'_> {
             None => diagnostic,
         };
         let diagnostic = match typical {
-            Some("auto") => diagnostic.help("or leave it to the compiler with `auto`"),
+            Some("auto") => {
+                diagnostic.help(format!("write a value that is {}, or `auto`", range.words()))
+            }
             Some(typical) => diagnostic.help(format!("a typical value is `{typical}`")),
             None => diagnostic.help(format!("give a value that is {}", range.words())),
         };

@@ -85,9 +85,19 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
         ">" if fault.expects(Rule::at_least) => {
             slip("expected `>=`, found `>`", "a lower limit is written `>=`", ">=")
         }
+        ";" if fault.next.is_some_and(|next| !matches!(bad.token(next), ")" | "}")) => slip(
+            "`;` does not belong here",
+            "a comma parts values and entries",
+            ",",
+        ),
         ";" => slip(
             "`;` does not belong here",
             "a line end or a comma ends an entry",
+            "",
+        ),
+        "," => slip(
+            "`,` does not belong here",
+            "one comma between values and entries is enough",
             "",
         ),
         "#" => slip("`#` does not belong here", "comments begin with `//`", "//"),
