@@ -159,7 +159,11 @@ pub(super) fn told(
             standing: Standing::Narrowed,
         },
         others: vec![Candidate {
-            what: format!("{} at {}", lack_in_words(swing.lack, machine), degrees(swing.refused)),
+            what: format!(
+                "{} at {}",
+                lack_in_words(swing.lack, machine),
+                degrees(swing.refused)
+            ),
             standing: Standing::NotFollowed,
         }],
     };

@@ -14,12 +14,7 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Tells what would make a job faster that its machine made slow.
-pub(super) fn tell(
-    outcome: &Outcome,
-    made: &Made,
-    timings: &[(&'static str, Duration)],
-    console: &Console,
-) {
+pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Duration)], console: &Console) {
     // Who compares wants to know what differs.
     if !console.tells_more() || made.differences.is_some() || !made.diagnostics.is_empty() {
         return;

@@ -74,7 +74,12 @@ pub fn hints(job: &CheckedJob, compiled: &Compiled, wanted: &Wanted) -> Vec<Hint
     };
     let mut tries = tries(compiled.report.cuts());
     let mut found: Vec<(Change, Duration)> = Vec::new();
-    let kinds = [Search::at_the_ceiling, Search::elsewhere, Search::around_the_ceiling, Search::otherwise];
+    let kinds = [
+        Search::at_the_ceiling,
+        Search::elsewhere,
+        Search::around_the_ceiling,
+        Search::otherwise,
+    ];
     for kind in kinds {
         if tries == 0 || wanted.is_needless() {
             break;
@@ -141,8 +146,7 @@ impl Search<'_> {
     /// Other directions in which the telling motions of the refused plan are followed.
     fn otherwise(&self) -> Vec<Change> {
         let given = |direction: Direction| {
-            let is_given =
-                |Operation::RoughVcut(asked): &Operation| asked.direction.value == direction;
+            let is_given = |Operation::RoughVcut(asked): &Operation| asked.direction.value == direction;
             self.job.operations.iter().all(is_given)
         };
         [Direction::Forward, Direction::Backward, Direction::Alternate]

@@ -76,7 +76,11 @@ fn applied_hints_take_the_time_that_they_state() {
     let found = hints(&job, &compiled, &Wanted::ALWAYS);
     assert!(!found.is_empty() && found.len() <= MOST_HINTS);
     assert!(found.is_sorted_by(|one, other| one.saved >= other.saved));
-    assert!(found.iter().any(|hint| hint.fix.title.starts_with("`reorient = ")));
+    assert!(
+        found
+            .iter()
+            .any(|hint| hint.fix.title.starts_with("`reorient = "))
+    );
     for hint in found {
         let mut text = JOB.to_owned();
         for edit in hint.fix.edits.iter().rev() {

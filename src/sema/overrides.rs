@@ -158,7 +158,10 @@ fn malformed(switch: &Switch, id: FileId, text: &str) -> Diagnostic {
         let label = format!("nothing follows the `=`; the form is `{}`", switch.form);
         return Diagnostic::new(switch.malformed, headline, whole, label).help(example);
     }
-    let field = name.rsplit_once('.').map(|(_, field)| field).filter(|field| is_name(field));
+    let field = name
+        .rsplit_once('.')
+        .map(|(_, field)| field)
+        .filter(|field| is_name(field));
     match (field, switch.malformed) {
         (Some(field), Code::BadOverride) => Diagnostic::new(
             switch.malformed,
