@@ -7,7 +7,7 @@
 //! within it.
 
 use super::position::{floor, position};
-use super::{Diagnostic, Fix, Label, Severity};
+use super::{Code, Diagnostic, Fix, Label, Severity};
 use crate::source::{FileId, SourceMap, Span};
 use ariadne::{Cache, CharSet, Color, Config, IndexType, LabelAttach, Report, ReportKind, Source};
 use std::cmp::Reverse;
@@ -80,7 +80,13 @@ fn advice(diagnostic: &Diagnostic, margin: usize, color: ColorChoice) -> String 
     let helps = diagnostic.help.iter().map(|help| ("help", help.clone()));
     let fixes = diagnostic.fixes.iter().map(|fix| ("help", fix_in_words(fix)));
     let mut text = String::new();
-    for (word, body) in notes.chain(helps).chain(fixes) {
+    // Which name was meant is the answer; the list of all names is for whoever meant another one.
+    let advice: Vec<(&str, String)> = if matches!(diagnostic.code, Code::UnknownField | Code::UnknownBlock) {
+        fixes.chain(helps).chain(notes).collect()
+    } else {
+        notes.chain(helps).chain(fixes).collect()
+    };
+    for (word, body) in advice {
         let word = match color {
             ColorChoice::Plain => format!("= {word}:"),
             ColorChoice::Colored => format!("\u{1b}[1;36m= {word}:\u{1b}[0m"),

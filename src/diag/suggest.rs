@@ -37,7 +37,12 @@ fn ranked<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<(us
         .map(|name| (strsim::damerau_levenshtein(&wanted, &name.to_lowercase()), name))
         .filter(|&(distance, _)| distance <= allowed)
         .collect();
-    near.sort_unstable();
+    // A slip of a finger leaves the first letter and the length more often than not.
+    let key = |&(distance, name): &(usize, &'a str)| {
+        let begins_else = name.to_lowercase().chars().next() != wanted.chars().next();
+        (distance, begins_else, name.chars().count().abs_diff(length), name)
+    };
+    near.sort_unstable_by(|one, other| key(one).cmp(&key(other)));
     near.dedup();
     near
 }
@@ -54,6 +59,7 @@ mod tests {
         assert_eq!(nearest("Swing", known), ["swing"]);
         assert_eq!(nearest("claerence", known), ["clearance"]);
         assert_eq!(nearest("stop", known), ["step"]);
+        assert_eq!(nearest("mn", ["in", "m", "min", "mm"]), ["mm", "m", "min"]);
         assert!(nearest("rake", known).is_empty());
         assert!(nearest("", known).is_empty());
     }

@@ -5,7 +5,7 @@ use super::files::Files;
 use super::heads::{Kind, classify};
 use super::lets::Let;
 use super::machine::Head;
-use super::names::{Names, Thing, did_you_mean, twice};
+use super::names::{Names, Thing, did_you_mean, more_than_one};
 use super::overrides::Overrides;
 use super::report::{Reported, Reports};
 use super::session::Session;
@@ -105,7 +105,7 @@ impl<'a> Definitions<'a> {
                     match self.job {
                         None => self.job = Some(name),
                         Some(first) => {
-                            reports.push(twice("job", name.span, first.span));
+                            reports.push(more_than_one("job", name.span, first.span));
                         }
                     }
                 }
@@ -218,7 +218,7 @@ fn single<'a>(
     match slot {
         None => *slot = Some(placed),
         Some(first) => {
-            reports.push(twice(name, placed.place.head, first.place.head));
+            reports.push(more_than_one(name, placed.place.head, first.place.head));
         }
     }
 }

@@ -86,7 +86,7 @@ fn unknown(word: &str, at: Span) -> Diagnostic {
         at,
         "not a block of the language",
     );
-    if ROUGHINGS.contains(&word) {
+    if ROUGHINGS.contains(&word) || ["roughing", "vcuts", "v_cut"].contains(&word) {
         return diagnostic.fix("write `rough vcut`", at, "rough vcut");
     }
     let near = nearest(word, FORMS.iter().map(|(word, _)| *word));

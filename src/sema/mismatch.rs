@@ -82,7 +82,7 @@ impl Mismatch<'_> {
             }
         };
         match self.typical {
-            Some("auto") => diagnostic.help("or leave it to the compiler with `auto`"),
+            Some("auto") => diagnostic.help("or write `auto`, and the compiler chooses it"),
             Some(typical) => diagnostic.help(format!("a typical value is `{typical}`")),
             None => diagnostic,
         }

@@ -186,8 +186,17 @@ pub(crate) fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) ->
     }
 }
 
-/// The diagnostic for something that is defined twice.
+/// The diagnostic for a name that is defined twice.
 pub(crate) fn twice(name: &str, second: Span, first: Span) -> Diagnostic {
+    again(name, second, first).help("take one of the two out, or give it another name")
+}
+
+/// The diagnostic for what a job has once and no other name can be given to.
+pub(crate) fn more_than_one(what: &str, second: Span, first: Span) -> Diagnostic {
+    again(what, second, first).help(format!("take one of the two out: a job has one `{what}`"))
+}
+
+fn again(name: &str, second: Span, first: Span) -> Diagnostic {
     let place = if first.file == second.file {
         ""
     } else {
@@ -200,5 +209,4 @@ pub(crate) fn twice(name: &str, second: Span, first: Span) -> Diagnostic {
         "defined here again",
     )
     .and(first, format!("defined here first{place}"))
-    .help("take one of the two out, or give it another name")
 }

@@ -122,14 +122,7 @@ fn parse(switch: &Switch, id: FileId, text: &str, reports: &mut Reports) -> Opti
     let (name, value) = match text.split_once('=') {
         Some((name, value)) if is_name(name.trim()) && !value.trim().is_empty() => (name, value),
         _ => {
-            let diagnostic = Diagnostic::new(
-                switch.malformed,
-                format!("`{}` takes {}", switch.word, switch.takes),
-                span(0, text.len()),
-                format!("not of the form `{}`", switch.form),
-            )
-            .help(format!("write it like `{} {}`", switch.word, switch.example));
-            reports.push(diagnostic);
+            reports.push(malformed(switch, id, text));
             return None;
         }
     };
@@ -147,6 +140,45 @@ fn parse(switch: &Switch, id: FileId, text: &str, reports: &mut Reports) -> Opti
             })
         }
         (None | Some(_), _) => None,
+    }
+}
+
+/// What is wrong with a text that is no name and value.
+fn malformed(switch: &Switch, id: FileId, text: &str) -> Diagnostic {
+    let whole = Span::of_bytes(id, 0..text.len());
+    let headline = format!("`{}` takes {}", switch.word, switch.takes);
+    let example = format!("write it like `{} {}`", switch.word, switch.example);
+    let Some((name, value)) = text.split_once('=') else {
+        let label = format!("there is no `=`; the form is `{}`", switch.form);
+        return Diagnostic::new(switch.malformed, headline, whole, label).help(example);
+    };
+    let of_name = Span::of_bytes(id, 0..name.len().max(1).min(text.len()));
+    let (name, value) = (name.trim(), value.trim());
+    if is_name(name) {
+        let label = format!("nothing follows the `=`; the form is `{}`", switch.form);
+        return Diagnostic::new(switch.malformed, headline, whole, label).help(example);
+    }
+    let field = name
+        .rsplit_once('.')
+        .map(|(_, field)| field)
+        .filter(|field| is_name(field));
+    match (field, switch.malformed) {
+        (Some(field), Code::BadOverride) => Diagnostic::new(
+            switch.malformed,
+            "`--set` sets a `let` of the job, not a field of a block",
+            of_name,
+            "a field of a block",
+        )
+        .help(format!(
+            "give the field a name in the job, `let {field} = {value}` and `{field} = {field}`, then use `--set {field}={value}`"
+        )),
+        (Some(_) | None, _) => Diagnostic::new(
+            switch.malformed,
+            headline,
+            of_name,
+            format!("`{name}` is not a name: letters, digits and `_`, a letter first"),
+        )
+        .help(example),
     }
 }
 

@@ -60,7 +60,7 @@ impl Reader<'_> {
             None => diagnostic,
         };
         let diagnostic = match typical {
-            Some("auto") => diagnostic.help(format!("write a value {}, or `auto`", range.words())),
+            Some("auto") => diagnostic.help(format!("write a value that is {}, or `auto`", range.words())),
             Some(typical) => diagnostic.help(format!("a typical value is `{typical}`")),
             None => diagnostic.help(format!("give a value that is {}", range.words())),
         };

@@ -85,9 +85,24 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
         ">" if fault.expects(Rule::at_least) => {
             slip("expected `>=`, found `>`", "a lower limit is written `>=`", ">=")
         }
+        ";" if fault
+            .next
+            .is_some_and(|next| !matches!(bad.token(next), ")" | "}")) =>
+        {
+            slip(
+                "`;` does not belong here",
+                "a comma parts values and entries",
+                ",",
+            )
+        }
         ";" => slip(
             "`;` does not belong here",
             "a line end or a comma ends an entry",
+            "",
+        ),
+        "," if is_doubled(bad, fault, found) => slip(
+            "`,` does not belong here",
+            "one comma between values and entries is enough",
             "",
         ),
         "#" => slip("`#` does not belong here", "comments begin with `//`", "//"),
@@ -121,6 +136,17 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
         }
         _ => None,
     }
+}
+
+/// Whether a comma has another one before it or after it.
+fn is_doubled(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> bool {
+    let is_comma = |token: Option<Token>| token.is_some_and(|token| bad.token(token) == ",");
+    let end = bad.start.saturating_add(found.end);
+    let follows = bad
+        .text
+        .get(end..)
+        .is_some_and(|rest| rest.trim_start_matches([' ', '\t']).starts_with(','));
+    is_comma(fault.before) || is_comma(fault.next) || follows
 }
 
 /// Two marks that are one elsewhere.

@@ -4,7 +4,8 @@
 //! other. **Lednicer**: a title, the number of points of each side (`61. 61.`), then each side from the leading edge
 //! to the trailing edge. Which one it is follows from the points: sides that start anew jump back across the chord.
 //!
-//! Real files are less regular than that. The title may be missing, the lower side may come first, the leading edge
+//! Real files are less regular than that. Lines that begin with `#` are comments, and a line of four or five numbers before the
+//! points is the grid of an ISES or MSES file, both as in XFOIL (its manual, "Airfoil file formats"). The title may be missing, the lower side may come first, the leading edge
 //! may be repeated or x may run back a little around the nose. A side is read as a function of x all the same: where
 //! it has several heights the outer one counts.
 
@@ -58,6 +59,13 @@ fn read(text: &str) -> Result<Sheet, DataError> {
     // A line of words after the points: no matter when nothing more comes.
     let mut words_behind = None;
     for line in lines(text) {
+        if line.text.trim_start().starts_with('#') {
+            // A comment, as XFOIL has them.
+            continue;
+        }
+        if points.is_empty() && is_of_a_grid(line) {
+            continue;
+        }
         if line.text.is_empty() {
             if !points.is_empty() {
                 first_gap.get_or_insert(points.len());
@@ -101,6 +109,12 @@ fn pair(line: Piece<'_>) -> Result<Option<Point2>, DataError> {
         }
         _ => Ok(None),
     }
+}
+
+/// Whether a line has four or five numbers: before the points ISES and MSES, and with them XFOIL, have the ends of a grid there.
+fn is_of_a_grid(line: Piece<'_>) -> bool {
+    let count = parts(line).count();
+    (4..=5).contains(&count) && parts(line).all(|part| number(part.text).is_some())
 }
 
 fn starts_with_number(line: Piece<'_>) -> bool {

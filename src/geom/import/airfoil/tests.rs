@@ -64,6 +64,22 @@ fn both_layouts_give_the_same_airfoil() {
 }
 
 #[test]
+fn comments_and_the_grid_of_ises_are_passed_over() {
+    let expected = airfoil(CLARK_Y);
+    let (title, points) = CLARK_Y.split_once('\n').unwrap();
+    for text in [
+        format!("# by hand\n{title}\n{points}"),
+        format!("{title}\n# x  z\n{points}  # end\n"),
+        format!("{title}\n -2.0 3.0 -2.5 3.0\n{points}"),
+        format!("{title}\n-2.0, 3.0, -2.5, 3.0, 1\n{points}"),
+    ] {
+        assert_eq!(airfoil(&text), expected);
+    }
+    let among = points.replacen('\n', "\n1.0 2.0 3.0 4.0\n", 3);
+    assert!(airfoil(&format!("{title}\n{among}")).is_err());
+}
+
+#[test]
 fn lines_may_end_in_any_way_and_rubbish_may_follow() {
     let expected = airfoil(CLARK_Y);
     for text in [
