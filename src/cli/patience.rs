@@ -91,13 +91,14 @@ impl Patience for Waiting<'_, '_> {
 }
 
 /// Ends the interest in something after a while.
-struct Timer {
+pub(super) struct Timer {
     /// When this goes, the thread does.
     _running: Sender<()>,
 }
 
 impl Timer {
-    fn start(limit: Duration, interest: Interest) -> Self {
+    /// Starts it; the interest ends when the time is over, or with the timer.
+    pub(super) fn start(limit: Duration, interest: Interest) -> Self {
         let (running, over): (Sender<()>, Receiver<()>) = channel();
         thread::spawn(move || {
             // Nothing is ever sent: this waits for the time, or for the end of the run.
