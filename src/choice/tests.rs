@@ -387,7 +387,7 @@ fn no_grid_beats_the_choice_by_much() {
         (wall, Some(40.0), Some(3.0)),
         (gentle, None, Some(1.0)),
         (gentle, Some(30.0), Some(4.0)),
-        (hollow, None, None),
+        (hollow, None, Some(6.0)),
     ];
     for (index, (part, swing, scallop)) in jobs.into_iter().enumerate() {
         let open = Open { part, swing, scallop };

@@ -26,8 +26,8 @@ const PLACES: [&[&str]; 12] = [
     &["1700", "1760", "4000"],
     &[
         "",
-        "krl { lines = 50 }",
-        "krl { lines = 60 }",
+        "krl { lines_per_part = 1000 }",
+        "krl { lines_per_part = 1200 }",
         "krl { nonsense = 1 }",
     ],
 ];

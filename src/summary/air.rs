@@ -43,7 +43,7 @@ pub fn summary(air: &AirFigures, report: &Report, basis: Basis, reach: Option<&R
             report.cuts(),
             time(report.times.all.total()),
         ),
-        row("proven", &proven(air, reach)),
+        row("heights", &proven(air, reach)),
         row(
             "not proven",
             "chips, contour and scallop, as nothing is cut: compile without --air-cut for those",

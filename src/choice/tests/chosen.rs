@@ -69,7 +69,7 @@ fn a_chosen_limit_yields_to_those_of_the_job() {
     let mut job = open(gentle, Some(45.0));
     let (plan, proven) = planned_and_proven(&job).unwrap();
     let tight = vcut(&plan).asked.limits.scallop.unwrap().value;
-    let seconds = proven.report.times.all.total().to_s() * 0.7;
+    let seconds = proven.report.times.all.total().to_s() * 0.9;
     operation(&mut job).limits.time = Some(Sourced {
         value: Duration::s(seconds),
         span: None,
