@@ -1,6 +1,13 @@
 MODULE single_edge
   ! job single_edge
+  ! job hash 97d7bb10a22069cd
   ! machine abb
+  ! blade 14 mm long, 1 mm thick: knife
+  ! tool z: from the shank out through the tip
+  ! tool x: to the edge that leads on a feed along +y
+  ! tool y: normal of the flat
+  ! stock 24 x 20 x 10 mm
+  ! 4 cuts, 18.7 s as planned
   ! fairing, rev B
   ! blade: knife no. 4
   PERS tooldata vc_tool:=[TRUE,[[0.000,0.000,310.000],[1.00000000,0.00000000,0.00000000,0.00000000]],[14.5,[0.000,0.000,140.000],[1,0,0,0],0,0,0]];
