@@ -42,7 +42,7 @@ pub fn of_job(sources: &SourceMap) -> String {
     })
 }
 
-/// Each token with its length before it, so that `a b` is not `ab`.
+/// Each token with its length before it, so that `a b` is not `ab`. Of a path only its last part counts.
 fn of_tokens(text: &str) -> [u8; 32] {
     let mut hash = Hash::new();
     let said = tokens(text).filter(|token| match token.kind {
@@ -56,7 +56,19 @@ fn of_tokens(text: &str) -> [u8; 32] {
         | TokenKind::Symbol => true,
     });
     for token in said {
-        let token = text.get(token.start..token.end).unwrap_or_default();
+        let word = text.get(token.start..token.end).unwrap_or_default();
+        let token = match token.kind {
+            // The same file beside another folder; what it holds is hashed itself.
+            TokenKind::Text => word.rsplit(['/', '\\']).next().unwrap_or(word),
+            TokenKind::Word
+            | TokenKind::Number
+            | TokenKind::UnclosedText
+            | TokenKind::Comment
+            | TokenKind::UnclosedComment
+            | TokenKind::Open(_)
+            | TokenKind::Close(_)
+            | TokenKind::Symbol => word,
+        };
         hash.update((token.len() as u64).to_le_bytes());
         hash.update(token.as_bytes());
     }
@@ -95,6 +107,13 @@ mod tests {
         ]);
         assert_eq!(plain, other);
         assert_eq!(plain.len(), 64);
+    }
+
+    #[test]
+    fn the_folder_of_a_file_that_a_job_names_does_not_count() {
+        let of = |text: &'static str| hash(&[("rib.vcut", text), ("cells.vcut", "let a = 1 mm")]);
+        assert_eq!(of("use \"shop/cells.vcut\""), of("use \"../../shop/cells.vcut\""));
+        assert_ne!(of("use \"shop/cells.vcut\""), of("use \"shop/blades.vcut\""));
     }
 
     #[test]

@@ -143,7 +143,7 @@ impl Run<'_> {
             Ok(formatted) => formatted,
             Err(exit) => {
                 self.tally.refused += 1;
-                self.tally.mistaken += 1;
+                self.tally.mistaken += usize::from(core::str::from_utf8(&bytes).is_ok());
                 return exit;
             }
         };

@@ -240,8 +240,11 @@ impl Folder {
 
 /// What went wrong, without the passing name that errors of temporary files carry: people never see that name.
 fn without_path(error: &io::Error) -> String {
-    let inner = error.get_ref().and_then(|carried| carried.source());
-    inner.map_or_else(|| error.to_string(), ToString::to_string)
+    let words = error.to_string();
+    match words.split_once(" at path ") {
+        Some((what, _)) => what.to_owned(),
+        None => words,
+    }
 }
 
 /// Whether two files hold the same bytes.

@@ -63,7 +63,9 @@ fn checked(text: &str) -> CheckedJob {
 /// Whether the robot carries out the job, by reach alone: nothing is searched for where it does not.
 fn is_reached(text: &str) -> bool {
     let job = checked(text);
-    let plan = choice::choose(&job).0.unwrap();
+    let Some(plan) = choice::choose(&job).0 else {
+        return false;
+    };
     let program = verify(lower(&plan, &SourceMap::default())).unwrap();
     let model = &job.machine.as_ref().unwrap().model;
     solve(program, model, &LEAST_CLEARANCE, Changes::Never).is_ok()

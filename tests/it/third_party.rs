@@ -91,6 +91,10 @@ fn compiled(option: &str) -> Outcome {
 }
 
 fn refusal(outcome: &Outcome, backend: &dyn Backend) -> Vec<Code> {
+    // What the block of the machine asks for is refused with the job.
+    if !outcome.diagnostics.is_empty() {
+        return outcome.diagnostics.iter().map(|d| d.code).collect();
+    }
     match emit(outcome, backend, &mut Bundle::default()) {
         Err(EmitFailure::Diagnostics(diagnostics)) => diagnostics.iter().map(|d| d.code).collect(),
         other => panic!("{other:?}"),

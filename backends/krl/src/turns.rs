@@ -30,7 +30,7 @@ pub(crate) type Rates = Apart<f64>;
 pub(crate) struct Turns {
     /// For each op that turns the blade.
     of: Vec<Option<Rates>>,
-    /// For each op whether they are others than those of the turn before.
+    /// For each op whether they are others than those of the turn before. The first ones stand at the head of the part.
     changes: Vec<bool>,
 }
 
@@ -52,7 +52,9 @@ impl Turns {
                 }
                 (_, _, _) => None,
             };
-            turns.changes.push(rates.is_some() && rates != last);
+            turns
+                .changes
+                .push(rates.is_some() && last.is_some() && rates != last);
             turns.of.push(rates);
             last = rates.or(last);
         }

@@ -27,7 +27,7 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     if let Some(blade) = pictures::blade(&subject.material, Prefix::new("blade-")) {
         let caption = "How the blade has to be clamped for this program: hold it beside the flange and compare. Which way edge \
                        and flat look is not proven by anything here.";
-        body += &framed(&blade, "of-blade", Zoom::Fixed, caption);
+        body += &framed(&blade, "for-page", Zoom::Fixed, caption);
     }
     body += &axes(figures);
     if !figures.singular.is_empty() {

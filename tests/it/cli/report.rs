@@ -253,6 +253,6 @@ fn a_job_without_a_machine_and_one_from_standard_input_are_reported() {
     let (job, _) = RIB.split_once("machine cell").unwrap();
     let run = vcutc_reading(folder().path(), &["report", "-q", "-", "-o", "-"], job);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
-    assert!(run.stdout.contains("The job has no machine"));
+    assert!(run.stdout.contains("the job has no machine"));
     assert!(!run.stdout.contains("id=\"machine\""));
 }

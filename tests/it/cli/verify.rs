@@ -50,7 +50,7 @@ fn a_changed_program_fails_at_both_places() {
     assert_eq!(run.code, Some(1));
     for part in [
         "error[VC0701]",
-        "bench.src:86:1",
+        "bench.src:93:1",
         "bench.vcut:18:1",
         "the tip ends at z 5.433 mm, the job says z 7.433 mm",
     ] {
@@ -88,7 +88,7 @@ fn json_tells_the_same() {
     let codes: Vec<_> = lines.iter().filter_map(|line| line["code"].as_str()).collect();
     assert_eq!(codes, ["VC0701", "VC0708"]);
     assert_eq!(lines[0]["labels"][0]["file"], "bench.src");
-    assert_eq!(lines[0]["labels"][0]["line"], 27);
+    assert_eq!(lines[0]["labels"][0]["line"], 34);
     assert_eq!(lines[0]["labels"][1]["file"], "bench.vcut");
     let summary = lines.last().unwrap();
     assert_eq!(summary["kind"], "summary");
@@ -204,7 +204,8 @@ fn the_summary_of_an_air_cut_claims_no_surface() {
         run.stderr
     );
     assert!(
-        run.stderr.contains("not proven chips, contour and scallop"),
+        run.stderr
+            .contains("chips, contour and scallop, as nothing is cut"),
         "{}",
         run.stderr
     );

@@ -32,7 +32,7 @@ fn hovering_tells_values_units_and_formulas() {
             ],
         ),
         ("travel = |12 m/min", vec!["`12 m/min` = `200 mm/s`, a speed"]),
-        ("12 |m/min", vec!["1 m/min = `16.6667 mm/s`, a speed"]),
+        ("12 |m/min", vec!["`1 m/min` = `16.6667 mm/s`, a speed"]),
         (
             "to (ha|lf,",
             vec![

@@ -274,7 +274,7 @@ rough vcut {
   residual = discard
   order = point
   sequence = rows
-  limits { swing <= 45 deg }
+  limits { swing <= 45 deg, scallop <= 30 mm }
   feed { cut = slow, travel = 12 m/min, reorient = 90 deg/s }
   clearance = 10 mm
 }
