@@ -121,6 +121,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::approx_constant, reason = "as people round them")]
     fn radians_are_known_by_their_digits() {
         for (degrees, whole) in [
             (1.5708, Some(90)),

@@ -308,7 +308,7 @@ fn layers(svg: &mut Svg, lattice: &Lattice<'_>, section: &Section) {
         .into_iter()
         .find(|every| count / every + 1 < room || count <= room && *every == 1)
         .unwrap_or(1000);
-    let is_named = |number: usize| number == 1 || number == count || number % every == 0;
+    let is_named = |number: usize| number == 1 || number == count || number.is_multiple_of(every);
     let mut names: Vec<(&str, f64)> = (1..)
         .zip(lattice.layers)
         .filter(|(number, _)| is_named(*number))

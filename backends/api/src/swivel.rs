@@ -102,7 +102,7 @@ mod tests {
     fn swing(from: Orientation, to: Orientation, column: usize) -> f64 {
         let (a, b) = (from.matrix(), to.matrix());
         let cosine: f64 = (0..3).map(|row| a[row][column] * b[row][column]).sum();
-        cosine.clamp(-1.0, 1.0).acos()
+        libm::acos(cosine.clamp(-1.0, 1.0))
     }
 
     proptest! {
@@ -121,7 +121,8 @@ mod tests {
             prop_assert!((rates.whole(from, to) / rate - 1.0).abs() < 1e-9);
             for column in 0..3 {
                 let swivel = swing(from, to, column);
-                let twist = 2.0 * ((whole / 2.0).cos() / (swivel / 2.0).cos()).clamp(-1.0, 1.0).acos();
+                let cosine = libm::cos(whole / 2.0) / libm::cos(swivel / 2.0);
+                let twist = 2.0 * libm::acos(cosine.clamp(-1.0, 1.0));
                 let [a, b] = [rates.swivel, rates.twist].map(AngularSpeed::to_rad_per_s);
                 let times = [(swivel / a).max(twist / b), (twist / a).max(swivel / b)];
                 let proven = whole / rate.to_rad_per_s();

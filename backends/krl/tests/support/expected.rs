@@ -111,6 +111,7 @@ fn speeds_of(
     }
 }
 
+#[allow(clippy::disallowed_methods, reason = "another arc tangent than the writer's")]
 fn line(
     program: &ReachableProgram,
     from: Option<(Point3, OrientationId)>,
