@@ -111,7 +111,6 @@ fn speeds_of(
     }
 }
 
-#[allow(clippy::disallowed_methods, reason = "another arc tangent than the writer's")]
 fn line(
     program: &ReachableProgram,
     from: Option<(Point3, OrientationId)>,
@@ -135,6 +134,7 @@ fn line(
 
 /// How far a turn swivels the tool's x, twists about it, and turns in all: by matrices, in rad. What is left of the turn when x
 /// has been brought to where it ends, about the line square to both, is the twist.
+#[allow(clippy::disallowed_methods, reason = "another arc tangent than the writer's")]
 pub(crate) fn parts(from: &Matrix, to: &Matrix) -> (f64, f64, f64) {
     let column = |m: &Matrix, c: usize| [m[0][c], m[1][c], m[2][c]];
     let (x, x_then) = (column(from, 0), column(to, 0));
