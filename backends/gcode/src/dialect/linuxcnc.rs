@@ -7,8 +7,8 @@
 //! the switch back, for otherwise the axes would have to jump.
 //!
 //! `G53` moves in machine coordinates with `G0` and `G1`, without the tool offset; with inverse time the whole block takes the
-//! time that F says. `M64` and `M65` wait for the motion before them. `M66` gives up after the time Q and goes on, so Q is
-//! a day: nobody waits so long for a generator.
+//! time that F says. `M64` and `M65` wait for the motion before them. `M66` gives up after the time Q, with -1 in `#5399`, and goes
+//! on; so it is in a loop that waits again.
 //!
 //! Checked with the interpreter of LinuxCNC 2.9.
 
@@ -135,8 +135,13 @@ impl Dialect for LinuxCnc {
         Some(vec![format!("{code} P{output}")])
     }
 
-    fn await_input(&self, input: u32, _: u32) -> Option<Vec<String>> {
-        Some(vec![format!("M66 P{input} L3 Q86400")])
+    /// After the time Q the interpreter would go on, with -1 in `#5399` [L-MC]; then the wait begins again.
+    fn await_input(&self, input: u32, label: u32) -> Option<Vec<String>> {
+        Some(vec![
+            format!("o<ready{label}> do"),
+            format!("M66 P{input} L3 Q86400"),
+            format!("o<ready{label}> while [#5399 LT 0]"),
+        ])
     }
 
     /// [L-MC].

@@ -118,6 +118,9 @@ impl<'a> Control<'a> {
         if cycle == Some(Cycle::WorkOffset) && !matches!(order.act, Some(Act::CycleWork(_))) {
             return expected("`Q339=` behind `CYCL DEF 247 DATUM SETTING ~`");
         }
+        if let Some(missing) = missing(cycle, order.act) {
+            return expected(missing);
+        }
         let says = self.modes(&order.modes)?;
         if let Some(motion) = order.motion {
             self.motion = Some(motion);
@@ -451,11 +454,24 @@ impl<'a> Control<'a> {
             Act::Wait(time) => Deed::Wait(time),
             Act::CycleWait(time) => match cycle {
                 Some(Cycle::Dwell) => Deed::Wait(time),
-                Some(Cycle::WorkOffset) | None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
+                Some(_) | None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
+            },
+            Act::LoopWait(input) => match cycle {
+                Some(Cycle::Loop(number)) => {
+                    self.cycle = Some(Cycle::Waited(number, input));
+                    return Ok(Says::Setting);
+                }
+                Some(_) | None => {
+                    return expected("`o<ready1> do` before, for behind its time the program would go on");
+                }
+            },
+            Act::LoopEnds(number) => match cycle {
+                Some(Cycle::Waited(begun, input)) if begun == number => Deed::AwaitInput(input),
+                Some(_) | None => return expected("the end of a loop that has begun"),
             },
             Act::CycleWork(number) => match cycle {
                 Some(Cycle::WorkOffset) => return self.modes(&[Mode::Work(number)]),
-                Some(Cycle::Dwell) | None => return expected("`CYCL DEF 247 DATUM SETTING ~` before"),
+                Some(_) | None => return expected("`CYCL DEF 247 DATUM SETTING ~` before"),
             },
             Act::StopReading => {
                 self.reading = Reading::Stopped;
@@ -463,6 +479,17 @@ impl<'a> Control<'a> {
             }
         };
         Ok(Says::Deed(deed))
+    }
+}
+
+/// What must come behind the lines of a loop that waits, where it does not.
+const fn missing(cycle: Option<Cycle>, act: Option<Act>) -> Option<&'static str> {
+    match (cycle, act) {
+        (Some(Cycle::Loop(_)), Some(Act::LoopWait(_)))
+        | (Some(Cycle::Waited(..)), Some(Act::LoopEnds(_)))
+        | (Some(Cycle::Dwell | Cycle::WorkOffset) | None, _) => None,
+        (Some(Cycle::Loop(_)), _) => Some("`M66` behind the beginning of a loop"),
+        (Some(Cycle::Waited(..)), _) => Some("the end of the loop, `o<ready1> while [#5399 LT 0]`"),
     }
 }
 

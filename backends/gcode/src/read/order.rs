@@ -105,7 +105,7 @@ pub(super) enum Mode {
     Tool(Option<u32>),
     /// The work offset.
     Work(u32),
-    /// The first of the two lines of a cycle.
+    /// A line of what takes several, but the last.
     Cycle(Cycle),
 }
 
@@ -135,13 +135,17 @@ impl Mode {
     }
 }
 
-/// A cycle in two lines.
+/// What has been said of something that takes several lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cycle {
     /// A wait.
     Dwell,
     /// A work offset is called up.
     WorkOffset,
+    /// A loop with this number begins, which waits for an input.
+    Loop(u32),
+    /// In the loop of this number this input has been waited for, though not for ever.
+    Waited(u32, u32),
 }
 
 /// Whether tool-centre-point control is on.
@@ -186,6 +190,10 @@ pub(super) enum Act {
     Wait(Duration),
     /// The second of the two lines of a wait.
     CycleWait(Duration),
+    /// The second line of a loop that waits for an input.
+    LoopWait(u32),
+    /// The last line of the loop of this number: it begins again if the wait has ended without the input.
+    LoopEnds(u32),
     /// The second of the two lines that call up a work offset.
     CycleWork(u32),
     /// Reading ahead ends here.

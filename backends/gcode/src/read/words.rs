@@ -119,6 +119,11 @@ impl<'t> Cursor<'t> {
         Some(token)
     }
 
+    /// Everything that is left, as it stands.
+    pub(super) fn rest(&self) -> &'t str {
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
     /// How many letters and `_` follow.
     pub(super) fn letters_ahead(&mut self) -> usize {
         self.peek();

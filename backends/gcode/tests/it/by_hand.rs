@@ -154,6 +154,7 @@ fn what_no_program_has_is_not_understood() {
                 "M3 S100",
                 "M6 T2",
                 "M62 P12",
+                "M66 P7 L3 Q86400",
                 "M66 P7 L3 Q5",
                 "M66 P7 L4 Q86400",
                 "#1=5",

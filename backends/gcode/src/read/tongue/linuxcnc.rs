@@ -6,16 +6,19 @@
 use super::{Heads, Tongue, WorkOffset, american_g, rounding, seconds};
 use crate::read::lines::Style;
 use crate::read::order::{
-    Act, Context, Coordinates, Flow, Habit, Mode, Order, Parsed, Routine, Trouble, expected,
+    Act, Context, Coordinates, Cycle, Flow, Habit, Mode, Order, Parsed, Routine, Trouble, expected,
 };
 use crate::read::words::{Block, Cursor, block};
 use vcutc_backend_api::ir::Switch;
-use vcutc_backend_api::readback::End;
+use vcutc_backend_api::readback::{End, essence};
 
 pub(super) struct LinuxCnc;
 
-/// Nobody waits so long for a generator: a day, in s. Behind it the program goes on whether or not the input is high.
-const FOR_EVER: f64 = 86_400.0;
+/// The loop around a wait may be carried out once a day, or more seldom: in s.
+const LONG: f64 = 86_400.0;
+
+/// What the name of such a loop begins with.
+const READY: &str = "ready";
 
 /// `M66` waits until the input is high.
 const HIGH: u32 = 3;
@@ -74,7 +77,7 @@ impl Tongue for LinuxCnc {
             return Ok(Order::flow(Flow::Tape));
         }
         if code.starts_with(['o', 'O']) {
-            return subroutine(code).map(Order::flow);
+            return o_word(code);
         }
         let mut order = Order::default();
         let mut words = block(code, self.style())?;
@@ -89,8 +92,8 @@ impl Tongue for LinuxCnc {
     }
 }
 
-/// `o<name> sub`, `o<name> endsub`, `o<name> call`.
-fn subroutine(code: &str) -> Parsed<Flow<'_>> {
+/// `o<name> sub`, `o<name> endsub`, `o<name> call`; `o<ready1> do` and `o<ready1> while [#5399 LT 0]`.
+fn o_word(code: &str) -> Parsed<Order<'_>> {
     let mut cursor = Cursor::new(code, Style::Brackets);
     cursor.letter();
     if !cursor.skip(b'<') {
@@ -100,6 +103,14 @@ fn subroutine(code: &str) -> Parsed<Flow<'_>> {
         return expected("a name behind `o<`");
     };
     cursor.must(b'>')?;
+    if let Some(number) = name.strip_prefix(READY).and_then(|number| number.parse().ok()) {
+        let rest = essence(cursor.rest());
+        return match rest.as_str() {
+            "DO" => Ok(Order::modes(vec![Mode::Cycle(Cycle::Loop(number))])),
+            "WHILE[#5399 LT 0]" => Ok(Order::act(Act::LoopEnds(number))),
+            _ => Err(Trouble::Unknown),
+        };
+    }
     let flow = if cursor.word("sub") {
         Flow::PartHead(Routine::Name(name))
     } else if cursor.word("endsub") {
@@ -110,7 +121,7 @@ fn subroutine(code: &str) -> Parsed<Flow<'_>> {
         return Err(Trouble::Unknown);
     };
     match cursor.peek() {
-        None => Ok(flow),
+        None => Ok(Order::flow(flow)),
         Some(_) => Err(Trouble::Unknown),
     }
 }
@@ -148,10 +159,10 @@ fn m(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
             if words.whole(b'L')? != HIGH {
                 return expected("`L3`, which waits until the input is high");
             }
-            if words.must(b'Q')?.value < FOR_EVER {
-                return expected("`Q86400`, for behind that time the program goes on");
+            if words.must(b'Q')?.value < LONG {
+                return expected("`Q86400`");
             }
-            order.does(Act::Await(input))
+            order.does(Act::LoopWait(input))
         }
         _ => Err(Trouble::Unknown),
     }
