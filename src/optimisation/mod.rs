@@ -85,7 +85,7 @@ pub struct Faster {
     pub lattice: Lattice,
     /// The time by the formulas.
     pub time: Duration,
-    /// By which share it is shorter than that of the marked line.
+    /// By which share it is shorter: planned than the job as planned, or else by the formulas than that of the marked line.
     pub share: f64,
     /// What it comes to when it is planned.
     pub came: Came,
@@ -277,9 +277,9 @@ fn operation(
                 asked.lattice.span.unwrap_or(asked.head_span),
             )),
         },
+        faster: faster(job, asked, &rows, (chosen, planned.time), &mut room),
         planned,
         binding,
-        faster: faster(job, asked, &rows, chosen, &mut room),
         trade_off: TradeOff::of(&problem, chosen, points, |point| {
             came(job, &mut room, point.cuts, |asked| under(asked, point))
         }),
@@ -295,12 +295,12 @@ fn under(asked: &mut RoughVcut, point: &Optimum) {
     });
 }
 
-/// The fastest other lattice by the job's formulas, if it is much faster than the marked line.
+/// The fastest other lattice by the job's formulas, if it is much faster. What is planned decides where it is planned.
 fn faster(
     job: &CheckedJob,
     asked: &RoughVcut,
     rows: &[Row],
-    chosen: Lattice,
+    (chosen, planned): (Lattice, Duration),
     room: &mut Room,
 ) -> Option<Faster> {
     let formulas = asked.formulas.value;
@@ -318,13 +318,22 @@ fn faster(
         .min_by(|one, other| one.time.total_cmp(&other.time))?;
     let share = 1.0 - best.time / marked.time;
     let is_told = share > MUCH_FASTER && asked.objective.value == Objective::Time && best.lattice != chosen;
-    is_told.then(|| Faster {
+    if !is_told {
+        return None;
+    }
+    let came = came(job, room, best.cuts, |asked| {
+        asked.lattice.value = Auto::Given(best.lattice)
+    });
+    let share = match &came {
+        Came::Planned(plan) => 1.0 - plan.time / planned,
+        Came::FormulaOnly => share,
+        Came::Nothing => return None,
+    };
+    (share > MUCH_FASTER).then_some(Faster {
         lattice: best.lattice,
         time: best.time,
         share,
-        came: came(job, room, best.cuts, |asked| {
-            asked.lattice.value = Auto::Given(best.lattice)
-        }),
+        came,
     })
 }
 
