@@ -1,6 +1,6 @@
 MODULE single_edge
   ! job single_edge
-  ! job hash 97d7bb10a22069cd
+  ! job hash c923763f51ba2ff5
   ! machine abb
   ! blade 14 mm long, 1 mm thick: knife
   ! tool z: from the shank out through the tip
