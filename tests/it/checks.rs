@@ -84,7 +84,7 @@ fn number(sheet: &str, key: &str) -> f64 {
 
 /// The job where the robot carries it out.
 fn job_of(name: &str) -> String {
-    let reach = number(catalogue::text(name).unwrap(), "designation_reach_mm");
+    let reach = number(catalogue::text(name).unwrap(), "wrist_reach_mm");
     let shares = [0.5, 0.6, 0.4, 0.7];
     let heights = [0.15, 0.3, 0.0, 0.45];
     for turn in [0, 90, 180, -90] {
