@@ -17,7 +17,7 @@ use crate::diag::Fix;
 use crate::driver::{self, Compiled, Yielded};
 use crate::job::{CheckedJob, Direction, Machine, Operation};
 use crate::lower;
-use crate::plan::PlannedOperation;
+use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
 use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
@@ -65,34 +65,22 @@ pub fn hints(job: &CheckedJob, compiled: &Compiled, wanted: &Wanted) -> Vec<Hint
     let (Some(yielded), Some(machine)) = (&compiled.yielded, &job.machine) else {
         return Vec::new();
     };
-    let search = Search {
+    let mut search = Search {
         job,
         machine,
         yielded,
         now: compiled.report.times.all.total(),
         wanted,
+        tries: tries(compiled.report.cuts()),
+        found: Vec::new(),
     };
-    let mut tries = tries(compiled.report.cuts());
-    let mut found: Vec<(Change, Duration)> = Vec::new();
-    let kinds = [
-        Search::at_the_ceiling,
-        Search::elsewhere,
-        Search::around_the_ceiling,
-        Search::otherwise,
-    ];
-    for kind in kinds {
-        if tries == 0 || wanted.is_needless() {
-            break;
-        }
-        for change in kind(&search) {
-            if tries == 0 || wanted.is_needless() {
-                break;
-            }
-            tries -= 1;
-            found.extend(search.time_with(&change).map(|time| (change, time)));
-        }
+    let followed = search.slower();
+    search.elsewhere();
+    if let Some(followed) = followed {
+        search.less_slow(&followed);
     }
-    search.worth_it(found)
+    search.otherwise();
+    search.worth_it()
 }
 
 /// How often a job of so many cuts may be compiled.
@@ -107,58 +95,90 @@ struct Search<'s> {
     /// How long the job takes as it is.
     now: Duration,
     wanted: &'s Wanted,
+    /// How often a changed job may still be compiled.
+    tries: usize,
+    /// The changes that were tried and compile, and how long they take.
+    found: Vec<(Change, Duration)>,
+}
+
+/// A speed, and how much of it the machine follows.
+struct Followed {
+    field: Field,
+    /// What the job asks for.
+    asked: f64,
+    /// The highest value that was tried and compiles.
+    most: f64,
 }
 
 impl Search<'_> {
-    /// The highest speed at which the telling motions of the refused plan are followed, if a speed is what it failed by.
-    fn at_the_ceiling(&self) -> Vec<Change> {
-        let ceiling = self.ceiling();
-        ceiling
-            .map(|(field, _, most)| Change::Speed { field, most })
-            .into_iter()
-            .collect()
+    /// Lowers the speed that the refused plan failed by, as little as its telling motions allow. The plan that this leads to may
+    /// be another one, and be followed at a higher speed: that one is tried next.
+    fn slower(&mut self) -> Option<Followed> {
+        let (field, asked) = self.pacing()?;
+        let slowest = speed::lower(asked * SLOWEST)?;
+        let first = self.highest(&self.yielded.plan, field, slowest, asked)?;
+        let lower = |most: f64| speed::lower(most * BELOW);
+        let change = |most| Change::Speed { field, most };
+        let (most, plan) = match self.try_out(change(first)) {
+            Some(plan) => (first, plan),
+            None => lower(first).and_then(|most| Some((most, self.try_out(change(most))?)))?,
+        };
+        let next = self
+            .highest(&plan, field, most, asked)
+            .filter(|next| *next > most);
+        let reached = next.and_then(|next| match self.try_out(change(next)) {
+            Some(_) => Some(next),
+            None => lower(next).filter(|least| *least > most && self.try_out(change(*least)).is_some()),
+        });
+        Some(Followed {
+            field,
+            asked,
+            most: reached.unwrap_or(most),
+        })
     }
 
-    /// Between that speed and the one that the job asks for something of the plan may be followed; below it, more of it.
-    fn around_the_ceiling(&self) -> Vec<Change> {
-        let Some((field, asked, most)) = self.ceiling() else {
-            return Vec::new();
-        };
-        let between = (most * asked).sqrt();
-        let values = [most * BELOW, between].map(speed::lower);
-        values
-            .into_iter()
-            .flatten()
-            .filter(|value| *value < asked && (*value - most).abs() > f64::EPSILON)
-            .map(|most| Change::Speed { field, most })
-            .collect()
+    /// Between the highest speed that was tried and the one that the job asks for, part of a wider plan may be followed.
+    fn less_slow(&mut self, followed: &Followed) {
+        let Followed { field, asked, most } = *followed;
+        let between = speed::lower((most * asked).sqrt());
+        if let Some(between) = between.filter(|between| *between > most && *between < asked) {
+            self.try_out(Change::Speed { field, most: between });
+        }
     }
 
     /// The base moved or turned by the least with which the machine follows the refused plan.
-    fn elsewhere(&self) -> Vec<Change> {
+    fn elsewhere(&mut self) {
         let Yielded { plan, unreachable } = self.yielded;
-        remedy::elsewhere_for(self.job, plan, unreachable, self.wanted)
-            .map(Change::Base)
-            .into_iter()
-            .collect()
+        if let Some(elsewhere) = remedy::elsewhere_for(self.job, plan, unreachable, self.wanted) {
+            self.try_out(Change::Base(elsewhere));
+        }
     }
 
     /// Other directions in which the telling motions of the refused plan are followed.
-    fn otherwise(&self) -> Vec<Change> {
-        let given = |direction: Direction| {
+    fn otherwise(&mut self) {
+        for direction in [Direction::Forward, Direction::Backward, Direction::Alternate] {
             let is_given = |Operation::RoughVcut(asked): &Operation| asked.direction.value == direction;
-            self.job.operations.iter().all(is_given)
-        };
-        [Direction::Forward, Direction::Backward, Direction::Alternate]
-            .into_iter()
-            .filter(|direction| !given(*direction))
-            .map(Change::Direction)
-            .filter(|change| self.is_promising(change))
-            .collect()
+            let change = Change::Direction(direction);
+            if !self.job.operations.iter().all(is_given) && self.is_promising(&self.yielded.plan, &change) {
+                self.try_out(change);
+            }
+        }
     }
 
-    /// A speed, what the job asks for and the highest one that is followed.
-    fn ceiling(&self) -> Option<(Field, f64, f64)> {
+    /// Compiles the changed job as it would be. The plan that it leads to; none where it has errors.
+    fn try_out(&mut self, change: Change) -> Option<PlannedJob> {
+        if self.tries == 0 || self.wanted.is_needless() {
+            return None;
+        }
+        self.tries -= 1;
+        let (plan, compiled) = driver::compile_checked(&change.of(self.job), self.wanted)?;
+        self.found.push((change, compiled.report.times.all.total()));
+        Some(plan)
+    }
+
+    /// The speed that paces the motion that the refused plan failed by, and what the job asks for; none where it failed by
+    /// something else than a rate.
+    fn pacing(&self) -> Option<(Field, f64)> {
         let failing = failing(&self.yielded.unreachable.trouble)?;
         match failing.worst.what {
             Violation::Rate { .. } => {}
@@ -167,8 +187,14 @@ impl Search<'_> {
         let field = speed::pacing(self.yielded.unreachable.program.program(), failing.op)?;
         let asked = |Operation::RoughVcut(asked): &Operation| field.value(asked);
         let asked = self.job.operations.iter().map(asked).reduce(f64::max)?;
-        let follows = |most: f64| self.is_promising(&Change::Speed { field, most });
-        let (mut follows_at, mut fails_at) = (speed::lower(asked * SLOWEST)?, asked);
+        Some((field, asked))
+    }
+
+    /// The highest value of a speed, from one that is low up to the one asked for, at which the telling motions of a plan are
+    /// followed; none where they are not followed even at the low one.
+    fn highest(&self, plan: &PlannedJob, field: Field, low: f64, asked: f64) -> Option<f64> {
+        let follows = |most: f64| self.is_promising(plan, &Change::Speed { field, most });
+        let (mut follows_at, mut fails_at) = (low, asked);
         if !follows(follows_at) {
             return None;
         }
@@ -180,14 +206,19 @@ impl Search<'_> {
                 fails_at = middle;
             }
         }
-        Some((field, asked, speed::lower(follows_at)?))
+        speed::lower(follows_at)
     }
 
-    /// Whether the machine follows the telling motions of the refused plan with a change.
-    fn is_promising(&self, change: &Change) -> bool {
-        let mut plan = self.yielded.plan.clone();
-        for PlannedOperation::RoughVcut(vcut) in &mut plan.operations {
-            change.apply_to(&mut vcut.asked);
+    /// Whether the machine follows the telling motions of a plan with a change.
+    fn is_promising(&self, plan: &PlannedJob, change: &Change) -> bool {
+        let mut plan = plan.clone();
+        let operations = plan.operations.iter_mut().zip(&self.job.operations);
+        for (PlannedOperation::RoughVcut(planned), Operation::RoughVcut(asked)) in operations {
+            // The plan may be that of a job with lower speeds.
+            for field in [Field::Cut, Field::Travel, Field::Reorient] {
+                field.set(&mut planned.asked, field.value(asked));
+            }
+            change.apply_to(&mut planned.asked);
         }
         let Ok(program) = verify(lower::lower(&plan, &SourceMap::default())) else {
             return false;
@@ -197,15 +228,9 @@ impl Search<'_> {
         Strokes::of(program.program()).are_each_followed(&rig)
     }
 
-    /// How long the changed job takes, compiled as it would be; none where it has errors.
-    fn time_with(&self, change: &Change) -> Option<Duration> {
-        let changed = change.of(self.job);
-        let (_, compiled) = driver::compile_checked(&changed, self.wanted)?;
-        Some(compiled.report.times.all.total())
-    }
-
     /// The best of each kind, as far as it is worth a hint, what saves most first.
-    fn worth_it(&self, mut found: Vec<(Change, Duration)>) -> Vec<Hint> {
+    fn worth_it(mut self) -> Vec<Hint> {
+        let mut found = core::mem::take(&mut self.found);
         // Stable, so that of equally good ones the first stays first.
         found.sort_by(|(_, one), (_, other)| one.total_cmp(other));
         let mut kinds = Vec::new();

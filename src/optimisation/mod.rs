@@ -227,17 +227,47 @@ fn operations(
             vcut,
             sources,
             planned(vcut, compiled, OperationId(index)),
-            Scale { index, points },
+            Scale {
+                index,
+                points,
+                route: match compiled.yielded {
+                    Some(_) => Route::OfThePlan,
+                    None => Route::Open,
+                },
+            },
         ));
     }
     operations
 }
 
-/// Which operation, and how many limits its trade-off has.
+/// Which operation, how many limits its trade-off has, and along which routes they are planned.
 #[derive(Clone, Copy)]
 struct Scale {
     index: u16,
     points: u32,
+    route: Route,
+}
+
+/// Along which routes changes of a job are planned.
+#[derive(Clone, Copy)]
+enum Route {
+    /// Those that the job leaves open.
+    Open,
+    /// That of the job's plan and swings no wider: the machine did not follow what the job makes of itself.
+    OfThePlan,
+}
+
+impl Route {
+    fn keep(self, asked: &mut RoughVcut, plan: &PlannedVcut) {
+        match self {
+            Self::Open => {}
+            Self::OfThePlan => {
+                asked.sequence.value = Auto::Given(plan.sequence);
+                asked.order.value = Auto::Given(plan.order);
+                asked.limits.swing.most = plan.asked.limits.swing.most;
+            }
+        }
+    }
 }
 
 fn operation(
@@ -246,7 +276,7 @@ fn operation(
     vcut: &PlannedVcut,
     sources: &SourceMap,
     planned: Planned,
-    Scale { index, points }: Scale,
+    Scale { index, points, route }: Scale,
 ) -> Option<OperationOptimum> {
     if asked.tips.is_some() {
         return None;
@@ -265,6 +295,12 @@ fn operation(
     });
     let binding = best.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
     let mut room = Room::OF_AN_OPERATION;
+    let mut came_with = |cuts: f64, change: &dyn Fn(&mut RoughVcut)| {
+        came(job, &mut room, cuts, |asked| {
+            route.keep(asked, vcut);
+            change(asked);
+        })
+    };
     Some(OperationOptimum {
         number: index.saturating_add(1),
         place: bounds::place(sources, asked.head_span),
@@ -277,11 +313,11 @@ fn operation(
                 asked.lattice.span.unwrap_or(asked.head_span),
             )),
         },
-        faster: faster(job, asked, &rows, (chosen, planned.time), &mut room),
+        faster: faster(asked, &rows, (chosen, planned.time), &mut came_with),
         planned,
         binding,
         trade_off: TradeOff::of(&problem, chosen, points, |point| {
-            came(job, &mut room, point.cuts, |asked| under(asked, point))
+            came_with(point.cuts, &|asked| under(asked, point))
         }),
         rows,
     })
@@ -297,11 +333,10 @@ fn under(asked: &mut RoughVcut, point: &Optimum) {
 
 /// The fastest other lattice by the job's formulas, if it is much faster. What is planned decides where it is planned.
 fn faster(
-    job: &CheckedJob,
     asked: &RoughVcut,
     rows: &[Row],
     (chosen, planned): (Lattice, Duration),
-    room: &mut Room,
+    came_with: &mut dyn FnMut(f64, &dyn Fn(&mut RoughVcut)) -> Came,
 ) -> Option<Faster> {
     let formulas = asked.formulas.value;
     let of = |row: &Row| {
@@ -321,8 +356,8 @@ fn faster(
     if !is_told {
         return None;
     }
-    let came = came(job, room, best.cuts, |asked| {
-        asked.lattice.value = Auto::Given(best.lattice)
+    let came = came_with(best.cuts, &|asked| {
+        asked.lattice.value = Auto::Given(best.lattice);
     });
     let share = match &came {
         Came::Planned(plan) => 1.0 - plan.time / planned,

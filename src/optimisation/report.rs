@@ -146,9 +146,12 @@ fn planned_words(planned: &Planned, scallop: Length) -> String {
     let model = match planned.model_above() {
         Some(share) if share.abs() >= 5e-4 => {
             let way = if share > 0.0 { "more" } else { "less" };
-            format!("the formula says {:.1} % {way}", share.abs() * 100.0)
+            format!(
+                "the formula for whole cuts and layers says {:.1} % {way}",
+                share.abs() * 100.0
+            )
         }
-        Some(_) | None => "as the formula says".to_owned(),
+        Some(_) | None => "as the formula for whole cuts and layers says".to_owned(),
     };
     format!(
         "{} for {} {} in {} {}; {model}; simulated scallop of the job {:.2} mm",

@@ -24,6 +24,12 @@ pub struct Asked<'a> {
 pub const AROUND: [i32; 3] = [500, 500, 300];
 /// How far it may turn, in degrees.
 pub const TURN_AROUND: i32 = 90;
+/// The same in the steps of a [`Spot`].
+const STEPS_AROUND: [i32; 4] = [AROUND[0], AROUND[1], AROUND[2], TURN_AROUND * 10];
+/// Which of these is the turn.
+const TURN: usize = 3;
+/// Half a turn in those steps: beyond it come the same places again.
+const HALF_TURN: i32 = 1800;
 /// Farthest from the machine's root that a base can be asked for, in mm.
 const FARTHEST: i32 = 100_000;
 
@@ -61,24 +67,47 @@ impl Asked<'_> {
     pub fn bounds(&self, base: &Frame) -> Result<Bounds, BadBounds> {
         let now = Spot::near(base);
         let around = |value: i32, by: i32| (value.saturating_sub(by), value.saturating_add(by));
-        let [dx, dy, dz] = AROUND;
+        let [dx, dy, dz, turn] = STEPS_AROUND;
         let x = read("--x", self.x, Kind::Length)?.unwrap_or(around(now.x, dx));
         let y = read("--y", self.y, Kind::Length)?.unwrap_or(around(now.y, dy));
         let z = read("--z", self.z, Kind::Length)?.unwrap_or(around(now.z, dz));
-        let yaw = read("--yaw", self.yaw, Kind::Angle)?.unwrap_or(around(0, TURN_AROUND * 10));
+        let yaw = read("--yaw", self.yaw, Kind::Angle)?.unwrap_or(around(0, turn));
         Ok(Bounds {
-            least: Spot {
-                x: x.0,
-                y: y.0,
-                z: z.0,
-                yaw: yaw.0,
-            },
-            most: Spot {
-                x: x.1,
-                y: y.1,
-                z: z.1,
-                yaw: yaw.1,
-            },
+            least: Spot::from_parts([x.0, y.0, z.0, yaw.0]),
+            most: Spot::from_parts([x.1, y.1, z.1, yaw.1]),
+        })
+    }
+
+    /// Wider bounds where the user set none: beyond the edges that the best place lies at, or beyond all of them where no
+    /// place was found. None where nothing may be wider.
+    #[must_use]
+    pub fn widened(&self, bounds: &Bounds, best: Option<Spot>) -> Option<Bounds> {
+        let is_open = [self.x, self.y, self.z, self.yaw].map(|given| given.is_none());
+        let (mut least, mut most) = (bounds.least.parts(), bounds.most.parts());
+        let mut is_wider = false;
+        for part in 0..STEPS_AROUND.len() {
+            let (low, high) = (least[part], most[part]);
+            let by = if part == TURN {
+                STEPS_AROUND[part].min(HALF_TURN - high)
+            } else {
+                STEPS_AROUND[part]
+            };
+            let lies_at = |edge: i32| best.is_none_or(|best| best.parts()[part] == edge);
+            if !is_open[part] || by <= 0 {
+                continue;
+            }
+            if lies_at(low) {
+                least[part] = low.saturating_sub(by);
+                is_wider = true;
+            }
+            if lies_at(high) {
+                most[part] = high.saturating_add(by);
+                is_wider = true;
+            }
+        }
+        is_wider.then(|| Bounds {
+            least: Spot::from_parts(least),
+            most: Spot::from_parts(most),
         })
     }
 }
@@ -178,6 +207,41 @@ mod tests {
         }
         assert!(range("0..10 mm", Kind::Angle).is_err());
         assert!(range("x", Kind::Length).unwrap_err().contains("1000..2500"));
+    }
+
+    #[test]
+    fn bounds_that_are_not_set_widen_where_the_best_place_lies_at_them() {
+        let base = Frame {
+            origin: Point3::new(1000.0, 0.0, 500.0),
+            orientation: Orientation::IDENTITY,
+        };
+        let asked = Asked {
+            y: Some("-100..100"),
+            ..Asked::default()
+        };
+        let bounds = asked.bounds(&base).unwrap();
+        let widened = |spot: Option<[i32; 4]>| {
+            asked
+                .widened(&bounds, spot.map(Spot::from_parts))
+                .map(|wider| (wider.least.parts(), wider.most.parts()))
+        };
+        // Inside, or at an edge that the user set.
+        assert_eq!(widened(Some([900, 50, 450, 20])), None);
+        assert_eq!(widened(Some([900, 100, 450, 20])), None);
+        let at_an_edge = widened(Some([1500, 100, 450, -900]));
+        assert_eq!(at_an_edge, Some(([500, -100, 200, -1800], [2000, 100, 800, 900])));
+        // Nothing was found.
+        assert_eq!(
+            widened(None),
+            Some(([0, -100, -100, -1800], [2000, 100, 1100, 1800]))
+        );
+        let all_given = Asked {
+            x: Some("0..1"),
+            y: Some("0..1"),
+            z: Some("0..1"),
+            yaw: Some("0"),
+        };
+        assert_eq!(all_given.widened(&all_given.bounds(&base).unwrap(), None), None);
     }
 
     #[test]

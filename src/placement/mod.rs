@@ -96,6 +96,8 @@ pub enum Refusal {
 const SPREAD: (usize, usize) = (4, 40);
 /// Most places that are put to the whole proof.
 const MOST_PROOFS: usize = 8;
+/// How often bounds that the user did not set are widened.
+const MOST_WIDENINGS: usize = 3;
 
 /// Places the work of a job.
 ///
@@ -114,7 +116,7 @@ pub fn place(
             let base = ready.machine.base.value.frame;
             let bounds = asked.bounds(&base).map_err(Refusal::BadBounds)?;
             progress(Stage::Placing);
-            Ok(placed(&ready, bounds))
+            Ok(placed(&ready, asked, bounds))
         }
     }
 }
@@ -194,7 +196,7 @@ fn without_machine(job: &CheckedJob) -> Diagnostic {
     )
 }
 
-fn placed(ready: &Ready, bounds: Bounds) -> Placement {
+fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
     let Ready {
         job,
         machine,
@@ -218,7 +220,6 @@ fn placed(ready: &Ready, bounds: Bounds) -> Placement {
         base,
         room: tried(plan, machine, base),
     };
-    let mut refused = Vec::new();
     let criteria = Criteria {
         rough: &rough,
         fine: &fine,
@@ -229,11 +230,32 @@ fn placed(ready: &Ready, bounds: Bounds) -> Placement {
             })
         },
     };
-    let best = search(&criteria, &base.frame, &bounds)
-        .into_iter()
-        .filter(|place| place.score.reached().is_some())
-        .take(MOST_PROOFS)
-        .find_map(|place| prove(plan, machine, place, &mut refused));
+    let best_within = |bounds: &Bounds| {
+        let mut refused = Vec::new();
+        let best = search(&criteria, &base.frame, bounds)
+            .into_iter()
+            .filter(|place| place.score.reached().is_some())
+            .take(MOST_PROOFS)
+            .find_map(|place| prove(plan, machine, place, &mut refused));
+        (best, refused)
+    };
+    let (mut best, mut refused) = best_within(&bounds);
+    for _ in 0..MOST_WIDENINGS {
+        let Some(wider) = asked.widened(&bounds, best.as_ref().map(|best| best.spot)) else {
+            break;
+        };
+        let (found, why) = best_within(&wider);
+        // Places lie on a coarser grid in wider bounds: the best one may be missed there.
+        let is_worse = |best: &Best| {
+            found
+                .as_ref()
+                .is_none_or(|found| found.room.margin < best.room.margin)
+        };
+        if best.as_ref().is_some_and(is_worse) {
+            break;
+        }
+        (bounds, best, refused) = (wider, found, why);
+    }
     let shown = best.as_ref().map_or(Spot::near(&base.frame), |best| best.spot);
     Placement {
         job: job.name.clone(),

@@ -9,6 +9,7 @@
 )]
 
 mod air;
+mod auto;
 mod backends_page;
 mod check;
 #[cfg(feature = "krl")]

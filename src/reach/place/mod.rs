@@ -76,11 +76,15 @@ impl Spot {
         Angle::deg(f64::from(self.yaw) / 10.0)
     }
 
-    const fn parts(self) -> [i32; 4] {
+    /// x, y, z and turn, in mm and tenths of a degree.
+    #[must_use]
+    pub const fn parts(self) -> [i32; 4] {
         [self.x, self.y, self.z, self.yaw]
     }
 
-    const fn from_parts([x, y, z, yaw]: [i32; 4]) -> Self {
+    /// The spot with this x, y, z and turn, in mm and tenths of a degree.
+    #[must_use]
+    pub const fn from_parts([x, y, z, yaw]: [i32; 4]) -> Self {
         Self { x, y, z, yaw }
     }
 }
