@@ -160,6 +160,40 @@ pub trait Loader {
     /// # Errors
     /// Why not, in the words of whoever holds the files.
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError>;
+
+    /// What is in a folder, for help with a path that leads nowhere and for editors; nothing where that is not known. The path is
+    /// as for files; that of the folder that they are relative to is empty.
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        let _ = folder;
+        Vec::new()
+    }
+}
+
+/// Something in a folder, by its name there.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Entry {
+    /// A folder.
+    Folder(String),
+    /// A file.
+    File(String),
+}
+
+/// What is in a folder when these are the paths of all files there are.
+pub fn entries_among<'p>(paths: impl IntoIterator<Item = &'p str>, folder: &str) -> Vec<Entry> {
+    let mut found: Vec<Entry> = paths
+        .into_iter()
+        .filter_map(|path| match (folder, path.strip_prefix(folder)?) {
+            ("" | "/", rest) => Some(rest),
+            (_, rest) => rest.strip_prefix('/'),
+        })
+        .map(|rest| match rest.split_once('/') {
+            Some((folder, _)) => Entry::Folder(folder.to_owned()),
+            None => Entry::File(rest.to_owned()),
+        })
+        .collect();
+    found.sort();
+    found.dedup();
+    found
 }
 
 /// Why a file could not be had.
@@ -221,9 +255,58 @@ pub fn join_path(from: &str, target: &str) -> String {
     format!("{root}{}", parts.join("/"))
 }
 
+/// How a file is named in the file `from`: the other way round of [`join_path`]. None where that takes the name of a folder that
+/// nobody knows.
+#[must_use]
+pub fn path_from(from: &str, target: &str) -> Option<String> {
+    let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let is_absolute = target.starts_with('/');
+    if from.starts_with('/') != is_absolute {
+        return is_absolute.then(|| target.to_owned());
+    }
+    let parts = |path| str::split(path, '/').filter(|part| !part.is_empty());
+    let same = |(one, other): &(&str, &str)| one == other;
+    let shared = parts(folder).zip(parts(target)).take_while(same).count();
+    let up = parts(folder).skip(shared);
+    if up.clone().any(|part| part == "..") {
+        return None;
+    }
+    let up = up.map(|_| "..");
+    Some(up.chain(parts(target).skip(shared)).collect::<Vec<_>>().join("/"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn paths_lead_back_to_what_they_were_made_from() {
+        for (from, target, named) in [
+            ("rib.vcut", "heights.csv", "heights.csv"),
+            ("jobs/rib.vcut", "jobs/shop/blades.vcut", "shop/blades.vcut"),
+            ("jobs/rib.vcut", "shop/blades.vcut", "../shop/blades.vcut"),
+            ("/a/b/rib.vcut", "/a/c/d.csv", "../c/d.csv"),
+            ("/a/b/rib.vcut", "/a/b/d.csv", "d.csv"),
+            ("a/rib.vcut", "/b.vcut", "/b.vcut"),
+            ("../jobs/rib.vcut", "../data/d.csv", "../data/d.csv"),
+        ] {
+            assert_eq!(path_from(from, target).as_deref(), Some(named));
+            assert_eq!(join_path(from, named), target);
+        }
+        assert_eq!(path_from("../rib.vcut", "data/d.csv"), None);
+    }
+
+    #[test]
+    fn folders_hold_what_begins_with_their_path() {
+        let paths = ["a/b.csv", "a/c/d.csv", "a/c/e.csv", "ab.csv", "/x/y"];
+        let file = |name: &str| Entry::File(name.to_owned());
+        let folder = |name: &str| Entry::Folder(name.to_owned());
+        assert_eq!(entries_among(paths, "a"), [folder("c"), file("b.csv")]);
+        assert_eq!(entries_among(paths, "a/c"), [file("d.csv"), file("e.csv")]);
+        assert_eq!(entries_among(paths, "/x"), [file("y")]);
+        assert_eq!(entries_among(paths, "/"), [folder("x")]);
+        assert_eq!(entries_among(["a/b", "c"], ""), [folder("a"), file("c")]);
+    }
 
     #[test]
     fn paths_are_relative_to_the_file_that_names_them() {

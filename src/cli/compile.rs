@@ -13,6 +13,7 @@ use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
 use crate::checks::{Checks, ReadBack};
+use crate::diag::has_errors;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
 use std::path::{Path, PathBuf};
@@ -315,7 +316,10 @@ pub(super) fn tell(
     console.summary(&Summary {
         job,
         diagnostics: &diagnostics,
-        lines: compiled.map_or(&[], |compiled| &compiled.summary),
+        // What a target refuses must not stand above a page of figures.
+        lines: compiled
+            .filter(|_| !has_errors(&diagnostics))
+            .map_or(&[], |compiled| &compiled.summary),
         numbers: compiled.and_then(Compiled::numbers_of_cuts),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),

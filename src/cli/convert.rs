@@ -13,7 +13,7 @@ use crate::driver::{Outcome, Request};
 use crate::memory::Memory;
 use crate::picture::Prefix;
 use crate::report::{Material, pictures};
-use crate::source::{LoadError, Loader};
+use crate::source::{Entry, LoadError, Loader};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::readback::{ProgramFile, decoded};
 
@@ -412,5 +412,9 @@ impl Loader for Overlaid {
         } else {
             self.disk.load(path)
         }
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        self.disk.list(folder)
     }
 }

@@ -1,7 +1,7 @@
 //! Job files on the real file system.
 
 use crate::diag::suggest::nearest;
-use crate::source::{LARGEST_FILE, LoadError, Loader};
+use crate::source::{Entry, LARGEST_FILE, LoadError, Loader};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs::{self, File, Metadata};
@@ -66,12 +66,75 @@ impl Loader for Disk {
         match &self.from_stdin {
             Some(text) if path == STDIN_NAME => text.clone(),
             Some(_) | None => {
+                if path == self.job
+                    && let Some(why) = no_job(path)
+                {
+                    return Err(LoadError::Other(why));
+                }
                 let path = Path::new(path);
                 self.read.borrow_mut().extend(fs::canonicalize(path));
                 load_file(path)
             }
         }
     }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        list_folder(folder)
+    }
+}
+
+/// Most entries of a folder that are looked at.
+const MOST_ENTRIES: usize = 5000;
+
+/// What is in a folder, without what is hidden; nothing of one that cannot be read.
+pub(super) fn list_folder(folder: &str) -> Vec<Entry> {
+    let path = Path::new(if folder.is_empty() { "." } else { folder });
+    let Ok(entries) = fs::read_dir(path) else {
+        return Vec::new();
+    };
+    let mut found: Vec<Entry> = entries
+        .flatten()
+        .take(MOST_ENTRIES)
+        .filter_map(|entry| {
+            let name = entry.file_name().into_string().ok()?;
+            // Links count as what they lead to.
+            let kind = fs::metadata(entry.path()).ok()?;
+            match name.starts_with('.') {
+                true => None,
+                false if kind.is_dir() => Some(Entry::Folder(name)),
+                false => kind.is_file().then_some(Entry::File(name)),
+            }
+        })
+        .collect();
+    found.sort();
+    found
+}
+
+/// What a file that is there is instead of a job, by its ending, and how it is used.
+fn no_job(path: &str) -> Option<String> {
+    let name = path.rsplit('/').next()?;
+    let (_, ending) = name.rsplit_once('.')?;
+    let named = |what: &str, word: &str| {
+        format!("it is {what}, not a job; a job names it: `profile {{ {word} \"{name}\" {{ ... }} }}`")
+    };
+    let why = match ending.to_ascii_lowercase().as_str() {
+        "csv" => {
+            format!("it is a file of points, not a job; a job names it: `profile {{ points \"{name}\" }}`")
+        }
+        "dat" if !is_text_of_krl(path) => named("a file of an airfoil", "airfoil"),
+        "dxf" => named("a drawing", "dxf"),
+        "svg" => named("a drawing", "svg"),
+        "src" | "dat" | "mod" | "ngc" | "nc" | "mpf" => {
+            "it is a program, not a job; `vcutc verify JOB PROGRAM` compares it with its job".to_owned()
+        }
+        _ => return None,
+    };
+    Path::new(path).is_file().then_some(why)
+}
+
+/// Whether a `.dat` is one of a KUKA program: there is a `.src` beside it.
+fn is_text_of_krl(path: &str) -> bool {
+    Path::new(path).with_extension("src").is_file()
 }
 
 /// Largest file of a program that is read, in bytes: some four million motions.

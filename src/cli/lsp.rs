@@ -6,12 +6,12 @@
 
 use super::Targets;
 use super::console::{Console, Failure};
-use super::files::{load_file, with_forward_slashes};
+use super::files::{list_folder, load_file, with_forward_slashes};
 use super::patience::{HelpBudget, Waiting};
 use crate::lsp::wire::{self, Broken, Fault, Incoming};
 use crate::lsp::{Done, Ending, Server, Task, Workspace};
 use crate::memory::Memory;
-use crate::source::{LoadError, Loader};
+use crate::source::{Entry, LoadError, Loader};
 use serde_json::Value;
 use std::collections::VecDeque;
 use std::io::{self, BufReader, Write};
@@ -200,6 +200,10 @@ struct Disk;
 impl Loader for Disk {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
         load_file(Path::new(path))
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        list_folder(folder)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::diag::{Code, Diagnostic, Edit, fix, has_errors};
 use crate::memory::Memory;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::sema;
-use crate::source::{FileId, LoadError, Loader, SourceMap, Span};
+use crate::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
 use crate::wanted::Wanted;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -186,5 +186,9 @@ impl Loader for Edited<'_> {
             Some(text) => Ok(text.clone().into_bytes()),
             None => self.below.load(path),
         }
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        self.below.list(folder)
     }
 }

@@ -12,7 +12,7 @@ use crate::memory::Memory;
 use crate::plan::PlannedJob;
 use crate::sema::study::{Study, study};
 use crate::sema::{Choices, Part};
-use crate::source::{FileId, LoadError, Loader, SourceMap};
+use crate::source::{Entry, FileId, LoadError, Loader, SourceMap};
 use crate::syntax::ast::{Ast, Item};
 use crate::wanted::{Interest, Needless, Wanted};
 use std::collections::BTreeMap;
@@ -33,6 +33,10 @@ impl Loader for Overlay<'_> {
             Some(text) => Ok(text.as_str().as_bytes().to_vec()),
             None => self.below.load(path),
         }
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        self.below.list(folder)
     }
 }
 

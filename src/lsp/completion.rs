@@ -1,10 +1,11 @@
 //! What can be written at the cursor: fields that a block still lacks, units that fit, words and names that a field takes,
-//! machines of the catalogue.
+//! machines of the catalogue, files beside the job.
 
 use super::analysis::Analysis;
 use super::context::{BlockAround, Context, Wanted, context};
 use super::hover::explained;
 use super::manual::{self, Table};
+use super::paths;
 use super::slots::{Owner, Slot};
 use super::values::{Begun, Place};
 use crate::machine::catalogue;
@@ -55,6 +56,7 @@ pub(super) fn completion(
     offset: usize,
     analysis: &Analysis,
     targets: &[&'static dyn Backend],
+    folder: &paths::Folder<'_>,
 ) -> Offers {
     let context = context(text, offset);
     let desk = Desk {
@@ -72,7 +74,12 @@ pub(super) fn completion(
         Wanted::Value(slot) => desk.place(slot).values(),
         Wanted::Unit(slot) => desk.place(slot).units(),
         Wanted::Label { slot, given } => desk.place(slot).labels(given),
-        Wanted::Text(words) => texts(words),
+        Wanted::Text(words) => {
+            let typed = text.get(context.word.start..offset).unwrap_or_default();
+            let named = paths::named_by(words, context.blocks.last().map(BlockAround::name));
+            let files = named.map_or_else(Vec::new, |named| folder.offers(named, typed));
+            texts(words).into_iter().chain(files).collect()
+        }
     };
     Offers {
         replaces: context.word.clone(),

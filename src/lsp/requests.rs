@@ -11,6 +11,7 @@ use super::hover::hover;
 use super::names::{
     changes_meaning, definition_at, file_meant, name_at, occurrences, places, refused, sites_at,
 };
+use super::paths::Folder;
 use super::server::{Insertion, Server, Telling, parsed};
 use super::sites::{Kind, Path};
 use super::symbols::symbols;
@@ -102,7 +103,7 @@ pub(super) fn watch_files() -> Value {
 pub(super) fn meet(server: &mut Server, method: &str, params: Value, files: &dyn Workspace) -> Answer {
     match method {
         "textDocument/hover" => hovered(server, parsed(params)?),
-        "textDocument/completion" => completed(server, parsed(params)?),
+        "textDocument/completion" => completed(server, parsed(params)?, files),
         "textDocument/definition" => defined(server, parsed(params)?),
         "textDocument/references" => referred(server, parsed(params)?, files),
         "textDocument/documentHighlight" => highlighted(server, parsed(params)?),
@@ -160,13 +161,23 @@ fn hovered(server: &Server, params: HoverParams) -> Answer {
     Ok(json!(told))
 }
 
-fn completed(server: &Server, params: CompletionParams) -> Answer {
+fn completed(server: &Server, params: CompletionParams, files: &dyn Workspace) -> Answer {
     let at = params.text_document_position;
     let Some(asked) = asked(server, &at.text_document) else {
         return Ok(Value::Null);
     };
     let offset = asked.text.offset(at.position);
-    let found = completion(asked.text.as_str(), offset, asked.analysis, &server.targets);
+    let folder = Folder {
+        file: &asked.path,
+        files,
+    };
+    let found = completion(
+        asked.text.as_str(),
+        offset,
+        asked.analysis,
+        &server.targets,
+        &folder,
+    );
     let range = asked.text.range(found.replaces);
     let items: Vec<CompletionItem> = found
         .offers

@@ -1,5 +1,6 @@
 //! Calls that describe a thing of a machine, such as `frame(x = 0 mm, ...)` or `output(12)`.
 
+use super::decimal_comma;
 use super::names::did_you_mean;
 use super::range::Range;
 use super::read::{Reader, looks_like};
@@ -54,6 +55,9 @@ pub(crate) fn calls<'a>(
         );
         return Err(reports.push(diagnostic.help(help)));
     };
+    if let Some(told) = decimal_comma::between(arguments.iter().map(|argument| &argument.value)) {
+        return Err(reports.push(told));
+    }
     if let Some(&(name, example)) = known.iter().find(|(name, _)| *name == function.node) {
         return Ok(Arguments {
             function: name,

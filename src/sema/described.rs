@@ -17,9 +17,8 @@ pub(crate) fn read<T>(
     parse: impl FnOnce(&str) -> Result<T, Vec<Flaw>>,
 ) -> Checked<T> {
     let bytes = session.loader.load(path).map_err(|error| {
-        session
-            .reports
-            .push(not_loaded(&named_at, path, relative, &error))
+        let diagnostic = not_loaded(&named_at, path, relative, &error, session);
+        session.reports.push(diagnostic)
     })?;
     let (file, fault) = text_of(session, path, bytes, Some(named_at));
     if let Some(reported) = fault {

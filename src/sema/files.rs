@@ -3,6 +3,7 @@
 //! Files are loaded breadth first, so that a file's number does not depend on how deep the uses are nested. Which
 //! file uses which is kept as a graph; circles are found in it afterwards.
 
+use super::near_files;
 use super::report::Reported;
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
@@ -108,7 +109,13 @@ impl Relative {
 }
 
 /// The diagnostic for a file that could not be loaded.
-pub(crate) fn not_loaded(path: &Span, resolved: &str, relative: Relative, error: &LoadError) -> Diagnostic {
+pub(crate) fn not_loaded(
+    path: &Span,
+    resolved: &str,
+    relative: Relative,
+    error: &LoadError,
+    session: &Session<'_>,
+) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::FileNotFound,
         format!("cannot read `{resolved}`"),
@@ -116,9 +123,7 @@ pub(crate) fn not_loaded(path: &Span, resolved: &str, relative: Relative, error:
         error.to_string(),
     );
     match error {
-        LoadError::NotFound => diagnostic
-            .note(relative.note())
-            .help(format!("check the name, or put the file at `{resolved}`")),
+        LoadError::NotFound => near_files::meant(diagnostic.note(relative.note()), *path, resolved, session),
         LoadError::TooLarge(limit) => diagnostic.help(format!("keep files below {} MB", limit / 1_000_000)),
         LoadError::Other(_) => diagnostic.help("check that the file can be read"),
     }
@@ -233,7 +238,13 @@ impl<'s, 'a> Loading<'s, 'a> {
         match self.session.loader.load(&pending.path) {
             Ok(bytes) => Some(self.take(&pending.path, bytes, Some(pending.span))),
             Err(error) => {
-                let diagnostic = not_loaded(&pending.span, &pending.path, Relative::ToItsFile, &error);
+                let diagnostic = not_loaded(
+                    &pending.span,
+                    &pending.path,
+                    Relative::ToItsFile,
+                    &error,
+                    self.session,
+                );
                 self.missing(pending, diagnostic)
             }
         }

@@ -8,6 +8,7 @@
 mod arguments;
 mod blade;
 mod cell;
+mod decimal_comma;
 mod described;
 mod dimension;
 mod eval;
@@ -25,6 +26,7 @@ mod mismatch;
 mod missing;
 mod model;
 mod names;
+mod near_files;
 mod options;
 mod overrides;
 mod point;

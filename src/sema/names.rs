@@ -167,6 +167,10 @@ impl<'a> Names<'a> {
         if near.is_empty() {
             diagnostic = match self.list(is_wanted) {
                 Some(list) => diagnostic.help(format!("the names defined are {list}")),
+                None if what == "blade" => diagnostic.help(format!(
+                    "define it with the figures of your blade, such as `blade {name} {{ cutting_length = 30 mm, half_apex = 8 deg, \
+                     thickness = 1.5 mm, edges = double }}`, or `use` the file that does"
+                )),
                 None => diagnostic.help("define it, or `use` the file that does"),
             };
         }

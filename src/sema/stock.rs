@@ -1,5 +1,6 @@
 //! `stock { ... }`: the box that is cut from.
 
+use super::decimal_comma;
 use super::eval::Scope;
 use super::fields::{BlockSpec, Fields, Inner, Place, value};
 use super::range::SIZE;
@@ -36,7 +37,7 @@ pub(crate) fn check(
     };
     let [width, depth, height] = sides.as_slice() else {
         let count = format!("a list of {}", sides.len());
-        let diagnostic = decimal_comma(sides).unwrap_or_else(|| not_three(size.span, &count));
+        let diagnostic = decimal_comma::between(sides).unwrap_or_else(|| not_three(size.span, &count));
         return Err(reader.reports.push(diagnostic));
     };
     let mut side = |expr: &Spanned<Expr>, taker: &str| -> Result<Length, Reported> {
@@ -51,35 +52,6 @@ pub(crate) fn check(
         height: height?,
     };
     Ok(Spanned::new(stock, size.span))
-}
-
-/// `45,5 mm` among the sides: a number without a unit, and with nothing but a comma between it and the next.
-fn decimal_comma(sides: &[Spanned<Expr>]) -> Option<Diagnostic> {
-    let whole = |side: &Spanned<Expr>| match side.node {
-        Expr::Number { value, unit: None } if value.fract() == 0.0 => Some(value),
-        _ => None,
-    };
-    sides.windows(2).find_map(|pair| {
-        let [before, behind] = pair else { return None };
-        let value = whole(before)?;
-        let Expr::Number { unit: Some(_), .. } = behind.node else {
-            return None;
-        };
-        let comma = Span {
-            start: before.span.end,
-            end: behind.span.start,
-            ..before.span
-        };
-        (comma.bytes().len() == 1).then(|| {
-            Diagnostic::new(
-                Code::WrongKind,
-                "a decimal comma",
-                before.span.to(behind.span),
-                format!("decimals are written with a point; `{value}` has no unit"),
-            )
-            .fix("write a point", comma, ".")
-        })
-    })
 }
 
 fn not_three(span: Span, what: &str) -> Diagnostic {

@@ -3,7 +3,7 @@
 use super::{Choices, Typed, check};
 use crate::diag::{Code, Diagnostic, fix};
 use crate::job::{Auto, CheckedJob, Operation, Sourced};
-use crate::source::{LoadError, Loader, SourceMap};
+use crate::source::{Entry, LoadError, Loader, SourceMap, entries_among};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -53,6 +53,10 @@ impl Files {
 impl Loader for Files {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
         self.0.get(path).cloned().ok_or(LoadError::NotFound)
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        entries_among(self.0.keys().map(AsRef::as_ref), folder)
     }
 }
 

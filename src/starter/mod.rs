@@ -18,7 +18,7 @@ use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::remedy::wording;
-use crate::source::{LoadError, Loader, SourceMap};
+use crate::source::{Entry, LoadError, Loader, SourceMap};
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::{Frame, Point3};
@@ -143,6 +143,10 @@ impl Loader for Draft<'_> {
         } else {
             self.files.load(path)
         }
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        self.files.list(folder)
     }
 }
 

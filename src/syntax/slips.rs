@@ -9,6 +9,7 @@ use crate::diag::{Code, Diagnostic, Edit, Fix};
 pub(super) fn find(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {
     let found = fault.found?;
     numbers(bad, fault, found)
+        .or_else(|| decimal_comma_before(bad, found))
         .or_else(|| marks(bad, fault, found))
         .or_else(|| characters(bad, found))
 }
@@ -65,6 +66,34 @@ fn numbers(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic>
         )),
         _ => None,
     }
+}
+
+/// A value too many in brackets that hold `60,5 mm`, which reads as two.
+fn decimal_comma_before(bad: &Bad<'_>, found: Token) -> Option<Diagnostic> {
+    if bad.token(found) != "," {
+        return None;
+    }
+    let before = bad.slice(0..found.start);
+    let opened = before.rfind('(')?;
+    let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let bytes = before.as_bytes();
+    let comma = (opened..before.len()).find(|&at| {
+        bytes.get(at) == Some(&b',') && is_digit(bytes.get(at.wrapping_sub(1))) && is_digit(bytes.get(at + 1))
+    })?;
+    let start = before.get(..comma)?.rfind(|c: char| !c.is_ascii_digit())? + 1;
+    let rest = before.get(comma + 1..)?;
+    let end = comma + 1 + rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    let right = before.get(start..end)?.replace(',', ".");
+    let span = bad.span(start..end);
+    Some(
+        Diagnostic::new(
+            Code::UnexpectedText,
+            "a decimal comma",
+            span,
+            "decimals are written with a point",
+        )
+        .fix(format!("write `{right}`"), span, right.clone()),
+    )
 }
 
 /// Marks of other languages.

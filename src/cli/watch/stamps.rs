@@ -5,7 +5,7 @@
 //! makes a new one; and a file that is not there yet has a stamp as well. A job has a handful of files, so that looking costs
 //! next to nothing; where it is slow it is done less often ([`Pause`]).
 
-use crate::source::{LoadError, Loader};
+use crate::source::{Entry, LoadError, Loader};
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -81,6 +81,10 @@ impl Loader for Recorder<'_> {
         let stamp = stamp(path);
         self.asked.files().entry(path.to_owned()).or_insert(stamp);
         self.disk.load(path)
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        self.disk.list(folder)
     }
 }
 

@@ -160,9 +160,8 @@ pub(super) fn bytes_of(path: &Spanned<String>, session: &mut Session<'_>) -> Che
     match session.loader.load(&resolved) {
         Ok(bytes) => Ok((resolved, bytes)),
         Err(error) => {
-            Err(session
-                .reports
-                .push(not_loaded(&path.span, &resolved, Relative::ToItsFile, &error)))
+            let diagnostic = not_loaded(&path.span, &resolved, Relative::ToItsFile, &error, session);
+            Err(session.reports.push(diagnostic))
         }
     }
 }

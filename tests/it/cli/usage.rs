@@ -3,6 +3,7 @@
 use super::jobs::RIB;
 use super::{command, folder, names, run, vcutc};
 use crate::commit;
+use crate::repository::root;
 use std::fs;
 
 #[test]
@@ -41,6 +42,66 @@ fn jobs_and_commands_that_were_meant_are_offered() {
         assert_eq!(run.code, Some(2), "{args:?}");
         assert!(run.stderr.contains(expected), "{args:?}: {}", run.stderr);
     }
+}
+
+#[test]
+fn data_that_is_given_as_a_job_says_what_it_is() {
+    let out = folder();
+    for (name, text, words) in [
+        (
+            "heights.csv",
+            "x,z\n0,18\n",
+            "it is a file of points, not a job; a job names it: `profile { points \"heights.csv\" }`",
+        ),
+        (
+            "rib.dat",
+            "rib\n1 0\n",
+            "it is a file of an airfoil, not a job; a job names it: `profile { airfoil \"rib.dat\" { ... } }`",
+        ),
+        (
+            "rib.src",
+            "DEF rib()\nEND\n",
+            "it is a program, not a job; `vcutc verify JOB PROGRAM` compares it with its job",
+        ),
+    ] {
+        fs::write(out.path().join(name), text).unwrap();
+        for arguments in [&[name][..], &["check", name]] {
+            let run = vcutc(out.path(), arguments);
+            assert_eq!(run.code, Some(2), "{}", run.stderr);
+            assert_eq!(
+                run.stderr,
+                format!("error: cannot read the job {name}: {words}\n")
+            );
+        }
+    }
+}
+
+/// What a target refuses is not buried under the figures of the plan.
+#[test]
+fn a_refused_option_has_no_summary_above_it() {
+    let out = folder();
+    let folder = out.path().to_str().unwrap();
+    let job = "examples/spoiler_clarky.vcut";
+    let run = vcutc(
+        root(),
+        &[
+            job,
+            "--target",
+            "krl",
+            "-o",
+            folder,
+            "--option",
+            "aproximation=2mm",
+        ],
+    );
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("help: use `approximation`"), "{}", run.stderr);
+    assert!(!run.stderr.contains("per layer"), "{}", run.stderr);
+    assert!(
+        run.stderr.ends_with("1 error; nothing was written\n"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]

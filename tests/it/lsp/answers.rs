@@ -159,6 +159,81 @@ fn units_words_names_and_machines_that_fit_are_offered() {
 }
 
 #[test]
+fn files_of_fitting_endings_are_offered_where_a_path_is_written() {
+    let mut editor = Editor::with(&[
+        ("rib.vcut", RIB),
+        ("blades.vcut", BLADES),
+        ("feeds/soft.vcut", "let soft = 100 mm/s\n"),
+        ("heights.csv", "x,z\n0,18\n85,14\n"),
+        ("feeds/notes.txt", "points of another day\n"),
+        ("clark.dat", "no coordinates yet\n"),
+        ("arm.toml", "\n"),
+    ]);
+    editor.open(PATH);
+    assert_eq!(
+        labels(&mut editor, "use \"|blades.vcut\""),
+        ["blades.vcut", "feeds/"],
+        "a file does not use itself"
+    );
+    editor.replace(PATH, "use \"blades.vcut\"", "use \"feeds/\"");
+    assert_eq!(labels(&mut editor, "use \"feeds/|\""), ["feeds/soft.vcut"]);
+    editor.replace(PATH, "use \"feeds/\"", "use \"blades.vcut\"");
+    let end = RIB.len();
+    for (line, piece, expected) in [
+        (
+            "profile { points \"he\" }",
+            "points \"he|\"",
+            vec!["heights.csv", "feeds/"],
+        ),
+        (
+            "profile { airfoil \"\" }",
+            "airfoil \"|\"",
+            vec!["clark.dat", "feeds/"],
+        ),
+        (
+            "profile = points(\"\")",
+            "points(\"|\"",
+            vec!["heights.csv", "feeds/"],
+        ),
+        (
+            "profile { points \"feeds/\" }",
+            "points \"feeds/|\"",
+            vec!["feeds/notes.txt"],
+        ),
+        ("profile { dxf \"\" }", "dxf \"|\"", vec!["feeds/"]),
+        ("job \"\"", "job \"|\"", vec![]),
+    ] {
+        let line = format!("{line}\n");
+        editor.type_in(PATH, end..end, &line);
+        assert_eq!(labels(&mut editor, piece), expected, "{line}");
+        editor.type_in(PATH, end..end + line.len(), "");
+    }
+    editor.type_in(PATH, end..end, "machine arm = robot \"\" { }\n");
+    let machines = labels(&mut editor, "robot \"|\"");
+    assert!(
+        machines.contains(&"arm.toml".to_owned()) && machines.contains(&"kuka/kr210_r3100_ultra".to_owned())
+    );
+}
+
+#[test]
+fn a_near_file_is_a_quick_fix() {
+    let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
+    editor.open(PATH);
+    editor.replace(PATH, "use \"blades.vcut\"", "use \"blade.vcut\"");
+    assert!(editor.codes(PATH).contains(&"VC0212".to_owned()));
+    let at = editor.at(PATH, "use \"bla|de.vcut\"");
+    let params = json!({
+        "textDocument": at["textDocument"],
+        "range": { "start": at["position"], "end": at["position"] },
+        "context": { "diagnostics": [] }
+    });
+    let actions = editor.ask("textDocument/codeAction", params).unwrap();
+    let action = &actions.as_array().unwrap()[0];
+    assert_eq!(action["title"], "Did you mean `blades.vcut`?");
+    assert!(action.to_string().contains("\\\"blades.vcut\\\""), "{action}");
+}
+
+#[test]
 fn clients_without_snippets_get_texts() {
     let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
     editor.server = vcutc::lsp::Server::new(&vcutc::registry::backends());

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use vcutc::lsp::wire::Incoming;
 use vcutc::lsp::{Server, Workspace};
 use vcutc::registry;
-use vcutc::source::{LoadError, Loader};
+use vcutc::source::{Entry, LoadError, Loader, entries_among};
 
 /// Files by path.
 #[derive(Default)]
@@ -15,6 +15,10 @@ impl Loader for Memory {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
         let text = self.0.get(path).ok_or(LoadError::NotFound)?;
         Ok(text.clone().into_bytes())
+    }
+
+    fn list(&self, folder: &str) -> Vec<Entry> {
+        entries_among(self.0.keys().map(String::as_str), folder)
     }
 }
 
