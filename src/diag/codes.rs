@@ -125,6 +125,8 @@ codes! {
     NothingDrawn = "VC0229", Error, "a drawing with no line to read";
     /// Lines of a drawing lie on each other in part.
     DrawnOver = "VC0230", Error, "lines of a drawing that lie on each other";
+    /// A file of an airfoil that is read otherwise than it is written.
+    AirfoilRepaired = "VC0231", Warning, "an airfoil file that is repaired";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "a job that leaves nothing to cut";
@@ -175,7 +177,7 @@ codes! {
     /// Axes whose rates are not known.
     RatesNotChecked = "VC0517", Warning, "rates of axes that were not checked";
     /// An air cut that cannot be made at the height that was asked for.
-    AirCut = "VC0521", Error, "an air cut at a height that does not do";
+    AirCut = "VC0521", Error, "an air cut at a height that does not work";
     /// A tool frame that no mount gives.
     ToolFrame = "VC0522", Warning, "a tool frame that no mount gives";
     /// Travels that became moves of all axes.

@@ -9,14 +9,16 @@ mod csv;
 pub mod drawing;
 mod dxf;
 mod svg;
+mod western;
 
-pub use airfoil::{Airfoil, airfoil};
+pub use airfoil::{Airfoil, Altered, Repair, Side, airfoil, airfoil_text};
 pub use csv::csv;
 pub use dxf::{NoText, dxf, dxf_text};
 pub use svg::svg;
 
 use super::point::LARGEST_COORDINATE;
 use core::ops::Range;
+use western::western;
 
 /// What is wrong with a file of points, and where: a range of bytes of its text.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,9 +3,10 @@
 //! The files are read by plain line readers, so they may hold a million lines. They go into the source map too, so
 //! that a line that cannot be understood can be shown.
 
+use super::repairs;
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::{LARGEST_COORDINATE, Point2};
-use crate::geom::import::{self, DataError};
+use crate::geom::import::{self, DataError, Side};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
 use crate::sema::files::{Relative, not_loaded, text_of};
@@ -44,13 +45,6 @@ pub(crate) const AIRFOIL: BlockSpec = BlockSpec {
 
 /// Units of a file of points, in mm.
 const FILE_UNITS: &[(&str, f64)] = &[("mm", 1.0), ("in", 25.4), ("m", 1000.0)];
-
-/// The two sides of an airfoil.
-#[derive(Clone, Copy)]
-enum Side {
-    Upper,
-    Lower,
-}
 
 const SIDES: &[(&str, Side)] = &[("upper", Side::Upper), ("lower", Side::Lower)];
 
@@ -110,7 +104,7 @@ pub(super) fn airfoil(
     session: &mut Session<'_>,
 ) -> Checked<Vec<Point2>> {
     let fields = Fields::sort(&AIRFOIL, place_of(path, piece), options, session);
-    let file = load(path, session);
+    let file = load_airfoil(path, session);
     let mut reader = Reader {
         scope,
         reports: &mut session.reports,
@@ -122,12 +116,24 @@ pub(super) fn airfoil(
     let x = reader.defaulted(&fields, "x", COORDINATE, Length::ZERO);
     let z = reader.defaulted(&fields, "z", COORDINATE, Length::ZERO);
     let flip = reader.choice(&fields, "flip", FLIPS);
-    let airfoil = read(file?, path, import::airfoil, session)?;
-    let side = match side?.value {
+    let file = file?;
+    let airfoil = read(file, path, import::airfoil, session)?;
+    let (side, chord) = (side?.value, chord?.value);
+    repairs::report(
+        &airfoil.repairs,
+        &repairs::Taken {
+            file,
+            path,
+            side,
+            chord,
+        },
+        session,
+    )?;
+    let side = match side {
         Side::Upper => airfoil.upper,
         Side::Lower => airfoil.lower,
     };
-    let (chord, x, z) = (chord?.value.to_mm(), x?.value.to_mm(), z?.value.to_mm());
+    let (chord, x, z) = (chord.to_mm(), x?.value.to_mm(), z?.value.to_mm());
     let flip = flip?.map_or(Flip::None, |flip| flip.value);
     let mut points: Vec<Point2> = side
         .into_iter()
@@ -152,6 +158,15 @@ pub(super) fn airfoil(
 fn load(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<FileId> {
     let (resolved, bytes) = bytes_of(path, session)?;
     as_text(&resolved, bytes, path, session)
+}
+
+/// Loads a file of airfoil coordinates, whose title may be in an older code page.
+fn load_airfoil(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<FileId> {
+    let (resolved, bytes) = bytes_of(path, session)?;
+    match import::airfoil_text(bytes) {
+        Ok(text) => Ok(session.sources.add(resolved, text)),
+        Err(bytes) => as_text(&resolved, bytes, path, session),
+    }
 }
 
 /// The bytes of a data file, and its path from where the job's own is relative to.

@@ -8,6 +8,7 @@ mod curves;
 pub(crate) mod data;
 pub(crate) mod drawing;
 mod formula;
+mod repairs;
 mod shape;
 
 use super::eval::Scope;

@@ -4,6 +4,8 @@
 //! these the western one is read, which most files name whether or not they have such letters. In either form letters may be
 //! written by codes: `\U+00E4` for ä, `%%d` for the sign of degrees.
 
+use crate::geom::import::western;
+
 /// Why bytes are no text of a DXF.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoText {
@@ -101,17 +103,4 @@ fn code_page(bytes: &[u8]) -> Option<String> {
         .filter(|line| !line.is_empty())
         .nth(1)?;
     Some(value.to_owned())
-}
-
-/// A character of the code page Windows-1252.
-fn western(byte: u8) -> char {
-    // 0x80 to 0x9f; five places are empty.
-    const PUNCTUATION: [char; 32] = [
-        '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
-        '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-    ];
-    match byte {
-        0x80..=0x9f => PUNCTUATION[usize::from(byte - 0x80)],
-        _ => char::from(byte),
-    }
 }
