@@ -9,13 +9,15 @@ use crate::plan::parameters::show;
 use crate::reach::describe::{branch_words, site_words, value_words};
 use crate::reach::legs::{Leg, Pace, Stroke, legs};
 use crate::reach::path::{Singularity, Violation};
+use crate::reach::rig::Rig;
 use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
 use crate::reach::trouble::{Count, Failing, Leads, Trouble};
 use crate::reach::way::Obstacle;
 use crate::remedy;
 use crate::source::Span;
 use crate::wanted::Wanted;
-use vcutc_backend_api::ir::{Action, Axis, OpId, OrientationId, Program, Site};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, Axis, MachineKind, OpId, OrientationId, Program, Site};
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.
@@ -38,10 +40,10 @@ pub fn diagnose(
     let remedies = remedy::remedies(job, plan, unreachable, wanted, works);
     if remedies.is_empty() && wanted.is_needless() {
         // That nothing helps is not known.
-        let diagnostic = diagnostic.help(general(unreachable));
+        let diagnostic = diagnostic.help(scene.general(unreachable));
         return vec![diagnostic.help(remedy::LOOK_ON)];
     }
-    vec![remedy::offer(diagnostic, &remedies, general(unreachable))]
+    vec![remedy::offer(diagnostic, &remedies, &scene.general(unreachable))]
 }
 
 /// The same before any change is tried.
@@ -49,7 +51,11 @@ pub fn diagnose(
 pub fn at_once(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic> {
     let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
     let lacks = scene.lacks_an_axis(&unreachable.trouble);
-    Some(lacks.unwrap_or_else(|| scene.trouble(&unreachable.trouble).help(general(unreachable))))
+    Some(lacks.unwrap_or_else(|| {
+        scene
+            .trouble(&unreachable.trouble)
+            .help(scene.general(unreachable))
+    }))
 }
 
 /// The same without remedies, for a program that is not what its job makes of itself. A job without a machine has nothing
@@ -59,31 +65,6 @@ pub fn in_words(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnosti
     let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
     let lacks = scene.lacks_an_axis(&unreachable.trouble);
     Some(lacks.unwrap_or_else(|| scene.trouble(&unreachable.trouble)))
-}
-
-/// What to do where no single change was found.
-fn general(unreachable: &Unreachable) -> &'static str {
-    match &unreachable.trouble {
-        Trouble::Motion { failing, .. } => match failing.breach.what {
-            Violation::OutOfReach => {
-                "move the work nearer to the machine with `base`, or choose a machine of longer reach"
-            }
-            Violation::Limit { .. } => {
-                "turn or shift the work with `base`, so that this axis stays in its range"
-            }
-            Violation::Rate { .. } => {
-                "lower this speed, or shift the work with `base` away from where the axis must hurry"
-            }
-            Violation::Singular(_) => {
-                "shift or turn the work with `base`, or tilt the tool in its mount, so that the arm stays bent"
-            }
-        },
-        Trouble::NoCommonBranch { .. } => {
-            "let the blade come up between cuts with `direction = forward`, so that the arm can change there, or shift or turn the work with `base`"
-        }
-        Trouble::Way { .. } => "choose a `home` from which the blade comes to the work from above",
-        Trouble::Nowhere => "bring the work and the machine together with `base`",
-    }
 }
 
 /// A job, its machine and the program made of it.
@@ -100,6 +81,64 @@ impl<'s> Scene<'s> {
             machine,
             program: unreachable.program.program(),
         }
+    }
+
+    /// What to do where no single change was found.
+    fn general(&self, unreachable: &Unreachable) -> String {
+        match &unreachable.trouble {
+            Trouble::Motion { failing, hardest, .. } => match failing.breach.what {
+                Violation::OutOfReach => {
+                    "move the work nearer to the machine with `base`, or choose a machine of longer reach".to_owned()
+                }
+                Violation::Limit { .. } => {
+                    "turn or shift the work with `base`, so that this axis stays in its range".to_owned()
+                }
+                Violation::Rate { .. } => {
+                    let slow_enough = self
+                        .slow_enough(failing, hardest.as_ref())
+                        .map_or_else(String::new, |speed| format!(" to about {speed}"));
+                    format!(
+                        "lower this speed{slow_enough}, or shift the work with `base` away from where the axis must hurry"
+                    )
+                }
+                Violation::Singular(_) => {
+                    "shift or turn the work with `base`, or tilt the tool in its mount, so that the arm stays bent"
+                        .to_owned()
+                }
+            },
+            Trouble::NoCommonBranch { .. } => {
+                "let the blade come up between cuts with `direction = forward`, so that the arm can change there, or shift or turn the work with `base`".to_owned()
+            }
+            Trouble::Way { .. } => {
+                "choose a `home` from which the blade comes to the work from above".to_owned()
+            }
+            Trouble::Nowhere => "bring the work and the machine together with `base`".to_owned(),
+        }
+    }
+
+    /// The speed at which an axis is just fast enough where it lacks most: rates grow in proportion to the speed that paces a motion.
+    fn slow_enough(&self, failing: &Failing, hardest: Option<&Failing>) -> Option<String> {
+        let (span, _) = self.speed(failing.op);
+        let is_paced_alike = |other: &&Failing| self.speed(other.op).0 == span;
+        let share = [Some(failing), hardest.filter(is_paced_alike)]
+            .into_iter()
+            .flatten()
+            .filter_map(|failing| match failing.worst.what {
+                Violation::Rate { axis, rate } => Some(self.axis(axis)?.rate? / rate),
+                Violation::OutOfReach | Violation::Limit { .. } | Violation::Singular(_) => None,
+            })
+            .reduce(f64::min)?;
+        let (asked, unit) = match self.stroke(failing.op)?.pace {
+            Pace::Feed(feed) => (self.program.feeds.get(usize::from(feed.0))?.to_mm_per_s(), "mm/s"),
+            Pace::Rate(rate) => {
+                let rate = self.program.rates.get(usize::from(rate.0))?;
+                (rate.to_rad_per_s().to_degrees(), "deg/s")
+            }
+        };
+        // Downwards, to whole units or to a hundredth of slow ones.
+        let steps = if asked * share >= 10.0 { 1.0 } else { 100.0 };
+        let enough = (asked * share * steps).floor() / steps;
+        (enough > 0.0).then(|| format!("{} {unit}", show(enough)))
     }
 
     fn trouble(&self, trouble: &Trouble) -> Diagnostic {
@@ -148,13 +187,7 @@ impl<'s> Scene<'s> {
                 base,
                 "no axis values bring the blade there with the work in this place",
             )
-            .and(
-                self.machine.model_span,
-                format!(
-                    "out of the range of `{}`: too far, or too close",
-                    self.machine.model.name
-                ),
-            ),
+            .and(self.machine.model_span, self.out_of_reach(failing.op)),
             Violation::Limit { axis, value } => self.limit(&place, axis, value, base),
             Violation::Rate { axis, rate } => self.rate(&place, axis, rate, failing.op),
             Violation::Singular(singularity) => self.singular(&place, singularity, base),
@@ -173,6 +206,34 @@ impl<'s> Scene<'s> {
             Count::Exactly(1) => diagnostic.note("one more cut is affected"),
             Count::Exactly(others) => diagnostic.note(format!("{others} more cuts are affected")),
             Count::AtLeast(others) => diagnostic.note(format!("at least {others} more cuts are affected")),
+        }
+    }
+
+    /// How far from an arm the tip would be, where that is farther than it comes with its tool.
+    fn out_of_reach(&self, op: OpId) -> String {
+        let model = &self.machine.model;
+        let tool = self.machine.tool.value.frame;
+        let reach = model.reach();
+        let either = format!(
+            "the work is out of the reach of `{}`: too far or too close",
+            model.name
+        );
+        match (model.kind(), self.tip(op)) {
+            (MachineKind::Robot, Some(tip)) => {
+                let rig = Rig::new(model, tool, self.machine.base.value.frame);
+                let (there, tool) = (rig.point_in_root(tip), tool.origin);
+                let distance = libm::hypot(there.x, there.y);
+                if distance <= reach + libm::hypot(libm::hypot(tool.x, tool.y), tool.z) {
+                    return either;
+                }
+                format!(
+                    "`{}` comes {} mm from its axis 1 with the flange; the work is {} mm away there",
+                    model.name,
+                    show(reach.round()),
+                    show(distance.round())
+                )
+            }
+            (MachineKind::Robot, None) | (MachineKind::FiveAxis, _) => either,
         }
     }
 
@@ -408,19 +469,7 @@ impl<'s> Scene<'s> {
         let Some(found) = self.program.ops.get(op.0 as usize) else {
             return "the program".to_owned();
         };
-        let tip = match found.action {
-            Action::Travel { to, .. }
-            | Action::AxisTravel { to, .. }
-            | Action::Approach { to, .. }
-            | Action::Retract { to, .. }
-            | Action::Cut { to, .. } => Some(to),
-            Action::Turn { .. } => self.stroke(op).map(|stroke| stroke.to.tip),
-            Action::Home
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => None,
-        };
+        let tip = self.tip(op);
         let site = site_words(found.site);
         let place = match tip {
             Some(tip) => format!("{site} (x {} mm, z {} mm)", show(tip.x), show(tip.z)),
@@ -438,6 +487,23 @@ impl<'s> Scene<'s> {
             (Site::Layer { .. }, Action::Retract { .. }) => format!("the way up from {place}"),
             (Site::Layer { .. }, _) => format!("the way to {place}"),
             (Site::Cut { .. } | Site::Operation(_) | Site::Program, _) => place,
+        }
+    }
+
+    /// Where the tip comes to in an op, in the work.
+    fn tip(&self, op: OpId) -> Option<Point3> {
+        match self.program.ops.get(op.0 as usize)?.action {
+            Action::Travel { to, .. }
+            | Action::AxisTravel { to, .. }
+            | Action::Approach { to, .. }
+            | Action::Retract { to, .. }
+            | Action::Cut { to, .. } => Some(to),
+            Action::Turn { .. } => self.stroke(op).map(|stroke| stroke.to.tip),
+            Action::Home
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => None,
         }
     }
 

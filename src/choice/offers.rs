@@ -48,18 +48,37 @@ pub(super) fn told(
         .into_iter()
         .map(|refused| {
             with_what_works(refused, effort, |offer, effort| {
-                is_sound(bench, &offer.changed, cuts_left, effort) && works_there(&offer.edits)
+                let is_over = |effort: &Effort| effort.is_spent() || bench.wanted.is_needless();
+                if is_over(effort) {
+                    return Attempt::LeftOut;
+                }
+                let is_good = is_sound(bench, &offer.changed, cuts_left, effort) && works_there(&offer.edits);
+                match is_good {
+                    true => Attempt::Works,
+                    // What was broken off says nothing.
+                    false if bench.wanted.is_needless() => Attempt::LeftOut,
+                    false => Attempt::Fails,
+                }
             })
         })
         .collect()
 }
 
-/// The diagnostic with the first offer of each ladder that works, or with what to do instead. Each ladder may spend as much as
+/// What came of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Attempt {
+    Works,
+    Fails,
+    /// It was not tried, or not to its end.
+    LeftOut,
+}
+
+/// The diagnostic with the first offer of each ladder that works, or with what was tried. Each ladder may spend as much as
 /// every other, and on it each offer.
 fn with_what_works(
     refused: Refused,
     effort: &mut Effort,
-    mut works: impl FnMut(&Offer, &mut Effort) -> bool,
+    mut attempt: impl FnMut(&Offer, &mut Effort) -> Attempt,
 ) -> Diagnostic {
     let Refused {
         mut told,
@@ -68,37 +87,69 @@ fn with_what_works(
         otherwise,
     } = refused;
     let mut rest = ladders.len() + 1;
+    let mut failed = Vec::new();
     for ladder in ladders {
         let mut part = effort.part(rest);
         rest -= 1;
-        if let Some(offer) = first_that_works(ladder, &mut part, &mut works) {
-            told = told.fix_all(offer.title, &offer.edits);
+        match first_that_works(ladder, &mut part, &mut attempt) {
+            Ok(offer) => told = told.fix_all(offer.title, &offer.edits),
+            Err(titles) => failed.extend(in_short(&titles)),
         }
         effort.give_back(&part);
     }
     if !told.fixes.is_empty() {
         return told;
     }
-    match (resort.filter(|offer| works(offer, effort)), otherwise) {
-        (Some(offer), _) => told.fix_all(offer.title, &offer.edits),
-        (None, Some(help)) => told.help(help),
-        (None, None) => told,
+    if let Some(offer) = resort {
+        match attempt(&offer, effort) {
+            Attempt::Works => return told.fix_all(offer.title, &offer.edits),
+            Attempt::Fails => failed.push(offer.title),
+            Attempt::LeftOut => {}
+        }
+    }
+    let told = match failed.as_slice() {
+        [] => told,
+        _ => told.note(format!(
+            "tried, one at a time, and not enough: {}",
+            failed.join("; ")
+        )),
+    };
+    match otherwise {
+        Some(help) => told.help(help),
+        None => told,
     }
 }
 
+/// The first and the last of the titles of offers that failed.
+fn in_short(titles: &[String]) -> Option<String> {
+    let values = |title: &String| title.trim_start_matches("use ").to_owned();
+    match titles {
+        [] => None,
+        [one] => Some(values(one)),
+        [first, .., last] => Some(format!("{} up to {}", values(first), values(last))),
+    }
+}
+
+/// The first offer that works, or the titles of those that do not.
 fn first_that_works(
     ladder: Ladder,
     effort: &mut Effort,
-    works: &mut impl FnMut(&Offer, &mut Effort) -> bool,
-) -> Option<Offer> {
+    attempt: &mut impl FnMut(&Offer, &mut Effort) -> Attempt,
+) -> Result<Offer, Vec<String>> {
     let mut rest = ladder.len();
-    ladder.into_iter().find(|offer| {
+    let mut failed = Vec::new();
+    for offer in ladder {
         let mut part = effort.part(rest);
         rest -= 1;
-        let is_good = works(offer, &mut part);
+        let came = attempt(&offer, &mut part);
         effort.give_back(&part);
-        is_good
-    })
+        match came {
+            Attempt::Works => return Ok(offer),
+            Attempt::Fails => failed.push(offer.title),
+            Attempt::LeftOut => {}
+        }
+    }
+    Err(failed)
 }
 
 /// Whether an operation has a plan that keeps all its limits and has nothing wrong, as far as is seen with so much work. Where

@@ -6,6 +6,7 @@ pub mod facts;
 mod five_axis;
 pub mod habits;
 pub mod path_limits;
+mod reach;
 mod robot;
 pub mod sheet;
 pub mod urdf;

@@ -1,11 +1,14 @@
 //! Where the base may stand, as people write it: `1000..2500`, `-0.5 m .. 0.5 m`, `650 mm`.
 
+use super::Placement;
+use crate::job::Machine;
 use crate::reach::place::Spot;
 use crate::reach::place::search::Bounds;
 use crate::sema::units;
 use core::f64::consts::PI;
 use core::fmt;
 use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::MachineKind;
 
 /// What the user asks for; what is left out is a box around where the base is now.
 #[derive(Clone, Copy, Debug, Default)]
@@ -78,10 +81,9 @@ impl Asked<'_> {
         })
     }
 
-    /// Wider bounds where the user set none: beyond the edges that the best place lies at, or beyond all of them where no
-    /// place was found. None where nothing may be wider.
+    /// Wider bounds where the user set none: beyond the edges that the best place lies at. None where it lies at none of them.
     #[must_use]
-    pub fn widened(&self, bounds: &Bounds, best: Option<Spot>) -> Option<Bounds> {
+    pub fn widened(&self, bounds: &Bounds, best: Spot) -> Option<Bounds> {
         let is_open = [self.x, self.y, self.z, self.yaw].map(|given| given.is_none());
         let (mut least, mut most) = (bounds.least.parts(), bounds.most.parts());
         let mut is_wider = false;
@@ -92,7 +94,7 @@ impl Asked<'_> {
             } else {
                 STEPS_AROUND[part]
             };
-            let lies_at = |edge: i32| best.is_none_or(|best| best.parts()[part] == edge);
+            let lies_at = |edge: i32| best.parts()[part] == edge;
             if !is_open[part] || by <= 0 {
                 continue;
             }
@@ -109,6 +111,38 @@ impl Asked<'_> {
             least: Spot::from_parts(least),
             most: Spot::from_parts(most),
         })
+    }
+}
+
+impl Asked<'_> {
+    /// Where to look on when nothing was found and nobody asked for bounds: all around an arm, wherever the work is now.
+    pub(super) fn farther(&self, machine: &Machine, found: &Placement) -> Option<Bounds> {
+        let is_asked = [self.x, self.y, self.z, self.yaw].iter().any(Option::is_some);
+        let is_found = found.best.is_some() || found.now.room.is_ok();
+        let is_arm = machine.model.kind() == MachineKind::Robot;
+        (!is_asked && !is_found && is_arm).then(|| all_around(machine.model.reach()))
+    }
+}
+
+/// A box around an arm of that reach, in mm.
+fn all_around(reach: f64) -> Bounds {
+    /// Heights of the work over the foot of an arm, as shares of its reach.
+    const HEIGHTS: (f64, f64) = (-0.1, 0.4);
+    const HALF_A_TURN: i32 = 1800;
+    let share = |share: f64| (share * reach).round() as i32;
+    Bounds {
+        least: Spot {
+            x: -share(1.0),
+            y: -share(1.0),
+            z: share(HEIGHTS.0),
+            yaw: -HALF_A_TURN,
+        },
+        most: Spot {
+            x: share(1.0),
+            y: share(1.0),
+            z: share(HEIGHTS.1),
+            yaw: HALF_A_TURN,
+        },
     }
 }
 
@@ -220,28 +254,24 @@ mod tests {
             ..Asked::default()
         };
         let bounds = asked.bounds(&base).unwrap();
-        let widened = |spot: Option<[i32; 4]>| {
+        let widened = |spot: [i32; 4]| {
             asked
-                .widened(&bounds, spot.map(Spot::from_parts))
+                .widened(&bounds, Spot::from_parts(spot))
                 .map(|wider| (wider.least.parts(), wider.most.parts()))
         };
         // Inside, or at an edge that the user set.
-        assert_eq!(widened(Some([900, 50, 450, 20])), None);
-        assert_eq!(widened(Some([900, 100, 450, 20])), None);
-        let at_an_edge = widened(Some([1500, 100, 450, -900]));
+        assert_eq!(widened([900, 50, 450, 20]), None);
+        assert_eq!(widened([900, 100, 450, 20]), None);
+        let at_an_edge = widened([1500, 100, 450, -900]);
         assert_eq!(at_an_edge, Some(([500, -100, 200, -1800], [2000, 100, 800, 900])));
-        // Nothing was found.
-        assert_eq!(
-            widened(None),
-            Some(([0, -100, -100, -1800], [2000, 100, 1100, 1800]))
-        );
         let all_given = Asked {
             x: Some("0..1"),
             y: Some("0..1"),
             z: Some("0..1"),
             yaw: Some("0"),
         };
-        assert_eq!(all_given.widened(&all_given.bounds(&base).unwrap(), None), None);
+        let kept = all_given.bounds(&base).unwrap();
+        assert_eq!(all_given.widened(&kept, kept.most), None);
     }
 
     #[test]

@@ -116,7 +116,11 @@ pub fn place(
             let base = ready.machine.base.value.frame;
             let bounds = asked.bounds(&base).map_err(Refusal::BadBounds)?;
             progress(Stage::Placing);
-            Ok(placed(&ready, asked, bounds))
+            let placement = placed(&ready, asked, bounds);
+            match asked.farther(&ready.machine, &placement) {
+                Some(all_around) => Ok(placed(&ready, asked, all_around)),
+                None => Ok(placement),
+            }
         }
     }
 }
@@ -241,7 +245,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
     };
     let (mut best, mut refused) = best_within(&bounds);
     for _ in 0..MOST_WIDENINGS {
-        let Some(wider) = asked.widened(&bounds, best.as_ref().map(|best| best.spot)) else {
+        let Some(wider) = best.as_ref().and_then(|best| asked.widened(&bounds, best.spot)) else {
             break;
         };
         let (found, why) = best_within(&wider);

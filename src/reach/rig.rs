@@ -3,7 +3,7 @@
 use crate::kinematics::pose::Pose;
 use crate::kinematics::{Joints, Mechanism};
 use crate::machine::Model;
-use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::Axis;
 
 /// A machine set up in its cell.
@@ -35,6 +35,16 @@ impl<'m> Rig<'m> {
     #[must_use]
     pub fn flange_in_root(&self, blade_in_work: &Pose) -> Pose {
         self.work_in_root * *blade_in_work * self.flange_in_blade
+    }
+
+    /// Where a point of the work is in the root.
+    #[must_use]
+    pub fn point_in_root(&self, point: Point3) -> Point3 {
+        let there = Frame {
+            origin: point,
+            orientation: Orientation::IDENTITY,
+        };
+        Frame::from(self.work_in_root * Pose::from(there)).origin
     }
 
     /// Where the blade is in the work at these axis values.

@@ -12,8 +12,8 @@ use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::reach::trouble::Trouble;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
-use vcutc_backend_api::ir::PlacedFrame;
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::ir::{MachineKind, PlacedFrame};
+use vcutc_backend_api::units::{Angle, Length};
 
 /// How far the base is moved along a direction, in mm.
 const DISTANCES: [f64; 14] = [
@@ -48,6 +48,21 @@ impl Shift {
         (x * x + y * y + z * z).sqrt() + self.turn.abs()
     }
 
+    /// What a move of the base is called.
+    fn how(&self) -> String {
+        let parts = ["x", "y", "z"]
+            .into_iter()
+            .zip(self.by)
+            .filter(|(_, part)| *part != 0.0);
+        let parts: Vec<String> = parts
+            .map(|(axis, part)| {
+                let sign = if part > 0.0 { "+" } else { "" };
+                format!("{axis} {sign}{} mm", show(part))
+            })
+            .collect();
+        format!("move the base by {}", parts.join(", "))
+    }
+
     fn of(&self, base: &Frame) -> Frame {
         let [x, y, z] = self.by;
         let now = base.orientation.to_zyx();
@@ -65,6 +80,52 @@ impl Shift {
 pub(super) fn moved(case: &mut Case<'_>) -> Option<Remedy> {
     let elsewhere = moved_to(case)?;
     Some(remedy(case, &elsewhere))
+}
+
+/// Distances of the work's middle from the first axis of an arm, as shares of its reach, the farthest first.
+const AWAY: [f64; 6] = [0.74, 0.66, 0.58, 0.5, 0.42, 0.35];
+/// How far the work is lifted or lowered there, in mm.
+const LIFTS: [f64; 5] = [0.0, 200.0, -200.0, 400.0, -400.0];
+
+/// The base straight towards an arm that the work is far away from: so far that steps around the present place lead nowhere.
+pub(super) fn nearer(case: &mut Case<'_>) -> Option<Remedy> {
+    let model = &case.machine.model;
+    let (middle, reach) = (middle_in_root(case), model.reach());
+    let distance = libm::hypot(middle.x, middle.y);
+    if model.kind() != MachineKind::Robot || distance <= reach {
+        return None;
+    }
+    // Whole centimetres: nobody measures a place of the work in its cell finer than that.
+    let tens = |value: f64| (value / 10.0).round() * 10.0;
+    let towards = |share: f64| {
+        let way = (share * reach - distance) / distance;
+        [tens(middle.x * way), tens(middle.y * way)]
+    };
+    let shifts = AWAY.map(towards).into_iter().flat_map(|[x, y]| {
+        LIFTS.map(|lift| Shift {
+            by: [x, y, lift],
+            turn: 0.0,
+        })
+    });
+    let (shift, base) = nearest(case, shifts.collect())?;
+    let elsewhere = Elsewhere {
+        how: shift.how(),
+        base,
+    };
+    Some(remedy(case, &elsewhere))
+}
+
+/// The middle of the stock, seen from the machine's root.
+fn middle_in_root(case: &Case<'_>) -> Point3 {
+    let stock = case.unreachable.program.program().stock;
+    let half = |size: Length| size.to_mm() / 2.0;
+    let middle = Point3::new(half(stock.width), half(stock.depth), half(stock.height));
+    rig(case).point_in_root(middle)
+}
+
+fn rig<'c>(case: &Case<'c>) -> Rig<'c> {
+    let machine = case.machine;
+    Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame)
 }
 
 /// The base turned about the root's z by the least.
@@ -91,18 +152,8 @@ pub(super) fn moved_to(case: &mut Case<'_>) -> Option<Elsewhere> {
         .flat_map(|direction| DISTANCES.map(|distance| direction.map(|part| part * distance)))
         .map(|by| Shift { by, turn: 0.0 });
     let (shift, base) = nearest(case, shifts.collect())?;
-    let parts = ["x", "y", "z"]
-        .into_iter()
-        .zip(shift.by)
-        .filter(|(_, part)| *part != 0.0);
-    let parts: Vec<String> = parts
-        .map(|(axis, part)| {
-            let sign = if part > 0.0 { "+" } else { "" };
-            format!("{axis} {sign}{} mm", show(part))
-        })
-        .collect();
     Some(Elsewhere {
-        how: format!("move the base by {}", parts.join(", ")),
+        how: shift.how(),
         base,
     })
 }
@@ -141,7 +192,7 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
     // Stable, so that of equally near ones the first stays first.
     shifts.sort_by(|a, b| a.size().total_cmp(&b.size()));
     let now = case.machine.base.value;
-    let rig = Rig::new(&case.machine.model, case.machine.tool.value.frame, now.frame);
+    let rig = rig(case);
     let poses = TaughtPoses::of(&case.unreachable.program);
     let judge = Judge::new(
         rig.mechanism,

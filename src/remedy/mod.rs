@@ -197,6 +197,10 @@ fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
 
 /// The same cuts in another way, cuts that ask less of the arm, or the work in another place: one of each kind.
 fn elsewhere(case: &mut Case<'_>) -> Vec<Remedy> {
+    // Where the work is out of all reach, neither its cuts nor small steps matter.
+    if let Some(nearer) = tried(case, base::nearer) {
+        return vec![nearer];
+    }
     let way = tried(case, process::other_direction).or_else(|| tried(case, process::other_order));
     let swing = tried(case, process::smaller_swing);
     let base = tried(case, base::moved).or_else(|| tried(case, base::turned));

@@ -3,9 +3,8 @@
 use crate::kinematics::Joints;
 use crate::kinematics::pose::Pose;
 use crate::machine::Model;
-use core::f64::consts::TAU;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
-use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
+use vcutc_backend_api::ir::{AxisKind, MachineKind};
 use vcutc_backend_api::units::Angle;
 
 /// How the blade is mounted, and the rake at which it cuts.
@@ -100,7 +99,7 @@ pub(super) fn tools(model: &Model) -> Vec<Tool> {
         block: BLOCK,
     };
     match model.kind() {
-        MachineKind::Robot if reach(model) < SMALL_ARM => {
+        MachineKind::Robot if model.reach() < SMALL_ARM => {
             let short = tool(120.0, 0, RAKE);
             vec![
                 short,
@@ -136,7 +135,7 @@ const HEIGHTS: [f64; 6] = [-0.1, 0.0, 0.1, 0.2, 0.3, 0.4];
 const TURNS: [i32; 8] = [90, 0, -90, 180, 45, -45, 135, -135];
 
 fn before_the_arm(model: &Model, block: [u32; 3]) -> Vec<Place> {
-    let reach = reach(model);
+    let reach = model.reach();
     let mut places = Vec::with_capacity(AWAY.len() * HEIGHTS.len() * TURNS.len());
     for turn in TURNS {
         for height in HEIGHTS {
@@ -146,39 +145,6 @@ fn before_the_arm(model: &Model, block: [u32; 3]) -> Vec<Place> {
         }
     }
     places
-}
-
-/// How many values of an axis a reach is looked for over.
-const SAMPLES: u32 = 24;
-
-/// How far from its first axis the flange comes, in mm: the farthest of a grid over the two axes that stretch an arm.
-fn reach(model: &Model) -> f64 {
-    let values = |place: usize| {
-        let axis = model.axes.get(place);
-        (0..=SAMPLES).filter_map(move |step| axis.map(|axis| at(axis, step)))
-    };
-    let mut farthest = 0.0_f64;
-    for second in values(1) {
-        for third in values(2) {
-            let joints: Joints = core::array::from_fn(|place| match place {
-                1 => second,
-                2 => third,
-                _ => 0.0,
-            });
-            let flange = Frame::from(model.mechanism.flange_in_root(&joints));
-            farthest = farthest.max(libm::hypot(flange.origin.x, flange.origin.y));
-        }
-    }
-    farthest
-}
-
-/// A value within an axis's range; ranges of several turns say nothing beyond one.
-fn at(axis: &Axis, step: u32) -> f64 {
-    let (least, most) = match axis.kind {
-        AxisKind::Rotary => (axis.min.max(-TAU / 2.0), axis.max.min(TAU / 2.0)),
-        AxisKind::Linear => (axis.min, axis.max),
-    };
-    least + (most - least) * f64::from(step) / f64::from(SAMPLES)
 }
 
 /// Heights of the block's bottom over the mount, in mm.

@@ -77,7 +77,7 @@ pub(super) fn conflict(asked: &RoughVcut, bounds: &[Bound], nearest: &[Option<f6
             .filter_map(|(&bound, nearest)| nearest.map(|nearest| ladder(asked, bound, nearest)))
             .collect(),
         resort: Offer::all_open(asked),
-        otherwise: Some("widen one of these, or leave more of the parameters `auto`".to_owned()),
+        otherwise: Some("widen several of these at once, or set more of the parameters to `auto`".to_owned()),
     }
 }
 

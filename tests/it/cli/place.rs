@@ -52,6 +52,31 @@ fn the_base_that_is_printed_makes_the_job_compile() {
     );
 }
 
+/// However far away the base is: where nothing is near and nobody asked for bounds, the search goes all around the robot.
+#[test]
+fn a_base_far_away_is_brought_into_reach() {
+    let out = folder();
+    let near = read("tests/process/err/VC0510_far_away.vcut");
+    let far = near.replace("x = 3600 mm, y = -600 mm", "x = 6600 mm, y = 2600 mm");
+    assert_ne!(near, far);
+    fs::write(out.path().join("far.vcut"), &far).unwrap();
+    let run = vcutc(out.path(), &["place", "far.vcut"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let line = run.stdout.lines().find_map(|line| line.strip_prefix("  base = "));
+    let base = line.unwrap_or_else(|| panic!("{}", run.stdout));
+    let moved = far.replace(
+        "frame(x = 6600 mm, y = 2600 mm, z = 650 mm, a = 90 deg, b = 0 deg, c = 0 deg)",
+        base,
+    );
+    assert_ne!(moved, far);
+    fs::write(out.path().join("moved.vcut"), moved).unwrap();
+    let run = vcutc(out.path(), &["check", "moved.vcut"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    // Who asks for bounds gets no others.
+    let run = vcutc(out.path(), &["place", "far.vcut", "--z", "600..700"]);
+    assert_eq!(run.code, Some(1), "{}", run.stdout);
+}
+
 fn copy(from: &std::path::Path, to: &std::path::Path) {
     fs::create_dir(to).unwrap();
     for entry in fs::read_dir(from).unwrap() {
