@@ -15,7 +15,7 @@ use crate::kinematics::opw::Coupling;
 use crate::machine::Model;
 use crate::pace::{Basis, Kept};
 use crate::reach::solve::{ReachReport, Reached};
-use vcutc_backend_api::ir::{Action, Axis, Program};
+use vcutc_backend_api::ir::Axis;
 
 /// Something that is worth knowing of a program before it runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,8 +68,6 @@ pub enum Reason {
     NoPlaceForIt,
     /// The arm has no closed form, and its distance from singular poses is not measured.
     NotMeasured,
-    /// The machine interpolates its rotary axes, and the way of the edge is then another one.
-    OtherInterpolation,
     /// Neither arm nor holder has a body.
     NoBody,
     /// The target has no reader.
@@ -220,7 +218,9 @@ fn of_machine(carried: Carried<'_>) -> Vec<Checked> {
     all.extend(singular_poses(&model.mechanism, report));
     all.extend(branch(&model.mechanism));
     all.extend(elbow(&model.mechanism));
-    all.push(turns(&model.mechanism, carried.reached.program.program()));
+    // Arms turn the blade about one axis, for which the extension of the cuts is computed; the sweep of machines that interpolate
+    // their rotary axes is proven with the reach of the program.
+    all.push(made(Check::Turns));
     all
 }
 
@@ -295,21 +295,6 @@ fn elbow(mechanism: &Mechanism) -> Option<Checked> {
             Coupling::Serial => None,
         },
         Mechanism::Mounted(_) | Mechanism::Serial(_) | Mechanism::FiveAxis(_) => None,
-    }
-}
-
-/// The extension of the cuts is computed with the blade turning about one axis, as robots turn it.
-fn turns(mechanism: &Mechanism, program: &Program) -> Checked {
-    let turns = program
-        .ops
-        .iter()
-        .any(|op| matches!(op.action, Action::Turn { .. }));
-    match mechanism {
-        Mechanism::FiveAxis(_) if turns => not_made(Check::Turns, Reason::OtherInterpolation),
-        Mechanism::OrthoParallel(_)
-        | Mechanism::Mounted(_)
-        | Mechanism::Serial(_)
-        | Mechanism::FiveAxis(_) => made(Check::Turns),
     }
 }
 

@@ -11,6 +11,7 @@ use crate::reach::legs::{Leg, Pace, Stroke, legs};
 use crate::reach::path::{Singularity, Violation};
 use crate::reach::rig::Rig;
 use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
+use crate::reach::sweep::{BladePart, Cure, Sweep};
 use crate::reach::trouble::{Count, Failing, Leads, Trouble};
 use crate::reach::way::Obstacle;
 use crate::remedy;
@@ -18,6 +19,7 @@ use crate::source::Span;
 use crate::wanted::Wanted;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Axis, MachineKind, OpId, OrientationId, Program, Site};
+use vcutc_backend_api::units::Length;
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.
@@ -112,6 +114,14 @@ impl<'s> Scene<'s> {
             Trouble::Way { .. } => {
                 "choose a `home` from which the blade comes to the work from above".to_owned()
             }
+            Trouble::Sweep(sweep) => match sweep.cure {
+                Cure::HigherUp(_) => {
+                    "turn the blade higher above the work, with a larger `clearance`".to_owned()
+                }
+                Cure::FartherOut(_) | Cure::Unknown => {
+                    "turn the blade farther beside the work, with a larger `extension`".to_owned()
+                }
+            },
             Trouble::Nowhere => "bring the work and the machine together with `base`".to_owned(),
         }
     }
@@ -150,6 +160,7 @@ impl<'s> Scene<'s> {
             } => self.motion(failing, *other_cuts, hardest.as_ref()),
             Trouble::NoCommonBranch { failing, other } => self.no_common_branch(failing, other),
             Trouble::Way { op, leads, obstacle } => self.way(*op, *leads, obstacle),
+            Trouble::Sweep(sweep) => self.sweep(sweep),
             Trouble::Nowhere => Diagnostic::new(
                 Code::OutOfReach,
                 "the machine reaches no pose of this job",
@@ -163,7 +174,9 @@ impl<'s> Scene<'s> {
     fn lacks_an_axis(&self, trouble: &Trouble) -> Option<Diagnostic> {
         let failing = match trouble {
             Trouble::Motion { failing, .. } => failing,
-            Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Nowhere => return None,
+            Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => {
+                return None;
+            }
         };
         let taught = match legs(self.program).get(failing.op.0 as usize)? {
             Leg::ByAxes(pose) => [None, Some(*pose)],
@@ -419,6 +432,47 @@ impl<'s> Scene<'s> {
         .note("all axes move at once, each straight to its value, so the blade does not go along a line")
     }
 
+    fn sweep(&self, sweep: &Sweep) -> Diagnostic {
+        let part = match sweep.part {
+            BladePart::Edge => "an edge",
+            BladePart::Body => "the blade above its edges",
+        };
+        let [x, y, z] = sweep.place.map(|value| show((value * 100.0).round() / 100.0));
+        let asked = self.asked(sweep.op);
+        let (span, label) = match (sweep.cure, asked) {
+            (Cure::HigherUp(by), Some(asked)) => (
+                asked.clearance.span,
+                format!("turned {} mm higher, it clears the work", show_up(by)),
+            ),
+            (Cure::FartherOut(by), Some(asked)) => (
+                asked.extension.span,
+                format!("turned {} mm farther beside it, it clears the work", show_up(by)),
+            ),
+            (Cure::Unknown, Some(asked)) => (asked.extension.span, "the blade turns here".to_owned()),
+            (_, None) => (None, "the blade turns here".to_owned()),
+        };
+        let span = span
+            .or(asked.map(|asked| asked.head_span))
+            .unwrap_or(self.machine.head_span);
+        Diagnostic::new(
+            Code::SweepThroughWork,
+            format!(
+                "{} takes {part} through the work, at x {x} mm, y {y} mm, z {z} mm",
+                self.place(sweep.op)
+            ),
+            span,
+            label,
+        )
+        .and(
+            self.machine.model_span,
+            "its control interpolates the rotary axes, each at a constant rate",
+        )
+        .note(format!(
+            "this happens {} % along the way",
+            show((sweep.at * 1000.0).round() / 10.0)
+        ))
+    }
+
     fn axis(&self, index: usize) -> Option<&Axis> {
         self.machine.model.axes.get(index)
     }
@@ -541,6 +595,11 @@ impl<'s> Scene<'s> {
             (Some(_) | None, _) => 0.0,
         }
     }
+}
+
+/// A length rounded up to hundredths of a millimetre.
+fn show_up(length: Length) -> String {
+    show((length.to_mm() * 100.0 - 1e-6).ceil() / 100.0)
 }
 
 fn degrees(angle: f64) -> String {

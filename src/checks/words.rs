@@ -184,7 +184,6 @@ impl Reason {
             Self::NotStated => "not_stated",
             Self::NoPlaceForIt => "no_place_for_it",
             Self::NotMeasured => "not_measured",
-            Self::OtherInterpolation => "other_interpolation",
             Self::NoBody => "no_body",
             Self::NoReader => "no_reader",
         }
@@ -198,7 +197,6 @@ impl Reason {
             Self::NotStated => "not known for this machine",
             Self::NoPlaceForIt => "descriptions of machines cannot state its range",
             Self::NotMeasured => "not measured for an arm without a closed form",
-            Self::OtherInterpolation => "the control interpolates the rotary axes",
             Self::NoBody => "their shapes are not known",
             Self::NoReader => "the target has no reader",
         }

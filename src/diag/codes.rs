@@ -182,6 +182,8 @@ codes! {
     ToolFrame = "VC0522", Warning, "a tool frame that no mount gives";
     /// Travels that became moves of all axes.
     ManyAxisMoves = "VC0527", Warning, "travels that became moves of all axes";
+    /// A turn of a five-axis machine that takes the blade through the work.
+    SweepThroughWork = "VC0528", Error, "a turn that sweeps the blade through the work";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";

@@ -6,6 +6,7 @@
 mod air;
 mod axis_moves;
 mod mount;
+mod reaching;
 mod refusal;
 mod target;
 mod trials;
@@ -25,7 +26,7 @@ use crate::memory::Memory;
 use crate::numbers::Numbers;
 use crate::pace::{self, Paced};
 use crate::plan::PlannedJob;
-use crate::reach::solve::{Changes, Reached, Unreached};
+use crate::reach::solve::Reached;
 use crate::reach_summary::{self, ReachFigures};
 use crate::readback::{Astray, Written};
 use crate::sema;
@@ -439,7 +440,7 @@ fn along_its_routes<'j>(
                 match kept.memory.choose(within, yielding.leeway(), wanted) {
                     Ok(plan) => {
                         refused = Some(before);
-                        Ok(plan)
+                        Ok(reaching::as_asked(plan, job))
                     }
                     // What the machine did not follow was sound, and is what there is to tell.
                     Err(_) => Err(Refused::Unreached(before)),
@@ -471,7 +472,7 @@ fn along_its_routes<'j>(
             };
         }
         let changes = yielding.changes(&plan);
-        match reach(job, proven.program, changes, kept, progress) {
+        match reaching::reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
                 told.extend(
                     program
@@ -485,6 +486,16 @@ fn along_its_routes<'j>(
             }
             Err(_) if wanted.is_needless() => return Ended::Overtaken,
             Err(why) => {
+                if let Some(roomier) = reaching::farther_out(settled.as_ref().unwrap_or(job), &plan, &why) {
+                    settled = Some(roomier);
+                    refused = refused.or(Some(Box::new(NotCarriedOut {
+                        plan,
+                        told,
+                        unreached: why,
+                        cut_short: None,
+                    })));
+                    continue;
+                }
                 let is_usual = yielding.is_usual();
                 let goes_on = yielding.narrow(&plan, &why);
                 let this = Box::new(NotCarriedOut {
@@ -543,22 +554,6 @@ fn paced(job: &CheckedJob, program: &Finished) -> Paced {
         (Some(reached), Some(machine)) => pace::paced(&reached.program, &machine.model),
         (None, _) | (_, None) => pace::programmed(program.verified()),
     }
-}
-
-/// Finds how the job's machine carries out its program; a job without a machine has nothing to find.
-fn reach(
-    job: &CheckedJob,
-    program: VerifiedProgram,
-    changes: Changes,
-    kept: &mut Kept<'_>,
-    progress: &mut dyn FnMut(Stage),
-) -> Result<Finished, Unreached> {
-    let Some(machine) = &job.machine else {
-        return Ok(Finished::WithoutMachine(Box::new(program)));
-    };
-    progress(Stage::Reaching);
-    let reached = kept.memory.reach(program, &machine.model, changes, kept.wanted)?;
-    Ok(Finished::Reached(Box::new(reached)))
 }
 
 /// A program that breaks a rule of its own form is the compiler's fault, whatever the job says.

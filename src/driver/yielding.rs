@@ -138,7 +138,7 @@ impl<'j> Yielding<'j> {
             trouble @ (Trouble::Motion { .. } | Trouble::NoCommonBranch { .. }) => {
                 self.narrower_swing(plan, lack(trouble))
             }
-            Trouble::Way { .. } | Trouble::Nowhere => None,
+            Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => None,
         });
         self.leeway = next.unwrap_or(self.leeway);
         next.is_some()
@@ -245,7 +245,7 @@ fn lack(trouble: &Trouble) -> Lack {
     let failing = match trouble {
         Trouble::Motion { failing, hardest, .. } => hardest.as_ref().unwrap_or(failing),
         Trouble::NoCommonBranch { failing, .. } => failing,
-        Trouble::Way { .. } | Trouble::Nowhere => return Lack::Reach,
+        Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => return Lack::Reach,
     };
     match failing.worst.what {
         Violation::OutOfReach => Lack::Reach,

@@ -274,6 +274,6 @@ const fn failing(trouble: &Trouble) -> Option<&Failing> {
             ..
         } => Some(hardest),
         Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => Some(failing),
-        Trouble::Way { .. } | Trouble::Nowhere => None,
+        Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => None,
     }
 }

@@ -22,7 +22,7 @@
 
 use super::pose::Pose;
 use super::{Joints, Solution, Solutions};
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::motion::Branch;
 
@@ -289,6 +289,33 @@ impl FiveAxis {
         });
         let least = turned.into_iter().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
         least.is_finite().then_some(least)
+    }
+
+    /// How fast the blade turns at most while all rotary axes go evenly from values to others, in rad a motion.
+    ///
+    /// The axes turn it about `k`, about `u` as `k` has turned it, and about the spindle as both have. `u` is square to both others,
+    /// so only the angle between `k` and the spindle counts, which `theta` alone changes; its cosine is greatest and least at the
+    /// ends of the motion, or where the spindle passes along `k` or against it most nearly.
+    #[must_use]
+    pub fn fastest_turn(&self, from: &Joints, to: &Joints) -> f64 {
+        let Tilting { k, u, phi, theta } = self.tilting();
+        let change = |place: usize| to[place] - from[place];
+        let spun = self.spindle.map_or(0.0, |sense| sense.about_nose(change(5)));
+        let nose = NOSE.z_axis;
+        let (on_cosine, on_sine) = (k.dot(nose), k.dot(u.cross(nose)));
+        let along = |theta: f64| on_cosine * libm::cos(theta) + on_sine * libm::sin(theta);
+        let (low, high) = (from[theta].min(to[theta]), from[theta].max(to[theta]));
+        let nearest = libm::atan2(on_sine, on_cosine);
+        let first = ((low - nearest) / PI).ceil();
+        let passed = [first, first + 1.0].map(|half_turns| nearest + half_turns * PI);
+        let passed = passed.into_iter().filter(|&place| place <= high);
+        let squares = change(phi) * change(phi) + change(theta) * change(theta) + spun * spun;
+        let fastest = [low, high]
+            .into_iter()
+            .chain(passed)
+            .map(|theta| squares + 2.0 * change(phi) * spun * along(theta))
+            .fold(0.0, f64::max);
+        fastest.sqrt()
     }
 
     /// The numbers of the branches.

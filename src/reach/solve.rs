@@ -24,10 +24,11 @@ use super::rig::Rig;
 use super::runs::{Split, Station, StationKind, split};
 use super::stands::Stands;
 use super::survey::{Extent, Failure, Survey, middles, moved, opened};
+use super::sweep::{self, Sweep};
 use super::trouble::{self, Trouble};
 use super::waypoints::waypoints;
 use super::ways::{OnBranch, Ways};
-use crate::kinematics::Joints;
+use crate::kinematics::{Joints, Mechanism};
 use crate::machine::Model;
 use crate::wanted::Wanted;
 use rayon::prelude::*;
@@ -213,6 +214,10 @@ pub fn again(program: VerifiedProgram, model: &Model, found: Found) -> Result<Re
 /// Checks the motion and joins it to the program.
 fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Reached, Unreached> {
     let program = changed(program, &solved.report.changes)?;
+    if let Some(sweep) = swept(&program, rig, &solved.ends) {
+        let trouble = Trouble::Sweep(sweep);
+        return Err(Unreached::Unreachable(Box::new(Unreachable { program, trouble })));
+    }
     let mut motion = Motion {
         ends: solved.ends.into_iter().map(AxisValues).collect(),
         stretches: solved.report.stretches.clone(),
@@ -221,6 +226,15 @@ fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Rea
     motion.waypoints = waypoints(program.program(), &legs(program.program()), rig, &motion);
     let report = solved.report;
     joined_to(program, rig, Found { motion, report })
+}
+
+/// A motion that sweeps the blade through the work, where rotary axes are interpolated. About one axis, as arms turn it, the
+/// extension of the cuts keeps it clear.
+fn swept(program: &VerifiedProgram, rig: &Rig<'_>, ends: &[Joints]) -> Option<Sweep> {
+    match rig.mechanism {
+        Mechanism::FiveAxis(_) => sweep::clear(program, rig, ends).err(),
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => None,
+    }
 }
 
 /// The program as it is carried out.

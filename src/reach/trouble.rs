@@ -7,6 +7,7 @@ use super::legs::{Leg, Poses};
 use super::path::{Breach, Violation, prove, worst};
 use super::runs::{Split, Station, StationKind, split};
 use super::survey::{ENOUGH_TOO_FAST, Extent, Failure, Survey, moved};
+use super::sweep::Sweep;
 use super::way::Obstacle;
 use super::ways::{OnBranch, Refused, axis_without_turn};
 use crate::kinematics::Joints;
@@ -42,6 +43,8 @@ pub enum Trouble {
         /// Where the blade is too low.
         obstacle: Obstacle,
     },
+    /// A motion that sweeps the blade through the work.
+    Sweep(Sweep),
     /// A machine that is nowhere: without a motion to any pose that it can take.
     Nowhere,
 }
@@ -52,7 +55,7 @@ impl Trouble {
     pub const fn op(&self) -> Option<OpId> {
         match self {
             Self::Motion { failing, .. } | Self::NoCommonBranch { failing, .. } => Some(failing.op),
-            Self::Way { op, .. } => Some(*op),
+            Self::Way { op, .. } | Self::Sweep(Sweep { op, .. }) => Some(*op),
             Self::Nowhere => None,
         }
     }

@@ -183,7 +183,7 @@ fn failing(case: &Case<'_>) -> Strokes {
         Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => {
             Strokes::only(program, failing.op)
         }
-        Trouble::Way { .. } | Trouble::Nowhere => Strokes::default(),
+        Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => Strokes::default(),
     }
 }
 

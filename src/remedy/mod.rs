@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | a rate | the highest speeds that the axes follow (`speed`) |
 //! | reach, limits, singular poses, the branch | another direction or order of the cuts, a smaller swing (`process`), the base moved or turned by the least that helps (`base`) |
+//! | a turn that sweeps the blade through the work | a larger extension or clearance, another direction (`process`) |
 //! | the way from home or to home | a home above the first cut (`home`), else the base |
 //!
 //! A rate that would need speeds far below those asked for is taken for a place the arm had better avoid: what mends the
@@ -137,6 +138,11 @@ pub fn remedies(
             let home = tried(&mut case, home::raised);
             let base = home.or_else(|| tried(&mut case, base::moved));
             base.into_iter().collect()
+        }
+        Trouble::Sweep(_) => {
+            let room = tried(&mut case, process::more_room);
+            let way = tried(&mut case, process::other_direction);
+            room.into_iter().chain(way).collect()
         }
         Trouble::Nowhere => tried(&mut case, base::moved).into_iter().collect(),
     };

@@ -4,10 +4,11 @@ use super::{Case, Remedy, trial};
 use crate::job::{Auto, CheckedJob, Direction, Operation, Order, RoughVcut};
 use crate::plan::PlannedOperation;
 use crate::plan::parameters::show;
+use crate::reach::sweep::{Cure, Sweep};
 use crate::reach::trouble::Trouble;
 use crate::source::Span;
 use vcutc_backend_api::ir::{OpId, OperationId};
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::units::{Angle, Length};
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
@@ -54,6 +55,48 @@ pub(super) fn smaller_swing(case: &mut Case<'_>) -> Option<Remedy> {
         })
 }
 
+/// The blade farther beside the work where it turns, or higher above it.
+pub(super) fn more_room(case: &mut Case<'_>) -> Option<Remedy> {
+    let cure = match &case.unreachable.trouble {
+        Trouble::Sweep(sweep) => sweep.cure,
+        Trouble::Motion { .. } | Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Nowhere => {
+            return None;
+        }
+    };
+    let (operation, asked) = asked(case)?;
+    let PlannedOperation::RoughVcut(vcut) = case.plan.operations.get(usize::from(operation.0))?;
+    let planned = vcut.parameters.extension;
+    match cure {
+        Cure::FartherOut(by) => {
+            let extension = roomy(planned + by);
+            works(case, operation, |asked| {
+                asked.extension.value = Auto::Given(extension)
+            })
+            .then(|| stated_length(asked, "extension", asked.extension.span, extension))
+        }
+        Cure::HigherUp(by) => {
+            let clearance = roomy(asked.clearance.value + by);
+            works(case, operation, |asked| asked.clearance.value = clearance)
+                .then(|| stated_length(asked, "clearance", asked.clearance.span, clearance))
+        }
+        Cure::Unknown => None,
+    }
+}
+
+/// A length rounded up to what people like to paste: tenths of a millimetre.
+fn roomy(length: Length) -> Length {
+    Length::mm((length.to_mm() * 10.0 - 1e-6).ceil() / 10.0)
+}
+
+fn stated_length(asked: &RoughVcut, field: &str, span: Option<Span>, length: Length) -> Remedy {
+    let text = format!("{} mm", show(length.to_mm()));
+    let Remedy { edits, .. } = stated(asked, field, span, &text);
+    Remedy {
+        advice: format!("let the blade turn with `{field} = {text}`"),
+        edits,
+    }
+}
+
 /// A field with a word in place of the one it has, or added behind another where it is left out.
 pub(super) fn stated(asked: &RoughVcut, field: &str, span: Option<Span>, word: &str) -> Remedy {
     let behind_rake = asked.rake.span.map(|rake| Span {
@@ -87,7 +130,7 @@ fn works(case: &mut Case<'_>, operation: OperationId, change: impl FnOnce(&mut R
 fn asked<'c>(case: &Case<'c>) -> Option<(OperationId, &'c RoughVcut)> {
     let op: OpId = match &case.unreachable.trouble {
         Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => failing.op,
-        Trouble::Way { op, .. } => *op,
+        Trouble::Way { op, .. } | Trouble::Sweep(Sweep { op, .. }) => *op,
         Trouble::Nowhere => return None,
     };
     let program = case.unreachable.program.program();

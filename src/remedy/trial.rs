@@ -140,6 +140,7 @@ fn trouble(trouble: &Trouble, model: &Model, program: &Program) -> String {
             format!("no branch carries all cuts: {}", failure(failing, model, program))
         }
         Trouble::Way { op, .. } => format!("the way {} leads through the stock", place(program, *op)),
+        Trouble::Sweep(sweep) => format!("the blade sweeps through the work, {}", place(program, sweep.op)),
         Trouble::Nowhere => "the machine reaches nothing of it".to_owned(),
     }
 }

@@ -17,7 +17,7 @@ use crate::geom::profile::Profile;
 use core::num::NonZeroU32;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Flank, OperationId, OrientationId, Program, Site};
+use vcutc_backend_api::ir::{Action, Flank, OpId, OperationId, OrientationId, Program, Site};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::VerifiedProgram;
 
@@ -138,6 +138,17 @@ fn played(
         player.op(op.site, op.action, watch);
     }
     player.finish()
+}
+
+/// Shows the surface before every op as the cuts before it have left it. A chip counts as material until both of its flanks are
+/// cut.
+pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Surface)) {
+    let program = program.program();
+    let mut player = Player::new(Surface::untouched(program.stock), program, &[]);
+    for (op, id) in program.ops.iter().zip((0..).map(OpId)) {
+        show(id, &mut player.surface);
+        player.op(op.site, op.action, &mut |_, _| {});
+    }
 }
 
 /// A V whose chip comes free: its second flank has just been cut.

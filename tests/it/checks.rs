@@ -222,8 +222,13 @@ fn the_page_claims_of_every_five_axis_machine_what_its_sheet_lets_check() {
             "{name}"
         );
         assert!(!said.proven.contains("singular"), "{name}: {}", said.proven);
-        assert!(said.not_checked.contains("the sweep of the edge"), "{name}");
-        assert_eq!(said.class, "in-part", "{name}");
+        assert!(!said.not_checked.contains("the sweep of the edge"), "{name}");
+        let turns = compiled(&outcome)
+            .checks
+            .iter()
+            .find(|checked| checked.check == Check::Turns);
+        assert_eq!(turns.map(|turns| turns.outcome), Some(Came::Made), "{name}");
+        assert_eq!(said.class == "in-part", rates < axes, "{name}");
     }
 }
 

@@ -1,9 +1,14 @@
 //! A job on every arrangement of five-axis machines: those that hold its postures carry it out, the others say what they lack.
 
-use crate::pipeline::{Files, compile, numbers};
+use crate::pipeline::{Files, compile, numbers, told};
 use crate::repository::read;
+use glam::{DMat3, DVec3};
+use vcutc::plan::PlannedOperation;
 use vcutc::reach::solve::rig;
 use vcutc::reach::trajectory::{Spacing, trajectory};
+use vcutc_backend_api::ir::Action;
+use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::stroke::Stroke;
 
 /// The job of an example, which asks for `generic/head_head_ac`, on another machine.
 fn on(machine: &str) -> Vec<String> {
@@ -111,4 +116,135 @@ fn the_axes_shown_go_on_without_a_jump() {
     })
     .expect("nothing ends it");
     assert!(rows > 100, "{rows}");
+}
+
+/// The ends of the edges, followed along the axes of whole programs, stay beside the stock or above what is cut last: no turn takes
+/// them over the work. On the head whose C axis carries the blade round a cone that takes a longer extension than on the others.
+#[test]
+fn no_turn_takes_an_edge_over_the_work() {
+    let mut extensions = Vec::new();
+    for machine in [
+        "head_head_ba",
+        "head_table_ab",
+        "table_table_ab",
+        "head_head_ac_spindle",
+    ] {
+        let job = read("tests/process/err/VC0516_no_spindle.vcut")
+            .replace("generic/head_head_ac", &format!("generic/{machine}"))
+            .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
+        let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
+        let model = &outcome.job.as_ref().unwrap().machine.as_ref().unwrap().model;
+        let compiled = outcome.compiled.as_ref().unwrap_or_else(|| panic!("{machine}"));
+        let reached = compiled.program.reached().unwrap();
+        let program = reached.program.program();
+        let cell = program.cell.clone().unwrap();
+        let rig = rig(model, &cell);
+        let blade = &program.operations[0].blade;
+        let (sin, cos) = libm::sincos(blade.half_apex.to_rad());
+        let length = blade.cutting_length.to_mm();
+        let stock = program.stock;
+        let (mut turning, mut nearest) = (0, f64::INFINITY);
+        trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+            let turns = matches!(program.ops[sample.op.0 as usize].action, Action::Turn { .. });
+            if turns {
+                turning += 1;
+                let held = rig.blade_in_work(&sample.joints);
+                for side in [-1.0, 1.0] {
+                    let end =
+                        held.rotation * DVec3::new(side * length * sin, 0.0, -length * cos) + held.position;
+                    let outside = (-end.y)
+                        .max(end.y - stock.depth.to_mm())
+                        .max(end.z - stock.height.to_mm());
+                    nearest = f64::min(nearest, outside);
+                }
+            }
+            Ok::<(), ()>(())
+        })
+        .unwrap();
+        assert!(turning > 100, "{machine}: {turning}");
+        // `run_out` is 2 mm.
+        assert!(nearest > 1.9, "{machine}: {nearest}");
+        let PlannedOperation::RoughVcut(vcut) = &outcome.plan.as_ref().unwrap().operations[0];
+        extensions.push(vcut.parameters.extension.to_mm());
+    }
+    let [swings, on_table, both_under, round_a_cone] = extensions[..] else {
+        panic!("{extensions:?}");
+    };
+    assert_eq!((swings, swings), (on_table, both_under));
+    assert!(round_a_cone > swings + 0.5, "{extensions:?}");
+}
+
+/// The rate that a job asks for is the blade's highest: followed along the axes of whole programs it never turns faster, and at the
+/// fastest place of its slowest turns about as fast.
+#[test]
+fn no_turn_is_faster_than_the_job_asks_for() {
+    for (machine, asked) in [
+        ("head_head_ba", 40.0),
+        ("head_table_ab", 40.0),
+        ("table_table_ab", 40.0),
+        ("head_head_ac_spindle", 25.0),
+    ] {
+        let job = read("tests/process/err/VC0516_no_spindle.vcut")
+            .replace("generic/head_head_ac", &format!("generic/{machine}"))
+            .replace("reorient = 60 deg/s", &format!("reorient = {asked} deg/s"));
+        let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
+        let model = &outcome.job.as_ref().unwrap().machine.as_ref().unwrap().model;
+        let compiled = outcome.compiled.as_ref().unwrap_or_else(|| panic!("{machine}"));
+        let reached = compiled.program.reached().unwrap();
+        let program = reached.program.program();
+        let rig = rig(model, program.cell.as_ref().unwrap());
+        let mut at = None;
+        let durations: Vec<f64> = program
+            .ops
+            .iter()
+            .map(|op| {
+                let stroke = at.and_then(|from| Stroke::of(program, from, &op.action));
+                at = pose_after(at, &op.action);
+                stroke.map_or(0.0, |stroke| stroke.duration().to_s())
+            })
+            .collect();
+        let (mut fastest, mut before) = (0.0_f64, None);
+        trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+            let held = rig.blade_in_work(&sample.joints).rotation;
+            let duration = durations[sample.op.0 as usize];
+            if let Some((op, done, was)) = before
+                && op == sample.op
+                && duration > 0.0
+                && sample.done > done
+            {
+                let turned: DMat3 = held * DMat3::transpose(&was);
+                // Between close postures: from the antisymmetric part, which is exact where the trace is not.
+                let axis = DVec3::new(
+                    turned.y_axis.z - turned.z_axis.y,
+                    turned.z_axis.x - turned.x_axis.z,
+                    turned.x_axis.y - turned.y_axis.x,
+                );
+                let angle = libm::asin((axis.length() / 2.0).min(1.0)).to_degrees();
+                fastest = fastest.max(angle / ((sample.done - done) * duration));
+            }
+            before = Some((sample.op, sample.done, held));
+            Ok::<(), ()>(())
+        })
+        .unwrap();
+        assert!(fastest <= asked * (1.0 + 1e-6), "{machine}: {fastest}");
+        assert!(fastest >= asked * 0.98, "{machine}: {fastest}");
+    }
+}
+
+/// A turn that sweeps the blade through the work names the extension that is enough, and a tenth of a millimetre less is not.
+#[test]
+fn a_turn_too_near_the_work_says_how_far_is_enough() {
+    let with = |extension: &str| {
+        let job = read("tests/process/err/VC0528_short_extension.vcut").replace("6.1 mm", extension);
+        compile("job.vcut", &Files::default().with("job.vcut", job))
+    };
+    let refused = with("6.1 mm");
+    assert_eq!(numbers(&refused.diagnostics), ["VC0528"]);
+    let messages = told(&refused.diagnostics, &refused);
+    assert!(
+        messages.contains("let the blade turn with `extension = 8.6 mm`"),
+        "{messages}"
+    );
+    assert_eq!(numbers(&with("8.5 mm").diagnostics), ["VC0528"]);
+    assert!(with("8.6 mm").compiled.is_some());
 }

@@ -25,7 +25,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("numbers", &["document", "plan", "sim"]),
     ("manifest", &["diag", "document", "numbers", "source"]),
     ("machine", &["diag", "document", "kinematics", "source"]),
-    ("reach", &["kinematics", "machine", "wanted"]),
+    ("reach", &["geom", "kinematics", "machine", "sim", "wanted"]),
     ("job", &["geom", "machine", "source"]),
     ("syntax", &["diag", "source"]),
     ("format", &["diag", "source", "syntax"]),

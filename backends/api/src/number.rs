@@ -37,6 +37,10 @@ const NEAR_TIE: f64 = 1e-6;
 /// processor is not known to have the instruction, `round_ties_even` is a call, ten times as long.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
+/// What rounding down overlooks, in units of the last decimal: the rounding of the arithmetic. It is far below what proofs of rates
+/// leave.
+const NOISE: f64 = 1e-4;
+
 impl FixedDecimal {
     /// With so many decimals, at most 6 (a nanometre, where controllers have long stopped reading).
     #[must_use]
@@ -46,6 +50,14 @@ impl FixedDecimal {
             decimals,
             scale: 10_u32.pow(decimals as u32),
         }
+    }
+
+    /// The value rounded down to these decimals, for what must not be more than was computed: speeds. What is above a decimal by no
+    /// more than the rounding of arithmetic stays on it.
+    #[must_use]
+    pub fn floored(self, value: f64) -> f64 {
+        let scale = f64::from(self.scale);
+        (value * scale + NOISE).floor() / scale
     }
 
     /// How many decimals.
@@ -170,6 +182,16 @@ mod tests {
             Some(digits) if digits.bytes().all(|b| b == b'0' || b == b'.') => digits.to_owned(),
             _ => text,
         }
+    }
+
+    #[test]
+    fn speeds_are_rounded_down() {
+        let floored = |value, decimals| FixedDecimal::new(decimals).floored(value);
+        assert_eq!(floored(61.052_199, 3), 61.052);
+        assert_eq!(floored(61.052_999, 3), 61.052);
+        assert_eq!(floored(61.053, 3), 61.053);
+        // What arithmetic took from a speed that people wrote.
+        assert_eq!(floored(0.1 * 3.0 * 200.0 - 1e-13, 3), 60.0);
     }
 
     #[test]

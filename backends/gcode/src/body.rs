@@ -233,7 +233,9 @@ impl Body<'_, '_, '_, '_> {
 
     fn feed(&mut self, pace: Pace) -> Written {
         self.blocks.put(" F");
-        let feed = fine(pace.feed, self.source.settings.fine())?;
+        // Never faster than proven.
+        let format = self.source.settings.fine();
+        let feed = fine(format.floored(pace.feed), format)?;
         self.blocks.put_bytes(&feed);
         Ok(())
     }

@@ -13,13 +13,6 @@ use vcutc_backend_api::units::AngularSpeed;
 /// Decimals of both rates, in deg/s: KRL's `REAL` has seven digits, and the highest rate three before the point.
 pub(crate) const RATES: FixedDecimal = FixedDecimal::new(4);
 
-/// The units of the last of these decimals in 1 deg/s.
-const UNITS: f64 = 10_000.0;
-
-/// What rounding down overlooks, in these units: the rounding of the arithmetic, by which the way back differs from the way
-/// there. It is far below what the proof of rates leaves.
-const NOISE: f64 = 1e-4;
-
 /// Two lines say the rates.
 const LINES: u64 = 2;
 
@@ -100,5 +93,5 @@ fn rates(program: &Program, (from, to): (OrientationId, OrientationId), rate: Ra
 
 /// In deg/s, so that no turn is faster than proven.
 pub(crate) fn rounded_down(rate: AngularSpeed) -> f64 {
-    (rate.to_deg_per_s() * UNITS + NOISE).floor() / UNITS
+    RATES.floored(rate.to_deg_per_s())
 }

@@ -4,10 +4,12 @@ use crate::body::{self, NO_EXTERNAL_AXES, Source, joints};
 use crate::keywords::{AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine};
 use crate::options::zone_members;
 use crate::orient::Quaternion;
+use crate::read::TRIMMED_DECIMALS;
 use crate::speeds::{EXTERNAL, RATE_OF_NOTHING};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Action, Load, RateId, Registered};
+use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Part, Text, Written, feed, first_of, head_lines, rate};
 use vcutc_backend_api::units::Length;
 
@@ -227,7 +229,9 @@ fn speeds(source: Source<'_>, text: &mut Text<'_>) -> Written {
         number(FEED, u32::from(id.0) + 1, feed(program, id)?.to_mm_per_s(), text)?;
     }
     for id in source.speeds.rates() {
-        number(RATE, u32::from(id.0) + 1, rate(program, id)?.to_deg_per_s(), text)?;
+        // Never faster than proven.
+        let turning = FixedDecimal::new(TRIMMED_DECIMALS).floored(rate(program, id)?.to_deg_per_s());
+        number(RATE, u32::from(id.0) + 1, turning, text)?;
     }
     let rate = |id: Option<RateId>| {
         id.map_or_else(

@@ -270,6 +270,32 @@ fn where_the_first_axis_is_free_it_stays_where_it_is() {
     }
 }
 
+proptest! {
+    /// Between close places of an even motion the blade turns no faster than said, and somewhere nearly as fast.
+    #[test]
+    fn the_fastest_turn_is_that_of_close_samples(
+        arrangement in 0..7_usize,
+        spindle in 0..3_usize,
+        from in prop::array::uniform3(-PI..PI),
+        to in prop::array::uniform3(-PI..PI),
+    ) {
+        let machine = machine(arrangement, spindle);
+        let joints = |[a, b, c]: [f64; 3]| [0.0, 0.0, 0.0, a, b, if spindle == 0 { 0.0 } else { c }];
+        let (from, to) = (joints(from), joints(to));
+        const STEPS: u32 = 2000;
+        let held = |step: u32| {
+            let place = f64::from(step) / f64::from(STEPS);
+            by_isometries(&machine, &core::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * place)).rotation
+        };
+        let rates = (0..STEPS).map(|step| held(step).angle_to(&held(step + 1)) * f64::from(STEPS));
+        let sampled = rates.fold(0.0, f64::max);
+        let said = machine.fastest_turn(&from, &to);
+        // Between samples a rate that is highest at an end is a mean over their distance.
+        prop_assert!(sampled <= said + 1e-4, "{said} {sampled}");
+        prop_assert!(sampled >= said - 1e-2, "{said} {sampled}");
+    }
+}
+
 #[test]
 fn parallel_axes_and_an_axis_along_the_spindle_are_refused() {
     let pair = |outer, inner| Arrangement::HeadHead([at(outer, 0.0, 0.0, 0.0), at(inner, 0.0, 0.0, 0.0)]);

@@ -104,6 +104,14 @@ fn within(is: f64, should: f64, grain: f64) -> bool {
     (is - should).abs() <= grain * (1.0 + 1e-6) + rounding
 }
 
+/// Numbers that are rounded down may be less by all that is printed last, twice the grain, and more by nothing but the rounding of
+/// the arithmetic.
+fn is_at_most(is: f64, should: f64, grain: f64) -> bool {
+    let rounding = 1e-9 * should.abs().max(1.0);
+    let below = should - is;
+    (-(1e-3 * grain + rounding)..=2.0 * grain * (1.0 + 1e-6) + rounding).contains(&below)
+}
+
 impl<'p> Judge<'p> {
     /// A judge of a program that was printed so finely.
     #[must_use]
@@ -375,13 +383,13 @@ impl<'p> Judge<'p> {
                 let should = stroke.length / duration;
                 // A move that goes nowhere takes no time at any speed.
                 let goes = stroke.length > Length::ZERO;
-                if (goes && !self.is_feed(is, should)) || (!goes && stroke.turn > Angle::ZERO) {
+                if (goes && !self.is_rounded_down(is, should)) || (!goes && stroke.turn > Angle::ZERO) {
                     found.push(Mismatch::Feed { is: Some(is), should });
                 }
             }
             Pace::PerMinute(is) => {
                 let should = 60.0 / duration.to_s();
-                if duration > Duration::ZERO && !within(is, should, self.grain.per_minute) {
+                if duration > Duration::ZERO && !is_at_most(is, should, self.grain.per_minute) {
                     found.push(Mismatch::Time {
                         is: Duration::s(60.0 / is),
                         should: duration,
@@ -418,10 +426,8 @@ impl<'p> Judge<'p> {
             return;
         }
         let Apart { swivel, twist } = Apart::rates(from, to, rate);
-        let unit = 2.0 * self.grain.rate.to_rad_per_s();
         for (is, should) in is.into_iter().zip([swivel, twist]) {
-            let below = |is: AngularSpeed| (should - is).to_rad_per_s();
-            if !is.is_some_and(|is| within(below(is), 0.5 * unit, 0.5 * unit)) {
+            if !is.is_some_and(|is| self.is_rate(is, should)) {
                 found.push(Mismatch::Rate { is, should });
             }
         }
@@ -435,8 +441,18 @@ impl<'p> Judge<'p> {
         )
     }
 
+    /// Whether a speed is the one that was proven, rounded down.
+    fn is_rounded_down(&self, is: Speed, should: Speed) -> bool {
+        is_at_most(
+            is.to_mm_per_s(),
+            should.to_mm_per_s(),
+            self.grain.speed.to_mm_per_s(),
+        )
+    }
+
+    /// Rates of turning are rounded down, so that no turn takes less than its proven time.
     fn is_rate(&self, is: AngularSpeed, should: AngularSpeed) -> bool {
-        within(
+        is_at_most(
             is.to_rad_per_s(),
             should.to_rad_per_s(),
             self.grain.rate.to_rad_per_s(),

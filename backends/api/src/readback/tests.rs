@@ -424,6 +424,38 @@ proptest! {
         }
     }
 
+    /// Rates of turning are rounded down: by less than a unit of the last place, and never up.
+    #[test]
+    fn rates_are_never_above_the_plan(
+        place in any::<proptest::sample::Index>(),
+        below in 0.0..1.9_f64,
+        off in prop_oneof![-9.0..-0.1_f64, 2.1..9.0_f64],
+    ) {
+        let program = sample();
+        let deeds = told(&program);
+        let turning = |(place, deed): (usize, &Deed)| match deed {
+            Deed::Straight { to, pace: Pace::Speeds { tip, turn: Some(rate) }, end } => Some((place, *to, *tip, *rate, *end)),
+            _ => None,
+        };
+        // Travels that keep the blade as it is have a rate, too, and it does not matter.
+        let is_turn = |place: &usize| matches!(program.program().ops[*place].action, Action::Turn { .. });
+        let turns: Vec<_> = deeds
+            .iter()
+            .enumerate()
+            .filter(|(place, _)| is_turn(place))
+            .filter_map(turning)
+            .collect();
+        let (place, to, tip, rate, end) = turns[place.index(turns.len())];
+        let at = |by: f64| {
+            let mut deeds = deeds.clone();
+            let turn = Some(rate - GRAIN.rate * by);
+            deeds[place] = Deed::Straight { to, pace: Pace::Speeds { tip, turn }, end };
+            retraced(&program, whole(&program, deeds))
+        };
+        prop_assert!(at(below).is_ok());
+        prop_assert_eq!(at(off).unwrap_err().op.unwrap().0 as usize, place);
+    }
+
     /// The way between two orientations: its ends, its even pace, and both against the exponential of its axis.
     #[test]
     fn a_blade_turns_about_one_axis(

@@ -34,7 +34,7 @@ fn linuxcnc_in_small_letters_without_blanks_and_words_that_stay() {
     let text = "%\nn5 m428 (identity)\ng49\ng90g21 g17\tg54 g61.1\n/\n".replace("/\n", "")
         + "g93 g53 g1 x0y0z900a0b0f.006\n\
            g4p.25 ; a moment\n\
-           g53 f5.470746 b-34.16 a-30 x-272.316 y263.964 z461.303\n\
+           g53 f5.470745 b-34.16 a-30 x-272.316 y263.964 z461.303\n\
            m64p12\n\
            g4 p0.50\n\
            g43 h1\n\
@@ -44,12 +44,12 @@ fn linuxcnc_in_small_letters_without_blanks_and_words_that_stay() {
            z45.6\n\
            x-.475 y66.102 f12000\n\
            g93\n\
-           b34.16 a30 f61.052134\n\
+           b34.16 a30 f61.052133\n\
            g94 x3.820 y-15.858 f12000.\n\
            z60 f30000\n\
            m65 p12\n\
            m428\n\
-           g93 g53 x0y0z900a0b0f5.470746\n\
+           g93 g53 x0y0z900a0b0f5.470745\n\
            m30\n\
            %\n";
     assert_eq!(
@@ -77,12 +77,12 @@ fn sinumerik_with_equals_signs_and_small_letters() {
     let text = "N1 trafoof g90 g710\nN2 g60 g54\nN3 g93\n\
         supa g1 x=0 y=0 z=900 a=0 b=AC(0) f=0.006 d0\n\
         g4 f=.25\n\
-        supa x-272.316 y=263.964 z461.303 b-34.16 a-30 f5.470746 d0\n\
+        supa x-272.316 y=263.964 z461.303 b-34.16 a-30 f5.470745 d0\n\
         stopre ; now\n$a_out[12] = 1\ng4 f0.5\n\
         traori\nfgroup(z, x, y) oriaxes\norimks d1 g94\n\
         x3.82 y-15.858 z60 f30000\nz45.6\ng1 x-0.475 y66.102 f12000\n\
-        g93\nb34.16 a30 f61.052134\ng94 x3.82 y-15.858 f12000\nz60 f30000\n\
-        stopre\n$A_OUT[12]=0\ntrafoof\ng93\nsupa x0 y0 z900 a0 b0 f5.470746 d0\nm2\n";
+        g93\nb34.16 a30 f61.052133\ng94 x3.82 y-15.858 f12000\nz60 f30000\n\
+        stopre\n$A_OUT[12]=0\ntrafoof\ng93\nsupa x0 y0 z900 a0 b0 f5.470745 d0\nm2\n";
     assert_eq!(
         read("sinumerik", "RIB_12.MPF", text).map(|found| found.places.len()),
         Ok(13)
@@ -98,7 +98,7 @@ fn heidenhain_with_words_that_stay() {
         10 CYCL DEF 9.0 DWELL TIME\n11 CYCL DEF 9.1 DWELL 0.50\n\
         12 function tcpm f tcp axis pos pathctrl axis\n\
         13 L X+3.82 Y-15.858 Z+60 F30000\n14 L Z+45.6\n15 L Y+66.102 X-0.475 F12000\n\
-        16 FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS\n17 L A+30 B+34.16 F5551.255\n\
+        16 FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS\n17 L A+30 B+34.16 F5551.254\n\
         18 FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n19 L X+3.82 Y-15.858 F12000\n20 L Z+60 F30000\n\
         21 M51 ; off\n22 FUNCTION RESET TCPM\n23 L X+0 Y+0 Z+900 B+0 A+0 F3273.088 M91\n24 END PGM RIB_12 MM\n";
     assert_eq!(
@@ -429,14 +429,14 @@ fn moves_of_all_axes_keep_to_the_home_speed() {
         ("linuxcnc", "F0.006", "F0.06"),
         (
             "linuxcnc",
-            "B-34.1600 A-30.0000 F5.470746",
+            "B-34.1600 A-30.0000 F5.470745",
             "B-34.1600 A-30.0000 F5.5",
         ),
-        ("linuxcnc", "B0.0000 A0.0000 F5.470746", "B0.0000 A0.0000 F90"),
+        ("linuxcnc", "B0.0000 A0.0000 F5.470745", "B0.0000 A0.0000 F90"),
         ("sinumerik", "F0.006", "F0.06"),
         (
             "sinumerik",
-            "B-34.1600 A-30.0000 F5.470746",
+            "B-34.1600 A-30.0000 F5.470745",
             "B-34.1600 A-30.0000 F5.5",
         ),
         ("heidenhain", "F515.662", "F520"),

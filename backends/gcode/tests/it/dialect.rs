@@ -280,6 +280,12 @@ fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f6
             "{dialect} {id:?} {:?}: {is} s, not {should} s",
             op.action
         );
+        // F is rounded down: only printed ways may be shorter, never times.
+        assert!(
+            is >= should * (1.0 - 1e-9) - 4.0 * grain / speed,
+            "{dialect} {id:?} {:?}: {is} s, less than {should} s",
+            op.action
+        );
     }
     assert!(moves.next().is_none(), "{dialect}: more moves than ops");
 }

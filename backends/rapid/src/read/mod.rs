@@ -35,7 +35,7 @@ use vcutc_backend_api::readback::{Frames, Grain, Place, Reader, Says, Sources, S
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
 /// Decimals of numbers that lose their trailing zeros.
-const TRIMMED_DECIMALS: u8 = 6;
+pub(crate) const TRIMMED_DECIMALS: u8 = 6;
 
 /// Extensions of modules and lists.
 const EXTENSIONS: [&str; 5] = ["mod", "modx", "sys", "sysx", "pgf"];

@@ -1,0 +1,125 @@
+//! Turns of five-axis machines at the rate that the job asks for.
+//!
+//! The rate of an op is that of the shortest turn between its postures. Rotary axes that go each at a constant rate turn the blade
+//! on a longer way ([`super::five_axis_path`]), so in the time of the shortest turn it is turned faster than the job allows: a few
+//! per cent on a head that swings and rakes, by half on one whose C axis carries the blade round a cone. Here such ops get the rate
+//! with which the blade never turns faster than it should ([`crate::kinematics::five_axis::FiveAxis::fastest_turn`]).
+
+use super::legs::{Leg, Pace, legs};
+use crate::kinematics::Mechanism;
+use vcutc_backend_api::ir::{Action, OrientationId, Program, RateId};
+use vcutc_backend_api::motion::Motion;
+use vcutc_backend_api::units::AngularSpeed;
+
+/// Rates are rounded down to so many parts of a degree a second, so that equal turns have equal rates.
+const UNITS: f64 = 10_000.0;
+/// Turns that are longer than the shortest one by no more than this part are as long.
+const SAME: f64 = 1e-6;
+
+/// A program whose blade never turns faster than the rates of this one say, carried out by a five-axis machine as in the motion.
+/// None where it does not anyway.
+#[must_use]
+pub fn slowed(program: &Program, motion: &Motion, mechanism: &Mechanism) -> Option<Program> {
+    let machine = match mechanism {
+        Mechanism::FiveAxis(machine) => machine,
+        Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => return None,
+    };
+    let mut slowed = program.clone();
+    let mut is_slower = false;
+    for (index, leg) in legs(program).iter().enumerate() {
+        let before = index.checked_sub(1).and_then(|before| motion.ends.get(before));
+        let (Some(start), Some(end), Some(op)) = (before, motion.ends.get(index), slowed.ops.get(index))
+        else {
+            continue;
+        };
+        let Some((asked, share)) = asked(program, leg, op.action, machine.fastest_turn(&start.0, &end.0))
+        else {
+            continue;
+        };
+        let Some(rate) = known_or_new(&mut slowed.rates, rounded_down(asked, share)) else {
+            continue;
+        };
+        if let Some(op) = slowed.ops.get_mut(index) {
+            op.action = at_rate(op.action, rate);
+            is_slower = true;
+        }
+    }
+    is_slower.then_some(slowed)
+}
+
+/// The rate that an op asks for, and the part of it at which its blade turns no faster than that; none of ops that do not turn
+/// faster.
+fn asked(program: &Program, leg: &Leg, action: Action, fastest: f64) -> Option<(AngularSpeed, f64)> {
+    let stroke = leg.stroke()?;
+    let rate = match action {
+        Action::Travel { rate, .. } | Action::Turn { rate, .. } => rate,
+        Action::Home
+        | Action::AxisTravel { .. }
+        | Action::Approach { .. }
+        | Action::Retract { .. }
+        | Action::Cut { .. }
+        | Action::Ultrasonic { .. }
+        | Action::AwaitReady
+        | Action::Dwell { .. }
+        | Action::ToolChange { .. } => return None,
+    };
+    let held = |id: OrientationId| program.orientations.get(id.0 as usize).copied();
+    let shortest = held(stroke.from.held)?.angle_to(held(stroke.to.held)?).to_rad();
+    let asked = program.rates.get(usize::from(rate.0)).copied()?;
+    // A travel whose tip takes longer may turn slowly enough as it is.
+    let turns_at = match stroke.pace {
+        Pace::Feed(_) => fastest / stroke.duration,
+        Pace::Rate(_) => fastest / shortest * asked.to_rad_per_s(),
+    };
+    let is_faster = turns_at > asked.to_rad_per_s() * (1.0 + SAME);
+    is_faster.then_some((asked, shortest / fastest))
+}
+
+fn rounded_down(rate: AngularSpeed, share: f64) -> AngularSpeed {
+    let units = (rate.to_deg_per_s() * share * UNITS).floor();
+    // Slower than a ten-thousandth of a degree a second nobody asks for.
+    AngularSpeed::deg_per_s(if units > 0.0 {
+        units / UNITS
+    } else {
+        rate.to_deg_per_s() * share
+    })
+}
+
+/// The number of a rate, which is added to the table where it is not there yet. None where the table is full.
+fn known_or_new(rates: &mut Vec<AngularSpeed>, rate: AngularSpeed) -> Option<RateId> {
+    let place = rates
+        .iter()
+        .position(|known| *known == rate)
+        .unwrap_or(rates.len());
+    let id = RateId(u16::try_from(place).ok()?);
+    if place == rates.len() {
+        rates.push(rate);
+    }
+    Some(id)
+}
+
+const fn at_rate(action: Action, rate: RateId) -> Action {
+    match action {
+        Action::Travel {
+            to,
+            orientation,
+            feed,
+            ..
+        } => Action::Travel {
+            to,
+            orientation,
+            feed,
+            rate,
+        },
+        Action::Turn { to, .. } => Action::Turn { to, rate },
+        Action::Home
+        | Action::AxisTravel { .. }
+        | Action::Approach { .. }
+        | Action::Retract { .. }
+        | Action::Cut { .. }
+        | Action::Ultrasonic { .. }
+        | Action::AwaitReady
+        | Action::Dwell { .. }
+        | Action::ToolChange { .. } => action,
+    }
+}

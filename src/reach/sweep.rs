@@ -1,0 +1,479 @@
+//! What the blade sweeps where a five-axis machine turns it, held against what is left of the stock.
+//!
+//! A robot turns the blade about one fixed axis, and the extension of the cuts is planned for that. Rotary axes that go each at a
+//! constant rate ([`super::five_axis_path`]) turn it on another way: a C axis carries a tilted blade round a cone, and in the
+//! middle of the turn it may lie farther over the work than at both ends. So every motion that changes how the blade is held is
+//! looked at with the axes that carry it out.
+//!
+//! **The blade** is a triangle between its tip and the ends of both edges, and above it a strip as wide as the edges are apart, up
+//! to the spindle. **The work** is the stock as far along y as it is deep, below the surface that the cuts before have left.
+//! Both lie in planes or are prisms, so at one place of the motion they are compared exactly: the blade is clipped to the
+//! prism's sides, and what remains has to lie above the corners of the surface and above the surface with its own corners.
+//!
+//! **Proof.** With rotary axes that change by `c_i` during the motion, the blade turns by at most `w = sum |c_i|` (angular
+//! velocities of axes that carry one another add up), so a point at the distance `r` from the tip moves by at most
+//! `(|way| + w r) h` while the part `h` of the motion is done. A stretch of the motion is clear if in its middle the blade is
+//! farther from the work than its points move until the stretch's ends. Stretches are halved until they are clear, or until
+//! that is less than [`FINE`]: then the blade may be in the work, and the motion is refused. Nothing enters the
+//! work by more than [`GRAZE`] unseen.
+
+use super::legs::{Leg, Stroke, legs, numbered};
+use super::rig::Rig;
+use crate::geom::curve::Point2;
+use crate::kinematics::Joints;
+use crate::sim::prove;
+use crate::sim::surface::Surface;
+use glam::{DMat3, DVec3};
+use vcutc_backend_api::ir::{Blade, OpId, Program, Stock};
+use vcutc_backend_api::units::Length;
+use vcutc_backend_api::verify::VerifiedProgram;
+
+/// How far (mm) the blade may be in the work and count as touching it: planned extensions let an edge come up to it.
+pub const GRAZE: f64 = 0.01;
+/// Stretches are not divided any further when what they ask for beside the blade itself is this small, in mm.
+const FINE: f64 = GRAZE / 2.0;
+/// Into how many parts a turn is divided to find out how upright the blade stays.
+const UPRIGHT_STEPS: u32 = 64;
+/// Least z of the blade's direction that makes it upright enough to say from which height on it is above the work.
+const LEAST_UPRIGHT: f64 = 0.05;
+/// How far (mm) the tip is moved at most to see whether the blade then is clear.
+const FARTHEST: f64 = 500.0;
+/// To how much (mm) that distance is found.
+const ROOM_STEP: f64 = 0.01;
+
+/// A motion that sweeps the blade through the work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sweep {
+    /// Its op.
+    pub op: OpId,
+    /// Where on its way the blade is in the work, from 0 to 1.
+    pub at: f64,
+    /// What of the blade is.
+    pub part: BladePart,
+    /// A place in W where it is.
+    pub place: [f64; 3],
+    /// What would clear this motion and all others of the program.
+    pub cure: Cure,
+}
+
+/// A part of the blade.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BladePart {
+    /// An edge, within the cutting length.
+    Edge,
+    /// The body above it.
+    Body,
+}
+
+/// What would clear a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cure {
+    /// The tip farther beside the work, by this.
+    FartherOut(Length),
+    /// The tip higher above the work, by this.
+    HigherUp(Length),
+    /// Neither, as far as was looked.
+    Unknown,
+}
+
+/// Proves that no motion which turns the blade sweeps it through the work. `ends` are the axes at the end of every op, and the
+/// rig's rotary axes go evenly between them.
+///
+/// # Errors
+/// The first motion that does.
+pub(super) fn clear(program: &VerifiedProgram, rig: &Rig<'_>, ends: &[Joints]) -> Result<(), Sweep> {
+    let legs = legs(program.program());
+    let mut turns = numbered(&legs)
+        .filter_map(|(op, leg)| Turn::of(program.program(), rig, ends, op, leg))
+        .peekable();
+    let mut found: Option<Sweep> = None;
+    prove::accompanied(program, &mut |op, surface| {
+        if let Some(turn) = turns.next_if(|turn| turn.op == op) {
+            judge(&turn, surface, &mut found);
+        }
+    });
+    match found {
+        None => Ok(()),
+        Some(first) => Err(first),
+    }
+}
+
+/// Notes the first motion that is not clear. Of those after it, only how much more room they need.
+fn judge(turn: &Turn<'_, '_>, surface: &mut Surface, found: &mut Option<Sweep>) {
+    let work = turn.work(surface);
+    let stands = turn.stands();
+    match found {
+        None => {
+            if let Err(hit) = turn.prove(&work, DVec3::ZERO) {
+                *found = Some(Sweep {
+                    op: turn.op,
+                    at: hit.at,
+                    part: hit.part,
+                    place: hit.place.to_array(),
+                    cure: turn.cure(&work, 0.0),
+                });
+            }
+        }
+        Some(first) => {
+            let so_far = match (first.cure, stands) {
+                (Cure::FartherOut(by), Stands::Beside(_)) | (Cure::HigherUp(by), Stands::Above) => by.to_mm(),
+                (Cure::FartherOut(_) | Cure::HigherUp(_) | Cure::Unknown, _) => return,
+            };
+            if turn.prove(&work, stands.outwards() * so_far).is_err() {
+                first.cure = turn.cure(&work, so_far);
+            }
+        }
+    }
+}
+
+/// Where a blade is that turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stands {
+    /// Beside the work, which is in the other direction along y.
+    Beside(f64),
+    /// Above it.
+    Above,
+}
+
+impl Stands {
+    const fn outwards(self) -> DVec3 {
+        match self {
+            Self::Beside(y) => DVec3::new(0.0, y, 0.0),
+            Self::Above => DVec3::Z,
+        }
+    }
+}
+
+/// A motion that changes how the blade is held.
+struct Turn<'t, 'm> {
+    op: OpId,
+    rig: &'t Rig<'m>,
+    stock: Stock,
+    /// The tip, from and to, in W.
+    tip: [DVec3; 2],
+    axes: [Joints; 2],
+    /// By how much the blade turns at most, in rad.
+    angle: f64,
+    blade: Outline,
+}
+
+/// The blade in its frame: half the distance of the ends of its edges, their height above the tip, and that of the spindle.
+#[derive(Clone, Copy, Debug)]
+struct Outline {
+    half_width: f64,
+    edge_height: f64,
+    spindle_height: f64,
+}
+
+impl Outline {
+    fn of(blade: &Blade, rig: &Rig<'_>) -> Self {
+        let (sin, cos) = libm::sincos(blade.half_apex.to_rad());
+        let length = blade.cutting_length.to_mm();
+        Self {
+            half_width: length * sin,
+            edge_height: length * cos,
+            spindle_height: -rig.flange_in_blade.position.z,
+        }
+    }
+
+    fn edges(&self) -> Piece {
+        let [left, right] = self.across(self.edge_height);
+        Piece {
+            part: BladePart::Edge,
+            corners: vec![DVec3::ZERO, left, right],
+        }
+    }
+
+    /// What is above the edges, up to a height.
+    fn body(&self, height: f64) -> Option<Piece> {
+        let top = height.min(self.spindle_height);
+        (top > self.edge_height).then(|| {
+            let ([left, right], [left_above, right_above]) =
+                (self.across(self.edge_height), self.across(top));
+            Piece {
+                part: BladePart::Body,
+                corners: vec![left, right, right_above, left_above],
+            }
+        })
+    }
+
+    /// Both sides of the blade at a height above its tip, in T, whose z points down the blade.
+    const fn across(&self, height: f64) -> [DVec3; 2] {
+        [
+            DVec3::new(-self.half_width, 0.0, -height),
+            DVec3::new(self.half_width, 0.0, -height),
+        ]
+    }
+}
+
+/// A convex piece of the blade, in T.
+struct Piece {
+    part: BladePart,
+    corners: Vec<DVec3>,
+}
+
+impl Piece {
+    /// How far its points are from the tip at most.
+    fn radius(&self) -> f64 {
+        self.corners
+            .iter()
+            .map(|corner| corner.length())
+            .fold(0.0, f64::max)
+    }
+}
+
+/// Where the blade is in the work.
+struct Hit {
+    at: f64,
+    part: BladePart,
+    place: DVec3,
+}
+
+impl<'t, 'm> Turn<'t, 'm> {
+    /// The motion of an op, if it changes how the blade is held.
+    fn of(program: &Program, rig: &'t Rig<'m>, ends: &[Joints], op: OpId, leg: &Leg) -> Option<Self> {
+        let Stroke { from, to, .. } = leg.stroke().filter(|stroke| stroke.from.held != stroke.to.held)?;
+        let index = op.0 as usize;
+        let axes = [*ends.get(index.checked_sub(1)?)?, *ends.get(index)?];
+        let operation = program.ops.get(index)?.site.operation()?;
+        let blade = &program.operations.get(usize::from(operation.0))?.blade;
+        Some(Self {
+            op,
+            rig,
+            stock: program.stock,
+            tip: [from.tip, to.tip].map(|tip| DVec3::new(tip.x, tip.y, tip.z)),
+            axes,
+            angle: axes[0]
+                .iter()
+                .zip(axes[1])
+                .skip(3)
+                .map(|(from, to)| (to - from).abs())
+                .sum(),
+            blade: Outline::of(blade, rig),
+        })
+    }
+
+    /// How the blade is turned at a place of the motion.
+    fn held(&self, place: f64) -> DMat3 {
+        let [start, end] = &self.axes;
+        let joints = core::array::from_fn(|axis| start[axis] + (end[axis] - start[axis]) * place);
+        self.rig.blade_in_work(&joints).rotation
+    }
+
+    /// The work that the blade may meet.
+    fn work(&self, surface: &mut Surface) -> Work {
+        let reach = self.blade.spindle_height.max(self.blade.edge_height) + self.blade.half_width;
+        let (left, right) = (self.tip[0].x.min(self.tip[1].x), self.tip[0].x.max(self.tip[1].x));
+        Work::of(surface, self.stock, left - reach, right + reach)
+    }
+
+    /// From which height above its tip on the blade stays above a height above the lower tip. (Its sides hang lower than its middle
+    /// by half its width at most.)
+    fn above(&self, height: f64) -> f64 {
+        let half_step = self.angle / f64::from(2 * UPRIGHT_STEPS);
+        let least = (0..UPRIGHT_STEPS)
+            .map(|step| {
+                -self
+                    .held((f64::from(step) + 0.5) / f64::from(UPRIGHT_STEPS))
+                    .z_axis
+                    .z
+            })
+            .fold(f64::INFINITY, f64::min)
+            - half_step;
+        if least > LEAST_UPRIGHT {
+            ((height + self.blade.half_width) / least).max(0.0)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Proves that the blade is clear of the work when its tip runs so far from where it does.
+    fn prove(&self, work: &Work, moved: DVec3) -> Result<(), Hit> {
+        let lowest = self.tip[0].z.min(self.tip[1].z) + moved.z;
+        let body = self.blade.body(self.above(work.highest() - lowest));
+        for piece in core::iter::once(self.blade.edges()).chain(body) {
+            self.prove_piece(&piece, work, moved)?;
+        }
+        Ok(())
+    }
+
+    fn prove_piece(&self, piece: &Piece, work: &Work, moved: DVec3) -> Result<(), Hit> {
+        let way = self.tip[1] - self.tip[0];
+        let fastest = way.length() + self.angle * piece.radius();
+        let mut rest = vec![(0.0, 1.0)];
+        while let Some((from, to)) = rest.pop() {
+            let middle = f64::midpoint(from, to);
+            let moves = fastest * (to - from) / 2.0;
+            let (held, tip) = (self.held(middle), self.tip[0] + way * middle + moved);
+            let corners: Vec<DVec3> = piece.corners.iter().map(|&corner| held * corner + tip).collect();
+            if let Some(place) = work.meets(&corners, moves) {
+                if moves * (1.0 + work.steepest) <= FINE {
+                    let part = piece.part;
+                    return Err(Hit {
+                        at: middle,
+                        part,
+                        place,
+                    });
+                }
+                rest.extend([(middle, to), (from, middle)]);
+            }
+        }
+        Ok(())
+    }
+
+    fn stands(&self) -> Stands {
+        let depth = self.stock.depth.to_mm();
+        if self.tip.iter().all(|tip| tip.y <= 0.0) {
+            Stands::Beside(-1.0)
+        } else if self.tip.iter().all(|tip| tip.y >= depth) {
+            Stands::Beside(1.0)
+        } else {
+            Stands::Above
+        }
+    }
+
+    /// What clears it, at least so far from where it is.
+    fn cure(&self, work: &Work, at_least: f64) -> Cure {
+        let stands = self.stands();
+        let is_clear = |by: f64| self.prove(work, stands.outwards() * by).is_ok();
+        let mut enough = at_least + 1.0;
+        while !is_clear(enough) {
+            if enough >= FARTHEST {
+                return Cure::Unknown;
+            }
+            enough *= 2.0;
+        }
+        let mut too_little = at_least;
+        while enough - too_little > ROOM_STEP {
+            let middle = f64::midpoint(too_little, enough);
+            if is_clear(middle) {
+                enough = middle;
+            } else {
+                too_little = middle;
+            }
+        }
+        match stands {
+            Stands::Beside(_) => Cure::FartherOut(Length::mm(enough)),
+            Stands::Above => Cure::HigherUp(Length::mm(enough)),
+        }
+    }
+}
+
+/// What is left of the stock about a place: a prism along y.
+struct Work {
+    width: f64,
+    depth: f64,
+    /// The surface from left to right; at least one corner.
+    corners: Vec<Point2>,
+    /// Rise over x of its steepest flank.
+    steepest: f64,
+}
+
+impl Work {
+    fn of(surface: &mut Surface, stock: Stock, from: f64, to: f64) -> Self {
+        let width = surface.width();
+        let (from, to) = (from.clamp(0.0, width), to.clamp(0.0, width));
+        let end = |surface: &mut Surface, x: f64| Point2 {
+            x,
+            z: surface.height(x),
+        };
+        let right = end(surface, to);
+        let mut corners = vec![end(surface, from)];
+        corners.extend(surface.corners_between(from, to));
+        corners.push(right);
+        let rise = |pair: &[Point2]| match pair {
+            [a, b] if b.x - a.x > LEVEL => ((b.z - a.z) / (b.x - a.x)).abs(),
+            _ => 0.0,
+        };
+        let steepest = corners.windows(2).map(rise).fold(0.0, f64::max);
+        Self {
+            width,
+            depth: stock.depth.to_mm(),
+            corners,
+            steepest,
+        }
+    }
+
+    fn highest(&self) -> f64 {
+        self.corners
+            .iter()
+            .map(|corner| corner.z)
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Height at x; beyond the ends that of the end.
+    fn height(&self, x: f64) -> f64 {
+        let next = self.corners.partition_point(|corner| corner.x < x);
+        match (
+            next.checked_sub(1).and_then(|before| self.corners.get(before)),
+            self.corners.get(next),
+        ) {
+            (Some(a), Some(b)) if b.x - a.x > LEVEL => a.z + (b.z - a.z) * ((x - a.x) / (b.x - a.x)),
+            (Some(a), Some(b)) => a.z.max(b.z),
+            (Some(a), None) | (None, Some(a)) => a.z,
+            (None, None) => f64::NEG_INFINITY,
+        }
+    }
+
+    /// A place where a convex polygon that moves by that much any way may meet the work, by more than [`GRAZE`].
+    fn meets(&self, polygon: &[DVec3], moves: f64) -> Option<DVec3> {
+        let beyond = moves - GRAZE;
+        let sides = [
+            (DVec3::Y, -beyond),
+            (DVec3::NEG_Y, -self.depth - beyond),
+            (DVec3::X, -beyond),
+            (DVec3::NEG_X, -self.width - beyond),
+            (DVec3::NEG_Z, -self.highest() - beyond),
+        ];
+        let mut inside = polygon.to_vec();
+        for (inwards, least) in sides {
+            inside = clipped(&inside, inwards, least);
+            if inside.is_empty() {
+                return None;
+            }
+        }
+        // A point that moves aside meets the surface there, which is higher by no more than its steepest flank makes it.
+        let room = beyond + self.steepest * moves;
+        let is_low = |point: &DVec3| point.z < self.height(point.x) + room;
+        if let Some(&low) = inside.iter().find(|point| is_low(point)) {
+            return Some(low);
+        }
+        self.corners.iter().find_map(|corner| {
+            let lowest = lowest_at(&inside, corner.x)?;
+            (lowest.z < corner.z + room).then_some(lowest)
+        })
+    }
+}
+
+/// Corners of the surface this close (mm) are one: there is no flank between them.
+const LEVEL: f64 = 1e-5;
+
+/// The part of a convex polygon in the half-space where `inwards . p >= least`.
+fn clipped(polygon: &[DVec3], inwards: DVec3, least: f64) -> Vec<DVec3> {
+    let depth = |point: DVec3| inwards.dot(point) - least;
+    let before = polygon.iter().cycle().skip(polygon.len().saturating_sub(1));
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (&from, &to) in before.zip(polygon) {
+        let (a, b) = (depth(from), depth(to));
+        if (a < 0.0) != (b < 0.0) {
+            kept.push(from + (to - from) * (a / (a - b)));
+        }
+        if b >= 0.0 {
+            kept.push(to);
+        }
+    }
+    kept
+}
+
+/// The lowest point of a convex polygon at x.
+fn lowest_at(polygon: &[DVec3], x: f64) -> Option<DVec3> {
+    let before = polygon.iter().cycle().skip(polygon.len().saturating_sub(1));
+    let crossings = before.zip(polygon).filter_map(|(&from, &to)| {
+        let (a, b) = (from.x - x, to.x - x);
+        ((a < 0.0) != (b < 0.0)).then(|| from + (to - from) * (a / (a - b)))
+    });
+    crossings.min_by(|a, b| a.z.total_cmp(&b.z))
+}
+
+#[cfg(test)]
+mod tests;

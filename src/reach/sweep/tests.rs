@@ -1,0 +1,316 @@
+//! Tests of the sweep check against dense samples of the blade, turned by products of rotations of another package.
+
+use super::*;
+use crate::kinematics::Mechanism;
+use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
+use crate::kinematics::pose::Pose;
+use crate::sim::surface::Vee;
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use proptest::prelude::*;
+
+/// What turns the blade and the work, outermost first, and the work on its mount.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// A head with B carrying A.
+    HeadBa,
+    /// A head with C carrying A.
+    HeadCa,
+    /// A head with A over a table with B.
+    HeadATableB,
+    /// A table with A carrying C.
+    TableAc,
+}
+
+fn rotary(about: Direction) -> Rotary {
+    Rotary {
+        about,
+        centre: DVec3::new(3.0, -4.0, 250.0),
+    }
+}
+
+fn machine(kind: Kind) -> Mechanism {
+    use Direction::{MinusX, MinusY, MinusZ, PlusX, PlusY, PlusZ};
+    let arrangement = match kind {
+        Kind::HeadBa => Arrangement::HeadHead([rotary(PlusY), rotary(PlusX)]),
+        Kind::HeadCa => Arrangement::HeadHead([rotary(PlusZ), rotary(PlusX)]),
+        Kind::HeadATableB => Arrangement::HeadTable {
+            head: rotary(PlusX),
+            table: rotary(MinusY),
+        },
+        Kind::TableAc => Arrangement::TableTable([rotary(MinusX), rotary(MinusZ)]),
+    };
+    let machine = FiveAxis::new(
+        arrangement,
+        Some(SpindleSense::PlusZ),
+        DVec3::new(4.0, -2.0, 30.0),
+        DVec3::new(480.0, 290.0, -10.0),
+    );
+    Mechanism::FiveAxis(machine.unwrap())
+}
+
+/// How far the spindle is from the tip.
+const TOOL: f64 = 60.0;
+
+fn rig(mechanism: &Mechanism) -> Rig<'_> {
+    Rig {
+        mechanism,
+        axes: &[],
+        flange_in_blade: Pose {
+            rotation: DMat3::from_rotation_z(-core::f64::consts::FRAC_PI_2),
+            position: DVec3::new(0.0, 0.0, TOOL),
+        }
+        .inverse(),
+        work_in_root: Pose {
+            rotation: DMat3::from_rotation_z(0.4),
+            position: DVec3::new(40.0, 20.0, 15.0),
+        },
+    }
+}
+
+/// The blade frame in the work by the matrices of its rotations.
+fn held(kind: Kind, joints: &Joints) -> Matrix3<f64> {
+    let turned = |axis: Vector3<f64>, angle: f64| {
+        *Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle).matrix()
+    };
+    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    let (first, second) = (joints[3], joints[4]);
+    let (table, head) = match kind {
+        Kind::HeadBa => (Matrix3::identity(), turned(y, first) * turned(x, second)),
+        Kind::HeadCa => (Matrix3::identity(), turned(z, first) * turned(x, second)),
+        Kind::HeadATableB => (turned(-y, second), turned(x, first)),
+        Kind::TableAc => (turned(-x, first) * turned(-z, second), Matrix3::identity()),
+    };
+    let nose = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
+    let tool = turned(z, -core::f64::consts::FRAC_PI_2);
+    turned(z, 0.4).transpose() * table.transpose() * head * turned(z, joints[5]) * nose * tool
+}
+
+const STOCK: Stock = Stock {
+    width: Length::mm(80.0),
+    depth: Length::mm(100.0),
+    height: Length::mm(40.0),
+};
+
+#[derive(Clone, Debug)]
+struct Scene {
+    kind: Kind,
+    axes: [Joints; 2],
+    tip: [DVec3; 2],
+    outline: Outline,
+    vees: Vec<(f64, f64, f64)>,
+}
+
+fn a_scene() -> impl Strategy<Value = Scene> {
+    let kinds = vec![Kind::HeadBa, Kind::HeadCa, Kind::HeadATableB, Kind::TableAc];
+    let turned = || prop::array::uniform3(-1.6..1.6_f64);
+    let tip = || {
+        (
+            5.0..75.0_f64,
+            prop_oneof![-25.0..0.0_f64, 100.0..125.0_f64, 20.0..80.0_f64],
+            15.0..50.0_f64,
+        )
+    };
+    (
+        prop::sample::select(kinds),
+        (turned(), turned()),
+        (tip(), -10.0..10.0_f64, any::<bool>()),
+        (5.0..25.0_f64, 0.03..0.3_f64),
+        prop::collection::vec((0.0..80.0_f64, 15.0..40.0_f64, 0.6..2.5_f64), 0..12),
+    )
+        .prop_map(
+            |(kind, (from, to), ((x, y, z), aside, moves), (length, half_apex), vees)| {
+                let joints = |[a, b, c]: [f64; 3]| [0.0, 0.0, 0.0, a, b, c];
+                let tip = DVec3::new(x, y, z);
+                let there = if moves { tip + DVec3::X * aside } else { tip };
+                Scene {
+                    kind,
+                    axes: [joints(from), joints(to)],
+                    tip: [tip, there],
+                    outline: Outline {
+                        half_width: length * libm::sin(half_apex),
+                        edge_height: length * libm::cos(half_apex),
+                        spindle_height: TOOL,
+                    },
+                    vees,
+                }
+            },
+        )
+}
+
+impl Scene {
+    fn surface(&self) -> Surface {
+        let mut surface = Surface::untouched(STOCK);
+        for &(x, z, slope) in &self.vees {
+            surface.release(Vee {
+                tip: Point2 { x, z },
+                slope,
+            });
+        }
+        surface
+    }
+
+    fn turn<'t>(&self, rig: &'t Rig<'t>) -> Turn<'t, 't> {
+        let angle = (3..6)
+            .map(|axis| (self.axes[1][axis] - self.axes[0][axis]).abs())
+            .sum();
+        Turn {
+            op: OpId(0),
+            rig,
+            stock: STOCK,
+            tip: self.tip,
+            axes: self.axes,
+            angle,
+            blade: self.outline,
+        }
+    }
+
+    /// Tip and posture at a place of the motion.
+    fn at(&self, place: f64) -> (Vector3<f64>, Matrix3<f64>) {
+        let joints = core::array::from_fn(|axis| {
+            self.axes[0][axis] + (self.axes[1][axis] - self.axes[0][axis]) * place
+        });
+        let tip = self.tip[0] + (self.tip[1] - self.tip[0]) * place;
+        (Vector3::new(tip.x, tip.y, tip.z), held(self.kind, &joints))
+    }
+
+    /// Points of the blade in its frame, close to one another.
+    fn points(&self) -> Vec<Vector3<f64>> {
+        let Outline {
+            half_width,
+            edge_height,
+            spindle_height,
+        } = self.outline;
+        let across = |height: f64, half: f64| {
+            (-8..=8).map(move |i| Vector3::new(half * f64::from(i) / 8.0, 0.0, -height))
+        };
+        let edges = (0..=20).flat_map(|i| {
+            let share = f64::from(i) / 20.0;
+            across(edge_height * share, half_width * share)
+        });
+        let body = (1..=30).flat_map(|i| {
+            across(
+                edge_height + (spindle_height - edge_height) * f64::from(i) / 30.0,
+                half_width,
+            )
+        });
+        edges.chain(body).collect()
+    }
+
+    /// Whether a place is on the blade and in the work, both within a hundredth of a millimetre.
+    fn is_in_the_work(&self, hit: &Hit, moved: DVec3) -> bool {
+        let place = Vector3::new(hit.place.x, hit.place.y, hit.place.z);
+        let (tip, held) = self.at(hit.at);
+        let on_blade = held.transpose() * (place - tip - Vector3::new(moved.x, moved.y, moved.z));
+        let Outline {
+            half_width,
+            edge_height,
+            spindle_height,
+        } = self.outline;
+        let half = half_width * (-on_blade.z / edge_height).min(1.0);
+        on_blade.y.abs() < 1e-6
+            && (-spindle_height - 1e-6..=1e-6).contains(&on_blade.z)
+            && on_blade.x.abs() <= half + 1e-6
+            && depth_of(place, &mut self.surface()) > -0.01
+    }
+
+    /// How deep in the work any sample is at most: along y and x from the stock's sides, along z from the surface. Negative outside.
+    fn depth(&self, moved: DVec3) -> f64 {
+        let mut surface = self.surface();
+        let points = self.points();
+        let moved = Vector3::new(moved.x, moved.y, moved.z);
+        let mut deepest = f64::NEG_INFINITY;
+        for step in 0..=400 {
+            let (tip, held) = self.at(f64::from(step) / 400.0);
+            for point in &points {
+                deepest = deepest.max(depth_of(held * point + tip + moved, &mut surface));
+            }
+        }
+        deepest
+    }
+}
+
+fn depth_of(p: Vector3<f64>, surface: &mut Surface) -> f64 {
+    let aside = p.x.min(80.0 - p.x).min(p.y).min(100.0 - p.y);
+    let top = surface.height(p.x.clamp(0.0, 80.0));
+    aside.min(top - p.z)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// What is proven to be clear no sample enters; where a motion is refused, the blade is in the work where it says; and with the
+    /// room that is asked for it is clear, but with notably less it is not.
+    #[test]
+    fn holds_against_dense_samples(scene in a_scene()) {
+        let mechanism = machine(scene.kind);
+        let rig = rig(&mechanism);
+        let turn = scene.turn(&rig);
+        let work = turn.work(&mut scene.surface());
+        match turn.prove(&work, DVec3::ZERO) {
+            Ok(()) => prop_assert!(scene.depth(DVec3::ZERO) <= GRAZE + 1e-9),
+            Err(hit) => {
+                prop_assert!(scene.is_in_the_work(&hit, DVec3::ZERO), "{:?}", hit.place);
+                // No blade reaches across the stock, so more room never takes it into the work again.
+                let by = match turn.cure(&work, 0.0) {
+                    Cure::FartherOut(by) | Cure::HigherUp(by) => by.to_mm(),
+                    Cure::Unknown => return Err(TestCaseError::fail("no room is enough")),
+                };
+                let outwards = turn.stands().outwards();
+                prop_assert!(scene.depth(outwards * by) <= GRAZE + 1e-9);
+                let less = outwards * (by - 2.0 * ROOM_STEP);
+                match turn.prove(&work, less) {
+                    Ok(()) => prop_assert!(by < 2.0 * ROOM_STEP, "{by}"),
+                    Err(hit) => prop_assert!(scene.is_in_the_work(&hit, less), "{:?}", hit.place),
+                }
+            }
+        }
+    }
+
+    /// The orientation that is looked at is the one that the axes give.
+    #[test]
+    fn turns_as_the_matrices_do(scene in a_scene(), place in 0.0..=1.0_f64) {
+        let mechanism = machine(scene.kind);
+        let rig = rig(&mechanism);
+        let ours = scene.turn(&rig).held(place).to_cols_array();
+        let (_, theirs) = scene.at(place);
+        for (ours, theirs) in ours.iter().zip(theirs.iter()) {
+            prop_assert!((ours - theirs).abs() < 1e-12);
+        }
+    }
+}
+
+/// A blade tilted by 40 degrees whose C axis goes round by half a turn leans over the work in the middle of it, by the sine of the
+/// tilt, though at both ends it leans along the work's side.
+#[test]
+fn a_c_axis_carries_the_blade_over_the_work() {
+    let half_turn = core::f64::consts::PI;
+    let tilt = 40.0_f64.to_radians();
+    // The work is turned by 0.4 rad, so C is too.
+    let start = [0.0, 0.0, 0.0, 0.4 + half_turn / 2.0, tilt, 0.0];
+    let end = [0.0, 0.0, 0.0, 0.4 + 1.5 * half_turn, tilt, 0.0];
+    let scene = |out: f64| Scene {
+        kind: Kind::HeadCa,
+        axes: [start, end],
+        tip: [DVec3::new(40.0, -out, 20.0); 2],
+        outline: Outline {
+            half_width: 0.0,
+            edge_height: 20.0,
+            spindle_height: 20.0,
+        },
+        vees: Vec::new(),
+    };
+    let overhang = 20.0 * libm::sin(tilt);
+    let mechanism = machine(Kind::HeadCa);
+    let rig = rig(&mechanism);
+    let judged = |out: f64| {
+        let scene = scene(out);
+        let turn = scene.turn(&rig);
+        let work = turn.work(&mut scene.surface());
+        turn.prove(&work, DVec3::ZERO).map_err(|_| turn.cure(&work, 0.0))
+    };
+    assert!(judged(overhang).is_ok());
+    match judged(overhang - 1.0) {
+        Err(Cure::FartherOut(by)) => assert!((by.to_mm() - 1.0).abs() < 0.03, "{by:?}"),
+        other => panic!("{other:?}"),
+    }
+}
