@@ -222,11 +222,11 @@ pub fn compared(decision: &Decision) -> String {
     words.join("; ")
 }
 
-/// `at most 24.8 deg: the machine does not follow a wider one (A4 would need 242.0 deg/s of 179.0 deg/s at 40 deg)`.
+/// `at most 24.8 deg: the machine cannot follow a wider one (A4 would need 242.0 deg/s of 179.0 deg/s at 40 deg)`.
 fn narrowed(decision: &Decision) -> String {
     let lacks: Vec<&str> = decision.others.iter().map(|other| other.what.as_str()).collect();
     format!(
-        "{}: the machine does not follow a wider one ({})",
+        "{}: the machine cannot follow a wider one ({})",
         decision.taken.what,
         lacks.join("; ")
     )

@@ -74,7 +74,7 @@ fn line_ends(name: &str, earlier: usize, fresh: usize) -> String {
         (0, 1..) => ("LF", "CR LF"),
         (1.., 0) => ("CR LF", "LF"),
         (_, _) => {
-            return format!("{name} differs in line ends only (or in the break behind the last line)\n");
+            return format!("{name} differs in line ends only (or in the break after the last line)\n");
         }
     };
     format!(

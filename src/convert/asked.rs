@@ -164,7 +164,7 @@ impl Asked {
             return Err(bad(
                 "--rake",
                 words.rake,
-                "a rake is above 0 deg and at most 90 deg".to_owned(),
+                "a rake must be greater than 0 deg and at most 90 deg".to_owned(),
             ));
         }
         if self.swing.to_rad() > FRAC_PI_2 - 1e-6 {

@@ -39,7 +39,7 @@ pub(super) fn cut_short(place: Span) -> Diagnostic {
         Code::UnreadableStatement,
         "the program ends in the middle of this statement",
         place,
-        "the last of it; there is no `END` behind it",
+        "the last of it; there is no `END` after it",
     )
     .help("the file was cut short when it was written or copied: get the whole of it, which ends with `END`")
 }
@@ -105,7 +105,7 @@ pub(super) fn block_with(place: Span, word: &str) -> Diagnostic {
         "holds to the end of the block",
     )
     .help(format!(
-        "write what is behind `{word}` in front of the block, as statements such as `$VEL.CP = 0.2`, or behind each segment"
+        "write what is behind `{word}` in front of the block, as statements such as `$VEL.CP = 0.2`, or after each segment"
     ))
 }
 
@@ -161,7 +161,7 @@ pub(super) fn too_far(place: Span, value: f64) -> Diagnostic {
 pub(super) fn frame_changes(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        "the tool or the base changes between motions, and what that does to the motions behind it is not followed",
+        "the tool or the base changes between motions, and what that does to the motions after it is not followed",
         place,
         "another frame from here on",
     )

@@ -146,7 +146,7 @@ fn ends_early(place: Span) -> Diagnostic {
         place,
         "the last statement that there is",
     )
-    .help("compare the file with that of the CAM system; if it is whole, write `END` behind this line")
+    .help("compare the file with that of the CAM system; if it is whole, write `END` after this line")
 }
 
 /// A routine that nobody calls.

@@ -505,7 +505,7 @@ fn part(
             points.len(),
             show(lowest)
         ),
-        "the passes that show when all are cut",
+        "the envelope of all passes",
     ));
     Part::Polyline(points)
 }

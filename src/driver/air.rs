@@ -39,7 +39,7 @@ pub fn air_cut_height(text: &str) -> Result<Length, String> {
             if found.value > 0.0 && found.value <= HIGHEST {
                 Ok(Length::mm(found.value))
             } else {
-                Err("a height is above 0 mm and at most 10 m".to_owned())
+                Err("a height must be greater than 0 mm and at most 10 m".to_owned())
             }
         }
         _ => Err("write a length with its unit, such as 100mm".to_owned()),

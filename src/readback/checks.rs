@@ -430,7 +430,7 @@ impl Read<'_> {
 
     fn needs_change(&self, op: OpId) -> Diagnostic {
         let message = format!(
-            "{}: no one way to stand carries the motions before and behind it",
+            "{}: no one way to stand carries the motions before and after it",
             op_words(self.program(), op)
         );
         self.at(

@@ -224,9 +224,9 @@ impl Teller<'_> {
             0 => {}
             1 => cause
                 .notes
-                .push("1 statement behind it depends on it: nobody knows what it does now".to_owned()),
+                .push("1 statement after it depends on it: what it does now is not known".to_owned()),
             lost => cause.notes.push(format!(
-                "{lost} statements behind it depend on it: nobody knows what they do now"
+                "{lost} statements after it depend on it: what they do now is not known"
             )),
         }
         let Some(first) = effects.first else {
@@ -377,7 +377,7 @@ impl Teller<'_> {
             return diagnostic.help("the line itself is as it should be: mend what it depends on");
         }
         diagnostic.fix(
-            "put back what the compiler writes, or change the job so that it asks for this",
+            "restore the compiler's line, or change the job to match",
             span,
             self.scene.fresh.text(fresh),
         )
@@ -442,7 +442,7 @@ impl Teller<'_> {
         let diagnostic = match fresh.checked_sub(1) {
             Some(before) => {
                 let before = quote(self.scene.fresh.text(before));
-                diagnostic.note(format!("it belongs behind `{before}`"))
+                diagnostic.note(format!("it belongs after `{before}`"))
             }
             None => diagnostic.note("it belongs first"),
         };

@@ -68,7 +68,7 @@ pub(crate) fn departure_words(what: &DepartureKind, cell: Option<&Cell>) -> Vec<
             .map(|mismatch| mismatch_words(mismatch, cell))
             .collect(),
         DepartureKind::Ends => one("the program ends here"),
-        DepartureKind::More => one("something is done behind the last op"),
+        DepartureKind::More => one("something is done after the last op"),
         DepartureKind::Frame(FrameRole::Tool) => one("the tool frame has another value"),
         DepartureKind::Frame(FrameRole::Base) => one("the base frame has another value"),
         DepartureKind::NoFrame(FrameRole::Tool) => one("the tool frame is not set before the first motion"),

@@ -159,7 +159,7 @@ impl Scope<'_> {
                     span,
                     "a value is needed here",
                 )
-                .help("`auto` stands alone, behind a field that the compiler may choose");
+                .help("write `auto` alone, as the whole value of a field that the compiler may choose");
                 return Err(reports.push(diagnostic));
             }
             _ => {}

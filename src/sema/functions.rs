@@ -142,13 +142,13 @@ pub(super) fn signature(name: &str) -> Option<Signature> {
 
 /// Calls that are values only of certain fields, and where they belong.
 const ELSEWHERE: &[(&str, &str)] = &[
-    ("frame", "behind `tool` and `base` of a machine"),
-    ("number", "behind `tool`, `base` and `load` of a machine"),
-    ("load", "behind `load` of a machine"),
-    ("joints", "behind `home` of a machine"),
-    ("output", "behind `ultrasonic` of a machine"),
-    ("input", "behind `ready` of a machine"),
-    ("after", "behind `ready` of a machine"),
+    ("frame", "after `tool` and `base` of a machine"),
+    ("number", "after `tool`, `base` and `load` of a machine"),
+    ("load", "after `load` of a machine"),
+    ("joints", "after `home` of a machine"),
+    ("output", "after `ultrasonic` of a machine"),
+    ("input", "after `ready` of a machine"),
+    ("after", "after `ready` of a machine"),
 ];
 
 /// The value of a call.

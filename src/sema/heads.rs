@@ -114,7 +114,7 @@ fn surplus(first: &str, at: Span) -> Box<Diagnostic> {
     let form = form_of(first);
     let diagnostic = Diagnostic::new(
         Code::Misplaced,
-        format!("there is something behind the head of `{first}`"),
+        format!("there is something after the head of `{first}`"),
         at,
         "does not belong here",
     );
@@ -127,7 +127,7 @@ fn incomplete(first: &str, what: &str, at: Span) -> Box<Diagnostic> {
         Code::MissingField,
         format!("`{first}` needs {what}"),
         at,
-        format!("{what} is missing behind this"),
+        format!("{what} is missing after this"),
     );
     Box::new(diagnostic.help(format!("write `{}`", form_of(first))))
 }

@@ -1,7 +1,7 @@
 //! Legal ranges of fields, in the unit that people use for them.
 
 use super::dimension::Dimension;
-use super::quantity::with_unit;
+use super::quantity::{number, with_unit};
 
 /// Lower end of a range.
 #[derive(Clone, Copy, Debug)]
@@ -95,17 +95,27 @@ impl Range {
         above && below
     }
 
-    /// In words: `above 0 deg and at most 90 deg`.
+    /// In words: `greater than 0 deg and at most 90 deg`.
     pub(crate) fn words(self) -> String {
         let low = match self.low {
-            Low::Above(end) => format!("above {}", with_unit(end, self.dimension)),
-            Low::AtLeast(end) => format!("at least {}", with_unit(end, self.dimension)),
+            Low::Above(end) => format!("greater than {}", self.end(end)),
+            Low::AtLeast(end) => format!("at least {}", self.end(end)),
         };
         let high = match self.high {
-            High::Below(end) => format!("below {}", with_unit(end, self.dimension)),
-            High::AtMost(end) => format!("at most {}", with_unit(end, self.dimension)),
+            High::Below(end) => format!("less than {}", self.end(end)),
+            High::AtMost(end) => format!("at most {}", self.end(end)),
         };
         format!("{low} and {high}")
+    }
+
+    /// An end with its unit; ends of many thousand mm are easier to read in m.
+    fn end(self, end: f64) -> String {
+        let long = end.abs() >= 10_000.0;
+        match self.dimension {
+            Dimension::LENGTH if long => format!("{} m", number(end / 1000.0)),
+            Dimension::SPEED if long => format!("{} m/s", number(end / 1000.0)),
+            dimension => with_unit(end, dimension),
+        }
     }
 }
 
@@ -126,8 +136,10 @@ mod tests {
 
     #[test]
     fn ranges_in_words() {
-        assert_eq!(RAKE.words(), "above 0 deg and at most 90 deg");
-        assert_eq!(OVERLAP.words(), "at least 0 and below 1");
-        assert_eq!(SIZE.words(), "above 0 mm and at most 100000 mm");
+        assert_eq!(RAKE.words(), "greater than 0 deg and at most 90 deg");
+        assert_eq!(OVERLAP.words(), "at least 0 and less than 1");
+        assert_eq!(SIZE.words(), "greater than 0 mm and at most 100 m");
+        assert_eq!(SPEED.words(), "greater than 0 mm/s and at most 100 m/s");
+        assert_eq!(COORDINATE.words(), "at least -100 m and at most 100 m");
     }
 }

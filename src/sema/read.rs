@@ -51,7 +51,7 @@ impl Reader<'_> {
         let text = Quantity::new(value, range.dimension).text();
         let diagnostic = Diagnostic::new(
             Code::OutOfRange,
-            format!("{taker} is {}, not {text}", range.words()),
+            format!("{taker} must be {}, but is {text}", range.words()),
             expr.span,
             format!("this is {text}"),
         );

@@ -68,7 +68,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 9999,
             default: 1,
         },
-        help: "Fanuc's O number of the main program; parts have the numbers behind it. An air cut adds 4000, or takes 3999 away from 4000 on.",
+        help: "Fanuc's O number of the main program; parts have the numbers after it. An air cut adds 4000, or takes 3999 away from 4000 on.",
     },
     OptionSpec {
         key: SPINDLE_AXIS,

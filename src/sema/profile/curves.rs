@@ -86,7 +86,7 @@ impl Drawing<'_> {
             Code::Misplaced,
             format!("{words} can only begin a profile"),
             piece.span,
-            "stands behind another piece",
+            "comes after another piece",
         )
         .and(first, "the profile begins here")
         .help(format!(

@@ -116,7 +116,7 @@ impl<'a> Control<'a> {
     pub(super) fn carry_out(&mut self, order: &Order<'_>) -> Parsed<Says> {
         let cycle = self.cycle.take();
         if cycle == Some(Cycle::WorkOffset) && !matches!(order.act, Some(Act::CycleWork(_))) {
-            return expected("`Q339=` behind `CYCL DEF 247 DATUM SETTING ~`");
+            return expected("`Q339=` after `CYCL DEF 247 DATUM SETTING ~`");
         }
         if let Some(missing) = missing(cycle, order.act) {
             return expected(missing);
@@ -286,7 +286,7 @@ impl<'a> Control<'a> {
         let before = self.tip;
         self.take(order);
         let [Some(x), Some(y), Some(z)] = self.tip else {
-            return expected("all of X, Y and Z behind a switch of tool-centre-point control");
+            return expected("all of X, Y and Z after a switch of tool-centre-point control");
         };
         let mut rotary = AxisValues([0.0; MOST_AXES]);
         self.values(&mut rotary, AxisKind::Rotary)?;
@@ -409,7 +409,7 @@ impl<'a> Control<'a> {
         };
         match said {
             Some(feed) if feed > 0.0 => Ok(feed),
-            Some(_) => expected("a speed above 0 behind `F`"),
+            Some(_) => expected("a speed above 0 after `F`"),
             None => expected("the word `F`"),
         }
     }
@@ -462,7 +462,9 @@ impl<'a> Control<'a> {
                     return Ok(Says::Setting);
                 }
                 Some(_) | None => {
-                    return expected("`o<ready1> do` before, for behind its time the program would go on");
+                    return expected(
+                        "`o<ready1> do` before it, because the program would go on after the time-out",
+                    );
                 }
             },
             Act::LoopEnds(number) => match cycle {
@@ -488,7 +490,7 @@ const fn missing(cycle: Option<Cycle>, act: Option<Act>) -> Option<&'static str>
         (Some(Cycle::Loop(_)), Some(Act::LoopWait(_)))
         | (Some(Cycle::Waited(..)), Some(Act::LoopEnds(_)))
         | (Some(Cycle::Dwell | Cycle::WorkOffset) | None, _) => None,
-        (Some(Cycle::Loop(_)), _) => Some("`M66` behind the beginning of a loop"),
+        (Some(Cycle::Loop(_)), _) => Some("`M66` after the beginning of a loop"),
         (Some(Cycle::Waited(..)), _) => Some("the end of the loop, `o<ready1> while [#5399 LT 0]`"),
     }
 }

@@ -136,7 +136,7 @@ impl Style {
                     if behind.trim_ascii().is_empty() {
                         break;
                     }
-                    return Err("the end of the line behind `;`, which ends a block");
+                    return Err("the end of the line after `;`, which ends a block");
                 }
                 (_, b';') if !quoted => break,
                 (Self::Semicolon, b'"') => quoted = !quoted,
@@ -249,12 +249,12 @@ mod tests {
             (
                 Style::Blocks,
                 "G1 X8. ; G0 Z-20.",
-                Some("the end of the line behind `;`, which ends a block"),
+                Some("the end of the line after `;`, which ends a block"),
             ),
             (
                 Style::Blocks,
                 "; (words)",
-                Some("the end of the line behind `;`, which ends a block"),
+                Some("the end of the line after `;`, which ends a block"),
             ),
             (
                 Style::Blocks,

@@ -259,7 +259,7 @@ impl Block {
     /// Takes a whole number out, which must be there.
     pub(super) fn whole(&mut self, letter: u8) -> Parsed<u32> {
         let whole = self.must(letter)?.whole();
-        whole.ok_or_else(|| Trouble::Expected(format!("a whole number behind `{}`", char::from(letter))))
+        whole.ok_or_else(|| Trouble::Expected(format!("a whole number after `{}`", char::from(letter))))
     }
 
     /// Hands over coordinates and F; nothing may be left.
@@ -300,7 +300,7 @@ pub(super) fn block(code: &str, style: Style) -> Parsed<Block> {
         let number = match cursor.number() {
             Some(number) => number,
             None if matches!(cursor.peek(), Some(b'#' | b'[' | b'=')) => return Err(Trouble::Unknown),
-            None => return expected(format!("a number behind `{}`", char::from(letter))),
+            None => return expected(format!("a number after `{}`", char::from(letter))),
         };
         block.add(letter, number)?;
     }
@@ -337,8 +337,8 @@ mod tests {
     #[test]
     fn what_is_no_word_is_told() {
         for (code, what) in [
-            ("G1 X", "a number behind `X`"),
-            ("G1 X-", "a number behind `X`"),
+            ("G1 X", "a number after `X`"),
+            ("G1 X-", "a number after `X`"),
             ("G1 X1 X2", "`X` once in a block"),
             ("G1 1", "a letter with a number"),
             ("G1 X1.5.2", "a letter with a number"),

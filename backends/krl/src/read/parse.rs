@@ -160,7 +160,7 @@ fn keyword_statement<'t>(keyword: Keyword, cursor: &mut Cursor<'t>) -> Parsed<Ph
                 declaration(kind, Scope::Global, cursor)?
             }
             Some(kind) => declaration(kind, Scope::Module, cursor)?,
-            None => return expected("a type behind `DECL`"),
+            None => return expected("a type after `DECL`"),
         },
         Keyword::Bas => bas(cursor)?,
         Keyword::Wait => wait(cursor)?,
@@ -235,7 +235,7 @@ fn wait<'t>(cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
             Some(name) if !is_same_name(name, "NOT") => Ok(Phrase::WaitFor(variable(name, cursor)?)),
             Some(_) | None => Err(Trouble::Other),
         },
-        Some(_) | None => expected("`SEC` or `FOR` behind `WAIT`"),
+        Some(_) | None => expected("`SEC` or `FOR` after `WAIT`"),
     }
 }
 
@@ -262,7 +262,7 @@ fn plain_statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<
             }
             declaration(word, Scope::Module, cursor)?
         }
-        Some(_) | None => return expected("`(` or `=` behind a name"),
+        Some(_) | None => return expected("`(` or `=` after a name"),
     };
     at_end(cursor)?;
     Ok(phrase)

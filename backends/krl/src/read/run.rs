@@ -122,7 +122,7 @@ fn data(file: usize, source: &ProgramFile, controller: &mut Controller<'_>, tell
             (Part::Inside, Phrase::Other(_)) => Says::Unknown,
             (Part::Inside, Phrase::Unreadable { expected }) => unreadable(expected),
             (Part::Inside, _) => unreadable("a declaration, or `ENDDAT`"),
-            (Part::Behind, _) => unreadable("nothing behind `ENDDAT`"),
+            (Part::Behind, _) => unreadable("nothing after `ENDDAT`"),
         };
         teller.tell(file, line.span, says);
     }

@@ -152,7 +152,7 @@ fn what_is_no_krl_is_told_with_what_was_expected() {
         ("LIN UNHEARD", "a position that is declared"),
         ("PTP {A1 0,X 1}", "either a pose or axes"),
         ("PTP {A1 0}", "all components, where no target before it has them"),
-        ("LINN {X 1}", "`(` or `=` behind a name"),
+        ("LINN {X 1}", "`(` or `=` after a name"),
         ("PTQ XVC_HOME", "a statement of KRL"),
         ("DECL INT N", "declarations in front of the first instruction"),
         ("EXT PART( )", "declarations in front of the first instruction"),
@@ -161,7 +161,7 @@ fn what_is_no_krl_is_told_with_what_was_expected() {
         ("$OUT[3]", "`=`"),
         ("$OUT[3]=", "a value"),
         ("$OUT[3]=1", "`TRUE` or `FALSE`"),
-        ("WAIT", "`SEC` or `FOR` behind `WAIT`"),
+        ("WAIT", "`SEC` or `FOR` after `WAIT`"),
         ("WAIT SEC -1", "a time that is not negative"),
         ("ODD(", "`)` at the end of the line"),
         ("{X 1}", "a statement of KRL"),
@@ -262,7 +262,7 @@ fn modules_have_a_head_an_end_and_the_name_of_their_file() {
     );
     assert_eq!(
         complaints(2, |file| file.text.push_str("DECL INT LATE")),
-        one("DECL INT LATE", "nothing behind `ENDDAT`")
+        one("DECL INT LATE", "nothing after `ENDDAT`")
     );
 }
 

@@ -102,7 +102,7 @@ impl Robot<'_> {
             let told = |problem: String| format!("{name}.src:{number}: {problem}: {line}");
             if let Some(mark) = line.strip_prefix('&') {
                 if place != Place::Marks || mark.is_empty() {
-                    return Err(told("a mark behind the first lines".into()));
+                    return Err(told("a mark after the first lines".into()));
                 }
                 continue;
             }
@@ -157,7 +157,7 @@ impl Robot<'_> {
                 return Ok(Place::Instructions);
             }
             Place::Instructions => {}
-            Place::Ended => return Err("text behind END".into()),
+            Place::Ended => return Err("text after END".into()),
         }
         if code == "END" {
             return Ok(Place::Ended);
@@ -231,7 +231,7 @@ impl Robot<'_> {
         let rounded = match word {
             "" => false,
             word if word == approximate => true,
-            other => return Err(format!("{other} behind a target")),
+            other => return Err(format!("{other} after a target")),
         };
         if rounded && self.rounding.is_none_or(|distance| distance <= 0.0) {
             return Err("rounding without a distance".into());
@@ -315,7 +315,7 @@ impl Robot<'_> {
         }
         match code.next() {
             None => Ok(data),
-            Some(line) => Err(format!("{name}.dat: behind ENDDAT: {line}")),
+            Some(line) => Err(format!("{name}.dat: after ENDDAT: {line}")),
         }
     }
 

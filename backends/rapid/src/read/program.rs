@@ -138,7 +138,7 @@ impl<'t> Program<'t> {
                         Within::Module,
                     )
                 }
-                (_, Within::Nothing) => (Some(expected("MODULE, and nothing before or behind it")), within),
+                (_, Within::Nothing) => (Some(expected("MODULE, and nothing before or after it")), within),
                 (PieceKind::EndModule, Within::Module) => (Some(Says::Setting), Within::Nothing),
                 (PieceKind::Routine, Within::Module) => {
                     let (says, routine) = self.routine_header(piece.text(module.text), index);

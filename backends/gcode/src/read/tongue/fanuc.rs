@@ -81,7 +81,7 @@ impl Tongue for Fanuc {
         let without = context.words.iter().find(|word| words.lacks_a_point(word.letter));
         if let Some(word) = without {
             return expected(format!(
-                "a number with a point behind `{}`",
+                "a number with a point after `{}`",
                 char::from(word.letter)
             ));
         }
@@ -144,13 +144,13 @@ fn dwell(words: &mut Block) -> Parsed<Duration> {
                 ..
             }),
             None,
-        ) => expected("a number with a point behind `X`"),
+        ) => expected("a number with a point after `X`"),
         (Some(time), None) => seconds(time),
         (None, Some(time)) => match time.whole() {
             Some(whole) => Ok(Duration::s(f64::from(whole) / MILLISECONDS)),
-            None => expected("a whole number of milliseconds behind `P`"),
+            None => expected("a whole number of milliseconds after `P`"),
         },
-        (Some(_), Some(_)) | (None, None) => expected("one time behind `G4`"),
+        (Some(_), Some(_)) | (None, None) => expected("one time after `G4`"),
     }
 }
 

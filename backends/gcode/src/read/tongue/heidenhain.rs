@@ -110,7 +110,7 @@ fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, context: Context<'_>)
             return match letter {
                 // `IX+1` is incremental, `RL` and `RR` correct for a radius, `Q` begins a variable.
                 b'I' | b'R' => Err(Trouble::Unknown),
-                _ => expected(format!("a number behind `{}`", char::from(letter))),
+                _ => expected(format!("a number after `{}`", char::from(letter))),
             };
         };
         words.add(letter, number)?;

@@ -100,7 +100,7 @@ fn o_word(code: &str) -> Parsed<Order<'_>> {
         return Err(Trouble::Unknown);
     }
     let Some(name) = cursor.name() else {
-        return expected("a name behind `o<`");
+        return expected("a name after `o<`");
     };
     cursor.must(b'>')?;
     if let Some(number) = name.strip_prefix(READY).and_then(|number| number.parse().ok()) {

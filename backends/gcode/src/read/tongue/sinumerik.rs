@@ -118,7 +118,7 @@ fn address(cursor: &mut Cursor<'_>, words: &mut Block) -> Parsed<()> {
         cursor.number()
     };
     let Some(number) = number else {
-        return expected(format!("a number behind `{}`", char::from(letter)));
+        return expected(format!("a number after `{}`", char::from(letter)));
     };
     // `A3=0.5` is an address of its own.
     if cursor.skip(b'=') {
@@ -170,7 +170,7 @@ fn keyword<'t>(cursor: &mut Cursor<'t>, order: &mut Order<'t>, rounded: &mut Opt
                     Ok(())
                 }
                 (Some(_), false) => expected("`ADIS` once in a block"),
-                (None, _) => expected("a number behind `ADIS=`"),
+                (None, _) => expected("a number after `ADIS=`"),
             }
         }
         "RET" => order.goes(Flow::Return),
