@@ -61,12 +61,9 @@ impl Waiting<'_, '_> {
     }
 }
 
-impl Patience for Waiting<'_, '_> {
-    fn refused(&mut self, diagnostics: &[Diagnostic], _: &SourceMap) -> Wanted {
-        let first = diagnostics.iter().find(|one| one.severity() == Severity::Error);
-        if let (Some(progress), Some(first)) = (self.progress, first) {
-            progress.borrow().refused(&first.message);
-        }
+impl Waiting<'_, '_> {
+    /// For as long as the budget says, from now on.
+    fn within_budget(&mut self) -> Wanted {
         match self.budget {
             HelpBudget::Unlimited => Wanted::ALWAYS,
             HelpBudget::Of(Duration::ZERO) => Wanted::never(),
@@ -76,6 +73,20 @@ impl Patience for Waiting<'_, '_> {
                 wanted
             }
         }
+    }
+}
+
+impl Patience for Waiting<'_, '_> {
+    fn refused(&mut self, diagnostics: &[Diagnostic], _: &SourceMap) -> Wanted {
+        let first = diagnostics.iter().find(|one| one.severity() == Severity::Error);
+        if let (Some(progress), Some(first)) = (self.progress, first) {
+            progress.borrow().refused(&first.message);
+        }
+        self.within_budget()
+    }
+
+    fn slowed(&mut self) -> Wanted {
+        self.within_budget()
     }
 
     fn cut_short(&self) -> Option<String> {

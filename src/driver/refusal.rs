@@ -25,6 +25,9 @@ pub trait Patience {
 
     /// What to say of a search for help that ended because it was not wanted any longer.
     fn cut_short(&self) -> Option<String>;
+
+    /// The job is compiled, and its machine made it slow. Changes that save time are looked for afterwards, while that is wanted.
+    fn slowed(&mut self) -> Wanted;
 }
 
 /// Who waits for as long as it takes. What is found then depends on the job alone.
@@ -38,6 +41,10 @@ impl Patience for Unhurried {
 
     fn cut_short(&self) -> Option<String> {
         None
+    }
+
+    fn slowed(&mut self) -> Wanted {
+        Wanted::ALWAYS
     }
 }
 

@@ -7,7 +7,8 @@
 
 use super::text::Text;
 use crate::diag::Diagnostic;
-use crate::driver::{self, Patience, Request, RequestError, Typed, Unhurried};
+use crate::driver::{self, Outcome, Patience, Request, RequestError, Typed, Unhurried};
+use crate::hints::{Hint, hints};
 use crate::memory::Memory;
 use crate::plan::PlannedJob;
 use crate::sema::study::{Study, study};
@@ -68,7 +69,7 @@ pub(super) enum Planning {
     Due,
     /// Being done, for as long as this is held.
     UnderWay(Interest),
-    /// Refused, and help is being looked for as long as this is held.
+    /// Refused, or made slow by its machine, and help is being looked for as long as this is held.
     Helping(
         #[expect(dead_code, reason = "it is held, and ends when it is dropped")] Interest,
         Box<Planned>,
@@ -78,7 +79,7 @@ pub(super) enum Planning {
 }
 
 /// What came of planning and proving.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Planned {
     /// All texts, as they were planned.
     pub(super) sources: SourceMap,
@@ -88,6 +89,8 @@ pub(super) struct Planned {
     pub(super) plan: Option<PlannedJob>,
     /// The figures of the program, when the job is right.
     pub(super) summary: Vec<String>,
+    /// Changes that make the job faster, where its machine made it slow.
+    pub(super) hints: Vec<Hint>,
 }
 
 /// Whether a file is a job or a library: a library defines names and holds nothing that belongs to one job only. A file
@@ -164,6 +167,11 @@ impl Analysis {
         }
     }
 
+    /// Changes that make the job faster, as far as they are known.
+    pub(super) fn hints(&self) -> &[Hint] {
+        self.planned().map_or(&[], |planned| &planned.hints)
+    }
+
     /// The plan, if it is there.
     pub(super) fn planned(&self) -> Option<&Planned> {
         match &self.planning {
@@ -203,8 +211,8 @@ pub struct Done {
 pub(super) enum Finding {
     /// The job was planned.
     Planned(Box<Planned>),
-    /// The job is refused, and help is looked for: the task goes on.
-    Refused(Box<Planned>),
+    /// This much is known of the job, which is refused, or slower than it need be; help is looked for, and the task goes on.
+    AtOnce(Box<Planned>),
     /// It could not be read.
     Unreadable,
     /// Nobody wanted to know any more.
@@ -218,7 +226,7 @@ impl Task {
         self.run_telling(files, targets, memory, (&mut Unhurried, &mut |_| ()))
     }
 
-    /// As [`Self::run`]; what a job is refused for is told at once, before help is looked for.
+    /// As [`Self::run`]; what is known of a job is told at once, before help is looked for.
     #[must_use]
     pub fn run_telling(
         self,
@@ -246,15 +254,7 @@ impl Task {
             tell,
         };
         let result = match driver::compile_while(request, memory, &self.wanted, &mut early, &mut |_| ()) {
-            Ok(Ok(outcome)) => Finding::Planned(Box::new(Planned {
-                sources: outcome.sources,
-                diagnostics: outcome.diagnostics,
-                plan: outcome.plan,
-                summary: outcome
-                    .compiled
-                    .map(|compiled| compiled.summary)
-                    .unwrap_or_default(),
-            })),
+            Ok(Ok(outcome)) => early.helped(outcome, &self.wanted),
             Ok(Err(RequestError::Unreadable(_))) => Finding::Unreadable,
             Err(Needless) => Finding::Needless,
         };
@@ -266,12 +266,54 @@ impl Task {
     }
 }
 
-/// Tells what a job is refused for before help is looked for.
+/// Tells what is known of a job before help is looked for.
 struct Early<'e> {
     root: &'e str,
     stamp: u64,
     patience: &'e mut dyn Patience,
     tell: &'e mut dyn FnMut(Done),
+}
+
+impl Early<'_> {
+    /// What came of a job, with changes that make it faster where its machine made it slow.
+    fn helped(&mut self, outcome: Outcome, wanted: &Wanted) -> Finding {
+        let Outcome {
+            sources,
+            diagnostics,
+            job,
+            plan,
+            compiled,
+            ..
+        } = outcome;
+        let mut planned = Planned {
+            sources,
+            diagnostics,
+            plan,
+            summary: compiled
+                .as_ref()
+                .map(|compiled| compiled.summary.clone())
+                .unwrap_or_default(),
+            hints: Vec::new(),
+        };
+        if let (Some(job), Some(compiled)) = (&job, &compiled)
+            && compiled.yielded.is_some()
+        {
+            self.tell_at_once(planned.clone());
+            planned.hints = hints(job, compiled, &wanted.and(&self.patience.slowed()));
+        }
+        if wanted.is_needless() {
+            return Finding::Needless;
+        }
+        Finding::Planned(Box::new(planned))
+    }
+
+    fn tell_at_once(&mut self, planned: Planned) {
+        (self.tell)(Done {
+            root: self.root.to_owned(),
+            stamp: self.stamp,
+            result: Finding::AtOnce(Box::new(planned)),
+        });
+    }
 }
 
 impl Patience for Early<'_> {
@@ -281,16 +323,17 @@ impl Patience for Early<'_> {
             diagnostics: diagnostics.to_vec(),
             plan: None,
             summary: Vec::new(),
+            hints: Vec::new(),
         };
-        (self.tell)(Done {
-            root: self.root.to_owned(),
-            stamp: self.stamp,
-            result: Finding::Refused(Box::new(planned)),
-        });
+        self.tell_at_once(planned);
         self.patience.refused(diagnostics, sources)
     }
 
     fn cut_short(&self) -> Option<String> {
         self.patience.cut_short()
+    }
+
+    fn slowed(&mut self) -> Wanted {
+        self.patience.slowed()
     }
 }

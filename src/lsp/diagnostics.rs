@@ -3,6 +3,7 @@
 use super::text::{Encoding, Text};
 use super::uri::uri_of;
 use crate::diag::{Diagnostic, Fix, Label, Severity};
+use crate::hints::Hint;
 use crate::source::SourceMap;
 use lsp_types::{
     DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Range, TextEdit,
@@ -78,6 +79,22 @@ pub(super) fn in_protocol(
         ..lsp_types::Diagnostic::default()
     };
     (path, told)
+}
+
+/// A hint at the first place that it changes, with the path of its file; none where nothing is to be changed in a file.
+pub(super) fn hint_in_protocol(
+    hint: &Hint,
+    lines: &mut Lines<'_>,
+) -> Option<(String, lsp_types::Diagnostic)> {
+    let place = hint.fix.edits.first()?.span;
+    let told = lsp_types::Diagnostic {
+        range: lines.range(place),
+        severity: Some(DiagnosticSeverity::INFORMATION),
+        source: Some("vcutc".to_owned()),
+        message: format!("the machine makes this job slower: {}", hint.fix.title),
+        ..lsp_types::Diagnostic::default()
+    };
+    Some((lines.sources.name(place.file).to_owned(), told))
 }
 
 fn related(label: &Label, lines: &mut Lines<'_>) -> Option<DiagnosticRelatedInformation> {

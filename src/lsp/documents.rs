@@ -141,6 +141,20 @@ impl Documents {
         known.filter(|known| known.stamp == stamp)
     }
 
+    /// What is known of every file of the workspace that is read or could be, each once, by its path.
+    pub(super) fn whole_workspace(&mut self, files: &dyn Workspace) -> BTreeMap<String, Analysis> {
+        let open = self
+            .called
+            .iter()
+            .filter(|(_, called)| called.language == Language::Vcut);
+        let open: Vec<String> = open.map(|(path, _)| path.clone()).collect();
+        let paths: BTreeSet<String> = open.into_iter().chain(files.job_files(&self.folders)).collect();
+        paths
+            .into_iter()
+            .filter_map(|path| Some((path.clone(), self.study(&path, files)?)))
+            .collect()
+    }
+
     /// What is known of a root file now.
     fn study(&mut self, path: &str, files: &dyn Workspace) -> Option<Analysis> {
         self.stamps += 1;

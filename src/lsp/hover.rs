@@ -302,12 +302,13 @@ pub(super) fn word_explained(block: &str, field: &str, word: &str) -> Option<Str
 
 fn unit(unit: &str) -> Option<String> {
     let (kind, one) = vocabulary::unit_in_words(unit)?;
+    let spoken = vocabulary::unit_spoken(unit)?;
     // A unit in which values are shown anyway has nothing to be converted to.
     let own = format!("1 {unit}");
     Some(if one == own {
-        format!("`{unit}`: a unit of {kind}")
+        format!("`{unit}`: {spoken}, {kind}")
     } else {
-        format!("`{own}` = `{one}`, {kind}")
+        format!("`{unit}`: {spoken}\n\n`{own}` = `{one}`, {kind}")
     })
 }
 

@@ -3,7 +3,7 @@
 use super::Workspace;
 use super::analysis::Analysis;
 use super::completion::{Offer, completion};
-use super::diagnostics::{Lines, edits_of, in_protocol, workspace_edit};
+use super::diagnostics::{Lines, edits_of, hint_in_protocol, in_protocol, workspace_edit};
 use super::folding::folds;
 use super::formatting::formatting;
 use super::hints::hints;
@@ -14,11 +14,12 @@ use super::names::{
 use super::paths::Folder;
 use super::server::{Insertion, Server, Telling, parsed};
 use super::sites::{Kind, Path};
-use super::symbols::symbols;
+use super::symbols::{defined as defined_in, symbols};
 use super::text::Text;
 use super::tokens::{legend, modifiers, semantic_tokens};
 use super::uri::{path_of, uri_of};
 use super::wire::{Fault, notification};
+use crate::diag::Fix;
 use crate::machine::Origin;
 use crate::source::Span;
 use lsp_types::{
@@ -27,10 +28,13 @@ use lsp_types::{
     FoldingRangeParams, GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint, InlayHintKind,
     InlayHintLabel, InlayHintParams, InlayHintTooltip, InsertTextFormat, Location, MarkupContent, MarkupKind,
     Position, Range, ReferenceParams, RenameParams, SemanticTokens, SemanticTokensParams,
-    TextDocumentIdentifier, TextDocumentPositionParams, TextEdit,
+    TextDocumentIdentifier, TextDocumentPositionParams, TextEdit, WorkspaceSymbolParams,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+
+/// So many symbols are enough for one answer.
+const MOST_FOUND: usize = 1000;
 
 /// A result, or why there is none.
 pub(super) type Answer = Result<Value, (Fault, String)>;
@@ -55,6 +59,7 @@ pub(super) fn introduction(server: &Server) -> Value {
             "referencesProvider": true,
             "documentHighlightProvider": true,
             "documentSymbolProvider": true,
+            "workspaceSymbolProvider": true,
             "codeActionProvider": { "codeActionKinds": ["quickfix"] },
             "renameProvider": { "prepareProvider": true },
             "inlayHintProvider": true,
@@ -108,6 +113,7 @@ pub(super) fn meet(server: &mut Server, method: &str, params: Value, files: &dyn
         "textDocument/references" => referred(server, parsed(params)?, files),
         "textDocument/documentHighlight" => highlighted(server, parsed(params)?),
         "textDocument/documentSymbol" => outlined(server, parsed(params)?),
+        "workspace/symbol" => found(server, &parsed(params)?, files),
         "textDocument/codeAction" => mended(server, parsed(params)?),
         "textDocument/prepareRename" => renamable(server, parsed(params)?),
         "textDocument/rename" => renamed(server, parsed(params)?, files),
@@ -344,6 +350,37 @@ fn outlined(server: &Server, params: DocumentSymbolParams) -> Answer {
     Ok(json!(outline))
 }
 
+/// What the files of the workspace define, by a part of its name.
+fn found(server: &mut Server, params: &WorkspaceSymbolParams, files: &dyn Workspace) -> Answer {
+    let wanted = params.query.to_lowercase();
+    let encoding = server.documents.encoding;
+    let mut found: Vec<Value> = Vec::new();
+    for (path, known) in server.documents.whole_workspace(files) {
+        let Some((file, ast)) = known.file(&path) else {
+            continue;
+        };
+        let text = known.sources.get(file).map_or("", |file| file.text.as_str());
+        let text = Text::new(text, encoding);
+        let Some(uri) = server.documents.uri(&path) else {
+            continue;
+        };
+        let named = defined_in(ast, &text).into_iter();
+        let named = named.filter(|symbol| symbol.name.to_lowercase().contains(&wanted));
+        found.extend(named.map(|symbol| {
+            json!({
+                "name": symbol.name,
+                "kind": symbol.kind,
+                "containerName": path.rsplit('/').next(),
+                "location": { "uri": uri, "range": symbol.selection_range },
+            })
+        }));
+        if found.len() >= MOST_FOUND {
+            break;
+        }
+    }
+    Ok(json!(found))
+}
+
 /// The fixes of the diagnostics that touch a range.
 fn mended(server: &Server, params: CodeActionParams) -> Answer {
     let path = path_of(&params.text_document.uri);
@@ -357,23 +394,33 @@ fn mended(server: &Server, params: CodeActionParams) -> Answer {
                 continue;
             }
             for fix in &diagnostic.fixes {
-                let Some(edit) = edits_of(fix, &mut lines) else {
+                let Some(mut action) = action(fix, &told, &mut lines) else {
                     continue;
                 };
-                let action = json!({
-                    "title": capitalised(&fix.title),
-                    "kind": CodeActionKind::QUICKFIX,
-                    "diagnostics": [told],
-                    "isPreferred": diagnostic.fixes.len() == 1,
-                    "edit": edit,
-                });
+                action["isPreferred"] = json!(diagnostic.fixes.len() == 1);
                 if !actions.contains(&action) {
                     actions.push(action);
                 }
             }
         }
+        for hint in known.hints() {
+            let shown = hint_in_protocol(hint, &mut lines);
+            let touched =
+                shown.filter(|(of_file, told)| *of_file == path && touches(told.range, params.range));
+            actions.extend(touched.and_then(|(_, told)| action(&hint.fix, &told, &mut lines)));
+        }
     }
     Ok(json!(actions))
+}
+
+/// A change that an editor can make; none where it has no place in a file.
+fn action(fix: &Fix, told: &lsp_types::Diagnostic, lines: &mut Lines<'_>) -> Option<Value> {
+    Some(json!({
+        "title": capitalised(&fix.title),
+        "kind": CodeActionKind::QUICKFIX,
+        "diagnostics": [told],
+        "edit": edits_of(fix, lines)?,
+    }))
 }
 
 fn touches(a: Range, b: Range) -> bool {

@@ -2,7 +2,7 @@
 
 use super::Workspace;
 use super::analysis::{Analysis, Done, Finding, Planning, Task};
-use super::diagnostics::{Lines, in_protocol};
+use super::diagnostics::{Lines, hint_in_protocol, in_protocol};
 use super::documents::{Called, Documents, Language};
 use super::requests;
 use super::spelling::Spellings;
@@ -372,6 +372,13 @@ impl Server {
             let is_open = self.documents.called.contains_key(&known.root);
             let (sources, diagnostics) = known.told();
             let mut lines = Lines::of(sources, self.documents.encoding);
+            for hint in known.hints() {
+                if let Some((path, shown)) = hint_in_protocol(hint, &mut lines)
+                    && (is_open || self.documents.called.contains_key(&path))
+                {
+                    told.entry(path).or_default().push(shown);
+                }
+            }
             for diagnostic in diagnostics {
                 let (path, shown) = in_protocol(diagnostic, |path| known.file(path).is_some(), &mut lines);
                 // A file of points that is open is marked too, beside the job that names it.
@@ -434,7 +441,7 @@ impl Server {
         };
         known.planning = match done.result {
             Finding::Planned(planned) => Planning::Done(planned),
-            Finding::Refused(planned) => match core::mem::replace(&mut known.planning, Planning::Due) {
+            Finding::AtOnce(planned) => match core::mem::replace(&mut known.planning, Planning::Due) {
                 Planning::UnderWay(interest) => Planning::Helping(interest, planned),
                 // Put off meanwhile: it is due again.
                 other @ (Planning::Needless | Planning::Due | Planning::Helping(..) | Planning::Done(_)) => {

@@ -6,6 +6,23 @@ use crate::source::Span;
 use crate::syntax::ast::{Ast, Block, Entry, HeadPart, Item};
 use lsp_types::{DocumentSymbol, SymbolKind};
 
+/// What a file defines for others or is called by: jobs, values, blades and machines, without what is inside of them.
+pub(super) fn defined(ast: &Ast, text: &Text) -> Vec<DocumentSymbol> {
+    let is_named = |item: &&Item| match item {
+        Item::Job { .. } | Item::Let { .. } => true,
+        Item::Use { .. } => false,
+        Item::Block(block) => matches!(
+            block.head.first().map(|part| &part.node),
+            Some(HeadPart::Word(word)) if word == "blade" || word == "machine"
+        ),
+    };
+    ast.items
+        .iter()
+        .filter(is_named)
+        .map(|item| of_item(item, text))
+        .collect()
+}
+
 /// The outline.
 pub(super) fn symbols(ast: &Ast, text: &Text) -> Vec<DocumentSymbol> {
     ast.items.iter().map(|item| of_item(item, text)).collect()

@@ -7,14 +7,18 @@ use core::f64::consts::PI;
 /// A unit.
 pub(super) struct Unit {
     pub(super) name: &'static str,
+    /// What it is called.
+    #[cfg_attr(not(feature = "lsp"), expect(dead_code, reason = "only editors say it"))]
+    pub(super) spoken: &'static str,
     /// One of it in mm, rad, s, kg.
     pub(super) size: f64,
     pub(super) dimension: Dimension,
 }
 
-const fn unit(name: &'static str, size: f64, dimension: Dimension) -> Unit {
+const fn unit(name: &'static str, spoken: &'static str, size: f64, dimension: Dimension) -> Unit {
     Unit {
         name,
+        spoken,
         size,
         dimension,
     }
@@ -22,21 +26,21 @@ const fn unit(name: &'static str, size: f64, dimension: Dimension) -> Unit {
 
 /// All simple units. The inch is 25.4 mm exactly (international yard and pound agreement, 1959).
 pub(super) const UNITS: &[Unit] = &[
-    unit("um", 0.001, Dimension::LENGTH),
-    unit("mm", 1.0, Dimension::LENGTH),
-    unit("cm", 10.0, Dimension::LENGTH),
-    unit("m", 1000.0, Dimension::LENGTH),
-    unit("in", 25.4, Dimension::LENGTH),
-    unit("ft", 304.8, Dimension::LENGTH),
-    unit("deg", PI / 180.0, Dimension::ANGLE),
-    unit("rad", 1.0, Dimension::ANGLE),
-    unit("ms", 0.001, Dimension::TIME),
-    unit("s", 1.0, Dimension::TIME),
-    unit("min", 60.0, Dimension::TIME),
-    unit("h", 3600.0, Dimension::TIME),
-    unit("g", 0.001, Dimension::MASS),
-    unit("kg", 1.0, Dimension::MASS),
-    unit("%", 0.01, Dimension::PURE),
+    unit("um", "micrometre", 0.001, Dimension::LENGTH),
+    unit("mm", "millimetre", 1.0, Dimension::LENGTH),
+    unit("cm", "centimetre", 10.0, Dimension::LENGTH),
+    unit("m", "metre", 1000.0, Dimension::LENGTH),
+    unit("in", "inch", 25.4, Dimension::LENGTH),
+    unit("ft", "foot", 304.8, Dimension::LENGTH),
+    unit("deg", "degree", PI / 180.0, Dimension::ANGLE),
+    unit("rad", "radian", 1.0, Dimension::ANGLE),
+    unit("ms", "millisecond", 0.001, Dimension::TIME),
+    unit("s", "second", 1.0, Dimension::TIME),
+    unit("min", "minute", 60.0, Dimension::TIME),
+    unit("h", "hour", 3600.0, Dimension::TIME),
+    unit("g", "gram", 0.001, Dimension::MASS),
+    unit("kg", "kilogram", 1.0, Dimension::MASS),
+    unit("%", "percent", 0.01, Dimension::PURE),
 ];
 
 /// What people write, and the unit they mean.
@@ -101,6 +105,15 @@ pub(crate) fn quantity(number: f64, name: &str) -> Option<Quantity> {
     let (above, below) = (find(above)?, find(below)?);
     let dimension = above.dimension.over(below.dimension)?;
     Some(Quantity::new(number * above.size / below.size, dimension))
+}
+
+/// What a unit is called: `metre per minute`; none when there is no such unit.
+#[cfg(feature = "lsp")]
+pub(super) fn spoken(name: &str) -> Option<String> {
+    let Some((above, below)) = split(name) else {
+        return Some(find(name)?.spoken.to_owned());
+    };
+    Some(format!("{} per {}", find(above)?.spoken, find(below)?.spoken))
 }
 
 /// The units of a dimension: simple ones, and the quotients that people write.

@@ -190,6 +190,11 @@ pub(crate) fn unit_in_words(unit: &str) -> Option<(String, String)> {
     Some((one.dimension.words(), one.text()))
 }
 
+/// What a unit as written is called: `metre per minute`; none if there is no such unit.
+pub(crate) fn unit_spoken(unit: &str) -> Option<String> {
+    units::spoken(unit)
+}
+
 /// Where a block may stand: in a job only, or in a library as well; none if its head is not right.
 pub(crate) fn standing(block: &Block) -> Option<Part> {
     Some(match heads::classify(block).ok()? {

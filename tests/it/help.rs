@@ -29,6 +29,10 @@ impl Patience for Noting {
     fn cut_short(&self) -> Option<String> {
         Some("that was all the time".to_owned())
     }
+
+    fn slowed(&mut self) -> Wanted {
+        self.wanted.clone()
+    }
 }
 
 fn patiently(text: &str, wanted: Wanted) -> (Outcome, Vec<Diagnostic>, Vec<Stage>) {

@@ -130,6 +130,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "diag",
             "driver",
             "geom",
+            "hints",
             "job",
             "kinematics",
             "picture",
@@ -184,8 +185,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "lsp",
         &[
-            "diag", "driver", "format", "machine", "memory", "plan", "sema", "source", "summary", "syntax",
-            "wanted",
+            "diag", "driver", "format", "hints", "machine", "memory", "plan", "sema", "source", "summary",
+            "syntax", "wanted",
         ],
     ),
     (

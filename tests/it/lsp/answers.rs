@@ -32,7 +32,10 @@ fn hovering_tells_values_units_and_formulas() {
             ],
         ),
         ("travel = |12 m/min", vec!["`12 m/min` = `200 mm/s`, a speed"]),
-        ("12 |m/min", vec!["`1 m/min` = `16.6667 mm/s`, a speed"]),
+        (
+            "12 |m/min",
+            vec!["`m/min`: metre per minute", "`1 m/min` = `16.6667 mm/s`, a speed"],
+        ),
         (
             "to (ha|lf,",
             vec![
@@ -509,4 +512,25 @@ fn what_is_not_understood_is_refused() {
     assert_eq!(editor.ask("shutdown", Value::Null).unwrap(), Value::Null);
     let at = editor.at(PATH, "wi|dth");
     assert_eq!(editor.ask("textDocument/hover", at).unwrap_err()["code"], -32600);
+}
+
+#[test]
+fn what_a_workspace_defines_is_found_by_a_part_of_its_name() {
+    let mut editor = rib();
+    let found = |editor: &mut Editor, query: &str| -> Vec<String> {
+        let found = editor.ask("workspace/symbol", json!({ "query": query })).unwrap();
+        let found = found.as_array().unwrap().iter();
+        found
+            .map(|symbol| {
+                let (name, at) = (symbol["name"].as_str().unwrap(), &symbol["location"]);
+                assert!(at["range"]["start"]["line"].is_u64(), "{symbol}");
+                format!("{name} in {}", at["uri"].as_str().unwrap())
+            })
+            .collect()
+    };
+    // A blade of a library that is not open, and a value of the open job, whatever the case of the letters.
+    assert_eq!(found(&mut editor, "DAG"), ["dagger in file:///shop/blades.vcut"]);
+    assert_eq!(found(&mut editor, "half"), ["half in file:///shop/rib.vcut"]);
+    assert_eq!(found(&mut editor, "rib"), ["rib in file:///shop/rib.vcut"]);
+    assert_eq!(found(&mut editor, "nothing of the kind"), [""; 0]);
 }

@@ -1,6 +1,7 @@
 //! What is known of a job only when it has been planned, and only as long as its text stays.
 
 use super::editor::{BLADES, Editor, RIB, uri};
+use crate::repository::read;
 use serde_json::{Value, json};
 use vcutc::driver::Unhurried;
 use vcutc::lsp::Task;
@@ -95,6 +96,71 @@ fn a_refusal_is_told_before_help_is_looked_for() {
     }
     assert!(texts.iter().all(|text| text.contains("VC0401")), "{texts:#?}");
     assert_ne!(texts[0], texts[1], "help comes with the second message");
+}
+
+/// An example that its machine makes slow: what would help comes after the plan, says where it is to be written, and goes with the text.
+#[test]
+fn what_would_help_comes_after_the_plan() {
+    let names = [
+        "spoiler_clarky.vcut",
+        "shop/blades.vcut",
+        "shop/cells.vcut",
+        "shop/speeds.vcut",
+        "shop/gantry.toml",
+        "shop/knife_gantry.toml",
+        "airfoils/clarky.dat",
+    ];
+    let texts = names.map(|name| (name, read(&format!("examples/{name}"))));
+    let files: Vec<(&str, &str)> = texts.iter().map(|(name, text)| (*name, text.as_str())).collect();
+    let mut editor = Editor::with(&files);
+    let job = "/shop/spoiler_clarky.vcut";
+    editor.open(job);
+    let task = editor.server.task().unwrap();
+    let mut early = Vec::new();
+    let done = task.run_telling(
+        &editor.files,
+        &registry::backends(),
+        &mut Memory::none(),
+        (&mut Unhurried, &mut |done| early.push(done)),
+    );
+    assert_eq!(early.len(), 1, "the plan is told before hints are looked for");
+    let at_once = editor.server.finish(early.remove(0));
+    assert!(!serde_json::to_string(&at_once).unwrap().contains("saves"));
+    let at = editor.at(job, "job \"spoiler|_clarky\"");
+    let told = editor.ask("textDocument/hover", at.clone()).unwrap();
+    assert!(
+        told["contents"]["value"].as_str().unwrap().contains("19 cuts"),
+        "the figures are there: {told}"
+    );
+
+    let messages = editor.server.finish(done);
+    editor.take(&messages);
+    let (uri, hint) = hint_told(&editor).expect("a hint");
+    assert_eq!(hint["severity"], 3, "information: {hint}");
+    let params = json!({
+        "textDocument": { "uri": uri },
+        "range": hint["range"],
+        "context": { "diagnostics": [] },
+    });
+    let actions = editor.ask("textDocument/codeAction", params).unwrap();
+    let action = &actions[0];
+    assert!(action["title"].as_str().unwrap().contains("saves"), "{actions}");
+    assert_eq!(action["diagnostics"][0], hint);
+    let edit = &action["edit"]["changes"][uri.as_str()][0];
+    assert_eq!(edit["range"], hint["range"]);
+    assert!(edit["newText"].as_str().unwrap().starts_with("frame("), "{edit}");
+
+    editor.replace(job, "chord = 300 mm", "chord = 290 mm");
+    assert_eq!(hint_told(&editor), None, "of another text nothing is known");
+}
+
+/// The first hint that is told, and the file that it is told of.
+fn hint_told(editor: &Editor) -> Option<(String, Value)> {
+    editor.told.iter().find_map(|(uri, told)| {
+        let mut all = told["diagnostics"].as_array()?.iter();
+        let hint = all.find(|one| one["message"].as_str().is_some_and(|text| text.contains("saves")))?;
+        Some((uri.clone(), hint.clone()))
+    })
 }
 
 /// An answer for a text that has changed meanwhile is nobody's answer.
