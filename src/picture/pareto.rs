@@ -1,6 +1,7 @@
 //! A Pareto picture: the least time for each largest scallop, a curve for each lattice, and where the job stands.
 //!
-//! What lies above and to the right of a curve can be had, what lies below cannot. Curves differ in their dashes as well as in
+//! What lies above and to the right of a curve can be had, what lies below cannot. A scallop half as high costs several times the time,
+//! so time grows by factors on its axis: jobs of an hour and of a minute can both be read. Curves differ in their dashes as well as in
 //! their colours, so that they can be told apart without seeing colours.
 
 use super::Prefix;
@@ -106,7 +107,81 @@ fn description(pareto: &Pareto<'_>) -> String {
 /// How mm of scallop and seconds become places in the picture.
 struct Plot {
     x: Axis,
-    y: Axis,
+    y: TimeAxis,
+}
+
+/// The upward direction: times that grow by factors, from the least to the largest.
+struct TimeAxis {
+    /// Logarithm of the least time in s.
+    least: f64,
+    /// Logarithm of the largest over the least.
+    height: f64,
+}
+
+/// The shortest time that is told from none, in s.
+const SHORTEST: f64 = 0.01;
+/// The longest, about thirty years.
+const LONGEST: f64 = 1e9;
+/// Least distance of the words beside the axis.
+const APART: f64 = 24.0;
+
+impl TimeAxis {
+    fn of(seconds: impl Iterator<Item = f64>) -> Self {
+        let ends = seconds.map(|time| libm::log(time.clamp(SHORTEST, LONGEST))).fold(
+            None,
+            |ends: Option<[f64; 2]>, time| {
+                let [least, most] = ends.unwrap_or([time, time]);
+                Some([least.min(time), most.max(time)])
+            },
+        );
+        let [least, most] = ends.unwrap_or_default();
+        // Times that are nearly the same still have room, and words at both sides.
+        let air = (AIR * (most - least)).max(libm::log(1.6));
+        Self {
+            least: least - air,
+            height: most - least + 2.0 * air,
+        }
+    }
+
+    /// From 0 at the least time to 1 at the largest.
+    fn share(&self, seconds: f64) -> f64 {
+        let time = libm::log(seconds.clamp(SHORTEST, LONGEST));
+        ((time - self.least) / self.height).clamp(-0.02, 1.02)
+    }
+
+    /// Round times within, in s, that do not come too close to each other: those of the roundest kind come first.
+    fn ticks(&self) -> Vec<f64> {
+        const ROUND: [&[f64]; 4] = [
+            &[0.1, 1.0, 10.0, 60.0, 600.0, 3600.0, 36e3, 36e4, 36e5, 36e6, 36e7],
+            &[0.5, 5.0, 30.0, 300.0, 1800.0, 18e3, 18e4, 18e5, 18e6, 18e7],
+            &[0.2, 2.0, 20.0, 120.0, 1200.0, 7200.0, 72e3, 72e4, 72e5, 72e6],
+            &[
+                0.3, 3.0, 15.0, 40.0, 90.0, 180.0, 240.0, 420.0, 900.0, 2400.0, 10_800.0, 14_400.0, 28_800.0,
+                108e3, 144e3, 108e4,
+            ],
+        ];
+        let mut ticks: Vec<f64> = Vec::new();
+        for &time in ROUND.into_iter().flatten() {
+            let share = (libm::log(time) - self.least) / self.height;
+            let is_apart = |other: &f64| (self.share(*other) - share).abs() * SIZE.1 >= APART;
+            if (0.0..=1.0).contains(&share) && ticks.iter().all(is_apart) {
+                ticks.push(time);
+            }
+        }
+        ticks.sort_by(f64::total_cmp);
+        ticks
+    }
+}
+
+/// A round time as people say it: `30 s`, `2 min`, `5 h`.
+fn time_words(seconds: f64) -> String {
+    if seconds >= 3600.0 {
+        format!("{} h", number(seconds / 3600.0))
+    } else if seconds >= 60.0 {
+        format!("{} min", number(seconds / 60.0))
+    } else {
+        format!("{} s", number(seconds))
+    }
 }
 
 /// A direction of the plot, from its least value to its largest.
@@ -157,7 +232,7 @@ impl Plot {
             .chain(&pareto.planned);
         Self {
             x: Axis::of(places.clone().map(|place| place[0]).chain(pareto.limit)),
-            y: Axis::of(places.map(|place| place[1])),
+            y: TimeAxis::of(places.map(|place| place[1])),
         }
     }
 
@@ -219,7 +294,7 @@ fn limit_line(svg: &mut Svg, pareto: &Pareto<'_>, plot: &Plot) {
 fn ticks(svg: &mut Svg, plot: &Plot) {
     let (left, top) = CORNER;
     let bottom = top + SIZE.1;
-    let mut marks = String::new();
+    let (mut marks, mut grid) = (String::new(), String::new());
     for value in plot.x.ticks() {
         let x = left + SIZE.0 * plot.x.share(value);
         marks += &format!("M{} {}v6", number(x), number(bottom));
@@ -228,8 +303,10 @@ fn ticks(svg: &mut Svg, plot: &Plot) {
     for value in plot.y.ticks() {
         let y = top + SIZE.1 * (1.0 - plot.y.share(value));
         marks += &format!("M{} {}h-6", number(left), number(y));
-        svg.text((left - 10.0, y + 4.5), Anchor::End, "", &number(value));
+        grid += &format!("M{} {}h{}", number(left), number(y), number(SIZE.0));
+        svg.text((left - 10.0, y + 4.5), Anchor::End, "", &time_words(value));
     }
+    svg.path(&grid, "stroke=\"#dcd6c8\" fill=\"none\"");
     svg.path(&marks, "stroke=\"#2b2a27\" fill=\"none\"");
     svg.rect([left, top, SIZE.0, SIZE.1], "fill=\"none\" stroke=\"#2b2a27\"");
     svg.text(
@@ -240,10 +317,10 @@ fn ticks(svg: &mut Svg, plot: &Plot) {
     );
     let middle = top + SIZE.1 / 2.0;
     svg.text(
-        (26.0, middle),
+        (16.0, middle),
         Anchor::Middle,
-        &format!("transform=\"rotate(-90 26 {})\"", number(middle)),
-        "time, s",
+        &format!("transform=\"rotate(-90 16 {})\"", number(middle)),
+        "time, growing by factors",
     );
 }
 
@@ -329,6 +406,42 @@ mod tests {
             });
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
             assert!(svg.ends_with("</svg>\n"));
+        }
+    }
+
+    #[test]
+    fn times_of_every_size_have_words_beside_them() {
+        let ticks = |least: f64, most: f64| {
+            let axis = TimeAxis::of([least, most].into_iter());
+            let ticks = axis.ticks();
+            let shares: Vec<f64> = ticks.iter().map(|&time| axis.share(time)).collect();
+            assert!(
+                shares
+                    .windows(2)
+                    .all(|pair| (pair[1] - pair[0]) * SIZE.1 >= APART - 1e-9)
+            );
+            assert!(!ticks.is_empty(), "{least} to {most}: {ticks:?}");
+            ticks.into_iter().map(time_words).collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(
+            ticks(300.0, 186_000.0),
+            "5 min, 10 min, 30 min, 1 h, 2 h, 5 h, 10 h, 20 h, 50 h"
+        );
+        let mut least = 0.5;
+        while least < 1e6 {
+            for factor in [1.0, 1.3, 7.0, 1e3] {
+                let _ = ticks(least, least * factor);
+            }
+            least *= 1.7;
+        }
+    }
+
+    #[test]
+    fn a_time_twice_as_long_is_always_as_far_above() {
+        let axis = TimeAxis::of([10.0, 10_000.0].into_iter());
+        let step = axis.share(20.0) - axis.share(10.0);
+        for time in [15.0, 100.0, 4000.0] {
+            assert!((axis.share(2.0 * time) - axis.share(time) - step).abs() < 1e-12);
         }
     }
 
