@@ -4,6 +4,7 @@
 //! verdict of the summary, the sentence of the report, the list of the JSON messages and the warnings all come from it, so
 //! that none of them claims a check that another one denies.
 
+mod by_hand;
 mod warnings;
 mod words;
 
@@ -145,14 +146,14 @@ impl Checks {
         Self(all)
     }
 
-    /// The same of a program whose text was written too.
+    /// The same with that of the program's text, where one was written.
     #[must_use]
-    pub fn written(mut self, read_back: ReadBack) -> Self {
-        self.0.push(match read_back {
+    pub fn with(&self, read_back: Option<ReadBack>) -> Self {
+        let of_text = read_back.map(|read_back| match read_back {
             ReadBack::Same => made(Check::ReadBack),
             ReadBack::NoReader => not_made(Check::ReadBack, Reason::NoReader),
         });
-        self
+        Self(self.0.iter().cloned().chain(of_text).collect())
     }
 
     /// All of them, in a fixed order.

@@ -12,7 +12,6 @@ use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
-use crate::checks::{Checks, ReadBack};
 use crate::diag::has_errors;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
@@ -323,22 +322,13 @@ pub(super) fn tell(
         numbers: compiled.and_then(Compiled::numbers_of_cuts),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
-        checks: compiled.map(|compiled| checked(&compiled.checks, made.read_back)),
+        checks: compiled.map(|compiled| compiled.checks.with(made.read_back)),
         parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
         placed: &made.placed,
         remark: remark(product, is_wrong, made, console.warnings().remark(&diagnostics)).as_deref(),
         timings,
     });
     exit
-}
-
-/// The checks of a program, with that of its text where one was made.
-pub(super) fn checked(checks: &Checks, read_back: Option<ReadBack>) -> Checks {
-    let checks = checks.clone();
-    match read_back {
-        Some(read_back) => checks.written(read_back),
-        None => checks,
-    }
 }
 
 /// What needs saying of files.

@@ -21,8 +21,8 @@ pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Dur
     }
 }
 
-/// The hints that are found in that time; none where no time is given at all.
-fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> Vec<Hint> {
+/// The hints that are found in that time, or in the time that the job took; none where no time is given at all.
+pub(super) fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> Vec<Hint> {
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
         return Vec::new();
     };

@@ -5,17 +5,21 @@ use super::browser;
 use super::compile::unreadable;
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, stem};
+use super::hints::found_within;
 use super::output::{Placed, one_file};
 use super::patience;
 use super::progress::Progress;
+use super::snapshot::read_back;
 use super::{Exit, Targets, targets};
 use crate::diag::has_errors;
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
+use crate::hints::Hint;
 use crate::memory::Memory;
-use crate::report::page::page;
+use crate::readback::Written;
+use crate::report::page::{Further, page};
 use crate::report::sheet::sheet;
 use std::path::Path;
-use vcutc_backend_api::backend::Backend;
+use std::time::Instant;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {
@@ -43,6 +47,7 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         ..args.overrides.request(&disk, targets)
     };
     let budget = console.help_budget();
+    let start = Instant::now();
     let mut outcome = match patience::compile(request, &mut Memory::none(), budget, &mut progress) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
@@ -51,13 +56,24 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         }
     };
     progress.enter(Stage::Emitting);
-    let page = match document(args, target, &outcome) {
-        Ok(page) => page,
-        Err(EmitFailure::Diagnostics(refused)) => {
+    let found = if args.sheet {
+        Vec::new()
+    } else {
+        found_within(&outcome, budget, start.elapsed())
+    };
+    let written = match target.map(|target| driver::write(&outcome, target)) {
+        None => Ok(None),
+        Some(Ok(written)) => Ok(written),
+        Some(Err(EmitFailure::Diagnostics(refused))) => Err(refused),
+        Some(Err(EmitFailure::Sink(reason))) => return console.failure(&Failure::new(reason)),
+    };
+    let read_back = written.as_ref().ok().and_then(Option::as_ref).map(read_back);
+    let page = match written {
+        Ok(written) => document(args, &outcome, written.as_ref(), &found),
+        Err(refused) => {
             outcome.diagnostics.extend(refused);
             None
         }
-        Err(EmitFailure::Sink(reason)) => return console.failure(&Failure::new(reason)),
     };
     let timings = progress.finish();
     let placed = match page.as_deref().map(|page| write(page, &output, &disk, console)) {
@@ -74,7 +90,7 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         numbers: compiled.map(|compiled| &compiled.numbers),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
-        checks: compiled.map(|compiled| compiled.checks.clone()),
+        checks: compiled.map(|compiled| compiled.checks.with(read_back)),
         parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
         placed: &placed,
         remark: has_errors(&outcome.diagnostics).then_some("nothing was written"),
@@ -116,25 +132,30 @@ fn shown(page: &str, exit: Exit, console: &Console) -> Exit {
     }
 }
 
-/// The report or the sheet; none while the job has errors.
+/// The report or the sheet, with the files of the program that was written; none while the job has errors.
 fn document(
     args: &ReportArgs,
-    target: Option<&'static dyn Backend>,
     outcome: &Outcome,
-) -> Result<Option<String>, EmitFailure> {
-    if !args.sheet {
-        return Ok(page(outcome));
-    }
-    let written = match target {
-        Some(target) => driver::write(outcome, target)?,
-        None => None,
-    };
+    written: Option<&Written>,
+    hints: &[Hint],
+) -> Option<String> {
+    let read_back = written.map(read_back);
     let files: Vec<(&str, &[u8])> = written
-        .iter()
+        .into_iter()
         .flat_map(|written| written.bundle.files())
         .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
         .collect();
-    Ok(sheet(outcome, &files))
+    let files = files.as_slice();
+    if args.sheet {
+        sheet(outcome, files, read_back)
+    } else {
+        let further = Further {
+            files,
+            read_back,
+            hints,
+        };
+        page(outcome, further)
+    }
 }
 
 fn exit(outcome: &Outcome) -> Exit {

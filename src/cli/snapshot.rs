@@ -149,11 +149,16 @@ pub(super) fn make(
     Ok(Some(Complete {
         ready,
         names,
-        read_back: match &written.places {
-            Some(_) => ReadBack::Same,
-            None => ReadBack::NoReader,
-        },
+        read_back: read_back(&written),
     }))
+}
+
+/// Whether the text of a program was read again.
+pub(super) const fn read_back(written: &Written) -> ReadBack {
+    match &written.places {
+        Some(_) => ReadBack::Same,
+        None => ReadBack::NoReader,
+    }
 }
 
 fn staged(written: &Written, to: &Destination) -> Result<Output, NotReady> {

@@ -4,7 +4,8 @@
 //! that +y runs to the right) the blade is seen in its plane; against the feed (from -y, so that +x runs to the right) it is seen
 //! on edge, and beside it, dashed, as the swing leans it for the two flanks. `docs/process.md` has the formulas.
 
-use super::sheet::{BLUE, GREEN, HALO, INK, VERMILION, WIDTH};
+use super::Setting;
+use super::sheet::{BLUE, GREEN, HALO, INK, PHONE_WIDTH, VERMILION, WIDTH};
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 
@@ -32,11 +33,39 @@ pub enum Back {
     Blunt,
 }
 
-/// Height of the picture.
-const HEIGHT: f64 = 445.0;
-/// Where the tip is in the two views.
-const SIDE: [f64; 2] = [190.0, 330.0];
-const FRONT: [f64; 2] = [540.0, 330.0];
+/// Where the two views are.
+struct Layout {
+    size: [f64; 2],
+    /// Where the tip is, seen from the side.
+    side: [f64; 2],
+    /// Where it is, seen against the feed.
+    front: [f64; 2],
+}
+
+impl Layout {
+    /// Beside each other, or one below the other on a telephone. A page has the words that stand above the views elsewhere.
+    const fn of(setting: Setting) -> Self {
+        const HEADING: f64 = 60.0;
+        match setting {
+            Setting::Alone => Self {
+                size: [WIDTH, 445.0],
+                side: [190.0, 330.0],
+                front: [540.0, 330.0],
+            },
+            Setting::Page => Self {
+                size: [WIDTH, 445.0 - HEADING],
+                side: [190.0, 330.0 - HEADING],
+                front: [540.0, 330.0 - HEADING],
+            },
+            Setting::Phone => Self {
+                size: [PHONE_WIDTH, 765.0],
+                side: [158.0, 270.0],
+                front: [200.0, 650.0],
+            },
+        }
+    }
+}
+
 /// Length of the edge, of the whole blade, and of the blade with its shank.
 const EDGE: f64 = 110.0;
 const BODY: f64 = 150.0;
@@ -63,36 +92,39 @@ pub fn draw(blade: &Blade<'_>) -> String {
     let description = "Two views of the blade over the work. From the side: the shank above, the tip below, the tool axis z from \
                        the shank out through the tip, x in the blade's plane towards the edge that leads when the feed is along \
                        plus y. Against the feed: y square to the flat, along plus x of the work.";
+    let layout = Layout::of(blade.heading.ids.setting);
     let mut svg = Svg::new(
-        [WIDTH, HEIGHT],
+        layout.size,
         15,
         blade.heading.ids,
         blade.heading.title,
         description,
     );
-    let bold = "font-size=\"18\" font-weight=\"bold\"";
-    svg.text((24.0, 32.0), Anchor::Start, bold, blade.heading.title);
-    svg.text(
-        (24.0, 56.0),
-        Anchor::Start,
-        "font-size=\"14\"",
-        blade.heading.subtitle,
-    );
-    side(&mut svg, blade);
-    front(&mut svg, blade);
+    match blade.heading.ids.setting {
+        Setting::Alone => words(&mut svg, blade.heading),
+        Setting::Page | Setting::Phone => {}
+    }
+    side(&mut svg, blade, layout.side);
+    front(&mut svg, blade, layout.front);
     svg.finish()
 }
 
-fn side(svg: &mut Svg, blade: &Blade<'_>) {
+fn words(svg: &mut Svg, heading: Heading<'_>) {
+    let bold = "font-size=\"18\" font-weight=\"bold\"";
+    svg.text((24.0, 32.0), Anchor::Start, bold, heading.title);
+    svg.text((24.0, 56.0), Anchor::Start, "font-size=\"14\"", heading.subtitle);
+}
+
+fn side(svg: &mut Svg, blade: &Blade<'_>, tip: [f64; 2]) {
     let [x, z] = axes(blade.rake);
     // A place in the blade's plane: along x_t, and from the tip towards the shank.
     let at = |across: f64, up: f64| {
         [
-            SIDE[0] + across * x[0] - up * z[0],
-            SIDE[1] - (across * x[1] - up * z[1]),
+            tip[0] + across * x[0] - up * z[0],
+            tip[1] - (across * x[1] - up * z[1]),
         ]
     };
-    ground(svg, SIDE, [60.0, 400.0]);
+    ground(svg, tip, [tip[0] - 130.0, tip[0] + 210.0]);
     let half = EDGE * libm::tan(blade.half_apex.max(NARROWEST));
     let shank = half.min(HALF_SHANK);
     let body = [
@@ -119,25 +151,20 @@ fn side(svg: &mut Svg, blade: &Blade<'_>) {
         }
         Back::Blunt => "blunt back",
     };
-    arrow(svg, SIDE, at(AXIS, 0.0), VERMILION);
-    arrow(svg, SIDE, at(0.0, -AXIS), BLUE);
-    towards_the_eye(svg, SIDE);
+    arrow(svg, tip, at(AXIS, 0.0), VERMILION);
+    arrow(svg, tip, at(0.0, -AXIS), BLUE);
+    towards_the_eye(svg, tip);
     label(svg, at(AXIS + 10.0, 0.0), Anchor::Start, "tool x");
     label(svg, at(6.0, -AXIS - 12.0), Anchor::Start, "tool z");
-    label(
-        svg,
-        [SIDE[0] - 32.0, SIDE[1] + 22.0],
-        Anchor::End,
-        "tool y, to you",
-    );
+    label(svg, [tip[0] - 32.0, tip[1] + 22.0], Anchor::End, "tool y, to you");
     label(svg, at(half + 10.0, EDGE * 0.75), Anchor::Start, "leading edge");
     label(svg, at(-half - 4.0, EDGE * 0.7), Anchor::End, words);
     label(svg, at(-half - 10.0, BODY), Anchor::End, "flat, to you");
     label(svg, at(shank + 10.0, WHOLE - 20.0), Anchor::Start, "shank");
-    rake(svg, blade.rake);
-    let under = SIDE[1] + 96.0;
+    rake(svg, blade.rake, tip);
+    let under = tip[1] + 96.0;
     svg.text(
-        (SIDE[0], under),
+        (tip[0], under),
         Anchor::Middle,
         "font-weight=\"bold\"",
         "from the side, +y to the right",
@@ -145,9 +172,8 @@ fn side(svg: &mut Svg, blade: &Blade<'_>) {
 }
 
 /// The angle between the feed and the shank, beyond the tip of the x axis.
-fn rake(svg: &mut Svg, rake: f64) {
+fn rake(svg: &mut Svg, rake: f64, [x, y]: [f64; 2]) {
     let radius = 44.0;
-    let [x, y] = SIDE;
     let end = [x + radius * libm::cos(rake), y - radius * libm::sin(rake)];
     let path = format!(
         "M{} {}A{radius} {radius} 0 0 0 {} {}",
@@ -169,44 +195,40 @@ fn rake(svg: &mut Svg, rake: f64) {
     label(svg, [x + 140.0, y - 34.0], Anchor::Start, "feed +y");
 }
 
-fn front(svg: &mut Svg, blade: &Blade<'_>) {
+fn front(svg: &mut Svg, blade: &Blade<'_>, tip: [f64; 2]) {
     // Seen against the feed a blade that leans along it is shorter.
     let short = libm::sin(blade.rake);
-    ground(svg, FRONT, [440.0, 650.0]);
+    ground(svg, tip, [tip[0] - 100.0, tip[0] + 110.0]);
     for lean in [-SHOWN_SWING, SHOWN_SWING] {
         on_edge(
             svg,
             short,
             lean,
+            tip,
             "fill=\"none\" stroke=\"#8a857a\" stroke-dasharray=\"5 4\"",
         );
     }
-    on_edge(svg, short, 0.0, "fill=\"#dfe7ee\" stroke=\"#2b2a27\"");
-    arrow(svg, FRONT, [FRONT[0] + AXIS, FRONT[1]], GREEN);
-    arrow(svg, FRONT, [FRONT[0], FRONT[1] + AXIS * short], BLUE);
+    on_edge(svg, short, 0.0, tip, "fill=\"#dfe7ee\" stroke=\"#2b2a27\"");
+    arrow(svg, tip, [tip[0] + AXIS, tip[1]], GREEN);
+    arrow(svg, tip, [tip[0], tip[1] + AXIS * short], BLUE);
+    label(svg, [tip[0] + AXIS + 8.0, tip[1] - 14.0], Anchor::Start, "tool y");
     label(
         svg,
-        [FRONT[0] + AXIS + 8.0, FRONT[1] - 14.0],
-        Anchor::Start,
-        "tool y",
-    );
-    label(
-        svg,
-        [FRONT[0] + 8.0, FRONT[1] + AXIS * short + 4.0],
+        [tip[0] + 8.0, tip[1] + AXIS * short + 4.0],
         Anchor::Start,
         "tool z",
     );
-    let top = FRONT[1] - WHOLE * short;
+    let top = tip[1] - WHOLE * short;
     label(
         svg,
-        [FRONT[0] - 12.0, top - 6.0],
+        [tip[0] - 12.0, top - 6.0],
         Anchor::End,
         "left flank: swing -",
     );
-    label(svg, [FRONT[0] + 12.0, top - 6.0], Anchor::Start, "right flank: +");
-    let under = FRONT[1] + 96.0;
+    label(svg, [tip[0] + 12.0, top - 6.0], Anchor::Start, "right flank: +");
+    let under = tip[1] + 96.0;
     svg.text(
-        (FRONT[0], under),
+        (tip[0], under),
         Anchor::Middle,
         "font-weight=\"bold\"",
         "from -y, +x to the right",
@@ -214,13 +236,13 @@ fn front(svg: &mut Svg, blade: &Blade<'_>) {
 }
 
 /// The blade on edge, leaning to the right by that angle.
-fn on_edge(svg: &mut Svg, short: f64, lean: f64, paint: &str) {
+fn on_edge(svg: &mut Svg, short: f64, lean: f64, tip: [f64; 2], paint: &str) {
     let (sine, cosine) = (libm::sin(lean), libm::cos(lean));
     let at = |across: f64, up: f64| {
         let up = up * short;
         [
-            FRONT[0] + across * cosine + up * sine,
-            FRONT[1] + across * sine - up * cosine,
+            tip[0] + across * cosine + up * sine,
+            tip[1] + across * sine - up * cosine,
         ]
     };
     let (thin, wide) = (HALF_THICKNESS, HALF_SHANK * 0.7);

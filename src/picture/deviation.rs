@@ -3,7 +3,7 @@
 use super::band::{Band, MANY};
 use super::plot::{BELOW, Plot};
 use super::sheet::{self, BLUE, Entry, GREEN, Room, Swatch, VERMILION};
-use super::svg::{Anchor, Svg, number};
+use super::svg::{Along, Anchor, Svg, number};
 use super::thin::Thinned;
 
 pub use super::sheet::Heading;
@@ -70,6 +70,7 @@ pub fn draw(deviation: &Deviation<'_>) -> String {
     }
     mark(&mut svg, deviation.largest, &plot, &circle, &levels, &mut taken);
     plot.frame(&mut svg, "x, mm", "distance from the part, mm");
+    svg.cursor(Along::Width, &plot.x, [room.top, bottom]);
     svg.finish()
 }
 
@@ -201,7 +202,8 @@ fn mark(
         };
         !crossed && !taken.iter().any(meets) && line - ASCENT > top && line + DESCENT < bottom
     };
-    let lines = [-4.0, 5.0, 16.0, -14.0, 26.0, -24.0, 36.0, -36.0, 50.0, -50.0].map(|down| y + down);
+    // Above it, where no curve can be, before below it.
+    let lines = [-8.0, -14.0, -24.0, -36.0, 5.0, 16.0, 26.0, 36.0, -50.0, 50.0].map(|down| y + down);
     let line = lines.into_iter().find(is_free).unwrap_or(y - 4.0);
     taken.push((ends, line));
     let style = format!("font-weight=\"bold\" {}", sheet::HALO);

@@ -6,7 +6,7 @@ use super::plot::Plot;
 use super::scale::Scale;
 use super::section::most_ticks;
 use super::sheet::{self, BLUE, Entry, INK, Room, VERMILION};
-use super::svg::{Anchor, Svg, number};
+use super::svg::{Along, Anchor, Svg, number};
 use super::times::KINDS;
 use super::trace::Trace;
 use super::{Prefix, Setting};
@@ -101,6 +101,7 @@ pub fn draw(joints: &Joints<'_>) -> String {
     }
     let plot = margin(&mut svg, joints, room, [margins, bottom]);
     plot.frame_over_time(&mut svg);
+    svg.cursor(Along::Time, &time, [room.top, bottom]);
     svg.finish()
 }
 

@@ -4,7 +4,7 @@
 //! rules for each of them, which are stronger than what a picture says.
 
 /// Colours on a light ground, and on a dark one: what is light becomes dark, what stands out stands out.
-const PARTNERS: [(&str, &str); 28] = [
+const PARTNERS: [(&str, &str); 32] = [
     // Ground, letters, plots, grid.
     ("#fbfaf7", "#1c2126"),
     ("#2b2a27", "#e3e5e8"),
@@ -40,6 +40,11 @@ const PARTNERS: [(&str, &str); 28] = [
     ("#1565c0", "#6cb2ff"),
     ("#57606a", "#a6adb5"),
     ("#d0d4d9", "#3a424b"),
+    // The blade in the hand: the work, the shank, the flat, the blade that leans.
+    ("#e9e6df", "#343a41"),
+    ("#b9b3a3", "#7a766a"),
+    ("#dfe7ee", "#4d5a66"),
+    ("#8a857a", "#9a958a"),
 ];
 
 /// Rules of style for pictures below `within`, for a page on a dark ground.

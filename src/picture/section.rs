@@ -5,7 +5,7 @@
 
 use super::scale::{Scale, round_step};
 use super::sheet::{INK, MARGIN, PAGE_WIDTH, Room};
-use super::svg::{Anchor, Svg, number};
+use super::svg::{Along, Anchor, Svg, number};
 use super::thin::Thinned;
 use super::trace::Trace;
 use super::{Prefix, Setting};
@@ -109,6 +109,7 @@ impl Section {
         let turned = format!("transform=\"rotate(-90 18 {})\"", number(middle));
         svg.text((18.0, middle), Anchor::Middle, &turned, "z, mm");
         self.bar(svg);
+        svg.cursor(Along::Width, &self.x, [top, bottom]);
     }
 
     fn x_label(&self) -> String {

@@ -1,12 +1,23 @@
 //! The little of SVG that pictures here need.
 
-use super::Prefix;
+use super::scale::Scale;
 use super::sheet::INK;
+use super::{Prefix, Setting};
 use core::fmt::Write;
 
 /// An SVG text under construction. Coordinates are written with two decimals, so that they are the same everywhere.
 pub(super) struct Svg {
     text: String,
+    setting: Setting,
+}
+
+/// What the pictures of a page share, so that a cursor in one is shown in the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Along {
+    /// The time of the program, in s.
+    Time,
+    /// The width of the stock, in mm.
+    Width,
 }
 
 /// Where a text stands against its point.
@@ -30,7 +41,10 @@ impl Svg {
         title: &str,
         description: &str,
     ) -> Self {
-        let mut svg = Self { text: String::new() };
+        let mut svg = Self {
+            text: String::new(),
+            setting: ids.setting,
+        };
         let (width, height) = (number(width), number(height));
         let ids = ids.ids;
         svg.line(&format!(
@@ -70,6 +84,35 @@ impl Svg {
         self.line(&format!(
             "  <rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {paint}/>"
         ));
+    }
+
+    /// Where the page draws its cursor, and what it stands for there; nothing in a picture that stands alone.
+    pub(super) fn cursor(&mut self, along: Along, scale: &Scale, [top, bottom]: [f64; 2]) {
+        let along = match along {
+            Along::Time => "time",
+            Along::Width => "x",
+        };
+        let ([from, to], [left, right]) = (scale.values, scale.places);
+        let data = format!("data-cursor=\"{along}\" data-from=\"{from}\" data-to=\"{to}\"");
+        self.unseen([left, top, right - left, bottom - top], &data);
+    }
+
+    /// A row that stands for layers, by their names; nothing in a picture that stands alone.
+    pub(super) fn row_of_layers(&mut self, area: [f64; 4], layers: &[String]) {
+        let data = format!(
+            "data-cursor=\"layers\" data-layers=\"{}\"",
+            escaped(&layers.join(" "))
+        );
+        self.unseen(area, &data);
+    }
+
+    fn unseen(&mut self, area: [f64; 4], data: &str) {
+        match self.setting {
+            Setting::Alone => {}
+            Setting::Page | Setting::Phone => {
+                self.rect(area, &format!("fill=\"none\" pointer-events=\"none\" {data}"));
+            }
+        }
     }
 
     /// A path of rectangles: many of one paint are one element.

@@ -67,7 +67,7 @@ pub fn draw(times: &Times<'_>) -> String {
     let bottom = by_row + rows.len() as f64 * ROW + 6.0;
     let longest = rows
         .iter()
-        .map(|row| row.seconds.iter().sum())
+        .map(|(row, _)| row.seconds.iter().sum())
         .fold(0.0, f64::max);
     let mut svg = sheet::sheet(
         times.heading,
@@ -108,7 +108,7 @@ pub fn draw(times: &Times<'_>) -> String {
     );
     let scale = Scale::new([0.0, longest], [left, room.right - 20.0]);
     axis(&mut svg, &scale, [by_row - 6.0, bottom]);
-    for (number, row) in (0_u32..).zip(&rows) {
+    for (number, (row, names)) in (0_u32..).zip(&rows) {
         let y = by_row + f64::from(number) * ROW;
         svg.text((left - 10.0, y + 14.0), Anchor::End, "", &row.name);
         let mut from = 0.0;
@@ -116,6 +116,8 @@ pub fn draw(times: &Times<'_>) -> String {
             bar(&mut svg, &scale, [from, from + seconds], y, colour);
             from += seconds;
         }
+        let area = [left, y - 2.0, room.right - 20.0 - left, BAR + 4.0];
+        svg.row_of_layers(area, names);
     }
     svg.finish()
 }
@@ -180,21 +182,22 @@ fn legend(times: &Times<'_>) -> Vec<Entry> {
         .collect()
 }
 
-/// Rows, neighbours put together until they are few enough: named by the first and the last.
-fn gathered(rows: &[Row]) -> Vec<Row> {
+/// Rows, neighbours put together until they are few enough: named by the first and the last, and with the names of all.
+fn gathered(rows: &[Row]) -> Vec<(Row, Vec<String>)> {
     let size = rows.len().div_ceil(MOST_ROWS).max(1);
     let together = |rows: &[Row]| {
         let names = [rows.first(), rows.last()].map(|row| row.map_or("", |row| row.name.as_str()));
         let kinds = rows.iter().map(|row| row.seconds.len()).max().unwrap_or_default();
         let sum = |kind: usize| rows.iter().filter_map(|row| row.seconds.get(kind)).sum();
-        Row {
+        let row = Row {
             name: if names[0] == names[1] {
                 names[0].to_owned()
             } else {
                 format!("{} to {}", names[0], names[1])
             },
             seconds: (0..kinds).map(sum).collect(),
-        }
+        };
+        (row, rows.iter().map(|row| row.name.clone()).collect())
     };
     rows.chunks(size).map(together).collect()
 }
@@ -214,10 +217,11 @@ mod tests {
         let gathered = gathered(&rows);
         assert_eq!(gathered.len(), 25);
         assert_eq!(
-            (gathered[0].name.as_str(), gathered[24].name.as_str()),
+            (gathered[0].0.name.as_str(), gathered[24].0.name.as_str()),
             ("1 to 4", "97 to 100")
         );
-        let total: f64 = gathered.iter().flat_map(|row| &row.seconds).sum();
+        assert_eq!(gathered[24].1, ["97", "98", "99", "100"]);
+        let total: f64 = gathered.iter().flat_map(|(row, _)| &row.seconds).sum();
         assert_eq!(total, 5050.0 + 100.0);
     }
 }

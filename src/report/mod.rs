@@ -2,6 +2,7 @@
 
 mod base64;
 mod digest;
+mod facts;
 pub mod page;
 pub mod pictures;
 pub mod playback;

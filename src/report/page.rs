@@ -7,20 +7,25 @@
 
 mod ansi;
 mod cross_section;
+mod cuts;
 mod deviation;
 mod figure;
+mod help;
 pub(super) mod html;
 mod live;
 mod machine;
 mod parameters;
 pub(super) mod policy;
+mod set_up;
 mod source;
 mod times;
 mod top;
 
 use super::{Material, playback};
+use crate::checks::ReadBack;
 use crate::diag::Diagnostic;
 use crate::driver::Outcome;
+use crate::hints::Hint;
 use crate::picture::dark;
 use crate::source::SourceMap;
 use html::escaped;
@@ -36,6 +41,28 @@ struct Subject<'a> {
     sources: &'a SourceMap,
     /// What there was to warn of.
     warnings: &'a [Diagnostic],
+    /// What else there is to show.
+    further: Further<'a>,
+}
+
+/// What a page shows besides the outcome, as far as it was asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Further<'a> {
+    /// The files of the program, with their bytes.
+    pub files: &'a [(&'a str, &'a [u8])],
+    /// What came of reading them again, where there are some.
+    pub read_back: Option<ReadBack>,
+    /// Changes that were found to make the job faster.
+    pub hints: &'a [Hint],
+}
+
+impl Further<'_> {
+    /// Nothing.
+    pub const NOTHING: Self = Self {
+        files: &[],
+        read_back: None,
+        hints: &[],
+    };
 }
 
 /// A section of the page.
@@ -53,8 +80,8 @@ const SCRIPT: &str = include_str!("assets/page.js");
 
 /// The page of an outcome; none while its job has errors.
 #[must_use]
-pub fn page(outcome: &Outcome) -> Option<String> {
-    Some(document(&Content::of(outcome)?, None))
+pub fn page(outcome: &Outcome, further: Further<'_>) -> Option<String> {
+    Some(document(&Content::of(outcome, further)?, None))
 }
 
 /// What a page shows, without what is around it: it can be shown once more below messages of errors.
@@ -71,11 +98,12 @@ pub struct Content {
 impl Content {
     /// Of an outcome; none while its job has errors.
     #[must_use]
-    pub fn of(outcome: &Outcome) -> Option<Self> {
+    pub fn of(outcome: &Outcome, further: Further<'_>) -> Option<Self> {
         let subject = Subject {
             material: Material::of(outcome)?,
             sources: &outcome.sources,
             warnings: &outcome.diagnostics,
+            further,
         };
         let listing = source::Listing::of(subject);
         let sections = [
@@ -84,11 +112,12 @@ impl Content {
             Some(deviation::section(subject)),
             machine::section(subject),
             Some(times::section(subject)),
+            Some(set_up::section(subject)),
             Some(parameters::section(subject, &listing)),
             Some(listing.section()),
         ];
         let sections: Vec<Section> = sections.into_iter().flatten().collect();
-        let mut body = top::key_numbers(subject);
+        let mut body = top::key_numbers(subject) + &help::block(subject, &listing);
         for Section {
             id,
             title,

@@ -6,16 +6,15 @@
 
 use super::Material;
 use super::digest::hexadecimal;
+use super::facts;
 use super::page::html::escaped;
 use super::page::policy::{Requests, policy};
+use crate::checks::{Checks, ReadBack};
 use crate::driver::Outcome;
-use crate::job::{Blade, Machine, RoughVcut};
 use crate::picture::{Prefix, setup};
-use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut};
 use crate::summary::time;
-use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{AxisKind, Edges, Ready, Registered};
+use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::Duration;
 
 const STYLE: &str = include_str!("assets/sheet.css");
@@ -24,9 +23,10 @@ const MOST_LAYERS: usize = 12;
 /// Most files of the program that are named one by one.
 const MOST_FILES: usize = 4;
 
-/// The sheet of an outcome, with the files of its program, if it was written for a target; none while its job has errors.
+/// The sheet of an outcome, with the files of its program and what came of reading them again, if it was written for a target;
+/// none while its job has errors.
 #[must_use]
-pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])]) -> Option<String> {
+pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])], read_back: Option<ReadBack>) -> Option<String> {
     let material = Material::of(outcome)?;
     let job = material.job;
     let vcuts: Vec<&PlannedVcut> = material
@@ -38,15 +38,18 @@ pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])]) -> Option<String> {
     let machine = job.machine.as_ref();
     let mut body = header(outcome, &material);
     body += "<div class=\"columns\">\n";
-    body += &section("Stock and zero of the work", &(stock(&material) + &base(machine)));
-    body += &section("Blade", &blades(&vcuts, machine));
+    body += &section("Stock and zero of the work", &stock(&material));
+    body += &section("Blade", &blades(&material));
     body += &section("Cuts", &cuts(&material, &vcuts));
     body += &section(
         "Machine and program",
-        &(generator(machine) + &feeds(&vcuts) + &programs(files)),
+        &(rows(&[facts::control(machine), facts::speeds(&material)].concat()) + &programs(files)),
     );
     body += "</div>\n<div class=\"columns\" style=\"grid-template-columns: 1fr\">\n";
-    body += &section("To check by hand: the compiler cannot", &checklist(&material));
+    body += &section(
+        "To check by hand",
+        &checklist(&material, &material.compiled.checks.with(read_back)),
+    );
     body += "</div>\n<p class=\"signed\"><span>Set up by</span><span>Date</span><span>Blade no.</span></p>\n";
     Some(document(&escaped(&job.name), &body))
 }
@@ -103,38 +106,20 @@ fn header(outcome: &Outcome, material: &Material<'_>) -> String {
 
 fn stock(material: &Material<'_>) -> String {
     let stock = material.job.stock;
-    let size = [stock.width, stock.depth, stock.height].map(|length| length.to_mm());
     let sketch = setup::stock(&setup::Stock {
         ids: Prefix::new("stock-"),
-        size,
+        size: [stock.width, stock.depth, stock.height].map(|length| length.to_mm()),
     });
-    let [x, y, z] = size.map(show);
-    sketch + &rows(&[("stock x, y, z", format!("{x} x {y} x {z} mm"))])
+    let facts = [
+        facts::stock(material.job),
+        facts::base(material.job.machine.as_ref()),
+    ];
+    sketch + &rows(&facts.concat())
 }
 
-/// Where the work is.
-fn base(machine: Option<&Machine>) -> String {
-    let Some(machine) = machine else {
-        return rows(&[("base frame", "the job has no machine".to_owned())]);
-    };
-    rows(&[("base frame", frame(&machine.base.value.frame))])
-}
-
-fn frame(frame: &Frame) -> String {
-    let (origin, turn) = (frame.origin, frame.orientation.to_zyx());
-    let [a, b, c] = [turn.a, turn.b, turn.c].map(|angle| show(angle.to_deg()));
-    let [x, y, z] = [origin.x, origin.y, origin.z].map(show);
-    format!("x {x}, y {y}, z {z}; a {a}, b {b}, c {c}")
-}
-
-/// The blades, each once, with the way they are held.
-fn blades(vcuts: &[&PlannedVcut], machine: Option<&Machine>) -> String {
-    let mut named: Vec<&Blade> = Vec::new();
-    for blade in vcuts.iter().map(|vcut| &vcut.asked.blade) {
-        if named.iter().all(|other| other.name != blade.name) {
-            named.push(blade);
-        }
-    }
+/// The blades, with the way they are held.
+fn blades(material: &Material<'_>) -> String {
+    let named = facts::blades(material);
     let sketch = named.first().map_or_else(String::new, |blade| {
         setup::blade(&setup::Blade {
             ids: Prefix::new("blade-"),
@@ -146,55 +131,8 @@ fn blades(vcuts: &[&PlannedVcut], machine: Option<&Machine>) -> String {
             },
         })
     });
-    let mut list: Vec<(&str, String)> = named.iter().map(|blade| ("blade", words(blade))).collect();
-    if let Some(machine) = machine {
-        let tool = &machine.tool.value.frame;
-        list.push(("tool frame", frame(tool)));
-        let [edge, flat, tip] = axes(tool);
-        list.push((
-            "tool axes",
-            format!("x (edge) {edge}; y (flat) {flat}; z (out of the tip) {tip}, seen from the flange"),
-        ));
-    }
-    sketch + &rows(&list)
-}
-
-fn words(blade: &Blade) -> String {
-    let edges = match blade.edges {
-        Edges::Single => "single",
-        Edges::Double => "double",
-    };
-    format!(
-        "{}: {edges} edge {} mm long, half apex {} deg, {} mm thick",
-        blade.name,
-        show(blade.cutting_length.value.to_mm()),
-        show(blade.half_apex.value.to_deg()),
-        show(blade.thickness.value.to_mm())
-    )
-}
-
-/// Where x, y and z of a tool point, seen from the flange.
-fn axes(tool: &Frame) -> [String; 3] {
-    let matrix = tool.orientation.matrix();
-    [0, 1, 2].map(|column| direction(matrix.map(|row| row[column])))
-}
-
-/// A direction in words: an axis where it is one within half a degree.
-fn direction(parts: [f64; 3]) -> String {
-    // The cosine of half a degree.
-    const NEARLY: f64 = 0.999_962;
-    let along = ["x", "y", "z"]
-        .into_iter()
-        .zip(parts)
-        .find(|(_, part)| part.abs() > NEARLY);
-    match along {
-        Some((name, part)) if part > 0.0 => format!("+{name}"),
-        Some((name, _)) => format!("-{name}"),
-        None => {
-            let [x, y, z] = parts.map(|part| format!("{:.2}", part + 0.0));
-            format!("({x}, {y}, {z})")
-        }
-    }
+    let tool = facts::tool(material.job.machine.as_ref());
+    sketch + &rows(&[facts::of_blades(&named), tool].concat())
 }
 
 /// A row of the list of cuts.
@@ -302,64 +240,6 @@ fn together(layers: &[Layer], name: String) -> Layer {
     }
 }
 
-fn generator(machine: Option<&Machine>) -> String {
-    let Some(machine) = machine else {
-        return String::new();
-    };
-    let output = machine.ultrasonic.map_or_else(
-        || "no output given".to_owned(),
-        |output| format!("output {}", output.value),
-    );
-    let ready = match machine.ready.value {
-        Ready::Input(number) => format!("ready at input {number}"),
-        Ready::After(time) => format!("ready {} s after switching on", show(time.to_s())),
-    };
-    let mut list = vec![("generator", format!("{output}, {ready}"))];
-    list.extend(machine.load.map(|load| match load.value {
-        Registered::Number(number) => ("load", format!("number {number} of the controller")),
-        Registered::Value(load) => {
-            let [x, y, z] = [load.centre.x, load.centre.y, load.centre.z].map(show);
-            (
-                "load",
-                format!("{} kg at x {x}, y {y}, z {z} mm", show(load.mass.to_kg())),
-            )
-        }
-    }));
-    list.extend(machine.home.map(|home| {
-        let axes = machine.model.axes.iter().zip(home.value.0);
-        let values = axes.map(|(axis, value)| match axis.kind {
-            AxisKind::Rotary => format!("{} {}", axis.name, show(value.to_degrees())),
-            AxisKind::Linear => format!("{} {} mm", axis.name, show(value)),
-        });
-        ("home", values.collect::<Vec<_>>().join(", "))
-    }));
-    rows(&list)
-}
-
-fn feeds(vcuts: &[&PlannedVcut]) -> String {
-    let mut list: Vec<(&str, String)> = Vec::new();
-    for RoughVcut {
-        cut_feed,
-        travel_feed,
-        reorient_rate,
-        clearance,
-        ..
-    } in vcuts.iter().map(|vcut| &vcut.asked)
-    {
-        let words = format!(
-            "cut {} mm/s, travel {} mm/s, turn {} deg/s; clearance {} mm",
-            show(cut_feed.value.to_mm_per_s()),
-            show(travel_feed.value.to_mm_per_s()),
-            show(reorient_rate.value.to_deg_per_s()),
-            show(clearance.value.to_mm())
-        );
-        if list.iter().all(|(_, known)| *known != words) {
-            list.push(("speeds", words));
-        }
-    }
-    rows(&list)
-}
-
 /// The files of the program, and what they are known by.
 fn programs(files: &[(&str, &[u8])]) -> String {
     if files.is_empty() {
@@ -392,42 +272,32 @@ fn programs(files: &[(&str, &[u8])]) -> String {
     html + "</tbody>\n</table>\n"
 }
 
-/// What the compiler does not know.
-fn checklist(material: &Material<'_>) -> String {
-    let mut list = vec![
-        "Blade as named above, sharp, clamped; tip and flat calibrated: the tool frame on the control is the one above.".to_owned(),
-        "Base frame measured at the corner of the stock that is marked zero; x, y and z point as in the sketch.".to_owned(),
-        "Stock of the size above, fixed so that nothing of the fixture is in the way of the blade.".to_owned(),
-        "Shank, holder, arm, table, cables: collisions are not computed. Watch the first run in the air.".to_owned(),
-        "Stand clear: the way from home and back to it is free.".to_owned(),
-        "Generator switches on at its output and says that it is ready; amplitude as for this core.".to_owned(),
+/// What has to be right on the floor, and then what the compiler did not check of this program.
+fn checklist(material: &Material<'_>, checks: &Checks) -> String {
+    let mut on_the_floor = vec![
+        "Blade as named above, sharp, clamped; tip and flat calibrated: the tool frame on the control is the one above.",
+        "Base frame measured at the corner of the stock that is marked zero; x, y and z point as in the sketch.",
+        "Stock of the size above, fixed so that nothing of the fixture is in the way of the blade.",
+        "Stand clear: the way from home and back to it is free.",
+        "Generator switches on at its output and says that it is ready; amplitude as for this core.",
     ];
-    if let Some(machine) = &material.job.machine {
-        let axes = &machine.model.axes;
-        let unknown: Vec<&str> = axes
-            .iter()
-            .filter(|axis| axis.rate.is_none())
-            .map(|axis| axis.name.as_str())
-            .collect();
-        if !unknown.is_empty() {
-            list.push(format!(
-                "Speeds of {}: not known to the compiler, so not checked.",
-                unknown.join(", ")
-            ));
-        }
-        if machine.load.is_none() {
-            list.push("Load data on the control are those of this blade and holder.".to_owned());
-        }
+    let machine = material.job.machine.as_ref();
+    if machine.is_some_and(|machine| machine.load.is_none()) {
+        on_the_floor.push("Load data on the control are those of this blade and holder.");
     }
-    list.push(format!(
-        "Times as the first part takes them; they were computed from: {}.",
-        material.compiled.times.basis_words
-    ));
-    let items: String = list
-        .iter()
-        .map(|item| format!("<li>{}</li>\n", escaped(item)))
-        .collect();
-    format!("<ul>\n{items}</ul>\n")
+    let list = |lines: &[String]| {
+        let items: String = lines
+            .iter()
+            .map(|line| format!("<li>{}</li>\n", escaped(line)))
+            .collect();
+        format!("<ul>\n{items}</ul>\n")
+    };
+    let on_the_floor: Vec<String> = on_the_floor.into_iter().map(str::to_owned).collect();
+    format!(
+        "{}<h3>Not checked by the compiler</h3>\n{}",
+        list(&on_the_floor),
+        list(&checks.by_hand())
+    )
 }
 
 /// `1 layer`, `2 layers`.
@@ -441,13 +311,6 @@ fn counted(count: usize, what: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn directions_are_axes_where_they_are() {
-        assert_eq!(direction([0.0, -1.0, 0.0]), "-y");
-        assert_eq!(direction([1.0, 0.001, 0.0]), "+x");
-        assert_eq!(direction([0.6, 0.0, -0.8]), "(0.60, 0.00, -0.80)");
-    }
 
     #[test]
     fn few_files_are_named_and_more_are_known_together() {

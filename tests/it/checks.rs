@@ -3,6 +3,7 @@
 
 use crate::pipeline::{Files, compile, told};
 use crate::repository::{read, root};
+use std::collections::BTreeSet;
 use vcutc::checks::{Check, Outcome as Came};
 use vcutc::choice;
 use vcutc::diag::Code;
@@ -11,7 +12,8 @@ use vcutc::job::CheckedJob;
 use vcutc::lower::lower;
 use vcutc::machine::catalogue;
 use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, solve};
-use vcutc::report::page::page;
+use vcutc::report::page::{Further, page};
+use vcutc::report::sheet::sheet;
 use vcutc::sema;
 use vcutc::source::SourceMap;
 use vcutc_backend_api::verify::verify;
@@ -118,7 +120,7 @@ struct Said {
 
 impl Said {
     fn of(outcome: &Outcome) -> Self {
-        let page = page(outcome).unwrap();
+        let page = page(outcome, Further::NOTHING).unwrap();
         let paragraph = |start: &str| {
             let rest = page.split(start).nth(1).unwrap_or_else(|| panic!("no {start}"));
             rest.split("</p>").next().unwrap().to_owned()
@@ -130,6 +132,49 @@ impl Said {
             proven: proven.to_owned(),
             not_checked: paragraph("<p class=\"unchecked\">"),
         }
+    }
+}
+
+/// What the set-up sheet leaves to a person, line by line.
+fn left_to_people(outcome: &Outcome) -> Vec<String> {
+    let sheet = sheet(outcome, &[], None).unwrap();
+    let (_, rest) = sheet.split_once("<h3>Not checked by the compiler</h3>").unwrap();
+    let list = rest.split("</ul>").next().unwrap();
+    let items = list.split("<li>").skip(1);
+    items
+        .map(|item| item.split("</li>").next().unwrap().to_owned())
+        .collect()
+}
+
+/// Page and sheet come from one list: what the page does not claim, the sheet leaves to a person, and nothing else.
+fn assert_sheet_agrees(name: &str, outcome: &Outcome) {
+    let left = left_to_people(outcome);
+    let figures = compiled(outcome).checks.figures();
+    let open: BTreeSet<&str> = figures
+        .iter()
+        .filter(|figure| !figure.made)
+        .map(|figure| figure.check)
+        .collect();
+    assert_eq!(left.len(), open.len(), "{name}: {left:#?} for {open:?}");
+    let said = Said::of(outcome);
+    for (check, on_the_page, on_the_sheet) in [
+        ("axis_rate", "rates of", "with the rates of"),
+        ("elbow_angle", "J3 - J2", "J3 - J2"),
+        ("accelerations", "times with accelerations", "without speeding up"),
+        ("turns", "sweep of the edge", "where the blade turns beside it"),
+        ("singular_poses", "distance from singular poses", "singular pose"),
+        ("holder", "shank and holder", "Shank and holder"),
+        ("collisions", "collisions", "clear each other"),
+    ] {
+        let is_open = open.contains(check);
+        assert_eq!(
+            said.not_checked.contains(on_the_page),
+            is_open,
+            "{name}, {check}: {}",
+            said.not_checked
+        );
+        let is_left = left.iter().any(|line| line.contains(on_the_sheet));
+        assert_eq!(is_left, is_open, "{name}, {check}: {left:#?}");
     }
 }
 
@@ -158,6 +203,7 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
         let has_rates = sheet.lines().any(|line| line.starts_with("speeds_deg_s"));
         let outcome = compile(JOB, &Files::default().with(JOB, job_of(name)));
         let said = Said::of(&outcome);
+        assert_sheet_agrees(name, &outcome);
         assert_eq!(rates_made(&outcome), if has_rates { 6 } else { 0 }, "{name}");
         assert_eq!(warns(&outcome), !has_rates, "{name}");
         assert_eq!(
@@ -211,6 +257,7 @@ fn the_page_claims_of_every_five_axis_machine_what_its_sheet_lets_check() {
             .replace("reorient = 60 deg/s", "reorient = 40 deg/s");
         let outcome = compile(JOB, &Files::default().with(JOB, job));
         let said = Said::of(&outcome);
+        assert_sheet_agrees(name, &outcome);
         assert_eq!(
             (rates_made(&outcome), warns(&outcome)),
             (rates, rates < axes),

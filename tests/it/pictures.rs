@@ -176,7 +176,7 @@ fn pictures_stay_within_their_sheets() {
 fn every_colour_is_another_one_in_the_dark() {
     for (example, pairings) in compiling() {
         let outcome = compile_on(pairings[0].machine, &example, &folder());
-        let page = vcutc::report::page::page(&outcome).unwrap();
+        let page = vcutc::report::page::page(&outcome, vcutc::report::page::Further::NOTHING).unwrap();
         let (_, dark) = page
             .split_once("(prefers-color-scheme: dark) {\n.view svg")
             .unwrap();

@@ -24,8 +24,8 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long)]
     pub(in crate::cli) sheet: bool,
 
-    /// Name the files of the program for this target, with their SHA-256, on the sheet
-    #[arg(long, value_name = "NAME", requires = "sheet")]
+    /// Name the files of the program for this target, with their SHA-256
+    #[arg(long, value_name = "NAME")]
     pub(in crate::cli) target: Option<String>,
 
     #[command(flatten)]

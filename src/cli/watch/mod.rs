@@ -16,7 +16,7 @@ use super::console::{Console, Failure};
 use super::{Exit, Targets};
 use crate::diag::render::{ColorChoice, render};
 use crate::memory::Memory;
-use crate::report::page::{Content, Served, served_errors, served_page};
+use crate::report::page::{Content, Further, Served, served_errors, served_page};
 use crate::wanted::Wanted;
 use again::{Came, Means, Seen, Watched};
 use serde::Serialize;
@@ -205,7 +205,7 @@ impl Watch<'_> {
                     None => Served::new(version),
                     Some(failure) => Served::with_trouble(version, failure.message()),
                 };
-                match Content::of(outcome) {
+                match Content::of(outcome, Further::NOTHING) {
                     Some(content) => served_page(last.insert(content), &served),
                     None => {
                         let messages = render(&outcome.diagnostics, &outcome.sources, ColorChoice::Colored);

@@ -107,6 +107,90 @@
 
   for (const figure of document.querySelectorAll("figure[data-zoom]")) zoomable(figure);
 
+  // One cursor for all: where the mouse is in a picture over time, over x or by layer, the same moment is marked in the others; a
+  // click brings the playback there. Without the mouse the mark is where the playback is.
+  function shareCursor() {
+    const player = window.vcutPlayback;
+    const areas = [...document.querySelectorAll("[data-cursor]")].map(area);
+    if (player === undefined) return;
+    const words = [...document.querySelectorAll("figure .tools")].map((tools) => {
+      const told = document.createElement("output");
+      tools.prepend(told);
+      return told;
+    });
+    let pointed = null;
+
+    /** A stretch of a picture, with the line in it. */
+    function area(rect) {
+      const svg = rect.ownerSVGElement;
+      const [left, top, width, height] = ["x", "y", "width", "height"].map((name) => Number(rect.getAttribute(name)));
+      const { cursor, from, to, layers } = rect.dataset;
+      const line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+      line.setAttribute("class", "cursor");
+      if (cursor !== "layers") svg.append(line);
+      return {
+        svg, rect, line, cursor, left, top, width, height,
+        from: Number(from), to: Number(to), layers: layers === undefined ? [] : layers.split(" "),
+      };
+    }
+
+    /** The moment that is meant by a place in a picture; none beside what it shows. */
+    function meant({ svg, cursor, left, top, width, height, from, to, layers }, event) {
+      const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+      if (at.x < left || at.x > left + width || at.y < top || at.y > top + height) return null;
+      const value = from + ((at.x - left) / width) * (to - from);
+      if (cursor === "time") return value;
+      return cursor === "x" ? player.timeOfCutAt(value) : player.timeOfLayers(layers);
+    }
+
+    function show() {
+      const moment = player.momentAt(pointed ?? player.time());
+      for (const { line, rect, cursor, left, top, width, height, from, to, layers } of areas) {
+        if (cursor === "layers") {
+          rect.classList.toggle("cursor-row", layers.includes(moment.layer));
+          continue;
+        }
+        const value = cursor === "time" ? moment.time : moment.x;
+        const at = left + ((value - from) / (to - from)) * width;
+        line.setAttribute("d", value >= from && value <= to ? `M${at.toFixed(2)} ${top}v${height}` : "");
+      }
+      for (const told of words) told.textContent = pointed === null ? "" : moment.words;
+    }
+
+    for (const svg of new Set(areas.map((one) => one.svg))) {
+      const here = areas.filter((one) => one.svg === svg);
+      const find = (event) => here.map((one) => meant(one, event)).find((time) => time !== null) ?? null;
+      let pressed = null;
+      svg.addEventListener("pointermove", (event) => {
+        pointed = find(event);
+        show();
+      });
+      svg.addEventListener("pointerleave", () => {
+        pointed = null;
+        show();
+      });
+      svg.addEventListener("pointerdown", (event) => {
+        pressed = { x: event.clientX, y: event.clientY };
+      });
+      // Where the picture holds the pointer, the click is the picture's frame's.
+      svg.closest(".view").addEventListener("click", (event) => {
+        const moved = pressed === null || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4;
+        pressed = null;
+        const time = moved ? null : find(event);
+        if (time !== null) player.seek(time);
+      });
+    }
+    for (const button of document.querySelectorAll("[data-seek]")) {
+      button.addEventListener("click", () => {
+        player.seek(Number(button.dataset.seek));
+        document.getElementById("playback").scrollIntoView();
+      });
+    }
+    document.addEventListener("vcut-playback", show);
+    show();
+  }
+  shareCursor();
+
   /** Marks what goes on to the right of what is seen of it. */
   function hint(box) {
     box.classList.toggle("more", box.scrollLeft + box.clientWidth < box.scrollWidth - 1);
@@ -129,8 +213,8 @@
   addEventListener("hashchange", unfold);
   unfold();
 
-  // Paper cannot be unfolded.
+  // Paper cannot be unfolded. Of the cuts each layer has a line.
   addEventListener("beforeprint", () => {
-    for (const fold of document.querySelectorAll("details")) fold.open = true;
+    for (const fold of document.querySelectorAll("details:not(.cuts details)")) fold.open = true;
   });
 })();

@@ -1,7 +1,7 @@
 //! The cross-section: where the tips run and what they leave.
 
 use super::figure::{Ids, Zoom, figure};
-use super::{Section, Subject};
+use super::{Section, Subject, cuts};
 use crate::report::pictures;
 
 /// The section.
@@ -31,6 +31,6 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     Section {
         id: "cross-section",
         title: "Cut",
-        body: contour + &lattice,
+        body: contour + &lattice + &cuts::table_of_cuts(material),
     }
 }

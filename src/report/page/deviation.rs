@@ -44,7 +44,7 @@ fn figures(subject: Subject<'_>) -> String {
     let columns = [
         Column::Words("Figure"),
         Column::Numbers("value"),
-        Column::Words("what it is"),
+        Column::Sentences("what it is"),
     ];
     let rows = [
         (

@@ -3,7 +3,7 @@
 //! Each is drawn twice, for wide screens and paper and for telephones, so that its words can be read without scrolling on both;
 //! style shows the one that fits.
 
-use super::html::escaped;
+use super::html::{escaped, unbroken};
 use crate::picture::Prefix;
 
 /// Whether a picture can be enlarged.
@@ -32,7 +32,7 @@ pub(super) fn figure(ids: &Ids, zoom: Zoom, caption: &str, draw: &dyn Fn(Prefix)
 
 /// An SVG text in its frame.
 pub(super) fn framed(svg: &str, class: &str, zoom: Zoom, caption: &str) -> String {
-    let caption = escaped(caption);
+    let (words, caption) = (escaped(caption), unbroken(caption));
     match zoom {
         Zoom::Fixed => format!(
             "<figure class=\"{class}\">\n<div class=\"view\">\n{svg}</div>\n<figcaption>{caption}</figcaption>\n</figure>\n"
@@ -42,7 +42,7 @@ pub(super) fn framed(svg: &str, class: &str, zoom: Zoom, caption: &str) -> Strin
              <button type=\"button\" data-do=\"in\" aria-label=\"Larger\">+</button>\
              <button type=\"button\" data-do=\"out\" aria-label=\"Smaller\">&#8722;</button>\
              <button type=\"button\" data-do=\"all\">All</button></div>\n\
-             <div class=\"view\" tabindex=\"0\" role=\"group\" aria-label=\"{caption} Plus and minus enlarge and reduce, arrows move, \
+             <div class=\"view\" tabindex=\"0\" role=\"group\" aria-label=\"{words} Plus and minus enlarge and reduce, arrows move, \
              0 shows all.\">\n{svg}</div>\n<figcaption>{caption}</figcaption>\n</figure>\n"
         ),
     }

@@ -9,6 +9,26 @@ pub(super) enum Column {
     Words(&'static str),
     /// Of numbers, which stand to the right.
     Numbers(&'static str),
+    /// Of sentences: on a narrow screen they have a line of their own.
+    Sentences(&'static str),
+}
+
+impl Column {
+    /// Its class and its name.
+    const fn head(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Words(name) => ("", name),
+            Self::Numbers(name) => (" class=\"n\"", name),
+            Self::Sentences(name) => (" class=\"t\"", name),
+        }
+    }
+
+    const fn is_of_sentences(self) -> bool {
+        match self {
+            Self::Sentences(_) => true,
+            Self::Words(_) | Self::Numbers(_) => false,
+        }
+    }
 }
 
 /// From so many columns on a table is folded on a narrow screen: a row becomes a list of names and values.
@@ -26,26 +46,21 @@ pub(super) fn table(
     columns: &[Column],
     rows: impl IntoIterator<Item = Vec<String>>,
 ) -> String {
-    let folds = columns.len() >= FOLDED;
+    let folds = columns.len() >= FOLDED || columns.iter().any(|column| column.is_of_sentences());
     let mut table = format!(
         "<div class=\"wide{}\" role=\"region\" aria-label=\"{caption}\" tabindex=\"0\">\n<table>\n\
          <caption>{caption}</caption>\n<thead><tr>",
         if folds { " folds" } else { "" }
     );
     for column in columns {
-        table += &match column {
-            Column::Words(name) => format!("<th scope=\"col\">{name}</th>"),
-            Column::Numbers(name) => format!("<th scope=\"col\" class=\"n\">{name}</th>"),
-        };
+        let (class, name) = column.head();
+        table += &format!("<th scope=\"col\"{class}>{name}</th>");
     }
     table += "</tr></thead>\n<tbody>\n";
     for row in rows {
         table += "<tr>";
         for (place, (cell, column)) in row.iter().zip(columns).enumerate() {
-            let (class, name) = match column {
-                Column::Words(name) => ("", name),
-                Column::Numbers(name) => (" class=\"n\"", name),
-            };
+            let (class, name) = column.head();
             table += &match place {
                 0 => format!("<th scope=\"row\"{class}>{cell}</th>"),
                 _ if folds => format!("<td{class} data-name=\"{name}\">{cell}</td>"),
@@ -59,7 +74,29 @@ pub(super) fn table(
 
 /// A paragraph of text.
 pub(super) fn paragraph(text: &str) -> String {
-    format!("<p>{}</p>\n", escaped(text))
+    format!("<p>{}</p>\n", unbroken(text))
+}
+
+/// A text as HTML in which no line ends between a number and its unit.
+pub(in crate::report) fn unbroken(text: &str) -> String {
+    const UNITS: [&str; 11] = [
+        "%", "mm", "mm\u{b2}", "mm/s", "deg", "deg/s", "s", "min", "h", "kg", "ms",
+    ];
+    let escaped = escaped(text);
+    let mut words = escaped.split(' ').peekable();
+    let mut html = String::with_capacity(escaped.len() + 16);
+    while let Some(word) = words.next() {
+        html += word;
+        let Some(next) = words.peek() else { break };
+        let unit = next.trim_end_matches([',', ';', '.', ':', ')']);
+        let is_number = word.ends_with(|letter: char| letter.is_ascii_digit());
+        html.push(if is_number && UNITS.contains(&unit) {
+            '\u{a0}'
+        } else {
+            ' '
+        });
+    }
+    html
 }
 
 /// Names with what there is to say of each, as plain text: a list of terms.
@@ -70,7 +107,7 @@ pub(super) fn terms<'a>(lines: impl IntoIterator<Item = (&'a str, &'a str)>) -> 
             format!(
                 "<div><dt>{}</dt><dd>{}</dd></div>\n",
                 escaped(name),
-                escaped(text)
+                unbroken(text)
             )
         })
         .collect();
@@ -85,6 +122,16 @@ pub(super) fn percent(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_stay_with_their_units() {
+        assert_eq!(
+            unbroken("at most 8 min 08.4 s; A6 83.4 %, 5 cuts <of> 3 mm."),
+            "at most 8\u{a0}min 08.4\u{a0}s; A6 83.4\u{a0}%, 5 cuts &lt;of&gt; 3\u{a0}mm."
+        );
+        assert_eq!(unbroken(""), "");
+        assert_eq!(unbroken("3 "), "3 ");
+    }
 
     #[test]
     fn tables_have_heads_for_columns_and_rows() {

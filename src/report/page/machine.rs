@@ -24,10 +24,13 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         body += &framed(&page, "for-page", Zoom::Free, caption);
         body += &framed(&phone, "for-phones", Zoom::Free, caption);
     }
-    if let Some(blade) = pictures::blade(&subject.material, Prefix::new("blade-")) {
-        let caption = "How the blade has to be clamped for this program: hold it beside the flange and compare. Which way edge \
-                       and flat look is not proven by anything here.";
-        body += &framed(&blade, "for-page", Zoom::Fixed, caption);
+    let blade = |ids| pictures::blade(&subject.material, ids);
+    let places = [Prefix::new("blade-"), Prefix::for_phones("blade-phone-")];
+    if let [Some(page), Some(phone)] = places.map(blade) {
+        let caption = "How the blade has to be clamped for this program, over the work at swing 0, with the axes of `tool`: hold it \
+                       beside the flange and compare. Which way edge and flat look is not proven by anything here.";
+        body += &framed(&page, "for-page", Zoom::Fixed, caption);
+        body += &framed(&phone, "for-phones", Zoom::Fixed, caption);
     }
     body += &axes(figures);
     if !figures.singular.is_empty() {

@@ -1,7 +1,7 @@
 //! Every parameter of the job with its value and where it came from: a place in a text, `auto` with the reason, or the
 //! default of the language.
 
-use super::html::{Column, escaped, table};
+use super::html::{Column, escaped, table, unbroken};
 use super::source::Listing;
 use super::{Section, Subject};
 use crate::job::{Auto, Bounds, Formulas, Machine, Objective, Operation, RoughVcut, Sourced};
@@ -62,17 +62,17 @@ impl Row {
     fn cells(&self, listing: &Listing<'_>) -> Vec<String> {
         let origin = match &self.origin {
             Origin::Written(span) => linked(listing, *span),
-            Origin::Chosen(None, why) => format!("<strong>auto</strong>: {}", escaped(why)),
+            Origin::Chosen(None, why) => format!("<strong>auto</strong>: {}", unbroken(why)),
             Origin::Chosen(Some(span), why) => {
                 format!(
                     "<strong>auto</strong>: {}<br>{}",
-                    escaped(why),
+                    unbroken(why),
                     linked(listing, *span)
                 )
             }
             Origin::Default => "default".to_owned(),
         };
-        vec![self.name.to_owned(), escaped(&self.value), origin]
+        vec![self.name.to_owned(), unbroken(&self.value), origin]
     }
 }
 

@@ -1,7 +1,7 @@
 //! The top of the page: what was made, what is proven of it, and its key numbers.
 
 use super::Subject;
-use super::html::escaped;
+use super::html::{escaped, unbroken};
 use crate::checks::{Checks, Standing};
 use crate::diag::render::{ColorChoice, render};
 use crate::reach_summary::margin_words;
@@ -20,7 +20,7 @@ pub(super) fn header(subject: Subject<'_>) -> String {
         escaped(&job.name),
         escaped(file),
         escaped(&machine),
-        verdict(&subject.material.compiled.checks)
+        verdict(&subject.material.compiled.checks.with(subject.further.read_back))
     );
     if !subject.warnings.is_empty() {
         let told = render(subject.warnings, subject.sources, ColorChoice::Plain);
@@ -68,8 +68,8 @@ pub(super) fn key_numbers(subject: Subject<'_>) -> String {
         };
         numbers += &format!(
             "<div{class}><dt>{name}</dt><dd>{}<small>{}</small></dd></div>\n",
-            escaped(&value),
-            escaped(&remark)
+            unbroken(&value),
+            unbroken(&remark)
         );
     }
     numbers + "</dl>\n"

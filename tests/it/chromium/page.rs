@@ -206,6 +206,83 @@ fn the_camera_is_at_the_work_and_follows_the_tip() {
     assert_is_calm(&tab);
 }
 
+/// Pointing at a moment in one picture marks it in the others, a click brings the playback there, and the mark goes with the playback.
+#[test]
+fn one_cursor_goes_through_all_pictures() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("spoiler_clarky", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    // What a mark stands for, by the ends of what its picture shows.
+    tab.value(
+        "window.marked = (name) => { const rect = document.querySelector(`.for-page [data-cursor=${name}]`); \
+         const at = Number(rect.ownerSVGElement.querySelector('.cursor').getAttribute('d').slice(1).split(' ')[0]); \
+         const [left, width] = ['x', 'width'].map((side) => Number(rect.getAttribute(side))); \
+         const [from, to] = [rect.dataset.from, rect.dataset.to].map(Number); \
+         return from + (at - left) / width * (to - from); }",
+    );
+    tab.value("vcutPlayback.seek(30)");
+    tab.wait_until("Math.abs(marked('time') - 30) < 0.1");
+
+    let axes = tab.middle("#machine .for-page svg");
+    tab.mouse("mouseMoved", axes, &json!({}));
+    tab.wait_until("Math.abs(marked('time') - 30) > 1");
+    let (time, duration) = (
+        tab.number("marked('time')"),
+        tab.number("vcutPlayback.duration()"),
+    );
+    assert!(
+        (time - duration / 2.0).abs() < 0.05 * duration,
+        "{time} of {duration}"
+    );
+    let x = tab.number("marked('x')");
+    tab.click(axes);
+    tab.wait_until(&format!("Math.abs(vcutPlayback.time() - {time}) < 0.1"));
+    let tip = tab.number("vcutPlayback.tip()[0]");
+    assert!((tip - x).abs() < 0.1, "the tip is at {tip}, marked is {x}");
+
+    // A place in the deviation is the cut next to it, as the table has it.
+    let place = tab.middle("#deviation .for-page svg");
+    tab.click(place);
+    let (pointed, started) = (
+        tab.number(&format!(
+            "(() => {{ const rect = document.querySelector('#deviation .for-page [data-cursor=x]'); \
+             const point = new DOMPoint({}, 0).matrixTransform(rect.ownerSVGElement.getScreenCTM().inverse()); \
+             return (point.x - rect.getAttribute('x')) / rect.getAttribute('width') * rect.dataset.to; }})()",
+            place[0]
+        )),
+        tab.number("vcutPlayback.time()"),
+    );
+    let listed = tab.value(
+        "[...document.querySelectorAll('.cuts tbody tr')].map((row) => \
+         [Number(row.cells[1].textContent), Number(row.querySelector('[data-seek]').dataset.seek)])",
+    );
+    let listed: Vec<[f64; 2]> = listed
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| [0, 1].map(|cell| row[cell].as_f64().unwrap()))
+        .collect();
+    let away = |row: &[f64; 2]| (row[0] - pointed).abs();
+    let nearest = listed.iter().map(away).fold(f64::INFINITY, f64::min);
+    let shown = listed
+        .iter()
+        .filter(|row| row[1] <= started + 1e-3)
+        .max_by(|one, other| one[1].total_cmp(&other[1]));
+    let away_from_shown = shown.map_or(f64::INFINITY, away);
+    assert!(
+        away_from_shown < nearest + 0.02,
+        "{pointed} at {started}: {away_from_shown}, not {nearest}"
+    );
+
+    // A start in the table leads there.
+    tab.value("document.querySelectorAll('[data-seek]')[3].click()");
+    assert_eq!(
+        tab.number("Number(vcutPlayback.time().toFixed(3))"),
+        tab.number("Number(document.querySelectorAll('[data-seek]')[3].dataset.seek)")
+    );
+    assert_is_calm(&tab);
+}
+
 /// What is said at home is what home is, at the beginning and at the end.
 #[test]
 fn at_home_the_axes_are_exactly_there() {

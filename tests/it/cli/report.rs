@@ -2,11 +2,13 @@
 
 use super::jobs::RIB;
 use super::{folder, json_lines, names, vcutc, vcutc_reading};
+use crate::pipeline::{Files, compile_on};
 use crate::repository::root;
 use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
+use vcutc::plan::PlannedOperation;
 
 /// What a hostile author would call things.
 pub(crate) const HOSTILE: &str =
@@ -26,7 +28,17 @@ pub(crate) fn hostile_rib() -> String {
 }
 
 fn written(folder: &Path) -> String {
-    let run = vcutc(folder, &["report", "-q", "rib.vcut", "-o", "rib.html"]);
+    // Which hints are found in a time is no matter of the page.
+    let arguments = [
+        "report",
+        "-q",
+        "rib.vcut",
+        "-o",
+        "rib.html",
+        "--help-budget",
+        "0s",
+    ];
+    let run = vcutc(folder, &arguments);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     fs::read_to_string(folder.join("rib.html")).unwrap()
 }
@@ -46,15 +58,38 @@ fn without(mut page: &str, start: &str, end: &str) -> String {
 fn a_page_is_written_once_and_then_unchanged() {
     let shop = shop(RIB);
     let path = shop.path();
-    let run = vcutc(path, &["report", "rib.vcut", "-o", "out/rib.html"]);
+    let run = vcutc(
+        path,
+        &[
+            "report",
+            "rib.vcut",
+            "-o",
+            "out/rib.html",
+            "--help-budget",
+            "none",
+        ],
+    );
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
     assert!(run.stderr.contains("wrote out"), "{}", run.stderr);
     assert_eq!(names(&path.join("out")), ["rib.html"]);
     let page = fs::read_to_string(path.join("out/rib.html")).unwrap();
-    let run = vcutc(path, &["report", "rib.vcut", "-o", "out/rib.html"]);
+    let run = vcutc(
+        path,
+        &[
+            "report",
+            "rib.vcut",
+            "-o",
+            "out/rib.html",
+            "--help-budget",
+            "none",
+        ],
+    );
     assert!(run.stderr.contains("unchanged: out"), "{}", run.stderr);
 
-    let run = vcutc(path, &["report", "-q", "rib.vcut", "-o", "-"]);
+    let run = vcutc(
+        path,
+        &["report", "-q", "rib.vcut", "-o", "-", "--help-budget", "none"],
+    );
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     assert_eq!(run.stdout, page, "the same page everywhere");
     let run = vcutc(
@@ -66,6 +101,8 @@ fn a_page_is_written_once_and_then_unchanged() {
             "out/rib.html",
             "--message-format",
             "json",
+            "--help-budget",
+            "none",
         ],
     );
     let [summary] = json_lines(&run.stderr).try_into().unwrap();
@@ -178,19 +215,115 @@ fn a_sheet_has_what_a_set_up_needs() {
     let sheet = fs::read_to_string(path.join("rib.html")).unwrap();
     let run = vcutc(path, &["rib.vcut", "-q", "--target", "krl", "-o", "out"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let run = vcutc(
+        path,
+        &["report", "-q", "rib.vcut", "--target", "krl", "-o", "page.html"],
+    );
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let page = fs::read_to_string(path.join("page.html")).unwrap();
     for name in names(&path.join("out")) {
         let digest = hmac_sha256::Hash::hash(&fs::read(path.join("out").join(&name)).unwrap());
         let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        assert!(
-            sheet.contains(&name) && sheet.contains(&digest),
-            "{name} {digest}"
-        );
+        for text in [&sheet, &page] {
+            assert!(text.contains(&name) && text.contains(&digest), "{name} {digest}");
+        }
     }
+    assert!(page.contains("the written text reads back as the same program"));
     assert!(sheet.contains("default-src 'none'; script-src 'none'"));
     let sheet = without(&sheet, "<style", "</style>");
     assert_snapshot!(sheet.replace(env!("CARGO_PKG_VERSION"), "VERSION"));
-    let run = vcutc(path, &["report", "rib.vcut", "--target", "krl", "-o", "rib.html"]);
-    assert_eq!(run.code, Some(2), "a program is named on the sheet only");
+}
+
+/// An example that its machine makes slow says what would help, if that is looked for.
+#[test]
+fn the_page_says_what_would_help() {
+    let page = |budget: &str| {
+        let job = "examples/spoiler_clarky.vcut";
+        let run = vcutc(root(), &["report", "-q", job, "-o", "-", "--help-budget", budget]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+        run.stdout
+    };
+    let (with, without) = (page("none"), page("0s"));
+    assert!(!without.contains("What would help"));
+    let (_, rest) = with.split_once("<section class=\"help\"").unwrap();
+    let (block, _) = rest.split_once("</section>").unwrap();
+    assert!(block.contains("which saves "), "{block}");
+    // It says what to write, and leads to the line of the base.
+    assert!(block.contains("<code>base = frame(x = "), "{block}");
+    let (_, link) = block.split_once("<a href=\"#text-").unwrap();
+    let (_, line) = link.split_once("<code>").unwrap();
+    assert!(line.starts_with("base "), "{line}");
+    assert_eq!(
+        with.replace(&format!("<section class=\"help\"{block}</section>\n"), ""),
+        without
+    );
+}
+
+/// The table of cuts has each cut of the plan once, at its place.
+#[test]
+fn the_page_lists_every_cut() {
+    // Flank by flank, and layer by layer: first the one flank of all cuts, then the other.
+    assert_lists_every_cut("examples/spoiler_clarky.vcut", "large_cell");
+    assert_lists_every_cut("examples/fairing.vcut", "gantry");
+}
+
+fn assert_lists_every_cut(job: &str, machine: &str) {
+    let arguments = [
+        "report",
+        "-q",
+        job,
+        "--machine",
+        machine,
+        "-o",
+        "-",
+        "--help-budget",
+        "0s",
+    ];
+    let run = vcutc(root(), &arguments);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let outcome = compile_on(Some(machine), job, &Files::of(root()));
+    let (plan, report) = (outcome.plan.unwrap(), outcome.compiled.unwrap().report);
+    let PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
+    let mut planned: Vec<String> = vcut
+        .cuts
+        .iter()
+        .map(|cut| format!("{} {:.2} {:.2}", cut.layer, cut.tip.x, cut.tip.z))
+        .collect();
+    planned.sort();
+    let (mut listed, mut seconds) = (Vec::new(), 0.0);
+    for layer in run.stdout.split("<summary>Layer ").skip(1) {
+        let (number, rest) = layer.split_once(": ").unwrap();
+        let body = rest.split("</tbody>").next().unwrap();
+        let mut before = -1.0;
+        for row in body.split("<tr><th scope=\"row\">").skip(1) {
+            let cells: Vec<&str> = row
+                .split("<td>")
+                .map(|cell| cell.split('<').next().unwrap())
+                .collect();
+            listed.push(format!("{number} {} {}", cells[1], cells[2]));
+            let [z, depth] = [2, 3].map(|cell| cells[cell].parse::<f64>().unwrap());
+            assert!((z + depth - plan.stock.height.to_mm()).abs() < 0.011, "{row}");
+            seconds += cells[6].parse::<f64>().unwrap();
+            let start: f64 = row
+                .split("data-seek=\"")
+                .nth(1)
+                .unwrap()
+                .split('"')
+                .next()
+                .unwrap()
+                .parse()
+                .unwrap();
+            assert!(start > before, "{row}");
+            before = start;
+        }
+    }
+    listed.sort();
+    assert_eq!(listed, planned);
+    let all = report.times.all.total().to_s();
+    assert!(
+        seconds <= all + 0.05 * planned.len() as f64 && seconds > 0.8 * all,
+        "{seconds} of {all}"
+    );
 }
 
 #[test]
@@ -220,8 +353,8 @@ fn parameters_come_from_the_lines_that_they_name() {
     }
     assert!(count > 15, "{count} places");
     for row in [
-        "<th scope=\"row\">swing</th><td>35 deg</td>",
-        "<th scope=\"row\">run_out</th><td>2 mm</td><td>default</td>",
+        "<th scope=\"row\">swing</th><td>35\u{a0}deg</td>",
+        "<th scope=\"row\">run_out</th><td>2\u{a0}mm</td><td>default</td>",
         "<th scope=\"row\">extension</th><td>",
         "<strong>auto</strong>: the blade's overhang and the run-out",
     ] {
@@ -237,7 +370,7 @@ fn a_value_of_the_command_line_is_said_to_come_from_there() {
         &["report", "-q", "rib.vcut", "-o", "-", "--set", "width=36mm"],
     );
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stdout.contains("36 x 30 x 30 mm"));
+    assert!(run.stdout.contains("36 x 30 x 30\u{a0}mm"));
 }
 
 #[test]

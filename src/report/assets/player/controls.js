@@ -199,6 +199,59 @@ class Player {
     return this.workpiece.goTo(this.timeline.chipsFreeAt(this.time));
   }
 
+  /**
+   * What is done at a time, for pictures that show it too. While only the axes know where the tip is, `x` is not a number.
+   * @param {number} time
+   * @returns {{time: number, x: number, layer: string, words: string}}
+   */
+  momentAt(time) {
+    const { program, timeline } = this;
+    const { op, done } = timeline.at(time);
+    const blade = timeline.bladeAt({ op, done });
+    const x = blade === null ? NaN : origin(blade)[0];
+    const layer = this.nameOfLayer(program.operations[op], program.layers[op]);
+    const parts = [clock(time)];
+    if (layer !== "") parts.push(`layer ${layer}`);
+    if (program.cuts[op] > 0) parts.push(`cut ${program.cuts[op]}`);
+    parts.push(CALLED[program.names[program.kinds[op]]]);
+    return { time, x, layer, words: parts.join(" · ") };
+  }
+
+  /**
+   * A layer as tables and pictures name it; none is nothing.
+   * @param {number} operation
+   * @param {number} layer
+   */
+  nameOfLayer(operation, layer) {
+    if (layer === 0) return "";
+    return this.program.blades.length > 1 ? `${operation}.${layer}` : String(layer);
+  }
+
+  /**
+   * When the cut begins whose tip is nearest to a place; of equally near ones the last, which leaves what is there.
+   * @param {number} x
+   * @returns {number | null}
+   */
+  timeOfCutAt(x) {
+    let [best, distance] = [/** @type {Kerf | null} */ (null), Infinity];
+    for (const kerf of this.timeline.kerfs) {
+      const away = Math.abs(kerf.vee.tip.x - x);
+      if (away <= distance + 1e-6) [best, distance] = [kerf, Math.min(away, distance)];
+    }
+    return best === null ? null : this.program.starts[best.op];
+  }
+
+  /**
+   * When the first of these layers begins.
+   * @param {string[]} names
+   * @returns {number | null}
+   */
+  timeOfLayers(names) {
+    const { program, timeline } = this;
+    const number = timeline.layers.findIndex(({ operation, layer }) => names.includes(this.nameOfLayer(operation, layer))) + 1;
+    return number === 0 ? null : program.starts[timeline.layerOf.indexOf(number)];
+  }
+
   /** The present axes in deg and mm. */
   shownAxes() {
     const { cell } = this.program;

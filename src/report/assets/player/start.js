@@ -172,6 +172,7 @@ function start() {
     if (element("follow").checked) camera.target = origin(player.now.blade);
     if (scene !== null) scene.draw(player.now, camera, shownNow());
     showState(player);
+    document.dispatchEvent(new Event("vcut-playback"));
   };
   const frame = (/** @type {number} */ now) => {
     due = false;
@@ -247,6 +248,10 @@ function publish(player, camera, changed) {
       setLayers: (/** @type {number} */ from, /** @type {number} */ to) => then(() => chooseLayers(player, from, to)),
       stepCut: (/** @type {1 | -1} */ way) => then(() => stepCut(player, way)),
       goToLayer: (/** @type {number} */ layer) => then(() => player.goToLayer(layer)),
+      /** for pictures that show the same: what is done at a time, and when what they show is done */
+      momentAt: (/** @type {number} */ seconds) => player.momentAt(seconds),
+      timeOfCutAt: (/** @type {number} */ x) => player.timeOfCutAt(x),
+      timeOfLayers: (/** @type {string[]} */ names) => player.timeOfLayers(names),
       /** where the camera looks, in the scene, and how opaque the machine is from there */
       looksAt: () => [...camera.target],
       machineOpacity: () => camera.opacityOfMachine(),

@@ -1,0 +1,178 @@
+//! What has to be put right before a program runs, as names and values: the same on the page and on the set-up sheet.
+
+use super::Material;
+use crate::job::{Blade, CheckedJob, Machine, RoughVcut};
+use crate::plan::PlannedOperation;
+use crate::plan::parameters::show;
+use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::{AxisKind, Edges, Ready, Registered};
+
+/// A name and a value, as plain text.
+pub(super) type Fact = (&'static str, String);
+
+/// The size of the stock.
+pub(super) fn stock(job: &CheckedJob) -> Vec<Fact> {
+    let stock = job.stock;
+    let [x, y, z] = [stock.width, stock.depth, stock.height].map(|length| show(length.to_mm()));
+    vec![("stock x, y, z", format!("{x} x {y} x {z} mm"))]
+}
+
+/// Where the work is.
+pub(super) fn base(machine: Option<&Machine>) -> Vec<Fact> {
+    let base = machine.map_or_else(
+        || "the job has no machine".to_owned(),
+        |machine| frame(&machine.base.value.frame),
+    );
+    vec![("base frame", base)]
+}
+
+fn frame(frame: &Frame) -> String {
+    let (origin, turn) = (frame.origin, frame.orientation.to_zyx());
+    let [a, b, c] = [turn.a, turn.b, turn.c].map(|angle| show(angle.to_deg()));
+    let [x, y, z] = [origin.x, origin.y, origin.z].map(show);
+    format!("x {x}, y {y}, z {z}; a {a}, b {b}, c {c}")
+}
+
+/// The blades of a job, each once.
+pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<&'a Blade> {
+    let mut named: Vec<&Blade> = Vec::new();
+    for PlannedOperation::RoughVcut(vcut) in &material.plan.operations {
+        let blade = &vcut.asked.blade;
+        if named.iter().all(|other| other.name != blade.name) {
+            named.push(blade);
+        }
+    }
+    named
+}
+
+/// What they are.
+pub(super) fn of_blades(blades: &[&Blade]) -> Vec<Fact> {
+    blades.iter().map(|blade| ("blade", words(blade))).collect()
+}
+
+/// How the blade is mounted.
+pub(super) fn tool(machine: Option<&Machine>) -> Vec<Fact> {
+    let Some(machine) = machine else {
+        return Vec::new();
+    };
+    let tool = &machine.tool.value.frame;
+    let [edge, flat, tip] = axes(tool);
+    vec![
+        ("tool frame", frame(tool)),
+        (
+            "tool axes",
+            format!("x (edge) {edge}; y (flat) {flat}; z (out of the tip) {tip}, seen from the flange"),
+        ),
+    ]
+}
+
+fn words(blade: &Blade) -> String {
+    let edges = match blade.edges {
+        Edges::Single => "single",
+        Edges::Double => "double",
+    };
+    format!(
+        "{}: {edges} edge {} mm long, half apex {} deg, {} mm thick",
+        blade.name,
+        show(blade.cutting_length.value.to_mm()),
+        show(blade.half_apex.value.to_deg()),
+        show(blade.thickness.value.to_mm())
+    )
+}
+
+/// Where x, y and z of a tool point, seen from the flange.
+fn axes(tool: &Frame) -> [String; 3] {
+    let matrix = tool.orientation.matrix();
+    [0, 1, 2].map(|column| direction(matrix.map(|row| row[column])))
+}
+
+/// A direction in words: an axis where it is one within half a degree.
+fn direction(parts: [f64; 3]) -> String {
+    // The cosine of half a degree.
+    const NEARLY: f64 = 0.999_962;
+    let along = ["x", "y", "z"]
+        .into_iter()
+        .zip(parts)
+        .find(|(_, part)| part.abs() > NEARLY);
+    match along {
+        Some((name, part)) if part > 0.0 => format!("+{name}"),
+        Some((name, _)) => format!("-{name}"),
+        None => {
+            let [x, y, z] = parts.map(|part| format!("{:.2}", part + 0.0));
+            format!("({x}, {y}, {z})")
+        }
+    }
+}
+
+/// What is wired, weighed and taught: generator, load and home.
+pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
+    let Some(machine) = machine else {
+        return Vec::new();
+    };
+    let output = machine.ultrasonic.map_or_else(
+        || "no output given".to_owned(),
+        |output| format!("output {}", output.value),
+    );
+    let ready = match machine.ready.value {
+        Ready::Input(number) => format!("ready at input {number}"),
+        Ready::After(time) => format!("ready {} s after switching on", show(time.to_s())),
+    };
+    let mut list = vec![("generator", format!("{output}, {ready}"))];
+    list.extend(machine.load.map(|load| match load.value {
+        Registered::Number(number) => ("load", format!("number {number} of the controller")),
+        Registered::Value(load) => {
+            let [x, y, z] = [load.centre.x, load.centre.y, load.centre.z].map(show);
+            (
+                "load",
+                format!("{} kg at x {x}, y {y}, z {z} mm", show(load.mass.to_kg())),
+            )
+        }
+    }));
+    list.extend(machine.home.map(|home| {
+        let axes = machine.model.axes.iter().zip(home.value.0);
+        let values = axes.map(|(axis, value)| match axis.kind {
+            AxisKind::Rotary => format!("{} {}", axis.name, show(value.to_degrees())),
+            AxisKind::Linear => format!("{} {} mm", axis.name, show(value)),
+        });
+        ("home", values.collect::<Vec<_>>().join(", "))
+    }));
+    list
+}
+
+/// The speeds of all operations, each set once.
+pub(super) fn speeds(material: &Material<'_>) -> Vec<Fact> {
+    let mut list: Vec<Fact> = Vec::new();
+    let operations = material.plan.operations.iter();
+    for RoughVcut {
+        cut_feed,
+        travel_feed,
+        reorient_rate,
+        clearance,
+        ..
+    } in operations.map(|PlannedOperation::RoughVcut(vcut)| &vcut.asked)
+    {
+        let words = format!(
+            "cut {} mm/s, travel {} mm/s, turn {} deg/s; clearance {} mm",
+            show(cut_feed.value.to_mm_per_s()),
+            show(travel_feed.value.to_mm_per_s()),
+            show(reorient_rate.value.to_deg_per_s()),
+            show(clearance.value.to_mm())
+        );
+        if list.iter().all(|(_, known)| *known != words) {
+            list.push(("speeds", words));
+        }
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_are_axes_where_they_are() {
+        assert_eq!(direction([0.0, -1.0, 0.0]), "-y");
+        assert_eq!(direction([1.0, 0.001, 0.0]), "+x");
+        assert_eq!(direction([0.6, 0.0, -0.8]), "(0.60, 0.00, -0.80)");
+    }
+}

@@ -1,0 +1,72 @@
+//! What has to be put right before the program runs: the program itself, stock and zero, blade, frames, home and generator. The
+//! set-up sheet (`vcutc report --sheet`) has the same facts for paper.
+
+use super::figure::{Zoom, framed};
+use super::html::{escaped, terms};
+use super::{Section, Subject};
+use crate::picture::{Prefix, setup};
+use crate::report::digest::hexadecimal;
+use crate::report::facts::{self, Fact};
+
+/// The section.
+pub(super) fn section(subject: Subject<'_>) -> Section {
+    let material = &subject.material;
+    let job = material.job;
+    let machine = job.machine.as_ref();
+    let sketch = setup::stock(&setup::Stock {
+        ids: Prefix::new("stock-"),
+        size: [job.stock.width, job.stock.depth, job.stock.height].map(|length| length.to_mm()),
+    });
+    let facts: Vec<Fact> = [
+        program(subject),
+        facts::stock(job),
+        facts::base(machine),
+        facts::of_blades(&facts::blades(material)),
+        facts::tool(machine),
+        facts::control(machine),
+        facts::speeds(material),
+    ]
+    .concat();
+    let list = terms(facts.iter().map(|(name, value)| (*name, value.as_str())));
+    let caption = "The stock with the zero of the work; the base frame of the control is measured there.";
+    Section {
+        id: "set-up",
+        title: "Set-up",
+        body: format!(
+            "<div class=\"beside\">\n{}<div>\n{list}{}</div>\n</div>\n",
+            framed(&sketch, "sketch", Zoom::Fixed, caption),
+            files(subject)
+        ),
+    }
+}
+
+/// What the program is known by.
+fn program(subject: Subject<'_>) -> Vec<Fact> {
+    let program = subject.material.compiled.program.verified().program();
+    let mut facts = vec![("program", program.name.clone())];
+    facts.extend(
+        program
+            .head
+            .as_ref()
+            .map(|head| ("hash of the job", head.job.clone())),
+    );
+    facts
+}
+
+/// The files of the program, where it was written for a target.
+fn files(subject: Subject<'_>) -> String {
+    if subject.further.files.is_empty() {
+        return String::new();
+    }
+    let rows = subject.further.files.iter().map(|(name, bytes)| {
+        format!(
+            "<div><dt>{}</dt><dd><code>{}</code></dd></div>\n",
+            escaped(name),
+            hexadecimal(bytes)
+        )
+    });
+    format!(
+        "<details open>\n<summary>Files of the program, with their SHA-256</summary>\n<dl class=\"terms files\">\n{}</dl>\n</details>\n",
+        rows.collect::<String>()
+    )
+}
