@@ -77,8 +77,10 @@ pub fn airfoil(text: &str) -> Result<Airfoil, DataError> {
 }
 
 /// The text of an airfoil file. Numbers are ASCII in all code pages in use, so what is not UTF-8 is read in that of Windows in
-/// the west; none for bytes that are no text.
-#[must_use]
+/// the west.
+///
+/// # Errors
+/// The bytes, where one of them is zero: they are no text.
 pub fn airfoil_text(bytes: Vec<u8>) -> Result<String, Vec<u8>> {
     match String::from_utf8(bytes) {
         Ok(text) => Ok(text),
