@@ -69,7 +69,6 @@ impl Reason {
             Self::NotStated => "the compiler does not know the numbers of this machine",
             Self::NoPlaceForIt => "the compiler cannot be told the range",
             Self::NotMeasured => "not measured for an arm without a closed form",
-            Self::OtherInterpolation => "the control interpolates the rotary axes",
             Self::NoBody => "the compiler does not know their shapes",
             Self::NoReader => "nothing reads this target's programs back",
         }

@@ -21,8 +21,18 @@ pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Dur
     }
 }
 
+/// The hints of a page, which is the same for the same job: they are found by a bounded amount of work, however long it takes;
+/// none where no time is given at all.
+pub(super) fn of_a_page(outcome: &Outcome, budget: HelpBudget) -> Vec<Hint> {
+    let work = match budget {
+        HelpBudget::Of(Duration::ZERO) => budget,
+        HelpBudget::Of(_) | HelpBudget::Unlimited => HelpBudget::Unlimited,
+    };
+    found_within(outcome, work, Duration::ZERO)
+}
+
 /// The hints that are found in that time, or in the time that the job took; none where no time is given at all.
-pub(super) fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> Vec<Hint> {
+fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> Vec<Hint> {
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
         return Vec::new();
     };

@@ -5,7 +5,7 @@ use super::browser;
 use super::compile::unreadable;
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, stem};
-use super::hints::found_within;
+use super::hints::of_a_page;
 use super::output::{Placed, one_file};
 use super::patience;
 use super::progress::Progress;
@@ -19,7 +19,6 @@ use crate::readback::Written;
 use crate::report::page::{Further, page};
 use crate::report::sheet::sheet;
 use std::path::Path;
-use std::time::Instant;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {
@@ -47,7 +46,6 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         ..args.overrides.request(&disk, targets)
     };
     let budget = console.help_budget();
-    let start = Instant::now();
     let mut outcome = match patience::compile(request, &mut Memory::none(), budget, &mut progress) {
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
@@ -59,7 +57,7 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
     let found = if args.sheet {
         Vec::new()
     } else {
-        found_within(&outcome, budget, start.elapsed())
+        of_a_page(&outcome, budget)
     };
     let written = match target.map(|target| driver::write(&outcome, target)) {
         None => Ok(None),
