@@ -294,12 +294,11 @@ fn operation(
         Role::Other => None,
     });
     let binding = best.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
-    let mut room = Room::OF_AN_OPERATION;
-    let mut came_with = |cuts: f64, change: &dyn Fn(&mut RoughVcut)| {
-        came(job, &mut room, cuts, |asked| {
-            route.keep(asked, vcut);
-            change(asked);
-        })
+    let mut trials = Trials {
+        job,
+        plan: vcut,
+        route,
+        room: Room::OF_AN_OPERATION,
     };
     Some(OperationOptimum {
         number: index.saturating_add(1),
@@ -313,14 +312,32 @@ fn operation(
                 asked.lattice.span.unwrap_or(asked.head_span),
             )),
         },
-        faster: faster(asked, &rows, (chosen, planned.time), &mut came_with),
+        faster: faster(asked, &rows, (chosen, planned.time), &mut trials),
         planned,
         binding,
         trade_off: TradeOff::of(&problem, chosen, points, |point| {
-            came_with(point.cuts, &|asked| under(asked, point))
+            trials.came(point.cuts, |asked| under(asked, point))
         }),
         rows,
     })
+}
+
+/// Changes of a job that are planned.
+struct Trials<'j> {
+    job: &'j CheckedJob,
+    /// The operation as it is planned.
+    plan: &'j PlannedVcut,
+    route: Route,
+    room: Room,
+}
+
+impl Trials<'_> {
+    fn came(&mut self, cuts: f64, change: impl FnOnce(&mut RoughVcut)) -> Came {
+        came(self.job, &mut self.room, cuts, |asked| {
+            self.route.keep(asked, self.plan);
+            change(asked);
+        })
+    }
 }
 
 /// Puts an operation under the limit of a point.
@@ -336,7 +353,7 @@ fn faster(
     asked: &RoughVcut,
     rows: &[Row],
     (chosen, planned): (Lattice, Duration),
-    came_with: &mut dyn FnMut(f64, &dyn Fn(&mut RoughVcut)) -> Came,
+    trials: &mut Trials<'_>,
 ) -> Option<Faster> {
     let formulas = asked.formulas.value;
     let of = |row: &Row| {
@@ -356,7 +373,7 @@ fn faster(
     if !is_told {
         return None;
     }
-    let came = came_with(best.cuts, &|asked| {
+    let came = trials.came(best.cuts, |asked| {
         asked.lattice.value = Auto::Given(best.lattice);
     });
     let share = match &came {

@@ -21,12 +21,12 @@ pub(super) fn meant(
     };
     let written = path_from(session.sources.name(named.file), &found);
     let is_quoted = session.sources.slice(named).starts_with('"');
-    let title = |path: &str| format!("did you mean `{path}`?");
     match written {
         Some(written) if is_quoted && !written.contains(['"', '\\']) => {
-            diagnostic.fix(title(&written), named, format!("\"{written}\""))
+            let quoted = format!("\"{written}\"");
+            diagnostic.fix(format!("did you mean `{quoted}`?"), named, quoted)
         }
-        Some(_) | None => diagnostic.help(title(&found)),
+        Some(_) | None => diagnostic.help(format!("did you mean `{found}`?")),
     }
 }
 
