@@ -44,7 +44,7 @@ pub(in crate::cli) struct PlotArgs {
     #[arg(long, value_enum, value_name = "PICTURE")]
     pub(in crate::cli) what: Option<What>,
 
-    /// One picture: the file to draw into, or - for standard output [default]; all: the folder [default: the current one]
+    /// One picture: the file to draw into, or - for standard output (the default); all: the folder (the current one by default)
     ///
     /// All pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
