@@ -98,9 +98,9 @@ impl<'s> Scene<'s> {
                 Violation::Rate { .. } => {
                     let slow_enough = self
                         .slow_enough(failing, hardest.as_ref())
-                        .map_or_else(String::new, |speed| format!(" to about {speed}"));
+                        .map_or_else(String::new, |speed| format!(" (this motion needs {speed} or less)"));
                     format!(
-                        "lower this speed{slow_enough}, or shift the work with `base` away from where the axis must hurry"
+                        "lower this speed{slow_enough}, or shift the work with `base` to where the axis turns less"
                     )
                 }
                 Violation::Singular(_) => {
@@ -126,7 +126,7 @@ impl<'s> Scene<'s> {
         }
     }
 
-    /// The speed at which an axis is just fast enough where it lacks most: rates grow in proportion to the speed that paces a motion.
+    /// The speed at which the axes are just fast enough for these motions; others may need a lower one. Rates grow in proportion to the speed that paces a motion.
     fn slow_enough(&self, failing: &Failing, hardest: Option<&Failing>) -> Option<String> {
         let (span, _) = self.speed(failing.op);
         let is_paced_alike = |other: &&Failing| self.speed(other.op).0 == span;

@@ -120,14 +120,13 @@ fn with_what_works(
     }
 }
 
-/// The first and the last of the titles of offers that failed.
+/// The changes of offers that failed.
 fn in_short(titles: &[String]) -> Option<String> {
-    let values = |title: &String| title.trim_start_matches("use ").to_owned();
-    match titles {
-        [] => None,
-        [one] => Some(values(one)),
-        [first, .., last] => Some(format!("{} up to {}", values(first), values(last))),
-    }
+    let changes: Vec<&str> = titles
+        .iter()
+        .map(|title| title.trim_start_matches("use "))
+        .collect();
+    (!changes.is_empty()).then(|| changes.join(", "))
 }
 
 /// The first offer that works, or the titles of those that do not.

@@ -34,9 +34,9 @@ pub struct Curve<'a> {
     pub points: Vec<[f64; 2]>,
 }
 
-/// The plot's upper left corner.
 /// Height of letters.
 const FONT: u32 = 13;
+/// The plot's upper left corner.
 const CORNER: (f64, f64) = (86.0, 74.0);
 /// The plot's width and height.
 const SIZE: (f64, f64) = (480.0, 340.0);

@@ -89,21 +89,22 @@ impl Asked<'_> {
         let mut is_wider = false;
         for part in 0..STEPS_AROUND.len() {
             let (low, high) = (least[part], most[part]);
-            let by = if part == TURN {
-                STEPS_AROUND[part].min(HALF_TURN - high)
+            let step = STEPS_AROUND[part];
+            let (below, above) = if part == TURN {
+                (step.min(low + HALF_TURN), step.min(HALF_TURN - high))
             } else {
-                STEPS_AROUND[part]
+                (step, step)
             };
             let lies_at = |edge: i32| best.parts()[part] == edge;
-            if !is_open[part] || by <= 0 {
+            if !is_open[part] {
                 continue;
             }
-            if lies_at(low) {
-                least[part] = low.saturating_sub(by);
+            if lies_at(low) && below > 0 {
+                least[part] = low.saturating_sub(below);
                 is_wider = true;
             }
-            if lies_at(high) {
-                most[part] = high.saturating_add(by);
+            if lies_at(high) && above > 0 {
+                most[part] = high.saturating_add(above);
                 is_wider = true;
             }
         }
@@ -128,20 +129,19 @@ impl Asked<'_> {
 fn all_around(reach: f64) -> Bounds {
     /// Heights of the work over the foot of an arm, as shares of its reach.
     const HEIGHTS: (f64, f64) = (-0.1, 0.4);
-    const HALF_A_TURN: i32 = 1800;
     let share = |share: f64| (share * reach).round() as i32;
     Bounds {
         least: Spot {
             x: -share(1.0),
             y: -share(1.0),
             z: share(HEIGHTS.0),
-            yaw: -HALF_A_TURN,
+            yaw: -HALF_TURN,
         },
         most: Spot {
             x: share(1.0),
             y: share(1.0),
             z: share(HEIGHTS.1),
-            yaw: HALF_A_TURN,
+            yaw: HALF_TURN,
         },
     }
 }

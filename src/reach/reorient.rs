@@ -65,6 +65,10 @@ fn asked(program: &Program, leg: &Leg, action: Action, fastest: f64) -> Option<(
     };
     let held = |id: OrientationId| program.orientations.get(id.0 as usize).copied();
     let shortest = held(stroke.from.held)?.angle_to(held(stroke.to.held)?).to_rad();
+    if shortest <= 0.0 {
+        // Both postures are one; no rate of turning paces the op.
+        return None;
+    }
     let asked = program.rates.get(usize::from(rate.0)).copied()?;
     // A travel whose tip takes longer may turn slowly enough as it is.
     let turns_at = match stroke.pace {

@@ -45,7 +45,9 @@ fn by_spelling(path: &str, files: &dyn Loader) -> Option<String> {
     let mut parts = relative.split('/').peekable();
     while let Some(part) = parts.next() {
         let next = match (part, parts.peek()) {
-            ("..", _) => part.to_owned(),
+            // Listings leave hidden folders out.
+            (hidden, Some(_)) if hidden.starts_with('.') => hidden.to_owned(),
+            ("..", None) => part.to_owned(),
             (_, Some(_)) => like(part, folders(&reached, files))?,
             (_, None) => like(part, files_of(&reached, files))?,
         };

@@ -168,15 +168,20 @@ fn with_what_leaves_less(
     }
     if let Some((limit, then)) = best {
         let value = format!("{} mm", show(limit.to_mm()));
+        // What is tried here is planned without the machine.
+        let provided = match case.job.machine {
+            Some(_) => ", if the machine follows that plan",
+            None => "",
+        };
         let span = asked.limits.scallop.and_then(|given| given.span);
         return match span {
             Some(span) => told.fix(
-                format!("with `scallop <= {value}`, {} % stays", percent(then)),
+                format!("with `scallop <= {value}`, {} % stays{provided}", percent(then)),
                 span,
                 value,
             ),
             None => told.help(format!(
-                "add `limits {{ scallop <= {value} }}`: {} % stays then",
+                "add `limits {{ scallop <= {value} }}`: {} % stays then{provided}",
                 percent(then)
             )),
         };

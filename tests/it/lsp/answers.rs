@@ -232,7 +232,7 @@ fn a_near_file_is_a_quick_fix() {
     });
     let actions = editor.ask("textDocument/codeAction", params).unwrap();
     let action = &actions.as_array().unwrap()[0];
-    assert_eq!(action["title"], "Did you mean `blades.vcut`?");
+    assert_eq!(action["title"], "Did you mean `\"blades.vcut\"`?");
     assert!(action.to_string().contains("\\\"blades.vcut\\\""), "{action}");
 }
 
