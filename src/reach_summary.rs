@@ -333,6 +333,12 @@ fn margins_line(figures: &ReachFigures) -> String {
     )
 }
 
+/// What has the smallest margin: `margin A5 6.5 %`.
+#[must_use]
+pub fn least_margin(figures: &ReachFigures) -> String {
+    format!("margin {} {}", figures.least.of, margin_words(figures.margin))
+}
+
 /// The axis that comes nearest to its rate. Rates that are not known are among what is not checked.
 fn rates_line(figures: &ReachFigures) -> Option<String> {
     let known = figures

@@ -145,13 +145,7 @@ fn headline(plan: &PlannedJob, report: &Report, basis: Basis, reach: Option<&Rea
             None => format!("scallop {height:.2} mm"),
         },
     ];
-    parts.extend(reach.map(|figures| {
-        format!(
-            "margin {} {}",
-            figures.least.of,
-            reach_summary::margin_words(figures.margin)
-        )
-    }));
+    parts.extend(reach.map(reach_summary::least_margin));
     format!("{}: {}", plan.name, parts.join(", "))
 }
 

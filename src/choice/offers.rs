@@ -120,13 +120,22 @@ fn with_what_works(
     }
 }
 
-/// The changes of offers that failed.
+/// Most changes that are named one by one.
+const MOST_NAMED: usize = 3;
+
+/// The changes of offers that failed: the first few, and how many more there were.
 fn in_short(titles: &[String]) -> Option<String> {
-    let changes: Vec<&str> = titles
+    let named: Vec<&str> = titles
         .iter()
+        .take(MOST_NAMED)
         .map(|title| title.trim_start_matches("use "))
         .collect();
-    (!changes.is_empty()).then(|| changes.join(", "))
+    let named = named.join(", ");
+    match titles.len().saturating_sub(MOST_NAMED) {
+        0 if titles.is_empty() => None,
+        0 => Some(named),
+        more => Some(format!("{named} and {more} more")),
+    }
 }
 
 /// The first offer that works, or the titles of those that do not.

@@ -22,6 +22,7 @@ use crate::reach::path::Violation;
 use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
 use crate::reach::trouble::{Failing, Trouble};
+use crate::reach_summary;
 use crate::remedy;
 use crate::remedy::speed::{self, Field};
 use crate::source::SourceMap;
@@ -97,8 +98,16 @@ struct Search<'s> {
     wanted: &'s Wanted,
     /// How often a changed job may still be compiled.
     tries: usize,
-    /// The changes that were tried and compile, and how long they take.
-    found: Vec<(Change, Duration)>,
+    /// The changes that were tried and compile.
+    found: Vec<Tried>,
+}
+
+/// A change that compiles.
+struct Tried {
+    change: Change,
+    time: Duration,
+    /// What has the smallest margin then: `margin A5 6.5 %`.
+    margin: Option<String>,
 }
 
 /// A speed, and how much of it the machine follows.
@@ -172,7 +181,11 @@ impl Search<'_> {
         }
         self.tries -= 1;
         let (plan, compiled) = driver::compile_checked(&change.of(self.job), self.wanted)?;
-        self.found.push((change, compiled.report.times.all.total()));
+        self.found.push(Tried {
+            change,
+            time: compiled.report.times.all.total(),
+            margin: compiled.figures.as_ref().map(reach_summary::least_margin),
+        });
         Some(plan)
     }
 
@@ -232,32 +245,37 @@ impl Search<'_> {
     fn worth_it(mut self) -> Vec<Hint> {
         let mut found = core::mem::take(&mut self.found);
         // Stable, so that of equally good ones the first stays first.
-        found.sort_by(|(_, one), (_, other)| one.total_cmp(other));
+        found.sort_by(|one, other| one.time.total_cmp(&other.time));
         let mut kinds = Vec::new();
-        found.retain(|(change, _)| {
-            let kind = core::mem::discriminant(change);
+        found.retain(|tried| {
+            let kind = core::mem::discriminant(&tried.change);
             let is_new = !kinds.contains(&kind);
             kinds.push(kind);
             is_new
         });
         found
             .into_iter()
-            .map(|(change, time)| (change, time, 1.0 - time / self.now))
-            .filter(|(.., saved)| *saved >= WORTH_IT)
+            .map(|tried| (1.0 - tried.time / self.now, tried))
+            .filter(|(saved, _)| *saved >= WORTH_IT)
             .take(MOST_HINTS)
-            .map(|(change, taken, saved)| Hint {
+            .map(|(saved, tried)| Hint {
                 fix: Fix {
-                    title: self.advice(&change, taken, saved),
-                    edits: change.edits(self.job),
+                    title: self.advice(&tried, saved),
+                    edits: tried.change.edits(self.job),
                 },
-                time: taken,
+                time: tried.time,
                 saved,
             })
             .collect()
     }
 
-    fn advice(&self, change: &Change, taken: Duration, saved: f64) -> String {
-        let saves = format!("saves {:.0} % ({})", saved * 100.0, time(taken));
+    fn advice(&self, tried: &Tried, saved: f64) -> String {
+        let change = &tried.change;
+        let margin = tried
+            .margin
+            .as_ref()
+            .map_or_else(String::new, |margin| format!(", {margin}"));
+        let saves = format!("saves {:.0} % ({}{margin})", saved * 100.0, time(tried.time));
         let written = change.written(self.job);
         match change {
             Change::Speed { .. } | Change::Direction(_) => format!("`{written}` {saves}"),

@@ -13,7 +13,7 @@ pub use map::Map;
 
 use crate::choice::{self, Latitude, Leeway};
 use crate::diag::{Code, Diagnostic, has_errors};
-use crate::driver::{Request, Stage, internal, rules_broken};
+use crate::driver::{self, Request, Stage, internal, rules_broken};
 use crate::job::{CheckedJob, Machine};
 use crate::plan::PlannedJob;
 use crate::reach::place::Spot;
@@ -164,11 +164,18 @@ fn prepare(
         return Err(Failed::Diagnostics(vec![without_machine(&job)]));
     };
     progress(Stage::Planning);
-    // Where the machine follows these routes, the job compiles, whatever faster ones there are.
-    let (plan, found) = choice::choose_within(&job, Leeway::along(Latitude::RowsByPoint));
-    diagnostics.extend(found);
-    let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
-        return Err(Failed::Diagnostics(diagnostics));
+    let plan = match driver::compile_checked(&job, &Wanted::ALWAYS) {
+        // What room there is now is then what `check` says.
+        Some((plan, _)) => plan,
+        None => {
+            // Where the machine follows these routes, the job compiles, whatever faster ones there are.
+            let (plan, found) = choice::choose_within(&job, Leeway::along(Latitude::RowsByPoint));
+            diagnostics.extend(found);
+            let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
+                return Err(Failed::Diagnostics(diagnostics));
+            };
+            plan
+        }
     };
     progress(Stage::Proving);
     match verdict::prove(&plan, sources) {

@@ -197,7 +197,7 @@ fn remedy(operations: &[Operation], speeds: &Speeds) -> Option<(Remedy, Loss)> {
         }
         edits.extend(span.map(|span| (span, text)));
     }
-    let advice = format!("use {}, which the axes just follow", words.join(" with "));
+    let advice = format!("use {}, which the axes follow", words.join(" with "));
     let remedy = if edits.len() == speeds.len() {
         Remedy { advice, edits }
     } else {

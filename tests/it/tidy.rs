@@ -95,7 +95,17 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "hints",
         &[
-            "diag", "driver", "job", "lower", "plan", "reach", "remedy", "source", "summary", "wanted",
+            "diag",
+            "driver",
+            "job",
+            "lower",
+            "plan",
+            "reach",
+            "reach_summary",
+            "remedy",
+            "source",
+            "summary",
+            "wanted",
         ],
     ),
     (

@@ -3,7 +3,7 @@
 //! `cargo run --release --bin report` prints the rows of a table in `docs/benchmarks.md`.
 
 use std::time::Instant;
-use vcutc::report::page::page;
+use vcutc::report::page::{Further, page};
 use vcutc_benches::{jobs, stages};
 
 /// Numbers of cuts, about.
@@ -31,7 +31,7 @@ fn row(text: &str, machine: jobs::Machine, threads: usize) {
         let begun = Instant::now();
         let outcome = stages::compile(text);
         let checked = begun.elapsed().as_secs_f64();
-        let page = page(&outcome).expect("the job is right");
+        let page = page(&outcome, Further::NOTHING).expect("the job is right");
         let reported = begun.elapsed().as_secs_f64();
         let cuts = outcome.plan.as_ref().map_or(0, stages::cuts);
         println!(
