@@ -67,7 +67,7 @@ impl Reason {
         match self {
             Self::NoMachine => "the job has no machine",
             Self::NotStated => "the compiler does not know the numbers of this machine",
-            Self::NoPlaceForIt => "the compiler cannot be told the range",
+            Self::NoPlaceForIt => "a machine's description has no field for the range",
             Self::NotMeasured => "not measured for an arm without a closed form",
             Self::NoBody => "the compiler does not know their shapes",
             Self::NoReader => "nothing reads this target's programs back",

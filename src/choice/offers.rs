@@ -81,7 +81,7 @@ fn with_what_works(
     mut attempt: impl FnMut(&Offer, &mut Effort) -> Attempt,
 ) -> Diagnostic {
     let Refused {
-        mut told,
+        told: mut diagnostic,
         ladders,
         resort,
         otherwise,
@@ -92,31 +92,31 @@ fn with_what_works(
         let mut part = effort.part(rest);
         rest -= 1;
         match first_that_works(ladder, &mut part, &mut attempt) {
-            Ok(offer) => told = told.fix_all(offer.title, &offer.edits),
+            Ok(offer) => diagnostic = diagnostic.fix_all(offer.title, &offer.edits),
             Err(titles) => failed.extend(in_short(&titles)),
         }
         effort.give_back(&part);
     }
-    if !told.fixes.is_empty() {
-        return told;
+    if !diagnostic.fixes.is_empty() {
+        return diagnostic;
     }
     if let Some(offer) = resort {
         match attempt(&offer, effort) {
-            Attempt::Works => return told.fix_all(offer.title, &offer.edits),
+            Attempt::Works => return diagnostic.fix_all(offer.title, &offer.edits),
             Attempt::Fails => failed.push(offer.title),
             Attempt::LeftOut => {}
         }
     }
-    let told = match failed.as_slice() {
-        [] => told,
-        _ => told.note(format!(
+    let diagnostic = match failed.as_slice() {
+        [] => diagnostic,
+        _ => diagnostic.note(format!(
             "tried, one at a time, and not enough: {}",
             failed.join("; ")
         )),
     };
     match otherwise {
-        Some(help) => told.help(help),
-        None => told,
+        Some(help) => diagnostic.help(help),
+        None => diagnostic,
     }
 }
 

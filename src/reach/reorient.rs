@@ -51,18 +51,7 @@ pub fn slowed(program: &Program, motion: &Motion, mechanism: &Mechanism) -> Opti
 /// faster.
 fn asked(program: &Program, leg: &Leg, action: Action, fastest: f64) -> Option<(AngularSpeed, f64)> {
     let stroke = leg.stroke()?;
-    let rate = match action {
-        Action::Travel { rate, .. } | Action::Turn { rate, .. } => rate,
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Approach { .. }
-        | Action::Retract { .. }
-        | Action::Cut { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => return None,
-    };
+    let rate = action.rate()?;
     let held = |id: OrientationId| program.orientations.get(id.0 as usize).copied();
     let shortest = held(stroke.from.held)?.angle_to(held(stroke.to.held)?).to_rad();
     if shortest <= 0.0 {

@@ -508,6 +508,23 @@ impl ActionKind {
 }
 
 impl Action {
+    /// The rate of the ops that turn the blade at one.
+    #[must_use]
+    pub const fn rate(&self) -> Option<RateId> {
+        match *self {
+            Self::Travel { rate, .. } | Self::Turn { rate, .. } => Some(rate),
+            Self::Home
+            | Self::AxisTravel { .. }
+            | Self::Approach { .. }
+            | Self::Retract { .. }
+            | Self::Cut { .. }
+            | Self::Ultrasonic { .. }
+            | Self::AwaitReady
+            | Self::Dwell { .. }
+            | Self::ToolChange { .. } => None,
+        }
+    }
+
     /// What kind of op it is.
     #[must_use]
     pub const fn kind(&self) -> ActionKind {

@@ -3,7 +3,7 @@
 //! Most turns of a program are the same turn forward and back, so that the two rates are written once or a few times.
 
 use std::collections::BTreeMap;
-use vcutc_backend_api::ir::{Action, OrientationId, Program, RateId};
+use vcutc_backend_api::ir::{OrientationId, Program, RateId};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::Lead;
@@ -38,7 +38,7 @@ impl Turns {
         for op in &program.ops {
             let before = at;
             at = pose_after(at, &op.action);
-            let rates = match (before, at, rate(&op.action)) {
+            let rates = match (before, at, op.action.rate()) {
                 (Some((_, from)), Some((_, to)), Some(rate)) if from != to => {
                     let new = || rates(program, (from, to), rate);
                     *known.entry((from, to, rate)).or_insert_with(new)
@@ -63,21 +63,6 @@ impl Turns {
     pub(crate) fn lines(&self, index: usize, lead: Lead) -> u64 {
         let changes = self.changes.get(index).copied().unwrap_or(false);
         lead.lines(0) + if changes || lead.rate.is_some() { LINES } else { 0 }
-    }
-}
-
-fn rate(action: &Action) -> Option<RateId> {
-    match *action {
-        Action::Travel { rate, .. } | Action::Turn { rate, .. } => Some(rate),
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Approach { .. }
-        | Action::Retract { .. }
-        | Action::Cut { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => None,
     }
 }
 

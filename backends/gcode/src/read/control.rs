@@ -484,7 +484,7 @@ impl<'a> Control<'a> {
     }
 }
 
-/// What must come behind the lines of a loop that waits, where it does not.
+/// What must follow the lines of a loop that waits, where it does not.
 const fn missing(cycle: Option<Cycle>, act: Option<Act>) -> Option<&'static str> {
     match (cycle, act) {
         (Some(Cycle::Loop(_)), Some(Act::LoopWait(_)))
