@@ -23,7 +23,7 @@ use super::path::{Clearance, Proof};
 use super::rig::Rig;
 use super::runs::{Split, Station, StationKind, split};
 use super::stands::Stands;
-use super::survey::{Extent, Failure, Survey, middles, moved, opened};
+use super::survey::{Survey, middles, moved, opened};
 use super::sweep::{self, Sweep};
 use super::trouble::{self, Trouble};
 use super::waypoints::waypoints;
@@ -388,7 +388,7 @@ fn on_branch(survey: &Survey<'_>, stations: &[Station], branch: Branch) -> Optio
         .map(|station| match station.kind {
             StationKind::Home => Some(Vec::new()),
             StationKind::Run(_) | StationKind::Joined(_) => {
-                let carried = survey.run(station, branch, Extent::FirstFailure).ok()?;
+                let carried = survey.carried(station, branch)?;
                 Some(vec![OnBranch {
                     branch,
                     carried,
@@ -407,42 +407,47 @@ fn by_changes(
     changes: Changes,
 ) -> Result<Solved, Box<Trouble>> {
     let stations = split(survey.legs, Split::AtDetours);
-    let mut carried = Vec::with_capacity(stations.len());
-    let mut failed: Vec<Vec<(Branch, Vec<Failure>)>> = Vec::with_capacity(stations.len());
-    for (index, station) in stations.iter().enumerate() {
+    let found = |carried: &[Vec<OnBranch>], stuck: usize| {
+        let branches: Vec<Branch> = bounds.iter().map(|&(branch, _)| branch).collect();
+        trouble::found(survey, &stations, carried, &branches, stuck)
+    };
+    let mut carried: Vec<Vec<OnBranch>> = Vec::with_capacity(stations.len());
+    for some in stations.chunks(STATIONS_AT_ONCE) {
         if survey.wanted.is_needless() {
             return Err(Box::new(Trouble::Nowhere));
         }
-        let (mut carrying, mut failing) = (Vec::new(), Vec::new());
-        if station.kind != StationKind::Home {
-            for &(branch, _) in bounds {
-                match survey.run(station, branch, Extent::Whole) {
-                    Ok(carried) => carrying.push(OnBranch {
-                        branch,
-                        carried,
-                        joined: joined(survey, station, branch),
-                    }),
-                    Err(failures) => failing.push((branch, failures)),
-                }
-            }
-        }
-        let is_stuck = carrying.is_empty() && station.kind != StationKind::Home;
-        carried.push(carrying);
-        failed.push(failing);
-        if is_stuck && changes == Changes::InTheAirOrElse {
-            return Err(Box::new(trouble::found(
-                survey, &stations, &carried, &failed, index,
-            )));
+        carried.par_extend(some.par_iter().map(|station| carrying(survey, station, bounds)));
+        let stuck = (stations.iter().zip(&carried))
+            .position(|(station, carrying)| carrying.is_empty() && station.kind != StationKind::Home);
+        if let (Some(stuck), Changes::InTheAirOrElse) = (stuck, changes) {
+            carried.truncate(stuck + 1);
+            return Err(Box::new(found(&carried, stuck)));
         }
     }
     let mut ways = Ways::new(survey, &stations, &carried, home);
     match climb(&mut ways) {
         Ok(way) => Ok(solved(survey, &stations, &ways, &way)),
-        Err(Stuck::At(station)) => Err(Box::new(trouble::found(
-            survey, &stations, &carried, &failed, station,
-        ))),
+        Err(Stuck::At(station)) => Err(Box::new(found(&carried, station))),
         Err(Stuck::Refuted(station)) => Err(Box::new(trouble::on_the_way(&stations, ways.refused, station))),
     }
+}
+
+/// Stations whose branches are looked at side by side.
+const STATIONS_AT_ONCE: usize = 32;
+
+/// The branches that carry a station, in their order; none at home.
+fn carrying(survey: &Survey<'_>, station: &Station, bounds: &[Bound]) -> Vec<OnBranch> {
+    if station.kind == StationKind::Home {
+        return Vec::new();
+    }
+    let on_branch = |&(branch, _): &Bound| {
+        Some(OnBranch {
+            branch,
+            carried: survey.carried(station, branch)?,
+            joined: joined(survey, station, branch),
+        })
+    };
+    bounds.iter().filter_map(on_branch).collect()
 }
 
 fn joined(survey: &Survey<'_>, station: &Station, branch: Branch) -> Option<Proof> {

@@ -8,7 +8,7 @@
 
 use super::demand::Demand;
 use super::legs::{Leg, Poses, Stroke, Taught, numbered};
-use super::path::{Breach, Clearance, Course, Proof, Violation, prove, prove_all};
+use super::path::{Breach, Clearance, Course, Proof, Refuted, Violation, prove, prove_all, refuted};
 use super::rig::Rig;
 use super::runs::Station;
 use super::stands::Stands;
@@ -179,6 +179,33 @@ impl Survey<'_> {
     fn begun(&self, stroke: &Stroke, branch: Branch) -> Option<(Course, Joints)> {
         let start = self.stand(stroke.from, branch)?;
         Some((Poses::of(self.program).course(stroke)?, start))
+    }
+
+    /// What a branch makes of a run that it carries: as [`Survey::run`], which says why it does not, but sooner where it does not.
+    pub(super) fn carried(&self, station: &Station, branch: Branch) -> Option<Carried> {
+        if self.is_refuted(station, branch, |_| true) {
+            return None;
+        }
+        self.run(station, branch, Extent::FirstFailure).ok()
+    }
+
+    /// Whether samples show for some motion of a run that a branch does not carry it, for a reason that counts.
+    pub(super) fn is_refuted(
+        &self,
+        station: &Station,
+        branch: Branch,
+        counts: impl Fn(Refuted) -> bool + Sync,
+    ) -> bool {
+        let legs = self.legs.get(station.ops.clone()).unwrap_or_default();
+        let after_entry = legs.get(1..).unwrap_or_default();
+        after_entry
+            .par_iter()
+            .with_min_len(AT_ONCE)
+            .filter_map(Leg::stroke)
+            .any(|stroke| match self.begun(stroke, branch) {
+                Some((course, start)) => refuted(&self.open, &course, branch, &start).is_some_and(&counts),
+                None => counts(Refuted::Pose),
+            })
     }
 
     /// What a branch makes of a run.

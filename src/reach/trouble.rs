@@ -4,7 +4,7 @@
 //! by some branch but no branch carries all that must be made on one, that is told.
 
 use super::legs::{Leg, Poses};
-use super::path::{Breach, Violation, prove, worst};
+use super::path::{Breach, Look, Refuted, Violation, prove, worst};
 use super::runs::{Split, Station, StationKind, split};
 use super::survey::{ENOUGH_TOO_FAST, Extent, Failure, Survey, moved};
 use super::sweep::Sweep;
@@ -97,18 +97,10 @@ pub(super) fn found(
     survey: &Survey<'_>,
     stations: &[Station],
     all_carried: &[Vec<OnBranch>],
-    failed: &[Vec<(Branch, Vec<Failure>)>],
+    branches: &[Branch],
     stuck: usize,
 ) -> Trouble {
-    // A run that some branch carries is in nobody's way.
-    let all = failed
-        .iter()
-        .zip(all_carried)
-        .filter(|(_, carried)| carried.is_empty())
-        .flat_map(|(failing, _)| common(failing));
-    let (Some(station), Some(carried), Some(failing)) =
-        (stations.get(stuck), all_carried.get(stuck), failed.get(stuck))
-    else {
+    let (Some(station), Some(carried)) = (stations.get(stuck), all_carried.get(stuck)) else {
         return Trouble::Nowhere;
     };
     if let Some(failing) = carried
@@ -121,6 +113,17 @@ pub(super) fn found(
             hardest: None,
         };
     }
+    let failing = failures(survey, station, branches);
+    // A run that some branch carries is in nobody's way.
+    let all = (stations.iter().zip(all_carried).enumerate())
+        .filter(|(_, (_, carried))| carried.is_empty())
+        .flat_map(|(index, (other, _))| {
+            if index == stuck {
+                common(&failing)
+            } else {
+                common(&failures(survey, other, branches))
+            }
+        });
     let Some((branch, least)) = failing.iter().min_by_key(|(branch, failures)| {
         let kind = failures.first().map(|failure| rank(failure.breach.what));
         (failures.len(), kind, *branch)
@@ -128,15 +131,24 @@ pub(super) fn found(
         return out_of_reach(station);
     };
     let of = |failure: &Failure, branch: Branch| failing_on(survey, failure, branch);
-    let by_no_branch = common(failing);
+    let by_no_branch = common(&failing);
     match least.iter().find(|failure| by_no_branch.contains(&failure.op)) {
         Some(failure) => Trouble::Motion {
             failing: of(failure, *branch),
             other_cuts: Count::Exactly(other_cuts(survey, all, failure.op)),
             hardest: hardest(survey, least, *branch, failure),
         },
-        None => no_common_branch(station, failing, *branch, least, of),
+        None => no_common_branch(station, &failing, *branch, least, of),
     }
+}
+
+/// What the branches that do not carry a station fail on; nothing at home.
+fn failures(survey: &Survey<'_>, station: &Station, branches: &[Branch]) -> Vec<(Branch, Vec<Failure>)> {
+    if station.kind == StationKind::Home {
+        return Vec::new();
+    }
+    let failing = |&branch: &Branch| Some((branch, survey.run(station, branch, Extent::Whole).err()?));
+    branches.iter().filter_map(failing).collect()
 }
 
 /// How many failures are looked at for the hardest of them.
@@ -145,14 +157,22 @@ const MOST_WEIGHED: usize = 256;
 /// Of the failures of a branch, the motion that lacks most, if it lacks notably more than the one that is told of.
 fn hardest(survey: &Survey<'_>, failures: &[Failure], branch: Branch, told: &Failure) -> Option<Failing> {
     let notably = 1.05 * lack(survey, &failing_on(survey, told, branch));
-    let every = failures.len() / MOST_WEIGHED + 1;
-    let weighed = failures
-        .iter()
-        .step_by(every)
-        .map(|failure| failing_on(survey, failure, branch));
-    weighed
-        .max_by(|a, b| lack(survey, a).total_cmp(&lack(survey, b)))
+    let (_, hardest) = weighed(survey, failures, branch).max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    Some(failing_on(survey, hardest, branch))
         .filter(|failing| failing.op != told.op && lack(survey, failing) > notably)
+}
+
+/// How much some failures of a branch lack, by a rough look.
+fn weighed<'f>(
+    survey: &Survey<'_>,
+    failures: &'f [Failure],
+    branch: Branch,
+) -> impl Iterator<Item = (f64, &'f Failure)> {
+    let every = failures.len() / MOST_WEIGHED + 1;
+    failures.iter().step_by(every).map(move |failure| {
+        let failing = looked_at(survey, failure, branch, Look::Rough);
+        (lack(survey, &failing), failure)
+    })
 }
 
 /// How much is missing, so that failures can be compared: by the range, the rate or the distance that is had.
@@ -177,7 +197,15 @@ const TOO_FAST: f64 = 2.0;
 /// Says which motion is too fast, if a branch carries the program but for that.
 pub(super) fn too_fast(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Option<Trouble> {
     let stations = split(survey.legs, Split::AtAxisMoves);
+    let is_more_than_fast = |refuted: Refuted| match refuted {
+        Refuted::Pose => true,
+        Refuted::TooFast(times) => times > TOO_FAST,
+    };
     let all_too_fast = |branch: Branch| {
+        let is_refuted = |station: &Station| survey.is_refuted(station, branch, is_more_than_fast);
+        if stations.iter().any(is_refuted) {
+            return None;
+        }
         let mut failures = Vec::new();
         for station in &stations {
             if station.kind == StationKind::Home {
@@ -192,11 +220,8 @@ pub(super) fn too_fast(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) ->
                 return None;
             }
         }
-        let hardest = failures
-            .iter()
-            .step_by(failures.len() / MOST_WEIGHED + 1)
-            .map(|failure| lack(survey, &failing_on(survey, failure, branch)))
-            .fold(0.0, f64::max);
+        let lacks = weighed(survey, &failures, branch).map(|(lack, _)| lack);
+        let hardest = lacks.fold(0.0, f64::max);
         (hardest <= TOO_FAST - 1.0).then_some((branch, failures))
     };
     // The branch that leaves the most room at taught poses is the first to be asked, and mostly the only one: proving a long
@@ -250,12 +275,16 @@ pub(super) fn first(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Tr
 
 /// A failure together with the worst of it.
 fn failing_on(survey: &Survey<'_>, failure: &Failure, branch: Branch) -> Failing {
+    looked_at(survey, failure, branch, Look::Close)
+}
+
+fn looked_at(survey: &Survey<'_>, failure: &Failure, branch: Branch, look: Look) -> Failing {
     let Failure { op, breach } = *failure;
     let stroke = survey.legs.get(op.0 as usize).and_then(Leg::stroke);
     let worst = stroke.and_then(|stroke| {
         let start = survey.stand(stroke.from, branch)?;
         let course = Poses::of(survey.program).course(stroke)?;
-        Some(worst(&survey.open, &course, branch, &start, &breach))
+        Some(worst(&survey.open, &course, branch, &start, &breach, look))
     });
     Failing {
         op,

@@ -1,6 +1,6 @@
 //! The way of a move of all axes: whether the blade stays out of the stock.
 
-use super::path::{AxesViolation, Block, prove_axes};
+use super::path::{AxesViolation, Block, are_axes_refuted, prove_axes};
 use super::survey::Survey;
 use crate::kinematics::Joints;
 use glam::DVec3;
@@ -26,6 +26,12 @@ pub(super) fn clear(survey: &Survey<'_>, from: &Joints, to: &Joints) -> Result<(
             AxesViolation::Limit { .. } => None,
         },
     })
+}
+
+/// Whether samples show what [`clear`] would find out about the stock, sooner.
+pub(super) fn is_refuted(survey: &Survey<'_>, from: &Joints, to: &Joints) -> bool {
+    let points = outline(survey);
+    are_axes_refuted(&survey.rig, from, to, &points, &stock(survey.program))
 }
 
 fn stock(program: &Program) -> Block {

@@ -5,7 +5,7 @@ use super::ladder::{Cost, Ladder};
 use super::path::Proof;
 use super::runs::{Station, StationKind};
 use super::survey::{Carried, Survey, moved, travel, turns_between};
-use super::way::{Obstacle, clear};
+use super::way::{Obstacle, clear, is_refuted};
 use crate::kinematics::Joints;
 use vcutc_backend_api::ir::{Axis, MOST_AXES};
 use vcutc_backend_api::motion::Branch;
@@ -228,6 +228,10 @@ impl Ladder for Ways<'_> {
         let (Some(before), Some(after)) = (before, self.rung(run, to)) else {
             return false;
         };
+        // Where the first one is in the way is told; of all others only that they are.
+        if self.refused.is_some() && is_refuted(self.survey, &before.end, &after.start) {
+            return false;
+        }
         match clear(self.survey, &before.end, &after.start) {
             Ok(()) => true,
             Err(obstacle) => {

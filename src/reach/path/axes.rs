@@ -94,6 +94,28 @@ pub fn prove_axes(
     })
 }
 
+/// Parts of a move at whose ends samples are taken.
+const PARTS: u32 = 16;
+
+/// How far inside the stock a sample has to be to count, in mm: far more than rounding.
+const SURELY: f64 = 1e-3;
+
+/// Whether samples show what [`prove_axes`] would find out about the stock, sooner. Where they do, it does not prove the move; where
+/// they do not, nothing is said.
+#[must_use]
+pub fn are_axes_refuted(rig: &Rig<'_>, from: &Joints, to: &Joints, blade: &[DVec3], stock: &Block) -> bool {
+    let inner = Block {
+        low: stock.low + DVec3::splat(SURELY),
+        high: stock.high - DVec3::splat(SURELY),
+    };
+    let places = (1..PARTS).map(|part| f64::from(part) / f64::from(PARTS));
+    places.into_iter().any(|at| {
+        let points = points_at(rig, from, to, at, blade);
+        let point = |point: DVec3| point.to_array().map(Along::constant);
+        !Sides::of(points.map(point), &inner).any()
+    })
+}
+
 /// Beyond which faces of a block all points are.
 struct Sides {
     below: [bool; 3],
@@ -120,13 +142,24 @@ impl Sides {
     }
 }
 
-fn lowest(rig: &Rig<'_>, from: &Joints, to: &Joints, at: f64, blade: &[DVec3]) -> DVec3 {
+/// The points of the blade at a place of the move, in W.
+fn points_at(
+    rig: &Rig<'_>,
+    from: &Joints,
+    to: &Joints,
+    at: f64,
+    blade: &[DVec3],
+) -> impl Iterator<Item = DVec3> {
     let joints = core::array::from_fn(|i| from[i] + (to[i] - from[i]) * at);
     let blade_in_work = rig.blade_in_work(&joints);
-    let points = blade
+    blade
         .iter()
-        .map(|point| blade_in_work.rotation * *point + blade_in_work.position);
-    points
+        .map(move |point| blade_in_work.rotation * *point + blade_in_work.position)
+}
+
+fn lowest(rig: &Rig<'_>, from: &Joints, to: &Joints, at: f64, blade: &[DVec3]) -> DVec3 {
+    // A blade without points has no lowest one; there is none such.
+    points_at(rig, from, to, at, blade)
         .min_by(|a, b| a.z.total_cmp(&b.z))
-        .unwrap_or(blade_in_work.position)
+        .unwrap_or_default()
 }

@@ -75,13 +75,15 @@ mod course;
 mod interval;
 mod march;
 mod number;
+mod refuted;
 mod serial;
 #[cfg(test)]
 mod tests;
 mod worst;
 
-pub use axes::{AxesBreach, AxesViolation, Block, prove_axes};
-pub use worst::worst;
+pub use axes::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
+pub use refuted::{Refuted, refuted};
+pub use worst::{Look, worst};
 
 use super::five_axis_path;
 use super::rig::Rig;

@@ -1,39 +1,89 @@
 //! How badly a course breaks what it breaks, for people: the proof stops where it breaks first.
 
+use super::arm::{Carrying, LANES};
 use super::bounds::Stretch;
 use super::march::about;
-use super::{Breach, Course, Singularity, Violation, Way};
+use super::{Breach, Course, Machine, Singularity, Violation, Way};
 use crate::kinematics::Joints;
 use crate::reach::rig::Rig;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
 
-/// Places looked at.
-const SAMPLES: u32 = 256;
+/// How closely a course is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Closely enough for a number that people read.
+    Close,
+    /// Closely enough to compare courses.
+    Rough,
+}
+
+impl Look {
+    /// Into how many parts the course is divided.
+    const fn parts(self) -> u32 {
+        match self {
+            Self::Close => 256,
+            Self::Rough => 16,
+        }
+    }
+}
 
 /// Where on the course what `breach` tells is broken most, and how much. A place out of reach is worse than all others;
 /// the first of these is told. This comes from samples and proves nothing. `start` is that of the breach.
 #[must_use]
-pub fn worst(rig: &Rig<'_>, course: &Course, branch: Branch, start: &Joints, breach: &Breach) -> Breach {
+pub fn worst(
+    rig: &Rig<'_>,
+    course: &Course,
+    branch: Branch,
+    start: &Joints,
+    breach: &Breach,
+    look: Look,
+) -> Breach {
     let Some(way) = Way::new(rig, course, branch) else {
         return *breach;
     };
-    let (mut worst, mut near) = (*breach, *start);
-    for at in (0..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES)) {
+    let parts = look.parts();
+    let (mut near, mut samples) = (*start, Vec::new());
+    for at in (0..=parts).map(|part| f64::from(part) / f64::from(parts)) {
         let Some(joints) = way.joints_at(at, &near) else {
             let what = Violation::OutOfReach;
             return Breach { at, what };
         };
         near = joints;
-        let Ok(found) = way.stretch(about(at), &joints) else {
-            continue;
-        };
-        let what = like(worst.what, &joints, &found, course.duration);
+        samples.push((at, joints));
+    }
+    let mut worst = *breach;
+    for ((at, joints), found) in samples.iter().zip(stretches(&way, &samples)) {
+        let Ok(found) = found else { continue };
+        let what = like(worst.what, joints, &found, course.duration);
         if severity(&what, rig.axes) > severity(&worst.what, rig.axes) {
-            worst = Breach { at, what };
+            worst = Breach { at: *at, what };
         }
     }
     worst
+}
+
+/// What the axes do about each of some places; of an arm with a closed form several at a time, as the lanes of a vector.
+fn stretches(way: &Way<'_>, samples: &[(f64, Joints)]) -> Vec<Result<Stretch, Violation>> {
+    match way.machine {
+        Machine::Arm(arm, branch) => {
+            let mut carrying = Carrying::new(arm, branch, way.flight.turning());
+            (0..LANES).for_each(|lane| carrying.take(lane, &way.flight));
+            let mut found = Vec::with_capacity(samples.len());
+            for some in samples.chunks(LANES) {
+                for (lane, (at, _)) in some.iter().enumerate() {
+                    carrying.set(lane, about(*at));
+                }
+                carrying.sweep();
+                found.extend((0..some.len()).map(|lane| carrying.stretch(lane)));
+            }
+            found
+        }
+        Machine::Serial(_) => samples
+            .iter()
+            .map(|(at, joints)| way.stretch(about(*at), joints))
+            .collect(),
+    }
 }
 
 /// The same kind of violation with the number that belongs to a place.

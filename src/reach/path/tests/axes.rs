@@ -64,10 +64,14 @@ fn moves_of_all_axes_stay_out_of_the_stock_as_sampled() {
     for model in [kuka(), beside(), rods()] {
         let rig = rig(&model);
         let mut dice = Dice(21);
-        let (mut proven, mut refused) = (0, 0);
+        let (mut proven, mut refused, mut refuted) = (0, 0, 0);
         for number in 0..200 {
             let (from, to) = (near_the_stock(&mut dice, &rig), near_the_stock(&mut dice, &rig));
             let outside = outside(&rig, &from, &to);
+            if are_axes_refuted(&rig, &from, &to, &BLADE, &STOCK) {
+                assert!(prove_axes(&rig, &from, &to, &BLADE, &STOCK).is_err());
+                refuted += 1;
+            }
             match prove_axes(&rig, &from, &to, &BLADE, &STOCK) {
                 Ok(()) => {
                     assert!(outside >= -1e-3, "{}, move {number}: {outside} mm", model.name);
@@ -84,6 +88,7 @@ fn moves_of_all_axes_stay_out_of_the_stock_as_sampled() {
             }
         }
         assert!(proven > 40 && refused > 15, "{proven} and {refused}");
+        assert!(refuted > 10, "{refuted} of {refused} are seen sooner");
     }
 }
 

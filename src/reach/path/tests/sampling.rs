@@ -25,11 +25,15 @@ fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64)
     let rig = rig(model);
     let arm = arm_of(model);
     let mut dice = Dice(u64::from(moves));
-    let (mut proven, mut refused) = (0, 0);
+    let (mut proven, mut refused, mut seen_sooner) = (0, 0, 0);
     for number in 0..moves {
         let (course, branch, start) = random_move(&mut dice, &rig, rig.axes, longest, most_turn);
         let proof = prove(&rig, &course, branch, &start, &LEAST);
         let sampled = sample(&rig, &arm, &course, branch, &start);
+        if let Some(seen) = refuted(&rig, &course, branch, &start) {
+            assert!(proof.is_err(), "{}, move {number}: {seen:?}", model.name);
+            seen_sooner += 1;
+        }
         let margin = sampled.as_ref().map_or(-1.0, |found| margin(&rig, found));
         match proof {
             Ok(proof) => {
@@ -60,6 +64,11 @@ fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64)
     assert!(
         proven > moves / 10 && refused > moves / 10,
         "{proven} and {refused}: the moves are one-sided"
+    );
+    assert!(
+        2 * seen_sooner > refused,
+        "{}: samples show only {seen_sooner} of {refused}",
+        model.name
     );
 }
 

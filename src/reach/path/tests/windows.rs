@@ -183,7 +183,7 @@ fn beside_its_stretched_position_the_rates_tell() {
             matches!(breach.what, Violation::Rate { axis: 3, .. }),
             "{breach:?}"
         );
-        let worst = worst(&tight, &course, branch, &start, &breach);
+        let worst = worst(&tight, &course, branch, &start, &breach, Look::Close);
         assert!(
             matches!(worst.what, Violation::Rate { axis: 3, rate } if rate > 0.8 * expected),
             "{worst:?}"
