@@ -1,6 +1,9 @@
 //! What keeps a machine from a program, in the words of the job: which cut, which axis, by how much, what to change.
 
 mod posture;
+mod size;
+
+pub use size::too_large;
 
 use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
@@ -88,7 +91,7 @@ impl<'s> Scene<'s> {
     /// What to do where no single change was found.
     fn general(&self, unreachable: &Unreachable) -> String {
         match &unreachable.trouble {
-            Trouble::Motion { failing, hardest, .. } => match failing.breach.what {
+            Trouble::Motion { failing, hardest, .. } => match failing.worst.what {
                 Violation::OutOfReach => {
                     "move the work nearer to the machine with `base`, or choose a machine of longer reach".to_owned()
                 }

@@ -8,7 +8,7 @@ mod given;
 mod scallop;
 mod stays;
 
-pub use stays::much_stays;
+pub use stays::{Compile, much_stays};
 
 use crate::choice::{Effort, Latitude};
 use crate::diag::{Code, Diagnostic};

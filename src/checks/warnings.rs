@@ -1,37 +1,96 @@
-//! What there is to warn of: checks that were not made because the job's machine lacks a number that its owner can find out.
+//! What there is to warn of: checks of the machine's motions that were not made.
 
-use super::Checks;
 use super::words::listed;
+use super::{Check, Checks, Outcome};
 use crate::diag::{Code, Diagnostic};
 use crate::job::Machine;
 use crate::machine::{FileKind, Origin};
+use crate::reach::solve::Reached;
 use vcutc_backend_api::ir::MachineKind;
 
 impl Checks {
-    /// The warnings of a job on its machine. What no description of a machine can say is named among what is not checked, and
-    /// is not warned of: a warning that comes with every job is read by nobody.
+    /// The warnings of a job on its machine: all that keeps it from counting as proven. What no job has checked, such as
+    /// collisions, is named among what is not checked, and is not warned of: nobody reads a warning that comes with every job.
     #[must_use]
-    pub fn warnings(&self, machine: &Machine) -> Vec<Diagnostic> {
-        let (_, unknown) = self.axes();
-        if unknown.is_empty() {
-            return Vec::new();
-        }
-        let (axes, name) = (listed(&unknown), &machine.model.name);
-        let (rates, are) = match unknown.len() {
-            1 => ("rate", "is"),
-            _ => ("rates", "are"),
-        };
-        vec![
-            Diagnostic::new(
-                Code::RatesNotChecked,
-                format!("the {rates} of {axes} {are} not known, so that no motion was checked against {}", match unknown.len() { 1 => "it", _ => "them" }),
-                machine.model_span,
-                format!("its description states no {rates} of {axes}"),
-            )
-            .note("a motion that is too fast for an axis is slowed down or stopped by the control, or leaves its line")
-            .help(remedy(machine, name)),
-        ]
+    pub fn warnings(&self, machine: &Machine, reached: &Reached) -> Vec<Diagnostic> {
+        let not_made = self.iter().filter(|checked| checked.outcome != Outcome::Made);
+        let others = not_made.filter_map(|checked| match &checked.check {
+            Check::ElbowAngle => Some(elbow_angle(machine, reached)),
+            Check::SingularPoses => Some(singular_poses(machine)),
+            // These are made wherever there is a machine.
+            Check::AxisLimits | Check::Branch | Check::Turns => None,
+            // All axes in one warning.
+            Check::AxisRate(_) => None,
+            Check::Chips
+            | Check::Part
+            | Check::AboveStock
+            | Check::Accelerations
+            | Check::Holder
+            | Check::Collisions
+            | Check::ReadBack => None,
+        });
+        self.rates(machine).into_iter().chain(others).collect()
     }
+
+    /// The warning of rates that are not known, if there are any.
+    fn rates(&self, machine: &Machine) -> Option<Diagnostic> {
+        let (_, unknown) = self.axes();
+        let (axes, name) = (listed(&unknown), &machine.model.name);
+        let (rates, are, them) = match unknown.len() {
+            0 => return None,
+            1 => ("rate", "is", "it"),
+            _ => ("rates", "are", "them"),
+        };
+        let told = Diagnostic::new(
+            Code::RatesNotChecked,
+            format!("the {rates} of {axes} {are} not known, so that no motion was checked against {them}"),
+            machine.model_span,
+            format!("its description states no {rates} of {axes}"),
+        );
+        Some(
+            told.note("a motion that is too fast for an axis is slowed down or stopped by the control, or leaves its line")
+                .help(remedy(machine, name)),
+        )
+    }
+}
+
+/// The warning of a parallelogram, whose arms must not come too close to each other.
+fn elbow_angle(machine: &Machine, reached: &Reached) -> Diagnostic {
+    let between_arms = |joints: &[f64]| Some(joints.get(2)? - joints.get(1)?);
+    let ends = reached.program.motion().ends.iter();
+    let (low, high) = ends
+        .filter_map(|end| between_arms(&end.0))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| {
+            (low.min(angle), high.max(angle))
+        });
+    let told = Diagnostic::new(
+        Code::MotionNotChecked,
+        "the angle between the arms, J3 - J2, was not checked",
+        machine.model_span,
+        "the range of its parallelogram is not known",
+    )
+    .note("a control that finds this angle out of its range stops with an error");
+    if low <= high {
+        told.help(format!(
+            "compare with the data sheet: where the motions of this program end, J3 - J2 goes from {:.1} to {:.1} deg",
+            low.to_degrees(),
+            high.to_degrees()
+        ))
+    } else {
+        told
+    }
+}
+
+/// The warning of an arm whose distance from singular poses is not measured.
+fn singular_poses(machine: &Machine) -> Diagnostic {
+    Diagnostic::new(
+        Code::MotionNotChecked,
+        "the distance from singular poses was not checked",
+        machine.model_span,
+        "this arm has no closed form, so that the distance is not measured",
+    )
+    .note("no motion passes through such a pose; close to one the control may slow down")
+    .help("run the program in the simulation of the control, and look for places where it slows down")
 }
 
 /// Where the rates are to be written.

@@ -17,6 +17,7 @@ use super::console::Warnings;
 use super::files::Disk;
 use super::patience::{HelpBudget, help_budget};
 use crate::diag::suggest::nearest;
+use crate::diag::{Code, Severity};
 use crate::driver::{Request, Typed};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
@@ -362,19 +363,36 @@ pub(super) struct CompileArgs {
 }
 
 /// How warnings are taken.
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct WarningArgs {
     /// End with 1 and write nothing where there is a warning
     ///
     /// For continuous integration: what a person would read and accept then fails the run.
     #[arg(long)]
     deny_warnings: bool,
+
+    /// A warning that does not end a run with --deny-warnings, such as VC0529
+    ///
+    /// It is shown and counted all the same. May be given several times.
+    #[arg(long, value_name = "CODE", requires = "deny_warnings", value_parser = warning_code)]
+    allow: Vec<Code>,
+}
+
+/// The code of a warning.
+fn warning_code(number: &str) -> Result<Code, String> {
+    match Code::from_number(number) {
+        Some(code) if code.severity() == Severity::Warning => Ok(code),
+        Some(code) => Err(format!("{} is an error, which cannot be allowed", code.number())),
+        None => Err("there is no such code; `vcutc explain` lists all".to_owned()),
+    }
 }
 
 impl WarningArgs {
-    fn taken(self) -> Warnings {
+    fn taken(&self) -> Warnings {
         if self.deny_warnings {
-            Warnings::Denied
+            Warnings::Denied {
+                allowed: self.allow.clone(),
+            }
         } else {
             Warnings::Shown
         }

@@ -372,7 +372,7 @@ fn end(diagnostics: &[Diagnostic], made: &Made, console: &Console) -> End {
     }
 }
 
-fn remark(unit: &Unit, diagnostics: &[Diagnostic], made: &Made, fate: Fate, warnings: Warnings) -> String {
+fn remark(unit: &Unit, diagnostics: &[Diagnostic], made: &Made, fate: Fate, warnings: &Warnings) -> String {
     let target = format!("for {}", unit.backend.id());
     if warnings.refuse(diagnostics) {
         let nothing = match fate {

@@ -362,7 +362,7 @@ pub(super) fn make(
     product: &Product,
     outcome: &Outcome,
     disk: &Disk,
-    warnings: Warnings,
+    warnings: &Warnings,
     progress: &mut Progress,
 ) -> Result<Made, Failure> {
     let is_refused = warnings.remark(&outcome.diagnostics).is_some();
@@ -384,7 +384,7 @@ fn make_program(
     program: &Program,
     outcome: &Outcome,
     disk: &Disk,
-    warnings: Warnings,
+    warnings: &Warnings,
 ) -> Result<Made, Failure> {
     match snapshot::make(outcome, program.backend, &program.to, program.fate) {
         Ok(Some(complete)) if warnings.refuse(complete.ready.warnings()) => Ok(Made {

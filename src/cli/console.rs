@@ -11,7 +11,7 @@ use super::patience::HelpBudget;
 use super::progress::Following;
 use super::snapshot::Differences;
 use crate::checks::{CheckFigure, Checks};
-use crate::diag::{Diagnostic, Severity, github, has_errors, json, render};
+use crate::diag::{Code, Diagnostic, Severity, github, has_errors, json, render};
 use crate::hints::Hint;
 use crate::numbers::Numbers;
 use crate::reach_summary::{self, ReachFigures};
@@ -82,26 +82,29 @@ impl Failure {
 }
 
 /// What is made of warnings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Warnings {
     /// They are shown.
     Shown,
     /// They end a run as errors do: nothing is written.
-    Denied,
+    Denied {
+        /// But these are only shown.
+        allowed: Vec<Code>,
+    },
 }
 
 impl Warnings {
     /// Whether what there is to tell keeps a run from writing anything.
-    pub(super) fn refuse(self, diagnostics: &[Diagnostic]) -> bool {
+    pub(super) fn refuse(&self, diagnostics: &[Diagnostic]) -> bool {
         has_errors(diagnostics)
             || match self {
                 Self::Shown => false,
-                Self::Denied => !diagnostics.is_empty(),
+                Self::Denied { allowed } => diagnostics.iter().any(|one| !allowed.contains(&one.code)),
             }
     }
 
     /// Why nothing was written, where it is not for errors.
-    pub(super) fn remark(self, diagnostics: &[Diagnostic]) -> Option<&'static str> {
+    pub(super) fn remark(&self, diagnostics: &[Diagnostic]) -> Option<&'static str> {
         let is_for_warnings = self.refuse(diagnostics) && !has_errors(diagnostics);
         is_for_warnings.then_some("warnings are denied")
     }
@@ -228,8 +231,8 @@ impl Console {
     }
 
     /// What is made of warnings.
-    pub(super) const fn warnings(&self) -> Warnings {
-        self.warnings
+    pub(super) const fn warnings(&self) -> &Warnings {
+        &self.warnings
     }
 
     /// How long help with a refused job is looked for.

@@ -184,6 +184,8 @@ codes! {
     ManyAxisMoves = "VC0527", Warning, "travels that became moves of all axes";
     /// A turn of a five-axis machine that takes the blade through the work.
     SweepThroughWork = "VC0528", Error, "a turn that sweeps the blade through the work";
+    /// Something about the motions of this machine that nothing checks.
+    MotionNotChecked = "VC0529", Warning, "something about the motions of this machine that was not checked";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "a target that needs a machine";

@@ -5,6 +5,7 @@
 
 mod air;
 mod axis_moves;
+mod emitting;
 mod mount;
 mod reaching;
 mod refusal;
@@ -14,6 +15,7 @@ mod yielding;
 
 pub use crate::sema::Typed;
 pub use air::{air_cut_height, into_air_cut};
+pub use emitting::{EmitFailure, emit, write};
 pub use refusal::{Patience, Unhurried};
 pub use yielding::Yielded;
 
@@ -28,7 +30,7 @@ use crate::pace::{self, Paced};
 use crate::plan::PlannedJob;
 use crate::reach::solve::Reached;
 use crate::reach_summary::{self, ReachFigures};
-use crate::readback::{Astray, Written};
+use crate::reach_verdict;
 use crate::sema;
 use crate::sim::report::Report;
 use crate::sim::timing::times;
@@ -41,8 +43,7 @@ use crate::verdict;
 use crate::wanted::{Needless, Wanted};
 use refusal::{NotCarriedOut, NotTaken, Refused};
 use trials::{Machine, Trials};
-use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
-use vcutc_backend_api::bundle::{Bundle, Sink};
+use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Head, OpId, Purpose};
 use vcutc_backend_api::motion::MotionFault;
 use vcutc_backend_api::units::Duration;
@@ -280,6 +281,7 @@ fn as_far_as_wanted(
     if let Some(job) = &job {
         outcome.diagnostics.extend(target::unknown_targets(job, targets));
         outcome.diagnostics.extend(mount::doubts(job));
+        outcome.diagnostics.extend(reach_verdict::too_large(job));
     }
     outcome.job = job;
     if !has_errors(&outcome.diagnostics) {
@@ -339,11 +341,15 @@ fn plan_and_prove(
     match ended {
         Ended::Overtaken => {}
         Ended::Compiled(plan, told, compiled) => {
-            let warned = job
-                .machine
-                .as_ref()
-                .map(|machine| compiled.checks.warnings(machine));
+            let compile = |changed: &CheckedJob| {
+                let (plan, compiled) = compile_checked(changed, kept.wanted)?;
+                Some((plan, compiled.report))
+            };
+            let much_stays = verdict::much_stays(job, &plan, &compiled.report, &compile);
+            let carried = job.machine.as_ref().zip(compiled.program.reached());
+            let warned = carried.map(|(machine, reached)| compiled.checks.warnings(machine, reached));
             outcome.diagnostics.extend(told);
+            outcome.diagnostics.extend(much_stays);
             outcome.diagnostics.extend(warned.into_iter().flatten());
             (outcome.plan, outcome.compiled) = (Some(*plan), Some(*compiled));
         }
@@ -426,7 +432,7 @@ fn along_its_routes<'j>(
     let mut yielding = Yielding::new(job, wanted);
     let mut refused: Option<Box<NotCarriedOut>> = None;
     let unreached = |refused: Box<NotCarriedOut>| Ended::Refused(Refused::Unreached(refused));
-    // Limits that the first plan chose hold for all others, as if the job had set them.
+    // Limits that the first plan of a swing chose hold for all others, as if the job had set them.
     let mut settled: Option<CheckedJob> = None;
     loop {
         progress(Stage::Planning);
@@ -480,7 +486,6 @@ fn along_its_routes<'j>(
                         .and_then(|reached| axis_moves::many(job, reached)),
                 );
                 let mut compiled = compiled(job, program, &plan, proven.report, sources);
-                told.extend(verdict::much_stays(job, &plan, &compiled.report, wanted));
                 compiled.yielded = yielding.into_first();
                 return Ended::Compiled(Box::new(plan), told, Box::new(compiled));
             }
@@ -497,7 +502,12 @@ fn along_its_routes<'j>(
                     continue;
                 }
                 let is_usual = yielding.is_usual();
+                let swing = yielding.leeway().swing;
                 let goes_on = yielding.narrow(&plan, &why);
+                // What little is left depends on the swing: with another one the limit is chosen anew.
+                if yielding.leeway().swing != swing {
+                    settled = None;
+                }
                 let this = Box::new(NotCarriedOut {
                     plan,
                     told,
@@ -580,93 +590,6 @@ pub(crate) fn rules_broken(faults: &[Fault]) -> Vec<(Option<OpId>, String)> {
 fn motions_broken(faults: &[MotionFault]) -> Vec<(Option<OpId>, String)> {
     let words = |fault: &MotionFault| (fault.op, fault.what.to_string());
     faults.iter().map(words).collect()
-}
-
-/// Writes the program of an outcome with a backend. An outcome without a program writes nothing.
-///
-/// # Errors
-/// Diagnostics when the job has no machine, or the target cannot say the program, or the sink's own words.
-pub fn emit(outcome: &Outcome, backend: &dyn Backend, sink: &mut dyn Sink) -> Result<(), EmitFailure> {
-    let Some(written) = write(outcome, backend)? else {
-        return Ok(());
-    };
-    for (name, bytes) in written.bundle.files() {
-        let taken = sink.file(name).and_then(|()| sink.write(bytes));
-        taken.map_err(|error| EmitFailure::Sink(error.0))?;
-    }
-    Ok(())
-}
-
-/// The program of an outcome as a backend writes it, read back and found to be the same, with the place of every op in the
-/// text. An outcome without a program has none.
-///
-/// # Errors
-/// As for [`emit`].
-pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>, EmitFailure> {
-    let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
-        return Ok(None);
-    };
-    if let Err(fault) = backend.ready() {
-        let failed = target::failed(backend.id(), &fault, job.name_span);
-        return Err(EmitFailure::Diagnostics(vec![failed]));
-    }
-    let options = target::options(job, backend).map_err(EmitFailure::Diagnostics)?;
-    let Some(reached) = compiled.program.reached() else {
-        return Err(EmitFailure::Diagnostics(vec![target::without_machine(
-            job, backend,
-        )]));
-    };
-    let refused = |issues: &[BackendIssue]| {
-        let program = reached.program.program();
-        EmitFailure::Diagnostics(target::diagnose(job, backend, program, issues))
-    };
-    let missing = target::missing(backend, reached.program.verified());
-    if !missing.is_empty() {
-        return Err(refused(&missing));
-    }
-    let emission = backend
-        .check(&reached.program, &options)
-        .map_err(|issues| refused(&issues))?;
-    let mut bundle = Bundle::default();
-    emission.write(&mut bundle).map_err(|error| match error {
-        EmitError::Sink(error) => EmitFailure::Sink(error.0),
-        EmitError::Internal(what) => EmitFailure::Diagnostics(vec![not_written(job, what, &[])]),
-    })?;
-    drop(emission);
-    Written::read_back(&reached.program, backend, options, bundle)
-        .map(Some)
-        .map_err(|Astray(notes)| {
-            let what = "the program that was written does not say what it was made from";
-            EmitFailure::Diagnostics(vec![match backend.ready() {
-                Ok(()) => match backend.origin() {
-                    Origin::Linked => not_written(job, what, &notes),
-                    Origin::Outside => target::departed(backend.id(), &notes, job.name_span),
-                },
-                // It could not be read at all.
-                Err(fault) => target::failed(backend.id(), &fault, job.name_span),
-            }])
-        })
-}
-
-/// A program that was not written although nothing is wrong with the job.
-fn not_written(job: &CheckedJob, what: &str, notes: &[String]) -> Diagnostic {
-    let diagnostic = Diagnostic::new(
-        Code::Internal,
-        what,
-        job.name_span,
-        "while writing this job's program",
-    );
-    let diagnostic = notes.iter().fold(diagnostic, Diagnostic::note);
-    diagnostic.help("nothing was written; please report the job together with this message")
-}
-
-/// Why no files were written.
-#[derive(Debug)]
-pub enum EmitFailure {
-    /// The job and the target do not go together.
-    Diagnostics(Vec<Diagnostic>),
-    /// The sink failed.
-    Sink(String),
 }
 
 #[cfg(test)]

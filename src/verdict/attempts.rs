@@ -71,7 +71,12 @@ impl<'a> Attempts<'a> {
     }
 }
 
-fn changed(job: &CheckedJob, operation: OperationId, change: impl Fn(&mut RoughVcut)) -> Option<CheckedJob> {
+/// The job with a change of one operation.
+pub(super) fn changed(
+    job: &CheckedJob,
+    operation: OperationId,
+    change: impl Fn(&mut RoughVcut),
+) -> Option<CheckedJob> {
     let mut changed = job.clone();
     let Operation::RoughVcut(asked) = changed.operations.get_mut(usize::from(operation.0))?;
     change(asked);

@@ -4,8 +4,7 @@
 //! stays, a tenth of it is much. Where the job says so itself, by a limit on the scallop, by its own swing and layer or by its
 //! tips, that is the user's word, and only half is.
 
-use super::Proven;
-use super::attempts::{Case, attempt};
+use super::attempts::changed;
 use crate::choice::LITTLE;
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
@@ -15,7 +14,7 @@ use crate::plan::refusal::Offer;
 use crate::plan::removable::Removable;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::sim::report::Report;
-use crate::wanted::Wanted;
+use crate::source::Span;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::{Area, Length};
 
@@ -76,13 +75,22 @@ fn is_chosen(asked: &RoughVcut) -> bool {
     limits.chosen.is_some() || (limits.scallop.is_none() && is_open && asked.tips.is_none())
 }
 
-/// The warning, if much stays.
+/// Compiles a changed job, as far as its machine; none where it has errors.
+pub type Compile<'c> = dyn Fn(&CheckedJob) -> Option<(PlannedJob, Report)> + 'c;
+
+/// A change of an operation.
+type Change<'c> = dyn Fn(&mut RoughVcut) + 'c;
+
+/// How much stays with a change, where that is worth offering.
+type ShareWith<'s> = dyn Fn(&Change<'_>) -> Option<f64> + 's;
+
+/// The warning, if much stays. What it offers was compiled.
 #[must_use]
 pub fn much_stays(
     job: &CheckedJob,
     plan: &PlannedJob,
     report: &Report,
-    wanted: &Wanted,
+    compile: &Compile<'_>,
 ) -> Option<Diagnostic> {
     let balance = Balance::of(plan, report)?;
     let PlannedOperation::RoughVcut(vcut) = plan.operations.get(usize::from(balance.operation.0))?;
@@ -105,11 +113,19 @@ pub fn much_stays(
         cause(asked),
     )
     .note("to be cut away is all that lies above the part, its allowance and its standoff");
-    let case = Case { job, wanted };
     Some(if report.cuts() > MOST_CUTS {
         told
     } else {
-        with_what_leaves_less(told, case, asked, &balance, report)
+        let share_with = |change: &Change<'_>| {
+            let (plan, report) = compile(&changed(job, balance.operation, change)?)?;
+            let then = Balance::of(&plan, &report)?.share();
+            (then < WORTH * share).then_some(then)
+        };
+        let now = asked
+            .limits
+            .scallop
+            .map_or(report.scallop.height, |limit| limit.value);
+        with_what_leaves_less(told, asked, now, &share_with)
     })
 }
 
@@ -134,23 +150,44 @@ fn percent(share: f64) -> String {
 /// With a tighter limit that leaves less, or with all that is given left open.
 fn with_what_leaves_less(
     told: Diagnostic,
-    case: Case<'_>,
     asked: &RoughVcut,
-    balance: &Balance,
-    report: &Report,
+    now: Length,
+    share_with: &ShareWith<'_>,
 ) -> Diagnostic {
-    let share_with = |change: &dyn Fn(&mut RoughVcut)| {
-        let (plan, Proven { report, .. }) = attempt(case, balance.operation, change)?;
-        let then = Balance::of(&plan, &report)?.share();
-        (then < WORTH * balance.share()).then_some(then)
-    };
-    let now = asked
-        .limits
-        .scallop
-        .map_or(report.scallop.height, |limit| limit.value);
-    let is_open = asked.swing.value == Auto::Auto || asked.layer.value == Auto::Auto;
+    if asked.tips.is_some() {
+        return told;
+    }
+    if let Some((limit, then)) = tighter_limit(asked, now, share_with) {
+        let value = format!("{} mm", show(limit.to_mm()));
+        let with = format!("with `scallop <= {value}`, {} % stays", percent(then));
+        let given = asked.limits.scallop.and_then(|limit| limit.span);
+        return match (given, place_of_new_limit(asked)) {
+            (Some(span), _) => told.fix(with, span, value),
+            (None, Some((at, before, after))) => told.fix(
+                format!("{} % stays with a limit", percent(then)),
+                at,
+                format!("{before}{value}{after}"),
+            ),
+            (None, None) => told.help(with),
+        };
+    }
+    let opened = Offer::all_open(asked);
+    match opened.and_then(|offer| Some((share_with(&|asked| asked.clone_from(&offer.changed))?, offer))) {
+        Some((then, offer)) => told.fix_all(
+            format!("{}; {} % stays then", offer.title, percent(then)),
+            &offer.edits,
+        ),
+        None => told,
+    }
+}
+
+/// The widest limit tried that leaves little, or else the one that leaves the least, and what stays under it.
+fn tighter_limit(asked: &RoughVcut, now: Length, share_with: &ShareWith<'_>) -> Option<(Length, f64)> {
+    if asked.swing.value != Auto::Auto && asked.layer.value != Auto::Auto {
+        return None;
+    }
     let mut best: Option<(Length, f64)> = None;
-    for tighter in TIGHTER.iter().filter(|_| is_open && asked.tips.is_none()) {
+    for tighter in TIGHTER {
         let limit = Length::mm((now.to_mm() * tighter * 10.0).ceil() / 10.0);
         let Some(then) = share_with(&|asked| {
             asked.limits.scallop = Some(Sourced {
@@ -166,32 +203,28 @@ fn with_what_leaves_less(
             break;
         }
     }
-    if let Some((limit, then)) = best {
-        let value = format!("{} mm", show(limit.to_mm()));
-        // What is tried here is planned without the machine.
-        let provided = match case.job.machine {
-            Some(_) => ", if the machine follows that plan",
-            None => "",
-        };
-        let span = asked.limits.scallop.and_then(|given| given.span);
-        return match span {
-            Some(span) => told.fix(
-                format!("with `scallop <= {value}`, {} % stays{provided}", percent(then)),
-                span,
-                value,
-            ),
-            None => told.help(format!(
-                "add `limits {{ scallop <= {value} }}`: {} % stays then{provided}",
-                percent(then)
-            )),
-        };
-    }
-    let opened = Offer::all_open(asked).filter(|_| asked.tips.is_none() && case.job.machine.is_none());
-    match opened.and_then(|offer| Some((share_with(&|asked| asked.clone_from(&offer.changed))?, offer))) {
-        Some((then, offer)) => told.fix_all(
-            format!("{}; {} % stays then", offer.title, percent(then)),
-            &offer.edits,
-        ),
-        None => told,
+    best
+}
+
+/// Where a limit on the scallop can be added, with what comes before and after its value.
+fn place_of_new_limit(asked: &RoughVcut) -> Option<(Span, &'static str, &'static str)> {
+    let limits = &asked.limits;
+    let bounds = [limits.swing.least, limits.swing.most].map(|bound| bound?.span);
+    let lengths = [
+        limits.layer.least,
+        limits.layer.most,
+        limits.step.least,
+        limits.step.most,
+        limits.edge,
+    ];
+    let others = [
+        limits.time.and_then(|limit| limit.span),
+        limits.cuts.and_then(|limit| limit.span),
+    ];
+    let lengths = lengths.map(|bound| bound?.span);
+    let given = bounds.into_iter().chain(lengths).chain(others);
+    match given.flatten().max_by_key(|span| (span.file, span.end)) {
+        Some(last) => Some((last.after(), ", scallop <= ", "")),
+        None => Some((asked.rake.span?.after(), "\n  limits { scallop <= ", " }")),
     }
 }

@@ -61,6 +61,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "reach_verdict",
         &[
             "diag",
+            "geom",
             "job",
             "kinematics",
             "plan",

@@ -43,6 +43,26 @@ fn denied_warnings_end_with_1_and_write_nothing() {
         assert!(run.stderr.ends_with(last), "{}", run.stderr);
         assert_eq!(names(path), before, "{args:?}");
     }
+    // What is allowed is shown all the same.
+    let run = vcutc(
+        path,
+        &["check", "slow.vcut", "--deny-warnings", "--allow", "VC0517"],
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("warning[VC0517]"), "{}", run.stderr);
+    let run = vcutc(
+        path,
+        &["check", "slow.vcut", "--deny-warnings", "--allow", "VC0529"],
+    );
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    for (code, reason) in [
+        ("VC0512", "VC0512 is an error"),
+        ("VC9999", "there is no such code"),
+    ] {
+        let run = vcutc(path, &["check", "slow.vcut", "--deny-warnings", "--allow", code]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains(reason), "{}", run.stderr);
+    }
     // Without a warning nothing changes, and without the flag the warning is only shown.
     let run = vcutc(
         path,
