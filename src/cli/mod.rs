@@ -56,6 +56,7 @@ mod kinematics;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod machines;
+mod meant;
 mod optimize;
 mod output;
 mod patience;

@@ -6,7 +6,7 @@
 //! the source.
 
 use crate::bundle::{Sink, SinkError};
-use crate::ir::OpId;
+use crate::ir::{MachineKind, Maker, OpId};
 use crate::motion::ReachableProgram;
 use crate::number::NotFinite;
 use crate::profile::Profile;
@@ -51,6 +51,13 @@ pub trait Backend: Sync {
     /// What it did when it was asked.
     fn ready(&self) -> Result<(), Fault> {
         Ok(())
+    }
+
+    /// Why it drives no machine of that kind and maker, as far as these two decide it; none where it may drive them. Asked
+    /// before there is a program, so that it is not offered for a job that it would refuse.
+    fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+        let _ = (kind, maker);
+        None
     }
 
     /// Who reads its programs back; none when nobody can, and then nothing checks what was written.

@@ -125,6 +125,48 @@ fn controls_lead_to_their_targets() {
     }
 }
 
+/// What is offered to a job for one maker's robot is never refused as a target of another maker's.
+#[test]
+fn targets_are_offered_that_drive_the_machine_of_the_job() {
+    let folder = folder();
+    let gantry = "generic/head_head_ac";
+    for (machine, flag) in [
+        ("kuka/kr210_r3100_ultra", "krl"),
+        ("abb/irb6700_200_260", "rapid"),
+        (gantry, "gcode"),
+    ] {
+        let made = vcutc(folder.path(), &["init", flag, "--robot", machine]);
+        assert_eq!(made.code, Some(0), "{}", made.stderr);
+        let job = format!("{flag}.vcut");
+        for args in [
+            &[job.as_str(), "-o", "out"][..],
+            &["watch", job.as_str(), "-o", "out"],
+            &[job.as_str(), "--target", "kuka"],
+            &[job.as_str(), "--target", "abb"],
+            &["report", job.as_str(), "--target", "fanuc"],
+            &["verify", job.as_str(), job.as_str(), "--target", "cnc"],
+            &[job.as_str(), "--target", "something"],
+        ] {
+            let run = vcutc(folder.path(), args);
+            assert_eq!(run.code, Some(2), "{args:?}");
+            let offer = format!("--target {flag}");
+            let others = ["krl", "rapid", "gcode"]
+                .into_iter()
+                .filter(|other| *other != flag);
+            let known = vcutc::registry::backend(flag).is_some();
+            assert_eq!(run.stderr.contains(&offer), known, "{args:?}: {}", run.stderr);
+            for other in others {
+                let offer = format!("--target {other}");
+                assert!(!run.stderr.contains(&offer), "{args:?}: {}", run.stderr);
+            }
+        }
+    }
+    let (without, _) = RIB.split_once("machine cell").unwrap();
+    fs::write(folder.path().join("rib.vcut"), without).unwrap();
+    let run = vcutc(folder.path(), &["rib.vcut", "-o", "out"]);
+    assert!(run.stderr.contains("the job has no machine"), "{}", run.stderr);
+}
+
 #[test]
 fn lists_with_blanks_are_answered_with_commas() {
     let run = vcutc(
