@@ -6,6 +6,7 @@
 mod air;
 mod asked;
 mod axis_moves;
+mod home;
 mod mount;
 mod reaching;
 mod refusal;
@@ -284,7 +285,9 @@ fn as_far_as_wanted(
         outcome.diagnostics.extend(mount::doubts(job));
     }
     outcome.job = job;
-    if !has_errors(&outcome.diagnostics) {
+    if has_errors(&outcome.diagnostics) {
+        home::try_offers(&mut outcome, request, &mut kept, progress);
+    } else {
         plan_and_prove(&mut outcome, request, &mut kept, progress);
     }
     Ok(outcome)
