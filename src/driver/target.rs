@@ -350,6 +350,7 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             what,
             value,
             allowed,
+            range: _,
         } => Diagnostic::new(
             Code::TargetRange,
             format!("target `{target}` does not take {what} {value}"),

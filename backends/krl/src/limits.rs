@@ -188,6 +188,7 @@ impl Limits {
                     value: input.to_string(),
                     allowed: "1 to 4096 but not 1025 and 1026, which the controller holds on and off"
                         .to_owned(),
+                    range: None,
                 },
             );
         }

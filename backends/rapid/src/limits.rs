@@ -272,6 +272,7 @@ fn load(load: Load, findings: &mut Findings) {
                 what,
                 value: "0, 0, 0 mm".to_owned(),
                 allowed: "anywhere but at the origin of the flange, such as 0, 0, 50 mm".to_owned(),
+                range: None,
             },
         );
     }
