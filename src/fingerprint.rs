@@ -51,6 +51,7 @@ fn of_tokens(text: &str) -> [u8; 32] {
         | TokenKind::Number
         | TokenKind::Text
         | TokenKind::UnclosedText
+        | TokenKind::InchMark
         | TokenKind::Open(_)
         | TokenKind::Close(_)
         | TokenKind::Symbol => true,
@@ -63,6 +64,7 @@ fn of_tokens(text: &str) -> [u8; 32] {
             TokenKind::Word
             | TokenKind::Number
             | TokenKind::UnclosedText
+            | TokenKind::InchMark
             | TokenKind::Comment
             | TokenKind::UnclosedComment
             | TokenKind::Open(_)

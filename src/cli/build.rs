@@ -5,6 +5,7 @@ use super::baseline::Keeper;
 use super::batch::{self, Asking, Unit};
 use super::console::{Console, Failure};
 use super::files::{Disk, load_file};
+use super::meant::Driven;
 use super::snapshot::Fate;
 use super::{Exit, Targets, targets};
 use crate::diag::suggest::nearest;
@@ -229,7 +230,7 @@ impl List<'_> {
 
     fn backend(&self, target: &Placed<String>) -> Result<&'static dyn Backend, Box<Diagnostic>> {
         let id = &target.value;
-        if let Ok(backend) = targets::find(self.targets, id) {
+        if let Ok(backend) = targets::find(self.targets, id, &|| Driven::Unknown) {
             return Ok(backend);
         }
         let diagnostic = Diagnostic::new(

@@ -6,6 +6,7 @@ use super::console::{Console, Failure, Summary, Warnings};
 use super::files::{Disk, job_near};
 use super::hints;
 use super::inner::{self, Progressed};
+use super::meant::{Driven, pointless_output};
 use super::output::{Destination, Headings, Output, Placed};
 use super::patience;
 use super::progress::Progress;
@@ -115,9 +116,10 @@ pub(super) fn program_of(
     output: Option<&str>,
     options: &[String],
     targets: &Targets,
+    asking: &dyn Fn() -> Driven,
 ) -> Result<Product, Failure> {
     Ok(Product::Program(Program {
-        backend: targets::find(targets, target)?,
+        backend: targets::find(targets, target, asking)?,
         to: program_destination(output),
         fate: Fate::Write,
         options: options.to_vec(),
@@ -126,31 +128,20 @@ pub(super) fn program_of(
 
 fn product(args: &CompileArgs, targets: &Targets) -> Result<Product, Failure> {
     let output = args.output.as_deref();
+    let asking = || Driven::of(&args.jobs, &args.overrides, targets);
     match (&args.target, args.emit) {
         (Some(target), _) => Ok(Product::Program(Program {
-            backend: targets::find(targets, target)?,
+            backend: targets::find(targets, target, &asking)?,
             to: program_destination(output),
             fate: fate(args.check, output)?,
             options: args.options.option.clone(),
         })),
         (None, Some(form)) => Ok(Product::Inner(form, inner_destination(output))),
         (None, None) => match output {
-            Some(output) => Err(pointless_output(output, targets)),
+            Some(output) => Err(pointless_output(output, targets, &asking())),
             None => Ok(nothing(targets)),
         },
     }
-}
-
-/// A place for files without any that would go there.
-pub(super) fn pointless_output(output: &str, targets: &Targets) -> Failure {
-    let target = targets.first().map_or("TARGET", |backend| backend.id());
-    Failure::new(format!(
-        "`-o {output}` says where files go, but no target was given, so there are none"
-    ))
-    .help(format!(
-        "write `--target {target} -o {output}` (targets: {}), or leave `-o` out to check the job only",
-        targets::names(targets)
-    ))
 }
 
 /// A verdict alone, and how to get more.

@@ -6,6 +6,7 @@
 use super::Exit;
 use super::args::{Color, DisplayArgs, MessageFormat};
 use super::differences;
+use super::os_words::os_words;
 use super::output::Placed;
 use super::patience::HelpBudget;
 use super::progress::Following;
@@ -272,7 +273,10 @@ impl Console {
         let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
         match ignore_broken_pipe(written) {
             Ok(()) => Exit::Success,
-            Err(error) => self.failure(&Failure::new(format!("cannot write to standard output: {error}"))),
+            Err(error) => self.failure(&Failure::new(format!(
+                "cannot write to standard output: {}",
+                os_words(&error)
+            ))),
         }
     }
 

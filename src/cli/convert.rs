@@ -4,6 +4,7 @@ use super::args::ConvertArgs;
 use super::compile::{self, Amended, Carried, Product};
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, load_program};
+use super::meant::Driven;
 use super::output::one_file;
 use super::{Exit, Targets};
 use crate::convert::write::{ProfileFile, ProfileForm};
@@ -175,7 +176,11 @@ fn job_written(
 
 fn product(args: &ConvertArgs, targets: &Targets) -> Result<Product, Failure> {
     match &args.target {
-        Some(target) => compile::program_of(target, args.output.as_deref(), &args.options.option, targets),
+        Some(target) => {
+            let output = args.output.as_deref();
+            // There is no job yet that could say its machine.
+            compile::program_of(target, output, &args.options.option, targets, &|| Driven::Unknown)
+        }
         None if args.as_job => Ok(Product::Verdict { remark: None }),
         None => Ok(Product::Verdict {
             remark: Some("neither --target nor --as-job was given, so nothing was written".to_owned()),

@@ -1,5 +1,6 @@
 //! Job files on the real file system.
 
+use super::os_words::os_words;
 use crate::diag::suggest::nearest;
 use crate::source::{Entry, LARGEST_FILE, LoadError, Loader};
 use std::cell::RefCell;
@@ -218,7 +219,7 @@ fn read_bounded(reader: impl Read, most: u64) -> Result<Vec<u8>, LoadError> {
 fn load_error(error: &io::Error) -> LoadError {
     match error.kind() {
         io::ErrorKind::NotFound => LoadError::NotFound,
-        _ => LoadError::Other(error.to_string()),
+        _ => LoadError::Other(os_words(error)),
     }
 }
 

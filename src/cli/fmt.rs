@@ -52,7 +52,9 @@ fn standard_input(fate: Fate, console: &Console) -> Exit {
     let disk = Disk::around("-");
     let bytes = match disk.load(disk.job()) {
         Ok(bytes) => bytes,
-        Err(error) => return console.failure(&Failure::new(format!("cannot read standard input: {error}"))),
+        Err(error) => {
+            return console.failure(&Failure::new(format!("cannot read standard input: {error}")));
+        }
     };
     let formatted = match formatted(disk.job(), bytes.clone(), console) {
         Ok(formatted) => formatted,

@@ -56,7 +56,9 @@ mod kinematics;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod machines;
+mod meant;
 mod optimize;
+mod os_words;
 mod output;
 mod patience;
 mod place;
@@ -71,6 +73,7 @@ mod watch;
 
 use args::{Arguments, Command};
 use console::Console;
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use vcutc_backend_api::backend::Backend;
@@ -142,10 +145,33 @@ pub fn run(linked: &Targets) -> ExitCode {
     exit.into()
 }
 
+/// A refusal of clap with `help:` where it says `tip:`, so that advice looks the same whoever gives it.
+fn in_our_form(error: &clap::Error) -> String {
+    let text = error.render();
+    let is_plain = !io::stderr().is_terminal() || std::env::var_os("NO_COLOR").is_some();
+    let text = if is_plain {
+        text.to_string()
+    } else {
+        text.ansi().to_string()
+    };
+    let lines = text.split_inclusive('\n');
+    lines
+        .map(|line| match line.find("tip:") {
+            // At the line's begin, but for blanks and the code of a colour.
+            Some(at) if at < 12 => line.replacen("tip:", "help:", 1),
+            Some(_) | None => line.to_owned(),
+        })
+        .collect()
+}
+
 /// Prints what clap has to say: help and version on standard output, refusals on standard error.
 fn refuse(error: &clap::Error) -> ExitCode {
-    // Nobody is left to tell when the terminal itself is gone.
-    let _ = error.print();
+    // Who would be told is gone when the terminal itself is.
+    let _ = if error.use_stderr() {
+        io::stderr().write_all(in_our_form(error).as_bytes())
+    } else {
+        error.print()
+    };
     match error.exit_code() {
         0 => Exit::Success.into(),
         _ => Exit::CannotRun.into(),

@@ -12,6 +12,7 @@
 //!   renames can leave a new file beside an old one, and a killed run can leave `.vcutc-*` files behind.
 
 use super::console::ignore_broken_pipe;
+use super::os_words::os_words;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufRead, BufReader, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -103,11 +104,11 @@ pub(super) fn one_file(path: &Path, bytes: &[u8]) -> Result<Vec<Placed>, String>
 
 /// Replaces the text of a file that is there, whole or not at all. It keeps its permissions, and a link to it stays a link.
 pub(super) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    let told = |error: io::Error| error.to_string();
+    let told = |error: io::Error| os_words(&error);
     let path = fs::canonicalize(path).map_err(told)?;
     let permissions = fs::metadata(&path).map_err(told)?.permissions();
     if permissions.readonly() {
-        return Err("it is write-protected".to_owned());
+        return Err("it is write-protected: change its permissions first".to_owned());
     }
     let folder = path.parent().ok_or("it has no folder")?;
     let mut file = passing_file(folder).map_err(told)?;
@@ -189,7 +190,7 @@ impl Folder {
         if self.path.is_file() {
             format!("cannot write into {folder}: it is a file, not a folder")
         } else {
-            format!("cannot write into {folder}: {}", without_path(error))
+            format!("cannot write into {folder}: {}", os_words(error))
         }
     }
 
@@ -197,7 +198,7 @@ impl Folder {
         match &mut self.current {
             Some((name, writer)) => writer
                 .write_all(bytes)
-                .map_err(|error| format!("cannot write {name}: {error}")),
+                .map_err(|error| format!("cannot write {name}: {}", os_words(&error))),
             None => Err("bytes before the first file".to_owned()),
         }
     }
@@ -206,7 +207,7 @@ impl Folder {
         let Some((name, writer)) = self.current.take() else {
             return Ok(());
         };
-        let failed = |error: io::Error| format!("cannot write {name}: {error}");
+        let failed = |error: io::Error| format!("cannot write {name}: {}", os_words(&error));
         let file = writer.into_inner().map_err(|error| failed(error.into_error()))?;
         file.as_file().sync_all().map_err(failed)?;
         self.complete.push(Staged {
@@ -238,15 +239,6 @@ impl Folder {
     }
 }
 
-/// What went wrong, without the passing name that errors of temporary files carry: people never see that name.
-fn without_path(error: &io::Error) -> String {
-    let words = error.to_string();
-    match words.split_once(" at path ") {
-        Some((what, _)) => what.to_owned(),
-        None => words,
-    }
-}
-
 /// Whether two files hold the same bytes.
 fn same_bytes(one: &Path, other: &Path) -> io::Result<bool> {
     let (first, second) = (fs::symlink_metadata(one)?, fs::metadata(other)?);
@@ -273,7 +265,7 @@ fn same_bytes(one: &Path, other: &Path) -> io::Result<bool> {
 
 /// Puts a complete file in its place, keeping the version before it.
 fn replace(path: &Path, passing: TempPath) -> Result<Published, String> {
-    let failed = |error: io::Error| format!("cannot write {}: {error}", path.display());
+    let failed = |error: io::Error| format!("cannot write {}: {}", path.display(), os_words(&error));
     let earlier = keep_earlier(path).map_err(failed)?;
     passing.persist(path).map_err(|error| failed(error.error))?;
     Ok(Published {
@@ -289,7 +281,7 @@ fn keep_earlier(path: &Path) -> io::Result<Option<TempPath>> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(error),
         Ok(metadata) if metadata.is_file() || metadata.is_symlink() => {}
-        Ok(_) => return Err(io::Error::other("something that is no file has this name")),
+        Ok(_) => return Err(io::Error::other("something that is not a file has this name")),
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut builder = Builder::new();
@@ -309,7 +301,11 @@ fn take_back(published: Vec<Published>, reason: String) -> String {
         match earlier {
             None => {
                 if let Err(error) = fs::remove_file(&path) {
-                    message += &format!("; {} is new and could not be removed: {error}", path.display());
+                    message += &format!(
+                        "; {} is new and could not be removed: {}",
+                        path.display(),
+                        os_words(&error)
+                    );
                 }
             }
             Some(earlier) => {
@@ -395,7 +391,7 @@ impl Spool {
         }
         self.content
             .write_all(bytes)
-            .map_err(|error| format!("cannot hold the output: {error}"))
+            .map_err(|error| format!("cannot hold the output: {}", os_words(&error)))
     }
 
     fn publish(mut self) -> Result<(), String> {
@@ -405,7 +401,8 @@ impl Spool {
             .rewind()
             .and_then(|()| io::copy(&mut self.content, &mut stdout))
             .and_then(|_| stdout.flush());
-        ignore_broken_pipe(copied).map_err(|error| format!("cannot write to standard output: {error}"))
+        ignore_broken_pipe(copied)
+            .map_err(|error| format!("cannot write to standard output: {}", os_words(&error)))
     }
 }
 

@@ -6,6 +6,7 @@ use super::compile::unreadable;
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, stem};
 use super::hints::of_a_page;
+use super::meant::Driven;
 use super::output::{Placed, one_file};
 use super::patience;
 use super::progress::Progress;
@@ -19,6 +20,7 @@ use crate::readback::Written;
 use crate::report::page::{Further, page};
 use crate::report::sheet::sheet;
 use std::path::Path;
+use std::slice;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {
@@ -28,10 +30,11 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         Err(failure) => return console.failure(&failure),
     };
     let mut progress = Progress::start(console.shows_progress());
+    let asking = || Driven::of(slice::from_ref(&args.job), &args.overrides, targets);
     let target = match args
         .target
         .as_deref()
-        .map(|name| targets::find(targets, name))
+        .map(|name| targets::find(targets, name, &asking))
         .transpose()
     {
         Ok(target) => target,

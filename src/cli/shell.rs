@@ -3,6 +3,7 @@
 use super::Exit;
 use super::args::Arguments;
 use super::console::{Console, Failure};
+use super::os_words::os_words;
 use super::output::{Destination, Output};
 use clap::{Command, CommandFactory};
 use clap_complete::Shell;
@@ -49,7 +50,7 @@ fn page(file: &str, command: Command, output: &mut Output) -> Result<(), String>
     // Pages have no date: that of the build would make two builds of one version differ.
     Man::new(command)
         .render(&mut text)
-        .map_err(|error| format!("cannot make {file}: {error}"))?;
+        .map_err(|error| format!("cannot make {file}: {}", os_words(&error)))?;
     let taken = output.file(file).and_then(|()| output.write(&text));
     taken.map_err(|error| error.to_string())
 }

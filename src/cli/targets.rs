@@ -2,8 +2,8 @@
 
 use super::console::{Console, Failure};
 use super::external::External;
+use super::meant::{Driven, unknown};
 use super::{Exit, Targets};
-use crate::diag::suggest::nearest;
 use std::fmt::Write;
 use vcutc_backend_api::backend::{Backend, Fault, OptionKind, OptionSpec};
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
@@ -43,68 +43,25 @@ pub(super) fn list(linked: &Targets, outside: &[&'static External], console: &Co
 
 /// Prints the description of one.
 pub(super) fn describe(targets: &Targets, id: &str, console: &Console) -> Exit {
-    match find(targets, id) {
+    match find(targets, id, &|| Driven::Unknown) {
         Ok(backend) => console.document(&description(backend)),
         Err(failure) => console.failure(&failure),
     }
 }
 
-/// The backend behind `--target`, which can be asked.
-pub(super) fn find(targets: &Targets, id: &str) -> Result<&'static dyn Backend, Failure> {
+/// The backend that `--target` names, which can be asked. `asking` says what machine it is for; it is looked at only when there
+/// is no such target.
+pub(super) fn find(
+    targets: &Targets,
+    id: &str,
+    asking: &dyn Fn() -> Driven,
+) -> Result<&'static dyn Backend, Failure> {
     let known = targets.iter().copied().find(|backend| backend.id() == id);
-    let backend = known.ok_or_else(|| unknown(targets, id))?;
+    let backend = known.ok_or_else(|| unknown(targets, id, &asking()))?;
     match backend.ready() {
         Ok(()) => Ok(backend),
         Err(fault) => Err(broken(id, &fault)),
     }
-}
-
-/// A target under the name of a maker, a control or a language.
-struct Meant {
-    target: &'static str,
-    /// The dialect of G-code.
-    dialect: Option<&'static str>,
-}
-
-impl Meant {
-    fn flags(&self) -> String {
-        let target = self.target;
-        match self.dialect {
-            Some(dialect) => format!("--target {target} --option dialect={dialect}"),
-            None => format!("--target {target}"),
-        }
-    }
-}
-
-/// The target that people mean who know its machines or controls by these names.
-fn known_otherwise(name: &str) -> Option<Meant> {
-    let (target, dialect) = match name.to_ascii_lowercase().as_str() {
-        "kuka" | "krc" | "krc2" | "krc4" | "krc5" | "src" => ("krl", None),
-        "abb" | "irc5" | "omnicore" | "mod" => ("rapid", None),
-        "fanuc" => ("gcode", Some("fanuc")),
-        "sinumerik" | "siemens" | "840d" | "mpf" => ("gcode", Some("sinumerik")),
-        "heidenhain" | "tnc" | "itnc" => ("gcode", Some("heidenhain")),
-        "linuxcnc" | "emc2" | "ngc" => ("gcode", Some("linuxcnc")),
-        "cnc" | "nc" | "iso" | "g-code" => ("gcode", None),
-        _ => return None,
-    };
-    Some(Meant { target, dialect })
-}
-
-fn unknown(targets: &Targets, id: &str) -> Failure {
-    let failure = Failure::new(format!("there is no target `{id}`"));
-    let meant =
-        known_otherwise(id).filter(|meant| targets.iter().any(|backend| backend.id() == meant.target));
-    let near = nearest(id, targets.iter().map(|backend| backend.id()));
-    let failure = match (meant, near.first()) {
-        (Some(meant), _) => failure.help(format!("did you mean `{}`?", meant.flags())),
-        (None, Some(near)) => failure.help(format!("did you mean `--target {near}`?")),
-        (None, None) => failure,
-    };
-    failure.help(format!(
-        "targets: {}; others are programs `{PROGRAM_PREFIX}NAME` on the PATH or in a folder of `--backend-path`",
-        names(targets)
-    ))
 }
 
 fn broken(id: &str, fault: &Fault) -> Failure {

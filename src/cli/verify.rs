@@ -3,6 +3,7 @@
 use super::args::VerifyArgs;
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, load_program};
+use super::meant::Driven;
 use super::progress::Progress;
 use super::{Exit, Targets, compile, snapshot, targets};
 use crate::comparison::family;
@@ -10,6 +11,7 @@ use crate::diag::has_errors;
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use crate::readback::{Fresh, Reference, Verdict, Written};
 use std::path::Path;
+use std::slice;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
 
@@ -20,7 +22,7 @@ use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
 pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, console: &Console) -> Exit {
     let ready = given(args, linked, targets).and_then(|(paths, found)| {
         let files = program(&paths)?;
-        let readable = target(args.target.as_deref(), &files, linked, targets)?;
+        let readable = target(args, &files, linked, targets)?;
         Ok((readable, files, paths, found))
     });
     let ((backend, reader), mut files, mut paths, found) = match ready {
@@ -135,7 +137,10 @@ fn given(args: &VerifyArgs, linked: &Targets, targets: &Targets) -> Result<(Vec<
         return Ok((args.programs.clone(), Found::ByName));
     }
     let readers: Vec<&dyn Reader> = match args.target.as_deref() {
-        Some(id) => targets::find(targets, id)?.reader().into_iter().collect(),
+        Some(id) => targets::find(targets, id, &|| asking(args, targets))?
+            .reader()
+            .into_iter()
+            .collect(),
         None => linked.iter().filter_map(|backend| backend.reader()).collect(),
     };
     let is_program = |name: &String| readers.iter().any(|reader| reader.recognises(name));
@@ -150,6 +155,10 @@ fn given(args: &VerifyArgs, linked: &Targets, targets: &Targets) -> Result<(Vec<
         .iter()
         .map(|name| Path::new(folder).join(name).display().to_string());
     Ok((paths.collect(), Found::InFolder))
+}
+
+fn asking(args: &VerifyArgs, targets: &Targets) -> Driven {
+    Driven::of(slice::from_ref(&args.job), &args.overrides, targets)
 }
 
 /// Leaves the files of a folder that belong to the job: those of its program, and parts of an earlier one.
@@ -202,14 +211,14 @@ type Readable = (&'static dyn Backend, &'static dyn Reader);
 
 /// The target that wrote the files: the one that was given, or the only one that knows their names.
 fn target(
-    given: Option<&str>,
+    args: &VerifyArgs,
     files: &[ProgramFile],
     linked: &Targets,
     targets: &Targets,
 ) -> Result<Readable, Failure> {
     let readable = |backend: &'static dyn Backend| Some((backend, backend.reader()?));
-    if let Some(id) = given {
-        let backend = targets::find(targets, id)?;
+    if let Some(id) = args.target.as_deref() {
+        let backend = targets::find(targets, id, &|| asking(args, targets))?;
         return readable(backend)
             .ok_or_else(|| Failure::new(format!("programs of target `{id}` cannot be read back")));
     }

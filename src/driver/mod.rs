@@ -4,8 +4,10 @@
 //! caller's [`Sink`].
 
 mod air;
+mod asked;
 mod axis_moves;
 mod emitting;
+mod home;
 mod mount;
 mod reaching;
 mod refusal;
@@ -15,6 +17,7 @@ mod yielding;
 
 pub use crate::sema::Typed;
 pub use air::{air_cut_height, into_air_cut};
+pub use asked::{machine_words, understood};
 pub use emitting::{EmitFailure, emit, write};
 pub use refusal::{Patience, Unhurried};
 pub use yielding::Yielded;
@@ -65,6 +68,16 @@ pub struct Request<'a> {
     pub options: Typed<'a>,
     /// Targets whose options the machine may hold.
     pub targets: &'a [&'static dyn Backend],
+}
+
+impl<'a> Request<'a> {
+    const fn choices(&self) -> sema::Choices<'a> {
+        sema::Choices {
+            overrides: self.overrides,
+            machine: self.machine,
+            options: self.options,
+        }
+    }
 }
 
 /// The stage that is at work.
@@ -261,30 +274,22 @@ fn as_far_as_wanted(
 ) -> Result<Outcome, RequestError> {
     progress(Stage::Reading);
     let mut outcome = Outcome::default();
-    let Request {
-        path,
-        loader,
-        overrides,
-        machine,
-        options,
-        targets,
-    } = request;
-    let choices = sema::Choices {
-        overrides,
-        machine,
-        options,
-    };
     let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
-    let (ast, job) = sema::check(path, loader, choices, sources, diagnostics)
+    let choices = request.choices();
+    let (ast, job) = sema::check(request.path, request.loader, choices, sources, diagnostics)
         .map_err(|error| RequestError::Unreadable(error.to_string()))?;
     outcome.ast = ast;
     if let Some(job) = &job {
-        outcome.diagnostics.extend(target::unknown_targets(job, targets));
+        outcome
+            .diagnostics
+            .extend(target::unknown_targets(job, request.targets));
         outcome.diagnostics.extend(mount::doubts(job));
         outcome.diagnostics.extend(reach_verdict::too_large(job));
     }
     outcome.job = job;
-    if !has_errors(&outcome.diagnostics) {
+    if has_errors(&outcome.diagnostics) {
+        home::try_offers(&mut outcome, request, &mut kept, progress);
+    } else {
         plan_and_prove(&mut outcome, request, &mut kept, progress);
     }
     Ok(outcome)

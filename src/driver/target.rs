@@ -350,6 +350,7 @@ fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendI
             what,
             value,
             allowed,
+            range: _,
         } => Diagnostic::new(
             Code::TargetRange,
             format!("target `{target}` does not take {what} {value}"),
@@ -403,24 +404,36 @@ pub(super) fn without_machine(job: &CheckedJob, backend: &dyn Backend) -> Diagno
     )
 }
 
+pub(super) fn kind_words(model: Option<&Model>) -> &'static str {
+    match model.map(Model::kind) {
+        Some(MachineKind::FiveAxis) => "a machine with linear and rotary axes",
+        Some(MachineKind::Robot) | None => "a robot",
+    }
+}
+
+/// What a machine is, and by whom: `a robot by KUKA`.
+pub(super) fn by_maker(model: Option<&Model>) -> String {
+    let kind = kind_words(model);
+    match model.map(|model| model.maker) {
+        Some(Maker::Abb) => format!("{kind} by ABB"),
+        Some(Maker::Kuka) => format!("{kind} by KUKA"),
+        Some(Maker::Other) | None => format!("{kind} whose maker is not stated"),
+    }
+}
+
 /// A machine that the target does not drive.
 fn wrong_machine(job: &CheckedJob, target: &str, mismatch: MachineMismatch, drives: &str) -> Diagnostic {
     let machine = job.machine.as_ref();
     let span = machine.map_or(job.name_span, |machine| machine.model_span);
     let model = machine.map(|machine| machine.model.as_ref());
     let name = model.map_or("this machine", |model| &model.name);
-    let kind = match model.map(Model::kind) {
-        Some(MachineKind::FiveAxis) => "a machine with linear and rotary axes",
-        Some(MachineKind::Robot) | None => "a robot",
-    };
+    let kind = kind_words(model);
     let (is, label) = match (mismatch, model.map(|model| model.maker)) {
         (MachineMismatch::Kind, _) => (kind.to_owned(), "a machine of this kind"),
-        (MachineMismatch::Maker, Some(Maker::Abb)) => (format!("{kind} by ABB"), "its controller is by ABB"),
-        (MachineMismatch::Maker, Some(Maker::Kuka)) => {
-            (format!("{kind} by KUKA"), "its controller is by KUKA")
-        }
+        (MachineMismatch::Maker, Some(Maker::Abb)) => (by_maker(model), "its controller is by ABB"),
+        (MachineMismatch::Maker, Some(Maker::Kuka)) => (by_maker(model), "its controller is by KUKA"),
         (MachineMismatch::Maker, Some(Maker::Other) | None) => (
-            format!("{kind} whose maker is not stated"),
+            by_maker(model),
             "nothing says that its controller takes such programs",
         ),
         (MachineMismatch::Arm, _) => (

@@ -103,20 +103,9 @@ impl<'t> Trials<'t> {
             texts: edited(self.sources, edits)?,
             below: self.request.loader,
         };
-        let Request {
-            path,
-            overrides,
-            machine,
-            options,
-            ..
-        } = self.request;
-        let choices = sema::Choices {
-            overrides,
-            machine,
-            options,
-        };
+        let choices = self.request.choices();
         let (mut sources, mut told) = (SourceMap::default(), Vec::new());
-        let (_, job) = sema::check(path, &loader, choices, &mut sources, &mut told).ok()?;
+        let (_, job) = sema::check(self.request.path, &loader, choices, &mut sources, &mut told).ok()?;
         let job = job.filter(|_| !has_errors(&told))?;
         let mut kept = Kept {
             memory: &mut Memory::none(),

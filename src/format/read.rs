@@ -302,6 +302,7 @@ impl<'t> Reader<'t> {
                 | TokenKind::Number
                 | TokenKind::Text
                 | TokenKind::UnclosedText
+                | TokenKind::InchMark
                 | TokenKind::Open(_)
                 | TokenKind::Close(_)
                 | TokenKind::UnclosedComment
@@ -387,6 +388,7 @@ impl<'t> Reader<'t> {
                 | TokenKind::Number
                 | TokenKind::Text
                 | TokenKind::UnclosedText
+                | TokenKind::InchMark
                 | TokenKind::Open(Bracket::Round)
                 | TokenKind::Close(_)
                 | TokenKind::UnclosedComment

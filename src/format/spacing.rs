@@ -71,6 +71,7 @@ pub(super) fn roles(kind: Kind, words: &mut [Word<'_>]) {
             TokenKind::Number
             | TokenKind::Text
             | TokenKind::UnclosedText
+            | TokenKind::InchMark
             | TokenKind::UnclosedComment
             | TokenKind::Comment
             | TokenKind::Open(Bracket::Curly)

@@ -85,6 +85,7 @@ pub(super) fn context(text: &str, offset: usize) -> Context {
             TokenKind::Text | TokenKind::UnclosedText => return in_text(&around, number, token, offset),
             TokenKind::Word => (token.start..offset, number),
             TokenKind::Number if token.end > offset => return nothing(offset),
+            TokenKind::InchMark => return nothing(offset),
             TokenKind::Number | TokenKind::Open(_) | TokenKind::Close(_) | TokenKind::Symbol => {
                 (offset..offset, number + 1)
             }

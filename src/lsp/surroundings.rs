@@ -98,6 +98,7 @@ impl Surroundings<'_> {
                 | TokenKind::Number
                 | TokenKind::Text
                 | TokenKind::UnclosedText
+                | TokenKind::InchMark
                 | TokenKind::Comment
                 | TokenKind::UnclosedComment
                 | TokenKind::Symbol => {}
@@ -209,6 +210,7 @@ impl Surroundings<'_> {
                 | TokenKind::Number
                 | TokenKind::Text
                 | TokenKind::UnclosedText
+                | TokenKind::InchMark
                 | TokenKind::Comment
                 | TokenKind::UnclosedComment
                 | TokenKind::Symbol => {

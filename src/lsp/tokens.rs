@@ -119,7 +119,7 @@ fn stretch_of(token: Token, known: &BTreeMap<usize, Stretch>, text: &str) -> Opt
     match token.kind {
         TokenKind::Comment | TokenKind::UnclosedComment => Some(of(Class::Comment)),
         TokenKind::Text | TokenKind::UnclosedText => Some(of(Class::Text)),
-        TokenKind::Number => Some(of(Class::Number)),
+        TokenKind::Number | TokenKind::InchMark => Some(of(Class::Number)),
         TokenKind::Word => match known.get(&token.start) {
             Some(stretch) => Some(*stretch),
             None => {

@@ -7,6 +7,8 @@
 use super::Prefix;
 use super::marks::{cross, ring};
 use super::svg::{Anchor, Svg, number};
+use vcutc_backend_api::script::duration_words;
+use vcutc_backend_api::units::Duration;
 
 /// What a Pareto picture shows. Places are scallop in mm and time in s.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,16 +92,17 @@ pub fn draw(pareto: &Pareto<'_>) -> String {
 
 /// The picture in words.
 fn description(pareto: &Pareto<'_>) -> String {
-    let [scallop, time] = pareto.chosen.map(number);
+    let words = |[scallop, time]: [f64; 2]| (number(scallop), duration_words(Duration::s(time)));
+    let (scallop, time) = words(pareto.chosen);
     let limit = pareto.limit.map_or(String::new(), |limit| {
         format!(" The limit of the scallop is {} mm.", number(limit))
     });
     let planned = pareto.planned.map_or(String::new(), |planned| {
-        let [scallop, time] = planned.map(number);
-        format!(" Planned and simulated it takes {time} s and leaves {scallop} mm.")
+        let (scallop, time) = words(planned);
+        format!(" Planned and simulated it takes {time} and leaves {scallop} mm.")
     });
     format!(
-        "{}: least time against the largest scallop. Chosen is {time} s at {scallop} mm.{planned}{limit}",
+        "{}: least time against the largest scallop. Chosen is {time} at {scallop} mm.{planned}{limit}",
         pareto.subtitle
     )
 }

@@ -11,6 +11,7 @@
 
 mod absent;
 mod checks;
+mod closing;
 mod differences;
 mod rebuild;
 mod split;
@@ -28,11 +29,12 @@ use crate::reach::solve::{Reached, rig};
 use crate::source::{FileId, SourceMap};
 use absent::{absent, not_given};
 use checks::{Bench, left_out};
+use closing::{OtherSpeed, other_speeds};
 use differences::{Scene, differences};
 use rebuild::rebuild;
 use steps::{Step, way};
 use told::Told;
-use vcutc_backend_api::ir::{Cell, OpId, Purpose};
+use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
 
@@ -135,11 +137,13 @@ impl<'a> Reference<'a> {
         let mut lines = self.lines(&is, count, given);
         let mut diagnostics = found.diagnostics;
         if count > 0 {
-            let wrong = self.checked(&scene, &way.steps);
-            if wrong.is_empty() {
-                lines.push(sound(self.fresh.program.program().purpose).to_owned());
+            match self.checked(&scene, &way.steps) {
+                Checked::Sound(others) => {
+                    lines.extend(closing::lines(self.fresh.program.program().purpose, &others));
+                }
+                Checked::Wrong(wrong) => diagnostics.extend(wrong),
+                Checked::NotMade => {}
             }
-            diagnostics.extend(wrong);
         }
         Verdict { diagnostics, lines }
     }
@@ -197,35 +201,40 @@ impl<'a> Reference<'a> {
         vec![read, result]
     }
 
-    /// What is wrong with what a program that differs would do.
-    fn checked(&self, scene: &Scene<'_>, steps: &[Step]) -> Vec<Diagnostic> {
+    /// What was found of what a program that differs would do.
+    fn checked(&self, scene: &Scene<'_>, steps: &[Step]) -> Checked {
         let Some(machine) = &self.fresh.job.machine else {
-            return Vec::new();
+            return Checked::NotMade;
         };
         let rig = rig(&machine.model, self.fresh.cell);
-        match rebuild(scene, steps, &rig) {
-            Ok(rebuilt) => Bench {
-                scene,
-                plan: self.fresh.plan,
-                model: &machine.model,
-                reader: self.fresh.reader,
-            }
-            .findings(rebuilt),
-            Err(obstacle) => vec![left_out(scene, obstacle)],
+        let rebuilt = match rebuild(scene, steps, &rig) {
+            Ok(rebuilt) => rebuilt,
+            Err(obstacle) => return Checked::Wrong(vec![left_out(scene, obstacle)]),
+        };
+        let others = other_speeds(&rebuilt, self.fresh.program.program(), scene.grain);
+        let bench = Bench {
+            scene,
+            plan: self.fresh.plan,
+            model: &machine.model,
+            reader: self.fresh.reader,
+        };
+        let wrong = bench.findings(rebuilt);
+        if wrong.is_empty() {
+            Checked::Sound(others)
+        } else {
+            Checked::Wrong(wrong)
         }
     }
 }
 
-/// What is told of a program that differs and is right all the same.
-const fn sound(purpose: Purpose) -> &'static str {
-    match purpose {
-        Purpose::Work => {
-            "as it is, the program frees every chip, stays out of the part, and is within reach of the machine"
-        }
-        Purpose::AirCut { .. } => {
-            "as it is, the air cut stays above the stock, leaves the generator off, and is within reach of the machine"
-        }
-    }
+/// What was found of what a program that differs would do.
+enum Checked {
+    /// Nothing is wrong; these of its speeds are not the job's.
+    Sound(Vec<OtherSpeed>),
+    /// What is wrong, or why nothing was proven.
+    Wrong(Vec<Diagnostic>),
+    /// There is no machine to prove it on.
+    NotMade,
 }
 
 /// The given files in the order in which the compiler writes those of their names, others behind: in which order somebody

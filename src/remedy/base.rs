@@ -107,7 +107,10 @@ pub(super) fn nearer(case: &mut Case<'_>) -> Option<Remedy> {
             turn: 0.0,
         })
     });
-    let (shift, base) = nearest(case, shifts.collect())?;
+    let (shift, base) = nearest(case, shifts.collect(), |mut shifts| {
+        shifts.retain(|shift| shift.by[2] == 0.0);
+        shifts
+    })?;
     let elsewhere = Elsewhere {
         how: shift.how(),
         base,
@@ -151,7 +154,7 @@ pub(super) fn moved_to(case: &mut Case<'_>) -> Option<Elsewhere> {
         .filter(|direction| *direction != [0.0; 3])
         .flat_map(|direction| DISTANCES.map(|distance| direction.map(|part| part * distance)))
         .map(|by| Shift { by, turn: 0.0 });
-    let (shift, base) = nearest(case, shifts.collect())?;
+    let (shift, base) = nearest(case, shifts.collect(), along_one_axis)?;
     Some(Elsewhere {
         how: shift.how(),
         base,
@@ -162,7 +165,7 @@ pub(super) fn moved_to(case: &mut Case<'_>) -> Option<Elsewhere> {
 pub(super) fn turned_to(case: &mut Case<'_>) -> Option<Elsewhere> {
     let turns = TURNS.into_iter().flat_map(|turn| [turn, -turn]);
     let shifts = turns.map(|turn| Shift { by: [0.0; 3], turn });
-    let (shift, base) = nearest(case, shifts.collect())?;
+    let (shift, base) = nearest(case, shifts.collect(), along_one_axis)?;
     let turn = show(shift.turn);
     Some(Elsewhere {
         how: format!("turn the base by {turn} deg about z"),
@@ -187,8 +190,19 @@ fn failing(case: &Case<'_>) -> Strokes {
     }
 }
 
-/// The nearest of these places that carries out the whole program.
-fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, PlacedFrame)> {
+/// A third of the shifts, and only those along one axis.
+fn along_one_axis(shifts: Vec<Shift>) -> Vec<Shift> {
+    let one = |shift: &Shift| shift.by.iter().filter(|part| **part != 0.0).count() <= 1;
+    shifts.into_iter().filter(one).step_by(3).collect()
+}
+
+/// The nearest of these places that carries out the whole program. `thinned` leaves the few of them, in order, that are worth asking
+/// a machine about whose poses are searched for numerically.
+fn nearest(
+    case: &mut Case<'_>,
+    mut shifts: Vec<Shift>,
+    thinned: impl FnOnce(Vec<Shift>) -> Vec<Shift>,
+) -> Option<(Shift, PlacedFrame)> {
     // Stable, so that of equally near ones the first stays first.
     shifts.sort_by(|a, b| a.size().total_cmp(&b.size()));
     let now = case.machine.base.value;
@@ -201,8 +215,7 @@ fn nearest(case: &mut Case<'_>, mut shifts: Vec<Shift>) -> Option<(Shift, Placed
         poses.telling(SPREAD),
     );
     if judge.effort() == Effort::Sparing {
-        shifts.retain(|shift| shift.by.iter().filter(|part| **part != 0.0).count() <= 1);
-        shifts = shifts.into_iter().step_by(3).collect();
+        shifts = thinned(shifts);
     }
     let (failing, others) = (failing(case), Strokes::of(case.unreachable.program.program()));
     let mut proofs = 0;

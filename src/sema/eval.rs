@@ -372,6 +372,10 @@ fn unknown_unit(unit: &Spanned<String>) -> Diagnostic {
     let meant = units::meant(&unit.node);
     let near: Vec<&str> = meant.iter().map(String::as_str).collect();
     let diagnostic = did_you_mean(diagnostic, unit.span, &near);
+    let diagnostic = match units::conversion(&unit.node) {
+        Some(words) => diagnostic.help(words),
+        None => diagnostic,
+    };
     diagnostic.note(format!(
         "units are {}, and quotients of two such as mm/s",
         units::list()

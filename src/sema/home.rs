@@ -7,7 +7,7 @@ use super::range::{AXIS_ANGLE, COORDINATE};
 use super::read::Reader;
 use super::report::Checked;
 use crate::diag::{Code, Diagnostic, Edit, Fix};
-use crate::machine::Model;
+use crate::machine::{Model, usual_home};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::Expr;
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MOST_AXES, MachineKind};
@@ -35,7 +35,7 @@ pub(crate) fn read(
         MachineKind::Robot => joints(expr, reader)?,
         MachineKind::FiveAxis => axes(expr, &model.axes, reader)?,
     };
-    if let Some(diagnostic) = outside(&places, model, model_span) {
+    if let Some(diagnostic) = outside(&places, model, expr.span, model_span) {
         return Err(reader.reports.push(diagnostic));
     }
     let mut values = [0.0; MOST_AXES];
@@ -92,8 +92,9 @@ fn axes(expr: &Spanned<Expr>, axes: &[Axis], reader: &mut Reader<'_>) -> Checked
         .collect())
 }
 
-/// The diagnostic for a home that is not within the limits, with the nearest one that is.
-fn outside(places: &[Place], model: &Model, model_span: Span) -> Option<Diagnostic> {
+/// The diagnostic for a home that is not within the limits, with the nearest one that is and the usual one of the model. Whether the
+/// way from there to the work is clear is for the machine to try.
+fn outside(places: &[Place], model: &Model, whole: Span, model_span: Span) -> Option<Diagnostic> {
     let mut beyond = model
         .axes
         .iter()
@@ -130,7 +131,8 @@ fn outside(places: &[Place], model: &Model, model_span: Span) -> Option<Diagnost
     };
     let mut diagnostic = diagnostic.and(model_span, "the limits of this machine");
     diagnostic.fixes.push(Fix { title, edits });
-    Some(diagnostic)
+    let usual = usual_home(model);
+    Some(diagnostic.fix(format!("the usual home of this model is `{usual}`"), whole, usual))
 }
 
 fn range(axis: &Axis) -> String {

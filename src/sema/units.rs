@@ -147,10 +147,34 @@ pub(crate) fn meant(name: &str) -> Vec<String> {
     };
     let firsts = meant_simple(above);
     let seconds = meant_simple(below);
-    match (firsts.first(), seconds.first()) {
-        (Some(first), Some(second)) => vec![format!("{first}/{second}")],
-        _ => Vec::new(),
-    }
+    let Some(second) = seconds.first() else {
+        return Vec::new();
+    };
+    firsts.iter().map(|first| format!("{first}/{second}")).collect()
+}
+
+/// Words that mean one unit to some people and another to others: who reads them as one of the two is wrong half of the time.
+const AMBIGUOUS: &[(&str, [&str; 2])] = &[
+    // Degrees in German, and gon in French.
+    ("grad", ["deg", "rad"]),
+    ("grads", ["deg", "rad"]),
+    ("grade", ["deg", "rad"]),
+];
+
+/// Units that the language lacks, and how they are written in those it has.
+const CONVERSIONS: &[(&str, &str)] = &[
+    ("rpm", "1 rpm is 6 deg/s"),
+    ("gon", "1 gon is 0.9 deg"),
+    ("mil", "1 mil is 0.0254 mm"),
+    ("thou", "1 thou is 0.0254 mm"),
+];
+
+/// How a value in a unit that the language lacks is written.
+pub(super) fn conversion(name: &str) -> Option<&'static str> {
+    let mut known = CONVERSIONS.iter();
+    known
+        .find(|(unit, _)| unit.eq_ignore_ascii_case(name))
+        .map(|(_, words)| *words)
 }
 
 fn meant_simple(name: &str) -> Vec<&'static str> {
@@ -159,6 +183,12 @@ fn meant_simple(name: &str) -> Vec<&'static str> {
     }
     if let Some(&(_, unit)) = ALIASES.iter().find(|(alias, _)| alias.eq_ignore_ascii_case(name)) {
         return vec![unit];
+    }
+    if let Some((_, units)) = AMBIGUOUS.iter().find(|(word, _)| word.eq_ignore_ascii_case(name)) {
+        return units.to_vec();
+    }
+    if conversion(name).is_some() {
+        return Vec::new();
     }
     crate::diag::suggest::nearest(name, UNITS.iter().map(|unit| unit.name))
 }
@@ -198,5 +228,8 @@ mod tests {
         assert_eq!(meant("mps"), ["m/s"]);
         assert_eq!(meant("MM"), ["mm"]);
         assert!(meant("parsec/fortnight").is_empty());
+        assert_eq!(meant("grad"), ["deg", "rad"]);
+        assert_eq!(meant("Grad/s"), ["deg/s", "rad/s"]);
+        assert!(meant("rpm").is_empty() && conversion("RPM").is_some());
     }
 }

@@ -168,7 +168,10 @@ fn options(model: &Model, targets: &[&'static dyn Backend]) -> String {
         )),
         (MachineKind::FiveAxis, _) => Some((
             "gcode",
-            "dialect = linuxcnc // or fanuc, heidenhain, sinumerik\n    tcp_on = (\"M429\") // your machine's codes\n    tcp_off = (\"M428\")",
+            "dialect = linuxcnc // or fanuc, heidenhain, sinumerik: these take no tcp_on and tcp_off\n    \
+             tcp_on = (\"M429\") // your machine's codes\n    tcp_off = (\"M428\")\n    \
+             // fanuc and heidenhain need codes for the generator: on_code = \"M50\" off_code = \"M51\"\n    \
+             // fanuc needs one that waits for an input of `ready`, too: ready_code = \"M52\"",
         )),
         (MachineKind::Robot, Maker::Kuka | Maker::Other) => None,
     };

@@ -37,6 +37,12 @@ pub(super) fn balance(file: FileId, text: &str) -> Balanced {
     scan.finish()
 }
 
+/// Inches in mm, exact to a nanometre (1 in = 25.4 mm, international yard and pound agreement, 1959).
+fn in_mm(inches: f64) -> String {
+    let text = format!("{:.6}", inches * 25.4);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// What is believed when brackets do not match.
 #[derive(Clone, Copy, PartialEq)]
 enum Trust {
@@ -131,6 +137,7 @@ impl<'t> Scan<'t> {
                 self.believe_indentation(token);
                 self.escapes(token);
             }
+            TokenKind::InchMark => self.inch_mark(token),
             TokenKind::Word | TokenKind::Number | TokenKind::Symbol => self.believe_indentation(token),
         }
         self.previous = Some(token);
@@ -351,6 +358,33 @@ impl<'t> Scan<'t> {
             }
         }
         found.map(|line| self.last_end + line.start..self.last_end + line.end)
+    }
+
+    /// Inches, written as on a drawing. Without the mark the number would get another unit from whoever completes it.
+    fn inch_mark(&mut self, token: Token) {
+        let number = self
+            .previous
+            .filter(|previous| previous.kind == TokenKind::Number);
+        let Some(number) = number else { return };
+        let inches = self.slice(number);
+        let span = self.span(number.start..token.end);
+        let mut report = Diagnostic::new(
+            Code::UnknownUnit,
+            "`\"` is not a unit",
+            span,
+            "inches are written with `in`",
+        );
+        if let Ok(value) = inches.parse::<f64>() {
+            let millimetres = format!("{} mm", in_mm(value));
+            let title = format!("write `{millimetres}`, which is {inches} in");
+            report = report.fix(title, span, millimetres);
+        }
+        self.reports.push(report);
+        // What cannot be read is left alone from here on; a number without a unit would be complained about once more.
+        if let Some(mark) = self.mended.get_mut(token.start) {
+            *mark = b'?';
+        }
+        self.doubtful.push(number.start..token.end);
     }
 
     fn unclosed_text(&mut self, token: Token) {

@@ -15,6 +15,8 @@ pub(crate) enum TokenKind {
     Text,
     /// A text that its line ends before its second quote.
     UnclosedText,
+    /// A `"` after a number, which means inches and begins no text.
+    InchMark,
     /// `(` or `{`.
     Open(Bracket),
     /// `)` or `}`.
@@ -80,6 +82,8 @@ pub(crate) struct Tokens<'t> {
     /// Characters before the first token of this line; `None` once that is passed.
     blanks: Option<usize>,
     indent: usize,
+    /// Where the token before ends, if that is a number.
+    number: Option<usize>,
 }
 
 /// The tokens of `text`.
@@ -90,6 +94,7 @@ pub(crate) const fn tokens(text: &str) -> Tokens<'_> {
         line: 0,
         blanks: Some(0),
         indent: 0,
+        number: None,
     }
 }
 
@@ -101,6 +106,18 @@ pub(crate) fn continues_name(c: char) -> bool {
 impl<'t> Tokens<'t> {
     fn rest(&self) -> &'t str {
         self.text.get(self.at..).unwrap_or_default()
+    }
+
+    /// Whether a quote comes next that belongs to the number before it: directly, or after blanks when nothing follows that could
+    /// be a text.
+    fn is_inch_mark(&self) -> bool {
+        let between = self.number.and_then(|end| self.text.get(end..self.at));
+        let (Some(between), Some(after)) = (between, self.rest().strip_prefix('"')) else {
+            return false;
+        };
+        let begins_text =
+            after.starts_with(|c: char| continues_name(c) || matches!(c, '.' | '/' | '\\' | '"'));
+        between.is_empty() || (!between.contains(['\n', '\r']) && !begins_text)
     }
 
     fn skip_white_space(&mut self) {
@@ -123,11 +140,16 @@ impl Iterator for Tokens<'_> {
 
     fn next(&mut self) -> Option<Token> {
         self.skip_white_space();
-        let (kind, length) = recognise(self.rest())?;
+        let (kind, length) = if self.is_inch_mark() {
+            (TokenKind::InchMark, 1)
+        } else {
+            recognise(self.rest())?
+        };
         let leads = self.blanks.is_some();
         self.indent = self.blanks.take().unwrap_or(self.indent);
         let start = self.at;
         self.at += length;
+        self.number = (kind == TokenKind::Number).then_some(self.at);
         let token = Token {
             kind,
             start,

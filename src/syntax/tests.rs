@@ -121,6 +121,8 @@ fn numbers_and_their_units() {
         ("(1", "VC0102"),
         ("1)", "VC0103"),
         ("\"a", "VC0104"),
+        ("4\"", "VC0204"),
+        ("4.5 \"", "VC0204"),
     ] {
         assert_eq!(shape(text), expected, "{text}");
     }

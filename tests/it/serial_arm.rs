@@ -2,7 +2,7 @@
 
 use crate::pipeline::{Files, compile, told};
 use vcutc::checks::Standing;
-use vcutc::diag::Code;
+use vcutc::diag::{Code, fix};
 use vcutc::driver::Outcome;
 use vcutc::kinematics::Mechanism;
 use vcutc::reach::legs::{Leg, Poses, legs};
@@ -146,5 +146,28 @@ fn work_beyond_the_arm_is_refused() {
         codes.contains(&Code::OutOfReach),
         "{}",
         told(&outcome.diagnostics, &outcome)
+    );
+}
+
+/// Steps around the present place lead nowhere there.
+#[test]
+fn work_far_beyond_the_arm_is_brought_near_it() {
+    let files = small(4000, 30);
+    let outcome = compile(JOB, &files);
+    let messages = told(&outcome.diagnostics, &outcome);
+    let offered = outcome
+        .diagnostics
+        .iter()
+        .flat_map(|diagnostic| &diagnostic.fixes);
+    let offered = offered.into_iter().next().unwrap_or_else(|| panic!("{messages}"));
+    assert!(offered.title.starts_with("move the base"), "{messages}");
+    let span = offered.edits[0].span;
+    let source = outcome.sources.get(span.file).unwrap();
+    let text = fix::apply(&source.text, span.file, &offered.edits).unwrap();
+    let mended = compile(JOB, &files.with(JOB, text));
+    assert!(
+        mended.compiled.is_some(),
+        "{}",
+        told(&mended.diagnostics, &mended)
     );
 }

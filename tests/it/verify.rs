@@ -88,6 +88,34 @@ fn changed_programs_are_explained() {
     assert!(surprises.is_empty(), "{}", surprises.join("\n"));
 }
 
+/// Nothing is wrong with the motions of such a program, and it is not cleared all the same.
+#[test]
+fn speeds_that_are_not_of_the_job_are_never_a_clearance() {
+    let bench = Bench::new();
+    let mut files = bench.files().to_vec();
+    for file in &mut files {
+        file.text = file.text.replace("$VEL.CP=0.2\r\n", "$VEL.CP=0.6\r\n");
+    }
+    let (verdict, _) = bench.verify(&files);
+    let lines = verdict.lines.join("\n");
+    assert!(
+        numbers(&verdict.diagnostics)
+            .iter()
+            .all(|number| *number == "VC0705")
+    );
+    assert!(lines.contains("proven at the speeds it states"), "{lines}");
+    assert!(
+        lines.contains("24 cuts at 600 mm/s instead of 200 mm/s"),
+        "{lines}"
+    );
+    assert!(lines.ends_with("or change the job and compile it"), "{lines}");
+    let case = "\n\n-LIN {X 25.000,Y -14.314,Z 28.000,A 67.7923,B -20.7048,C -130.8934}";
+    let (verdict, _) = bench.verify(&changed(bench.files(), case));
+    let lines = verdict.lines.join("\n");
+    assert!(!lines.contains("not those of the job"), "{lines}");
+    assert!(lines.contains("the differences remain"), "{lines}");
+}
+
 /// What puts back a line leaves one difference less. What the program does may get worse on the way.
 #[test]
 fn fixes_of_changed_programs_mend() {

@@ -6,7 +6,7 @@
 //! the source.
 
 use crate::bundle::{Sink, SinkError};
-use crate::ir::OpId;
+use crate::ir::{MachineKind, Maker, OpId};
 use crate::motion::ReachableProgram;
 use crate::number::NotFinite;
 use crate::profile::Profile;
@@ -51,6 +51,13 @@ pub trait Backend: Sync {
     /// What it did when it was asked.
     fn ready(&self) -> Result<(), Fault> {
         Ok(())
+    }
+
+    /// Why it drives no machine of that kind and maker, as far as these two decide it; none where it may drive them. Asked
+    /// before there is a program, so that it is not offered for a job that it would refuse.
+    fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+        let _ = (kind, maker);
+        None
     }
 
     /// Who reads its programs back; none when nobody can, and then nothing checks what was written.
@@ -145,10 +152,39 @@ pub enum BackendIssue {
         value: String,
         /// What is allowed, as text.
         allowed: String,
+        /// The value and the ends of what is allowed as numbers, where it is one range: from these the compiler offers values of the
+        /// job that are allowed.
+        range: Option<Exceeded>,
     },
     /// The program behind the dialect did not do its work. Only programs outside of the compiler can fail so
     /// ([`crate::protocol`]).
     Failed(Fault),
+}
+
+/// A value and the range that it is not in, in one unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Exceeded {
+    /// The value.
+    pub value: f64,
+    /// The least that is allowed.
+    pub least: f64,
+    /// The most that is allowed.
+    pub most: f64,
+}
+
+impl Exceeded {
+    /// By what the value has to be multiplied to come to the nearer end of the range; none where no factor does.
+    #[must_use]
+    pub fn factor(&self) -> Option<f64> {
+        let end = if self.value < self.least {
+            self.least
+        } else {
+            self.most
+        };
+        let factor = end / self.value;
+        (factor.is_finite() && factor > 0.0).then_some(factor)
+    }
 }
 
 /// What a program outside of the compiler did instead of its work.

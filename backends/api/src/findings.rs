@@ -3,7 +3,7 @@
 //! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million
 //! times.
 
-use crate::backend::BackendIssue;
+use crate::backend::{BackendIssue, Exceeded};
 use crate::geometry::Point3;
 use crate::ir::{OpId, OperationId, Program};
 use crate::script::trimmed_text;
@@ -58,6 +58,11 @@ impl Findings {
                 what,
                 value: format!("{} {unit}", trimmed_text(value)),
                 allowed: format!("{} to {} {unit}", trimmed_text(low), trimmed_text(high)),
+                range: Some(Exceeded {
+                    value,
+                    least: low,
+                    most: high,
+                }),
             },
         );
     }
@@ -74,6 +79,7 @@ impl Findings {
                 what,
                 value: value.to_string(),
                 allowed: format!("{} to {}", allowed.start(), allowed.end()),
+                range: None,
             },
         );
     }

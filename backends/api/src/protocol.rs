@@ -14,7 +14,7 @@
 //! (mm, rad, s, kg, see `docs/ir.md`). Keys that a reader does not know it passes over: a later compiler may add some
 //! without another version. A change that old readers would misread raises [`PROTOCOL_VERSION`].
 
-use crate::backend::{MachineMismatch, OptionKind, OptionValue, Options};
+use crate::backend::{Exceeded, MachineMismatch, OptionKind, OptionValue, Options};
 use crate::exchange::Exchange;
 use crate::ir::{Cell, MachineKind, Maker, OpId};
 use crate::motion::{Branch, Elbow, Shoulder, Wrist};
@@ -308,6 +308,9 @@ pub enum Problem {
         value: String,
         /// What is allowed.
         allowed: String,
+        /// Both as numbers of one unit, where what is allowed is one range: then the compiler looks for values of the job that are.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        range: Option<Exceeded>,
     },
 }
 

@@ -78,9 +78,11 @@ use crate::limits::Sayable;
 use crate::names::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::GcodeReader;
-use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
+use vcutc_backend_api::backend::{
+    Backend, BackendIssue, Emission, EmitError, MachineMismatch, OptionSpec, Options,
+};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::ir::Cell;
+use vcutc_backend_api::ir::{Cell, MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::script::{Borders, LINES_PER_PART, Lead, Part, Text, split};
@@ -111,6 +113,10 @@ impl Backend for Gcode {
 
     fn options(&self) -> &'static [OptionSpec] {
         OPTIONS
+    }
+
+    fn mismatch(&self, kind: MachineKind, _: Maker) -> Option<MachineMismatch> {
+        limits::foreign(kind)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

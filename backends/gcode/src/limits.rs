@@ -64,9 +64,8 @@ pub(crate) fn check<'p>(
     let Some(cell) = &program.program().cell else {
         return Err(wrong(MachineMismatch::Arm));
     };
-    match cell.kind {
-        MachineKind::Robot => return Err(wrong(MachineMismatch::Kind)),
-        MachineKind::FiveAxis => {}
+    if let Some(mismatch) = foreign(cell.kind) {
+        return Err(wrong(mismatch));
     }
     let words = match words(cell, settings) {
         Ok(words) => words,
@@ -87,6 +86,14 @@ pub(crate) fn check<'p>(
         work_in_offset: WorkInOffset::new(cell.base.frame.orientation),
     });
     limits.found.result().map(|()| Sayable { cell, words })
+}
+
+/// What sets machines of a kind apart from those that G-code is for.
+pub(crate) const fn foreign(kind: MachineKind) -> Option<MachineMismatch> {
+    match kind {
+        MachineKind::Robot => Some(MachineMismatch::Kind),
+        MachineKind::FiveAxis => None,
+    }
 }
 
 fn spindle_without_letter() -> BackendIssue {

@@ -77,9 +77,11 @@ use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
 use crate::turns::Turns;
-use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
+use vcutc_backend_api::backend::{
+    Backend, BackendIssue, Emission, EmitError, MachineMismatch, OptionSpec, Options,
+};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::ir::Cell;
+use vcutc_backend_api::ir::{Cell, MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::script::{Borders, LINES_PER_PART, Layout, Part, Text, split};
@@ -118,6 +120,10 @@ impl Backend for Krl {
 
     fn options(&self) -> &'static [OptionSpec] {
         OPTIONS
+    }
+
+    fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+        limits::foreign(kind, maker)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

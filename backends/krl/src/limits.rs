@@ -85,15 +85,19 @@ pub(crate) fn check<'p>(
     limits.found.result().map(|()| cell)
 }
 
+/// What sets machines of a kind and maker apart from those that KRL programs are for.
+pub(crate) const fn foreign(kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+    match (kind, maker) {
+        (MachineKind::FiveAxis, _) => Some(MachineMismatch::Kind),
+        (MachineKind::Robot, Maker::Abb | Maker::Other) => Some(MachineMismatch::Maker),
+        (MachineKind::Robot, Maker::Kuka) => None,
+    }
+}
+
 /// What sets a machine apart from those that KRL programs are for.
 fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> {
-    match cell.kind {
-        MachineKind::FiveAxis => return Some(MachineMismatch::Kind),
-        MachineKind::Robot => {}
-    }
-    match cell.maker {
-        Maker::Abb | Maker::Other => return Some(MachineMismatch::Maker),
-        Maker::Kuka => {}
+    if let Some(mismatch) = foreign(cell.kind, cell.maker) {
+        return Some(mismatch);
     }
     let turns = |kind| match kind {
         AxisKind::Rotary => true,
@@ -184,6 +188,7 @@ impl Limits {
                     value: input.to_string(),
                     allowed: "1 to 4096 but not 1025 and 1026, which the controller holds on and off"
                         .to_owned(),
+                    range: None,
                 },
             );
         }

@@ -67,9 +67,11 @@ use crate::options::{OPTIONS, Settings};
 use crate::orient::Quaternion;
 use crate::read::RapidReader;
 use crate::speeds::Speeds;
-use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};
+use vcutc_backend_api::backend::{
+    Backend, BackendIssue, Emission, EmitError, MachineMismatch, OptionSpec, Options,
+};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::ir::Cell;
+use vcutc_backend_api::ir::{Cell, MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::script::{Borders, LINES_PER_PART, Layout, Part, Text, split};
@@ -107,6 +109,10 @@ impl Backend for Rapid {
 
     fn options(&self) -> &'static [OptionSpec] {
         OPTIONS
+    }
+
+    fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+        limits::foreign(kind, maker)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

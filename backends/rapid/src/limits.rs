@@ -88,15 +88,19 @@ pub(crate) fn check<'p>(
     findings.result().map(|()| cell)
 }
 
+/// What sets machines of a kind and maker apart from those that RAPID programs are for.
+pub(crate) const fn foreign(kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+    match (kind, maker) {
+        (MachineKind::FiveAxis, _) => Some(MachineMismatch::Kind),
+        (MachineKind::Robot, Maker::Kuka | Maker::Other) => Some(MachineMismatch::Maker),
+        (MachineKind::Robot, Maker::Abb) => None,
+    }
+}
+
 /// What sets a machine apart from those that RAPID programs are for.
 fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> {
-    match cell.kind {
-        MachineKind::FiveAxis => return Some(MachineMismatch::Kind),
-        MachineKind::Robot => {}
-    }
-    match cell.maker {
-        Maker::Kuka | Maker::Other => return Some(MachineMismatch::Maker),
-        Maker::Abb => {}
+    if let Some(mismatch) = foreign(cell.kind, cell.maker) {
+        return Some(mismatch);
     }
     let turns = |kind| match kind {
         AxisKind::Rotary => true,
@@ -268,6 +272,7 @@ fn load(load: Load, findings: &mut Findings) {
                 what,
                 value: "0, 0, 0 mm".to_owned(),
                 allowed: "anywhere but at the origin of the flange, such as 0, 0, 50 mm".to_owned(),
+                range: None,
             },
         );
     }

@@ -11,6 +11,6 @@ pub(in crate::cli) struct AirArgs {
     ///
     /// The same cuts, named NAME_air, at no more than 100 mm/s and 30 deg/s. It is proven that the blade stays above the stock
     /// and that the machine carries the lifted program out.
-    #[arg(long, value_name = "HEIGHT", value_parser = air_cut_height)]
+    #[arg(long, value_name = "HEIGHT", value_parser = air_cut_height, allow_hyphen_values = true)]
     pub(in crate::cli) air_cut: Option<Length>,
 }

@@ -154,11 +154,13 @@ fn issue(problem: &Problem, ops: usize, described: &Described) -> BackendIssue {
             what,
             value,
             allowed,
+            range,
         } => BackendIssue::OutOfRange {
             op: *op,
             what: kept(what),
             value: line(value),
             allowed: line(allowed),
+            range: *range,
         },
     }
 }

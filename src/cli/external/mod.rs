@@ -25,7 +25,7 @@ use vcutc_backend_api::backend::{
 };
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::exchange::Exchange;
-use vcutc_backend_api::ir::{AxisValues, Cell, OpId};
+use vcutc_backend_api::ir::{AxisValues, Cell, MachineKind, Maker, OpId};
 use vcutc_backend_api::motion::{Branch, ReachableProgram};
 use vcutc_backend_api::protocol::{
     Ask, Description, Emit, Emitted, PROGRAM_PREFIX, PROTOCOL_VERSION, Read, ReadBack, Request,
@@ -215,23 +215,22 @@ fn beginning(reply: &[u8]) -> String {
 
 fn wrong_machine(described: &Described, cell: Option<&Cell>) -> Option<BackendIssue> {
     let cell = cell?;
-    let of_kind = || {
-        described
-            .machines
-            .iter()
-            .filter(|driven| driven.kind == cell.kind)
-    };
-    let mismatch = if of_kind().next().is_none() {
-        MachineMismatch::Kind
-    } else if of_kind().any(|driven| driven.makers.is_empty() || driven.makers.contains(&cell.maker)) {
-        return None;
-    } else {
-        MachineMismatch::Maker
-    };
     Some(BackendIssue::WrongMachine {
-        mismatch,
+        mismatch: foreign(described, cell.kind, cell.maker)?,
         drives: described.drives,
     })
+}
+
+/// What sets machines of a kind and maker apart from those that the program says it drives.
+fn foreign(described: &Described, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+    let of_kind = || described.machines.iter().filter(|driven| driven.kind == kind);
+    if of_kind().next().is_none() {
+        Some(MachineMismatch::Kind)
+    } else if of_kind().any(|driven| driven.makers.is_empty() || driven.makers.contains(&maker)) {
+        None
+    } else {
+        Some(MachineMismatch::Maker)
+    }
 }
 
 /// The first op for each capability that the program lacks.
@@ -276,6 +275,10 @@ impl Backend for External {
         self.described().map_err(Fault::clone)?;
         let unread = self.unread.lock().ok().and_then(|fault| fault.clone());
         unread.map_or(Ok(()), Err)
+    }
+
+    fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
+        foreign(self.described().ok()?, kind, maker)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

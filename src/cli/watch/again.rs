@@ -4,14 +4,16 @@
 use super::stamps::{Asked, Recorder};
 use crate::cli::Targets;
 use crate::cli::args::WatchArgs;
-use crate::cli::compile::{Product, make, nothing, pointless_output, program_of, tell, unreadable};
+use crate::cli::compile::{Product, make, nothing, program_of, tell, unreadable};
 use crate::cli::console::{Console, Failure, Summary};
 use crate::cli::files::Disk;
+use crate::cli::meant::{Driven, pointless_output};
 use crate::cli::patience::Waiting;
 use crate::cli::progress::{Following, Progress};
 use crate::driver::{self, Outcome, Request, RequestError};
 use crate::memory::Memory;
 use crate::wanted::{Needless, Wanted};
+use std::slice;
 use std::time::Duration;
 
 /// A job that is compiled again and again.
@@ -63,11 +65,12 @@ impl<'a> Watched<'a> {
     /// What the command line asks for.
     pub(super) fn new(args: &'a WatchArgs, targets: &'a Targets) -> Result<Self, Failure> {
         let output = args.output.as_deref();
-        let product = match &args.target {
-            Some(target) => program_of(target, output, &args.options.option, targets)?,
-            None if output.is_some() => return Err(pointless_output(output.unwrap_or_default(), targets)),
-            None if args.serve.is_some() => Product::Verdict { remark: None },
-            None => nothing(targets),
+        let asking = || Driven::of(slice::from_ref(&args.job), &args.overrides, targets);
+        let product = match (&args.target, output) {
+            (Some(target), _) => program_of(target, output, &args.options.option, targets, &asking)?,
+            (None, Some(output)) => return Err(pointless_output(output, targets, &asking())),
+            (None, None) if args.serve.is_some() => Product::Verdict { remark: None },
+            (None, None) => nothing(targets),
         };
         Ok(Self {
             args,

@@ -1,7 +1,7 @@
 //! A speed that a target cannot write: values of the job's speeds with which it can, each compiled before it is offered.
 //!
-//! A target says of the first motion of a kind what its speed is and what it takes, as text with a unit. Both numbers are in the
-//! same unit, so their quotient is the factor by which the job's speed is off there; another motion may need twice that.
+//! A target says of the first motion of a kind what its speed is and what it takes, in one unit, so their quotient is the factor by
+//! which the job's speed is off there; another motion may need twice that.
 
 use super::Objection;
 use crate::diag::Diagnostic;
@@ -37,8 +37,8 @@ impl Off {
         let BackendIssue::OutOfRange {
             op: Some(op),
             what: "tip speed" | "reorientation rate",
-            value,
-            allowed,
+            range: Some(range),
+            ..
         } = issue
         else {
             return None;
@@ -59,7 +59,7 @@ impl Off {
             | Action::ToolChange { .. } => Vec::new(),
         };
         Some(Self {
-            factor: factor(value, allowed)?,
+            factor: range.factor()?,
             speeds: speeds.into_iter().flatten().collect(),
         })
     }
@@ -90,19 +90,6 @@ fn reorient(asked: &RoughVcut) -> Option<Stated> {
         unit: "deg/s",
         span: asked.reorient_rate.span?,
     })
-}
-
-/// By what a value, such as `0.02 mm/min`, has to be multiplied to lie in a range, such as `0.05 to 99999 mm/min`.
-fn factor(value: &str, allowed: &str) -> Option<f64> {
-    let number = |text: &str| text.split(' ').next()?.parse::<f64>().ok();
-    let (least, most) = allowed.split_once(" to ")?;
-    let (value, least, most) = (number(value)?, number(least)?, number(most)?);
-    let factor = if value < least {
-        least / value
-    } else {
-        most / value
-    };
-    (factor.is_finite() && factor > 0.0).then_some(factor)
 }
 
 /// A speed that people like to write, on the far side of `value` as seen from `from`.
@@ -145,13 +132,17 @@ pub(in crate::driver) fn with_help(objection: &Objection, trials: &mut Trials<'_
 #[cfg(test)]
 mod tests {
     use super::*;
+    use vcutc_backend_api::backend::Exceeded;
 
     #[test]
     fn a_factor_leads_into_the_range() {
-        let of = |value: &str| factor(value, "0.05 to 99999.0 mm/min");
-        assert_eq!(of("0.025 mm/min"), Some(2.0));
-        assert_eq!(of("199998 mm/min"), Some(0.5));
-        assert_eq!(factor("12", "1 to many"), None);
+        let of = |value: f64| {
+            let (least, most) = (0.05, 99_999.0);
+            Exceeded { value, least, most }.factor()
+        };
+        assert_eq!(of(0.025), Some(2.0));
+        assert_eq!(of(199_998.0), Some(0.5));
+        assert_eq!(of(0.0), None);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::show;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, Bounds, Objective, RoughVcut, Sourced};
 use crate::plan::complaints::wider_scallops;
-use crate::plan::refusal::{Offer, Refused};
+use crate::plan::refusal::{Ladder, Offer, Refused};
 use crate::source::Span;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
@@ -169,20 +169,80 @@ pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Re
         None => diagnostic,
     };
     let diagnostic = if drop > Length::ZERO {
-        let drop = show(drop.to_mm());
-        diagnostic.note(format!(
-            "the blade's standoff keeps its tip {drop} mm above the material that stays"
-        ))
+        raised_by_standoff(diagnostic, asked, drop)
     } else {
         diagnostic
     };
     Some(Refused {
         told: diagnostic,
-        ladders: vec![wider_scallops(asked, stays)],
+        ladders: vec![
+            wider_swings(asked, drop, limit.value - asked.allowance.value),
+            wider_scallops(asked, stays),
+        ],
         resort: Offer::all_open(asked),
-        otherwise: Some("use a larger `scallop`, a thinner blade or a smaller `allowance`".to_owned()),
+        otherwise: Some(
+            "use a larger `scallop`, a wider `swing`, a thinner blade or a smaller `allowance`".to_owned(),
+        ),
     })
 }
+
+/// How far the standoff raises the tip depends on the swing as much as on the standoff itself, so a given swing is named with it.
+fn raised_by_standoff(diagnostic: Diagnostic, asked: &RoughVcut, drop: Length) -> Diagnostic {
+    let above = format!(
+        "keeps its tip {} mm above the material that stays",
+        show(drop.to_mm())
+    );
+    match (asked.swing.value, asked.swing.span) {
+        (Auto::Given(swing), Some(span)) => {
+            let standoff = show((drop * swing.sin()).to_mm());
+            diagnostic
+                .and(span, "the narrower the V, the higher its tip stays")
+                .note(format!(
+                    "at a swing of {} deg, the blade's standoff of {standoff} mm {above}",
+                    show(swing.to_deg())
+                ))
+        }
+        (Auto::Given(_) | Auto::Auto, _) => diagnostic.note(format!("the blade's standoff {above}")),
+    }
+}
+
+/// Wider swings than a given one, at which the standoff raises the tip by less than what the limit leaves room for.
+fn wider_swings(asked: &RoughVcut, drop: Length, room: Length) -> Ladder {
+    let (Auto::Given(swing), Some(span)) = (asked.swing.value, asked.swing.span) else {
+        return Vec::new();
+    };
+    let sine = (drop * swing.sin()) / room;
+    if room <= Length::ZERO || !(0.0..1.0).contains(&sine) {
+        return Vec::new();
+    }
+    let least = libm::asin(sine).to_degrees();
+    let most = asked
+        .limits
+        .swing
+        .most
+        .map_or(WIDEST_OFFERED, |limit| limit.value.to_deg());
+    WIDER_SWINGS
+        .into_iter()
+        .map(|times| (least * times).ceil())
+        .filter(|&degrees| degrees > swing.to_deg() && degrees <= most.min(WIDEST_OFFERED))
+        .map(|degrees| {
+            let mut changed = asked.clone();
+            changed.swing.value = Auto::Given(Angle::deg(degrees));
+            let text = format!("{} deg", show(degrees));
+            Offer {
+                title: format!("use a `swing` of {text}"),
+                edits: vec![(span, text)],
+                changed,
+            }
+        })
+        .collect()
+}
+
+/// By what the least swing that leaves any room is multiplied: such a one alone would leave room for layers of nothing.
+const WIDER_SWINGS: [f64; 5] = [1.25, 1.5, 2.0, 3.0, 5.0];
+
+/// Blades swung farther than this hardly cut a V, in deg.
+const WIDEST_OFFERED: f64 = 80.0;
 
 /// An objective that grows less and less with the layer, without anything that keeps the layer from vanishing. Longest times
 /// hold it; which of these can be kept is for those who plan.

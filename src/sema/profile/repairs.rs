@@ -83,14 +83,32 @@ impl Taken<'_> {
             .iter()
             .filter_map(|repair| moved(&repair.altered))
             .fold(0.0, f64::max);
-        if moved > 0.0 {
-            return Some(diagnostic.note(format!(
-                "at a chord of {} no point is moved by more than {}",
-                mm(self.chord.to_mm()),
+        let fitted = repairs
+            .iter()
+            .map(|repair| Fitted::of(&repair.altered))
+            .find(|fitted| *fitted != Fitted::No);
+        let chord = mm(self.chord.to_mm());
+        let note = match fitted.unwrap_or(Fitted::No) {
+            // The chord is fitted first, so what it moves adds to the rest.
+            Fitted::By(by) => Some(format!(
+                "at a chord of {chord} no point is moved by more than {}, {} of it to fit the chord",
+                self.mm(moved + by),
+                self.mm(by)
+            )),
+            Fitted::FromItsUnit if moved > 0.0 => Some(format!(
+                "once scaled to a chord of {chord}, no point is moved by more than {}",
                 self.mm(moved)
-            )));
-        }
-        Some(diagnostic)
+            )),
+            Fitted::No if moved > 0.0 => Some(format!(
+                "at a chord of {chord} no point is moved by more than {}",
+                self.mm(moved)
+            )),
+            Fitted::FromItsUnit | Fitted::No => None,
+        };
+        Some(match note {
+            Some(note) => diagnostic.note(note),
+            None => diagnostic,
+        })
     }
 
     fn span(&self, repair: &Repair) -> Span {
@@ -134,7 +152,13 @@ impl Taken<'_> {
             Altered::Doubled { count, .. } => {
                 format!("{count} points at lines {first} to {last} are the same")
             }
-            Altered::Chord { from, to } => {
+            Altered::Chord { to, gap, .. } if repair.goes_too_far().is_some() => format!(
+                "the points end at x = {}, where the sides are still {} apart: the airfoil is cut off before its \
+                 trailing edge",
+                number(to),
+                self.mm(gap)
+            ),
+            Altered::Chord { from, to, .. } => {
                 format!(
                     "the chord runs from x = {} to {}, not from 0 to 1",
                     number(from),
@@ -167,6 +191,10 @@ impl Taken<'_> {
                 self.mm(by)
             ),
             Altered::Words => "words between the points".to_owned(),
+            Altered::Trailing { count: 1 } => "this line after the last point is not a point".to_owned(),
+            Altered::Trailing { count } => {
+                format!("{count} lines of words and digits after the last point are not points")
+            }
             Altered::Counts { stated, found } => {
                 format!(
                     "the file says that it has {} points, and has {found}",
@@ -183,10 +211,10 @@ impl Taken<'_> {
     fn made(&self, repair: &Repair, sources: &SourceMap) -> String {
         let done = match repair.altered {
             Altered::Doubled { .. } => "one is used".to_owned(),
-            Altered::Chord { from, to } if from.abs() < 0.01 && (to - 100.0).abs() < 1.0 => {
+            Altered::Chord { from, to, .. } if from.abs() < 0.01 && (to - 100.0).abs() < 1.0 => {
                 "read as percent of the chord".to_owned()
             }
-            Altered::Chord { from, to } => {
+            Altered::Chord { from, to, .. } => {
                 format!("x and z are scaled by {}", number(1.0 / (to - from)))
             }
             Altered::Inside { .. } => "the outline passes over".to_owned(),
@@ -198,7 +226,7 @@ impl Taken<'_> {
                     self.mm(by / 2.0)
                 )
             }
-            Altered::Words => "passed over".to_owned(),
+            Altered::Words | Altered::Trailing { .. } => "passed over".to_owned(),
             Altered::Counts { .. } => "all that it has are used".to_owned(),
             Altered::Column { .. } => "left out".to_owned(),
         };
@@ -206,7 +234,42 @@ impl Taken<'_> {
     }
 }
 
-/// By how much a repair may move the surface, as a share of the chord; none for those that leave it where it is.
+/// What fitting the chord does to the points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fitted {
+    /// Nothing: the chord runs from 0 to 1.
+    No,
+    /// It moves points by up to this share of the chord.
+    By(f64),
+    /// It reads them in their unit, such as percent or mm. That moves nothing.
+    FromItsUnit,
+}
+
+impl Fitted {
+    fn of(altered: &Altered) -> Self {
+        /// Chords within this share of 1 are meant to be 1.
+        const NEAR_ONE: f64 = 0.1;
+        match *altered {
+            // Both ends move the most: in between, x moves by a mean of the two, and z by less than it would at a height of 1.
+            Altered::Chord { from, to, .. } if (to - from - 1.0).abs() <= NEAR_ONE => {
+                Self::By(from.abs().max((to - 1.0).abs()))
+            }
+            Altered::Chord { .. } => Self::FromItsUnit,
+            Altered::Doubled { .. }
+            | Altered::Inside { .. }
+            | Altered::Joined { .. }
+            | Altered::LedOn { .. }
+            | Altered::Crossed { .. }
+            | Altered::Words
+            | Altered::Trailing { .. }
+            | Altered::Counts { .. }
+            | Altered::Column { .. } => Self::No,
+        }
+    }
+}
+
+/// By how much a repair may move the surface, as a share of the chord; none for those that leave it where it is, and for the chord
+/// ([`Fitted`]).
 fn moved(altered: &Altered) -> Option<f64> {
     match *altered {
         Altered::Crossed { by, .. } => Some(by / 2.0),
@@ -216,6 +279,7 @@ fn moved(altered: &Altered) -> Option<f64> {
         | Altered::Joined { .. }
         | Altered::LedOn { .. }
         | Altered::Words
+        | Altered::Trailing { .. }
         | Altered::Counts { .. }
         | Altered::Column { .. } => None,
     }

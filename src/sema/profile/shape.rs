@@ -32,7 +32,7 @@ pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports)
     let profile = match profile {
         Ok(profile) => profile,
         Err(ProfileError::NotSingleValued { index }) => {
-            let diagnostic = two_heights(&strip, trace, index, stock.span);
+            let diagnostic = two_heights(&strip, trace, index, width, stock.span);
             return Err(reports.push(with_drawn(diagnostic, strip.drawn_at(trace, index))));
         }
         Err(ProfileError::TooFew | ProfileError::OutOfRange { .. }) => {
@@ -104,6 +104,17 @@ impl Strip {
     fn push(&mut self, point: Point2, source: usize) {
         self.points.push(point);
         self.sources.push(source);
+    }
+
+    /// How far beyond a side of the stock the trace goes between a point of the strip and the one before it, where it leaves the
+    /// stock in between.
+    fn turned_outside(&self, trace: &Trace, index: usize, width: f64) -> Option<f64> {
+        let before = *self.sources.get(index.checked_sub(1)?)?;
+        let between = trace.points.get(before..*self.sources.get(index)?)?;
+        let beyond = |x: f64| (-x).max(x - width);
+        let farthest = between.iter().map(|point| point.x);
+        let farthest = farthest.max_by(|one, other| beyond(*one).total_cmp(&beyond(*other)))?;
+        (beyond(farthest) > SAME).then_some(farthest)
     }
 
     fn piece_at(&self, trace: &Trace, index: usize, otherwise: Span) -> Span {
@@ -206,7 +217,7 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
 }
 
 /// The diagnostic for a profile that turns back or rises straight up at a point of the strip.
-fn two_heights(strip: &Strip, trace: &Trace, index: usize, otherwise: Span) -> Diagnostic {
+fn two_heights(strip: &Strip, trace: &Trace, index: usize, width: f64, otherwise: Span) -> Diagnostic {
     let span = strip.piece_at(trace, index, otherwise);
     let (before, rest) = strip.points.split_at(index.min(strip.points.len()));
     let (Some(turn), Some(back)) = (before.last(), rest.first()) else {
@@ -217,6 +228,9 @@ fn two_heights(strip: &Strip, trace: &Trace, index: usize, otherwise: Span) -> D
             "here",
         );
     };
+    if let Some(farthest) = strip.turned_outside(trace, index, width) {
+        return turned_outside(farthest, (*turn, *back), span);
+    }
     if (turn.x - back.x).abs() < SAME {
         return Diagnostic::new(
             Code::NotSingleValued,
@@ -264,6 +278,26 @@ fn two_heights(strip: &Strip, trace: &Trace, index: usize, otherwise: Span) -> D
     )
     .note("blades come from above, so a part has one height at every x")
     .help("draw the profile from left to right without turning back")
+}
+
+/// The diagnostic for a profile that leaves the stock, turns back out there and comes in again.
+fn turned_outside(farthest: f64, (leaves, enters): (Point2, Point2), span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::NotSingleValued,
+        format!("the profile has two heights at x = {}", mm(enters.x)),
+        span,
+        format!(
+            "it leaves the stock at z = {}, turns back at x = {} and comes in again at z = {}",
+            mm(leaves.z),
+            mm(farthest),
+            mm(enters.z)
+        ),
+    )
+    .note("blades come from above, so a part has one height at every x")
+    .help(format!(
+        "end the profile at x = {}, where it leaves the stock",
+        mm(leaves.x)
+    ))
 }
 
 /// The height of the first piece of a polyline that passes x.

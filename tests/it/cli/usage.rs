@@ -125,6 +125,48 @@ fn controls_lead_to_their_targets() {
     }
 }
 
+/// What is offered to a job for one maker's robot is never refused as a target of another maker's.
+#[test]
+fn targets_are_offered_that_drive_the_machine_of_the_job() {
+    let folder = folder();
+    let gantry = "generic/head_head_ac";
+    for (machine, flag) in [
+        ("kuka/kr210_r3100_ultra", "krl"),
+        ("abb/irb6700_200_260", "rapid"),
+        (gantry, "gcode"),
+    ] {
+        let made = vcutc(folder.path(), &["init", flag, "--robot", machine]);
+        assert_eq!(made.code, Some(0), "{}", made.stderr);
+        let job = format!("{flag}.vcut");
+        for args in [
+            &[job.as_str(), "-o", "out"][..],
+            &["watch", job.as_str(), "-o", "out"],
+            &[job.as_str(), "--target", "kuka"],
+            &[job.as_str(), "--target", "abb"],
+            &["report", job.as_str(), "--target", "fanuc"],
+            &["verify", job.as_str(), job.as_str(), "--target", "cnc"],
+            &[job.as_str(), "--target", "something"],
+        ] {
+            let run = vcutc(folder.path(), args);
+            assert_eq!(run.code, Some(2), "{args:?}");
+            let offer = format!("--target {flag}");
+            let others = ["krl", "rapid", "gcode"]
+                .into_iter()
+                .filter(|other| *other != flag);
+            let known = vcutc::registry::backend(flag).is_some();
+            assert_eq!(run.stderr.contains(&offer), known, "{args:?}: {}", run.stderr);
+            for other in others {
+                let offer = format!("--target {other}");
+                assert!(!run.stderr.contains(&offer), "{args:?}: {}", run.stderr);
+            }
+        }
+    }
+    let (without, _) = RIB.split_once("machine cell").unwrap();
+    fs::write(folder.path().join("rib.vcut"), without).unwrap();
+    let run = vcutc(folder.path(), &["rib.vcut", "-o", "out"]);
+    assert!(run.stderr.contains("the job has no machine"), "{}", run.stderr);
+}
+
 #[test]
 fn lists_with_blanks_are_answered_with_commas() {
     let run = vcutc(
@@ -353,4 +395,70 @@ fn a_release_knows_its_commit() {
     )
     .unwrap();
     assert_eq!(commit::of(tree.path()).as_deref(), Some("012345678"));
+}
+
+#[test]
+fn what_the_system_refuses_is_explained() {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    for (args, words) in [
+        (
+            &["rib.vcut", "--target", "krl", "-o", "rib.vcut/out"][..],
+            "a part of its path is a file, not a folder: check the path",
+        ),
+        (
+            &["check", "rib.vcut/job.vcut"],
+            "a part of its path is a file, not a folder: check the path",
+        ),
+    ] {
+        let run = vcutc(folder.path(), args);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(
+            run.stderr.contains(words) || vcutc::registry::backend("krl").is_none(),
+            "{}",
+            run.stderr
+        );
+        assert!(!run.stderr.contains("os error"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn a_height_below_zero_is_a_height_and_no_option() {
+    let folder = folder();
+    fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
+    for height in ["-5mm", "-5", "-0.1m"] {
+        let run = vcutc(folder.path(), &["check", "rib.vcut", "--air-cut", height]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        let words = "a height must be greater than 0 mm and at most 10 m";
+        assert!(run.stderr.contains(words), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn advice_is_called_help_whoever_gives_it() {
+    let run = vcutc(folder().path(), &["check", "rib.vcut", "--quit"]);
+    assert_eq!(run.code, Some(2));
+    assert!(
+        run.stderr
+            .contains("\n  help: a similar argument exists: '--quiet'"),
+        "{}",
+        run.stderr
+    );
+    assert!(!run.stderr.contains("tip:"), "{}", run.stderr);
+}
+
+#[test]
+fn a_first_job_names_the_words_that_each_dialect_needs() {
+    let folder = folder();
+    let made = vcutc(
+        folder.path(),
+        &["init", "first", "--robot", "generic/head_head_ac"],
+    );
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let text = fs::read_to_string(folder.path().join("first.vcut")).unwrap();
+    let known = vcutc::registry::backend("gcode").is_some();
+    for word in ["on_code", "off_code", "ready_code", "tcp_on"] {
+        assert_eq!(text.contains(word), known, "{word}: {text}");
+    }
 }

@@ -74,6 +74,11 @@ fn options(specs: &'static [OptionSpec]) -> Result<(), String> {
 
 fn sample(backend: &dyn Backend, program: &ReachableProgram, options: &Options) -> Result<(), String> {
     let bundle = emitted(backend, program, options)?;
+    if let Some(cell) = &program.program().cell
+        && backend.mismatch(cell.kind, cell.maker).is_some()
+    {
+        return Err("it writes a program for a machine that it says it does not drive".to_owned());
+    }
     files(&bundle)?;
     if emitted(backend, program, options)? != bundle {
         return Err("two runs gave different bytes".to_owned());

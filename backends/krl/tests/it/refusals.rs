@@ -28,6 +28,7 @@ fn out_of_range(program: Program) -> Vec<(&'static str, Option<OpId>, String, St
                 what,
                 value,
                 allowed,
+                ..
             } => (what, op, value, allowed),
             other => panic!("{other:?}"),
         })

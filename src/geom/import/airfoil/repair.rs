@@ -36,6 +36,8 @@ pub enum Altered {
         from: f64,
         /// Where it ends in the file.
         to: f64,
+        /// How far apart the sides are there.
+        gap: f64,
     },
     /// Points of a side inside of its outline, where x runs back: they are left out.
     Inside {
@@ -69,6 +71,11 @@ pub enum Altered {
     },
     /// A line of words between points.
     Words,
+    /// Lines of words and digits after the last point, which may be points that are written wrong.
+    Trailing {
+        /// How many.
+        count: usize,
+    },
     /// Numbers of points that are not those of the file.
     Counts {
         /// How many it says.
@@ -88,6 +95,12 @@ const LONGEST_JOINT: f64 = 0.005;
 
 /// How far a side may be led on to the trailing edge.
 const LONGEST_LEAD: f64 = 0.02;
+
+/// How deep points may lie inside of the outline that passes over them: deeper ones are as likely the shape that is meant.
+const DEEPEST_INSIDE: f64 = 0.02;
+
+/// Trailing edges of whole airfoils are not thicker, but for a few that are blunt on purpose.
+const THICKEST_END: f64 = 0.01;
 
 /// By how much sides may cross; each is moved by half of it.
 const DEEPEST_CROSSING: f64 = 0.01;
@@ -109,11 +122,12 @@ impl Repair {
             Altered::Joined { by, .. } => (by, LONGEST_JOINT),
             Altered::LedOn { by, .. } => (by, LONGEST_LEAD),
             Altered::Crossed { by, .. } => (by, DEEPEST_CROSSING),
+            Altered::Inside { deep, .. } => (deep, DEEPEST_INSIDE),
+            Altered::Chord { from, to, gap } => (missing(from, to, gap)?, LONGEST_LEAD),
             // These leave the shape as it is.
             Altered::Doubled { .. }
-            | Altered::Chord { .. }
-            | Altered::Inside { .. }
             | Altered::Words
+            | Altered::Trailing { .. }
             | Altered::Counts { .. }
             | Altered::Column { .. } => return None,
         };
@@ -131,10 +145,18 @@ impl Repair {
             | Altered::Chord { .. }
             | Altered::Crossed { .. }
             | Altered::Words
+            | Altered::Trailing { .. }
             | Altered::Counts { .. }
             | Altered::Column { .. } => true,
         }
     }
+}
+
+/// How much of a chord from 0 to 1 a file lacks at its end, where it looks cut off there: it begins at 0, reaches past the middle, and
+/// the sides are still apart. Any other chord is in a unit of its own.
+fn missing(from: f64, to: f64, gap: f64) -> Option<f64> {
+    let is_cut_off = from.abs() <= LONGEST_LEAD && (0.5..1.0).contains(&to) && gap > THICKEST_END;
+    is_cut_off.then_some(1.0 - to)
 }
 
 /// Leaves one of points that follow one another at the same place.
@@ -196,8 +218,10 @@ pub(super) fn fit_the_chord(pair: &mut Pair, sheet: &mut Sheet) {
         }
     }
     let differs = from.abs() > NOISE || (to - 1.0).abs() > NOISE;
+    let last = |outline: &Outline| outline.points.last().map_or(0.0, |vertex| vertex.at.z);
+    let gap = last(&pair.upper) - last(&pair.lower);
     if let (true, Some(nose)) = (differs, pair.leading()) {
-        sheet.repaired(nose.row, nose.row, Altered::Chord { from, to });
+        sheet.repaired(nose.row, nose.row, Altered::Chord { from, to, gap });
     }
     (pair.start, pair.end) = (0.0, 1.0);
 }

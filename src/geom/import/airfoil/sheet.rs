@@ -69,7 +69,7 @@ struct Reading<'a> {
     elements: Vec<(usize, Range<usize>)>,
     /// The number of points when the first empty line after one came.
     first_gap: Option<usize>,
-    /// Lines of words after points: no matter when no more points come.
+    /// Lines of words since the last point.
     words_after: Vec<Piece<'a>>,
     repairs: Vec<Repair>,
 }
@@ -83,6 +83,7 @@ pub(super) fn read(text: &str) -> Result<Sheet, DataError> {
     for line in lines(text) {
         reading.take(line)?;
     }
+    reading.note_trailing();
     reading.without_a_third_column()?;
     reading.one_element()?;
     let counts = reading.take_counts();
@@ -142,6 +143,22 @@ impl<'a> Reading<'a> {
             self.repairs.push(Repair::new(words.range(), Altered::Words));
         }
         Ok(())
+    }
+
+    /// Words after the last point are remarks. Those with a digit may as well be points that are written wrong, so they are said.
+    fn note_trailing(&mut self) {
+        let has_digit = |words: &&Piece<'_>| words.text.bytes().any(|byte| byte.is_ascii_digit());
+        let doubtful: Vec<Range<usize>> = self
+            .words_after
+            .iter()
+            .filter(has_digit)
+            .map(|words| words.range())
+            .collect();
+        if let (Some(first), Some(last)) = (doubtful.first(), doubtful.last()) {
+            let count = doubtful.len();
+            let altered = Altered::Trailing { count };
+            self.repairs.push(Repair::new(first.start..last.end, altered));
+        }
     }
 
     /// A third number that is the same in all rows is the constant of a section from a drawing in space.

@@ -269,7 +269,12 @@ fn any_chord_is_scaled_to_one() {
         let text = file(&moved);
         let foil = airfoil(&text).unwrap();
         assert_as_the_formula(&foil, 1e-6);
-        let [Altered::Chord { from: read, to: end }] = altered(&foil)[..] else {
+        let [
+            Altered::Chord {
+                from: read, to: end, ..
+            },
+        ] = altered(&foil)[..]
+        else {
             panic!("{:?}", foil.repairs);
         };
         assert!((read - from).abs() < 1e-7 && (end - to).abs() < 1e-7);
@@ -373,6 +378,29 @@ fn sides_that_cross_run_in_the_middle() {
     assert!((end.z - 0.002).abs() < 1e-7);
 }
 
+/// Cut off, and not in a unit of its own: the sides are still apart where the points end.
+#[test]
+fn an_airfoil_that_is_cut_off_is_not_stretched() {
+    let cut = |most: f64| -> Vec<_> { naca0012().into_iter().filter(|(x, _)| *x <= most).collect() };
+    for (most, is_refused) in [(0.9, true), (0.7, true), (0.99, false)] {
+        let foil = airfoil(&file(&cut(most))).unwrap();
+        let too_far = foil.repairs.iter().find_map(Repair::goes_too_far);
+        assert_eq!(too_far, is_refused.then_some(0.02), "{most}: {:?}", foil.repairs);
+    }
+    // Smaller as a whole, it is in another unit.
+    let small: Vec<_> = naca0012().iter().map(|(x, z)| (x * 0.88, z * 0.88)).collect();
+    let foil = airfoil(&file(&small)).unwrap();
+    assert_eq!(foil.repairs.iter().find_map(Repair::goes_too_far), None);
+}
+
+#[test]
+fn points_deep_inside_of_the_outline_are_not_passed_over() {
+    let mut points = naca0012();
+    points.insert(10, (points[9].0 + 0.02, points[9].1 - 0.05));
+    let foil = airfoil(&file(&points)).unwrap();
+    assert_eq!(foil.repairs.iter().find_map(Repair::goes_too_far), Some(0.02));
+}
+
 #[test]
 fn points_inside_of_the_outline_are_listed() {
     let mut points = naca0012();
@@ -433,6 +461,10 @@ fn headings_counts_and_third_columns_are_passed_over_and_said() {
             },
         ),
         (format!("title\n{with_zero}"), Altered::Column { value: 0.0 }),
+        (
+            format!("{}l.0000 O.0013\nof 1996\n", file(&points)),
+            Altered::Trailing { count: 2 },
+        ),
     ] {
         let foil = airfoil(&text).unwrap();
         assert_eq!(altered(&foil), [expected]);

@@ -1,0 +1,143 @@
+//! Targets for people who name none, or one that there is not: those that drive the machine of their job.
+
+use super::Targets;
+use super::args::Overrides;
+use super::console::Failure;
+use super::files::Disk;
+use crate::diag::suggest::nearest;
+use crate::driver;
+use vcutc_backend_api::backend::Origin;
+use vcutc_backend_api::protocol::PROGRAM_PREFIX;
+
+/// What is known of the machine of the jobs on a command line.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Driven {
+    /// Nothing: there is no job, it has errors, or there are several with different machines.
+    Unknown,
+    /// The job states no machine.
+    NoMachine,
+    /// Its machine.
+    Machine {
+        /// As messages say it.
+        words: String,
+        /// The targets of this build that drive machines of its kind and maker.
+        drivers: Vec<&'static str>,
+    },
+}
+
+impl Driven {
+    /// Reads the jobs, up to their machine.
+    pub(super) fn of(jobs: &[String], overrides: &Overrides, targets: &Targets) -> Self {
+        let mut each = jobs.iter().map(|job| Self::of_one(job, overrides, targets));
+        let Some(first) = each.next() else {
+            return Self::Unknown;
+        };
+        if each.all(|other| other == first) {
+            first
+        } else {
+            Self::Unknown
+        }
+    }
+
+    fn of_one(job: &str, overrides: &Overrides, targets: &Targets) -> Self {
+        let disk = Disk::around(job);
+        let Some(job) = driver::understood(overrides.request(&disk, targets)) else {
+            return Self::Unknown;
+        };
+        let Some(machine) = job.machine else {
+            return Self::NoMachine;
+        };
+        let model = &machine.model;
+        // Targets that are programs of their own are asked only when they are named.
+        let linked = targets
+            .iter()
+            .filter(|backend| backend.origin() == Origin::Linked);
+        let drivers = linked.filter(|backend| backend.mismatch(model.kind(), model.maker).is_none());
+        Self::Machine {
+            words: driver::machine_words(model),
+            drivers: drivers.map(|backend| backend.id()).collect(),
+        }
+    }
+}
+
+/// A target under the name of a maker, a control or a language.
+struct Meant {
+    target: &'static str,
+    /// The dialect of G-code.
+    dialect: Option<&'static str>,
+}
+
+impl Meant {
+    fn flags(&self) -> String {
+        let target = self.target;
+        match self.dialect {
+            Some(dialect) => format!("--target {target} --option dialect={dialect}"),
+            None => format!("--target {target}"),
+        }
+    }
+}
+
+/// The target that people mean who know its machines or controls by these names.
+fn known_otherwise(name: &str) -> Option<Meant> {
+    let (target, dialect) = match name.to_ascii_lowercase().as_str() {
+        "kuka" | "krc" | "krc2" | "krc4" | "krc5" | "src" => ("krl", None),
+        "abb" | "irc5" | "omnicore" | "mod" => ("rapid", None),
+        "fanuc" => ("gcode", Some("fanuc")),
+        "sinumerik" | "siemens" | "840d" | "mpf" => ("gcode", Some("sinumerik")),
+        "heidenhain" | "tnc" | "itnc" => ("gcode", Some("heidenhain")),
+        "linuxcnc" | "emc2" | "ngc" => ("gcode", Some("linuxcnc")),
+        "cnc" | "nc" | "iso" | "g-code" => ("gcode", None),
+        _ => return None,
+    };
+    Some(Meant { target, dialect })
+}
+
+/// A target that there is not, and which ones the job can use.
+pub(super) fn unknown(targets: &Targets, id: &str, asking: &Driven) -> Failure {
+    let failure = Failure::new(format!("there is no target `{id}`"));
+    let usable: Vec<_> = match asking {
+        Driven::Unknown | Driven::NoMachine => targets.iter().map(|backend| backend.id()).collect(),
+        Driven::Machine { drivers, .. } => drivers.clone(),
+    };
+    let meant = known_otherwise(id).filter(|meant| usable.contains(&meant.target));
+    let near = nearest(id, usable.iter().copied());
+    let failure = match (meant, near.first(), asking) {
+        (Some(meant), _, _) => failure.help(format!("did you mean `{}`?", meant.flags())),
+        (None, Some(near), _) => failure.help(format!("did you mean `--target {near}`?")),
+        (None, None, Driven::Machine { words, drivers }) => failure.help(match drivers.first() {
+            Some(driver) => format!("the machine of the job is {words}: write `--target {driver}`"),
+            None => format!("the machine of the job is {words}, and no target of this build drives it"),
+        }),
+        (None, None, Driven::Unknown | Driven::NoMachine) => failure,
+    };
+    failure.help(format!(
+        "targets: {}; others are programs `{PROGRAM_PREFIX}NAME` on the PATH or in a folder of `--backend-path`",
+        super::targets::names(targets)
+    ))
+}
+
+/// A place for files without any that would go there.
+pub(super) fn pointless_output(output: &str, targets: &Targets, asking: &Driven) -> Failure {
+    let failure = Failure::new(format!(
+        "`-o {output}` says where files go, but no target was given, so there are none"
+    ));
+    let check_only = "or leave `-o` out to check the job only";
+    failure.help(match asking {
+        Driven::Unknown => {
+            let target = targets.first().map_or("TARGET", |backend| backend.id());
+            let names = super::targets::names(targets);
+            format!("write `--target {target} -o {output}` (targets: {names}), {check_only}")
+        }
+        Driven::NoMachine => format!(
+            "the job has no machine to write a program for: add a `machine` block and give its target, {check_only}"
+        ),
+        Driven::Machine { words, drivers } => match drivers.first() {
+            Some(target) => format!(
+                "write `--target {target} -o {output}`, which drives the machine of the job ({words}), {check_only}"
+            ),
+            None => format!(
+                "no target of this build drives the machine of the job ({words}): leave `-o` out to check the job only"
+            ),
+        },
+    })
+}
