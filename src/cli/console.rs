@@ -374,6 +374,14 @@ impl Console {
         self.note("hint", &format!("help: {}\n", hint.fix.title), body);
     }
 
+    /// Prints something about the run itself, for people.
+    pub(super) fn remark(&self, words: &str) {
+        match self.format {
+            MessageFormat::Human | MessageFormat::Github => self.stderr(&format!("note: {words}\n")),
+            MessageFormat::Json => {}
+        }
+    }
+
     /// Prints why nothing could be judged.
     pub(super) fn failure(&self, failure: &Failure) -> Exit {
         match self.format {

@@ -16,9 +16,25 @@ pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Dur
         return;
     }
     let compiling: Duration = timings.iter().map(|(_, time)| *time).sum();
-    for hint in found_within(outcome, console.help_budget(), compiling) {
+    let found = found_within(outcome, console.help_budget(), compiling);
+    for hint in found.hints {
         console.hint(&hint, &outcome.sources);
     }
+    if let Some(limit) = found.ended_after {
+        console.remark(&format!(
+            "the search for what makes this job faster ended after {:.1} s; `--help-budget {:.0}s` looks further",
+            limit.as_secs_f64(),
+            (limit.as_secs_f64() * 10.0).ceil()
+        ));
+    }
+}
+
+/// What was found in some time.
+#[derive(Default)]
+struct Found {
+    hints: Vec<Hint>,
+    /// The time, where it was over before the search was.
+    ended_after: Option<Duration>,
 }
 
 /// The hints of a page, which is the same for the same job: they are found by a bounded amount of work, however long it takes;
@@ -28,21 +44,28 @@ pub(super) fn of_a_page(outcome: &Outcome, budget: HelpBudget) -> Vec<Hint> {
         HelpBudget::Of(Duration::ZERO) => budget,
         HelpBudget::Of(_) | HelpBudget::Unlimited => HelpBudget::Unlimited,
     };
-    found_within(outcome, work, Duration::ZERO)
+    found_within(outcome, work, Duration::ZERO).hints
 }
 
 /// The hints that are found in that time, or in the time that the job took; none where no time is given at all.
-fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> Vec<Hint> {
+fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> Found {
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
-        return Vec::new();
+        return Found::default();
     };
     match budget {
-        HelpBudget::Unlimited => hints(job, compiled, &Wanted::ALWAYS),
-        HelpBudget::Of(Duration::ZERO) => Vec::new(),
+        HelpBudget::Unlimited => Found {
+            hints: hints(job, compiled, &Wanted::ALWAYS),
+            ended_after: None,
+        },
+        HelpBudget::Of(Duration::ZERO) => Found::default(),
         HelpBudget::Of(limit) => {
+            let limit = limit.max(compiling);
             let (wanted, interest) = Wanted::while_held();
-            let _timer = Timer::start(limit.max(compiling), interest);
-            hints(job, compiled, &wanted)
+            let _timer = Timer::start(limit, interest);
+            Found {
+                hints: hints(job, compiled, &wanted),
+                ended_after: wanted.is_needless().then_some(limit),
+            }
         }
     }
 }

@@ -71,9 +71,10 @@ pub fn climb(ladder: &mut dyn Ladder) -> Result<Vec<usize>, Stuck> {
     let mut links = Links::of(ladder);
     let mut proven = BTreeSet::new();
     let mut last_refuted = None;
+    let mut known = Known::default();
     let affordable = MOST_LOOKS / links.count().max(1);
     for _ in 0..MOST_CLIMBS.min(affordable.max(2)) {
-        let way = match best(ladder, &links) {
+        let way = match best(ladder, &links, &mut known) {
             Ok(way) => way,
             Err(run) => return Err(last_refuted.map_or(Stuck::At(run), Stuck::Refuted)),
         };
@@ -88,6 +89,7 @@ pub fn climb(ladder: &mut dyn Ladder) -> Result<Vec<usize>, Stuck> {
                 proven.insert(link);
             } else {
                 links.refute(link);
+                known.forget_from(run);
                 last_refuted = Some(run);
                 all_hold = false;
             }
@@ -139,19 +141,46 @@ impl Links {
     }
 }
 
+/// What climbs before have found out: it holds up to the first run to which a link was refuted since.
+#[derive(Default)]
+struct Known {
+    /// For each rung of each run, the largest smallest margin of a way to it.
+    widest: Vec<Vec<Option<f64>>>,
+    /// The cheapest ways to the rungs whose margins are nowhere below `least`.
+    cheapest: Vec<Vec<Option<Arrival>>>,
+    least: Option<f64>,
+}
+
+impl Known {
+    fn forget_from(&mut self, run: usize) {
+        self.widest.truncate(run);
+        self.cheapest.truncate(run);
+    }
+
+    /// The cheapest ways that are known with this least margin.
+    fn cheapest_with(&mut self, least: f64) -> &mut Vec<Vec<Option<Arrival>>> {
+        if self.least != Some(least) {
+            self.cheapest.clear();
+            self.least = Some(least);
+        }
+        &mut self.cheapest
+    }
+}
+
 /// The best way if every link that is not refuted holds; else the run that cannot be reached.
-fn best(ladder: &dyn Ladder, links: &Links) -> Result<Vec<usize>, usize> {
-    let widest = widest(ladder, links)?;
-    cheapest(ladder, links, widest - SAME_MARGIN)
+fn best(ladder: &dyn Ladder, links: &Links, known: &mut Known) -> Result<Vec<usize>, usize> {
+    let widest = widest(ladder, links, &mut known.widest)?;
+    let least = widest - SAME_MARGIN;
+    cheapest(ladder, links, least, known.cheapest_with(least))
 }
 
 /// Margins that differ by less count as equal: nobody changes the way to stand for rounding.
 const SAME_MARGIN: f64 = 1e-6;
 
-/// The largest smallest margin that any way has.
-fn widest(ladder: &dyn Ladder, links: &Links) -> Result<f64, usize> {
-    let mut reached: Vec<Option<f64>> = Vec::new();
-    for run in 0..ladder.runs() {
+/// The largest smallest margin that any way has. `known` are the margins of the first runs, and of all afterwards.
+fn widest(ladder: &dyn Ladder, links: &Links, known: &mut Vec<Vec<Option<f64>>>) -> Result<f64, usize> {
+    for run in known.len()..ladder.runs() {
+        let reached = known.last().map_or(&[][..], Vec::as_slice);
         let next = (0..).zip(ladder.rungs(run)).map(|(to, rung)| {
             let before = if run == 0 {
                 Some(f64::INFINITY)
@@ -167,9 +196,11 @@ fn widest(ladder: &dyn Ladder, links: &Links) -> Result<f64, usize> {
         if next.iter().flatten().next().is_none() {
             return Err(run);
         }
-        reached = next;
+        known.push(next);
     }
-    let widest = reached.into_iter().flatten().max_by(f64::total_cmp);
+    let widest = known
+        .last()
+        .and_then(|last| last.iter().flatten().copied().max_by(f64::total_cmp));
     Ok(widest.unwrap_or(f64::INFINITY))
 }
 
@@ -190,10 +221,14 @@ impl Arrival {
     }
 }
 
-/// The cheapest way whose margins are nowhere below `least`.
-fn cheapest(ladder: &dyn Ladder, links: &Links, least: f64) -> Result<Vec<usize>, usize> {
-    let mut arrivals: Vec<Vec<Option<Arrival>>> = Vec::new();
-    for run in 0..ladder.runs() {
+/// The cheapest way whose margins are nowhere below `least`. `arrivals` are those of the first runs, and of all afterwards.
+fn cheapest(
+    ladder: &dyn Ladder,
+    links: &Links,
+    least: f64,
+    arrivals: &mut Vec<Vec<Option<Arrival>>>,
+) -> Result<Vec<usize>, usize> {
+    for run in arrivals.len()..ladder.runs() {
         let before: &[Option<Arrival>] = arrivals.last().map_or(&[], Vec::as_slice);
         let here = (0..).zip(ladder.rungs(run)).map(|(to, rung)| {
             if rung.margin < least {
@@ -231,7 +266,7 @@ fn cheapest(ladder: &dyn Ladder, links: &Links, least: f64) -> Result<Vec<usize>
         let here: Vec<_> = here.collect();
         arrivals.push(here);
     }
-    trace(&arrivals)
+    trace(arrivals)
 }
 
 /// The rungs of the cheapest way, from its end back to its beginning.

@@ -243,7 +243,7 @@ fn together(layers: &[Layer], name: String) -> Layer {
 /// The files of the program, and what they are known by.
 fn programs(files: &[(&str, &[u8])]) -> String {
     if files.is_empty() {
-        return rows(&[("program", "give --target to have its files named here".to_owned())]);
+        return rows(&[("program", "not written for any target".to_owned())]);
     }
     let (named, others) = files.split_at(match files.len() {
         count if count > MOST_FILES => MOST_FILES - 1,
