@@ -265,9 +265,9 @@ pub(super) enum Command {
     /// Writes programs as `vcutc JOB --target` does. With --serve the report is shown in a browser on this machine, and follows.
     /// Ctrl-C ends it.
     Watch(WatchArgs),
-    /// Hold a program against the job that it was made from
+    /// Compare a program with the job that it was made from
     ///
-    /// Compiles the job, reads the program as its controller would, and tells every operation that is not the job's: at its
+    /// Compiles the job, reads the program as its controller would, and reports every operation that is not the job's: at its
     /// line of the program and at its place in the job. Comments and layout may differ. Nothing is written.
     Verify(VerifyArgs),
 }

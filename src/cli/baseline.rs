@@ -176,7 +176,7 @@ fn records(path: &str, named_at: Span, sources: &mut SourceMap) -> Result<Vec<Re
         }
     };
     let Ok(text) = text_from_bytes(bytes) else {
-        return Err(unusable(format!("{path} is no text in UTF-8"), "no text"));
+        return Err(unusable(format!("{path} is not text in UTF-8"), "no text"));
     };
     baseline::read(&text).map_err(|flaw| {
         let file = sources.add(path.to_owned(), text.clone());

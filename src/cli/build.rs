@@ -93,7 +93,7 @@ fn list(given: Option<&str>) -> Result<(String, String), Failure> {
     };
     match text_from_bytes(bytes) {
         Ok(text) => Ok((path, text)),
-        Err(_) => Err(Failure::new(format!("{path} is no text in UTF-8"))),
+        Err(_) => Err(Failure::new(format!("{path} is not text in UTF-8"))),
     }
 }
 

@@ -91,7 +91,7 @@ pub(super) fn one_file(path: &Path, bytes: &[u8]) -> Result<Vec<Placed>, String>
     let name = path
         .file_name()
         .and_then(|name| name.to_str())
-        .ok_or_else(|| format!("{} is no name for a file", path.display()))?;
+        .ok_or_else(|| format!("{} is not a name for a file", path.display()))?;
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent.to_owned(),
         Some(_) | None => PathBuf::from("."),
@@ -168,7 +168,7 @@ impl Folder {
     fn start(&mut self, name: &str) -> Result<(), String> {
         self.finish_current()?;
         if !is_plain_file_name(name) {
-            return Err(format!("{name:?} is no plain file name"));
+            return Err(format!("{name:?} is not a plain file name"));
         }
         // Some file systems take RIB.SRC and rib.src for the same.
         if self

@@ -27,7 +27,7 @@ pub(super) fn no_routine(start: Span) -> Diagnostic {
 pub(super) fn unreadable(place: Span, expected: &str) -> Diagnostic {
     Diagnostic::new(
         Code::UnreadableStatement,
-        "this is no statement of KRL",
+        "this is not a statement of KRL",
         place,
         format!("expected {expected}"),
     )
@@ -231,7 +231,7 @@ pub(super) fn endless(place: Span) -> Diagnostic {
 pub(super) fn speed_unknown(place: Span) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
-        "this speed is no number above 0",
+        "this speed is not a number above 0",
         place,
         "what is it?",
     )

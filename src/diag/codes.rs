@@ -63,7 +63,7 @@ codes! {
     /// A number that cannot be held.
     NumberTooLarge = "VC0106", Error, "a number too large to hold";
     /// A file is not UTF-8.
-    NotUtf8 = "VC0107", Error, "a file that is no text";
+    NotUtf8 = "VC0107", Error, "a file that is not text";
 
     /// A name that is defined nowhere.
     UnknownName = "VC0201", Error, "a name that is defined nowhere";
@@ -159,7 +159,7 @@ codes! {
     /// A home that the axes cannot reach.
     HomeOutsideLimits = "VC0503", Error, "a home outside of the axes' limits";
     /// An orientation that is none.
-    NotARotation = "VC0504", Error, "an orientation that is no rotation";
+    NotARotation = "VC0504", Error, "an orientation that is not a rotation";
     /// A motion that the machine does not reach.
     OutOfReach = "VC0510", Error, "a motion out of the machine's reach";
     /// A motion that takes an axis beyond its limit.
@@ -219,7 +219,7 @@ codes! {
     /// A statement whose effect is not known.
     UnknownStatement = "VC0706", Error, "a statement that is not understood";
     /// Text that is no statement.
-    UnreadableStatement = "VC0707", Error, "text in a program that is no statement";
+    UnreadableStatement = "VC0707", Error, "text in a program that is not a statement";
 
     /// A program that breaks a rule of the process.
     ProgramRule = "VC0708", Error, "a program that moves the blade as it must not";

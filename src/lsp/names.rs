@@ -122,7 +122,7 @@ pub(super) fn refused(analyses: &[&Analysis], old: &str, new: &str) -> Option<St
     }
     if !vocabulary::is_name(new) {
         return Some(format!(
-            "`{new}` is no name: a name is letters, digits and `_`, and begins with no digit"
+            "`{new}` is not a name: a name is letters, digits and `_`, and begins with no digit"
         ));
     }
     let curves = vocabulary::CURVES.iter().map(|(word, _)| *word);

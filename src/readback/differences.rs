@@ -172,7 +172,7 @@ impl Teller<'_> {
         self.tell(
             Diagnostic::new(Code::OtherSetting, message, span, "the first part begins here")
                 .and(self.scene.job.name_span, "the job")
-                .note("what the parts do is compared all the same, and what each sets up and restates is no difference")
+                .note("what the parts do is compared all the same, and what each sets up and restates is not a difference")
                 .help("give the options that the program was written with, such as --option lines_per_part=N, or compile the job again"),
         );
         // How a program is split changes nothing of what its statements do.
@@ -508,7 +508,7 @@ impl Teller<'_> {
     fn unreadable(&self, given: usize, expected: &str) -> Diagnostic {
         Diagnostic::new(
             Code::UnreadableStatement,
-            format!("this is no statement of the target's language: {expected} is expected"),
+            format!("this is not a statement of the target's language: {expected} is expected"),
             self.span(given),
             format!("expected {expected}"),
         )

@@ -155,7 +155,7 @@ impl Scope<'_> {
             "auto" => {
                 let diagnostic = Diagnostic::new(
                     Code::WrongKind,
-                    "`auto` is no value to calculate with",
+                    "`auto` is not a value to calculate with",
                     span,
                     "a value is needed here",
                 )

@@ -177,7 +177,7 @@ fn rotation(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Orientatio
         unit => {
             let diagnostic = Diagnostic::new(
                 Code::NotARotation,
-                format!("a quaternion of length {} is no rotation", number(length)),
+                format!("a quaternion of length {} is not a rotation", number(length)),
                 expr.span,
                 format!("its length is {}, not 1", number(length)),
             );

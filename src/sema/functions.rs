@@ -313,7 +313,7 @@ fn unknown(function: &Spanned<String>) -> Diagnostic {
     if let Some((name, place)) = ELSEWHERE.iter().find(|(name, _)| *name == function.node) {
         return Diagnostic::new(
             Code::WrongKind,
-            format!("`{name}(...)` is no value to calculate with"),
+            format!("`{name}(...)` is not a value to calculate with"),
             function.span,
             format!("belongs {place}"),
         )

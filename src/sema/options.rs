@@ -176,7 +176,7 @@ fn profile(
             Code::WrongKind,
             "`profile` takes the name of a file in quotes",
             value.span,
-            "this is no text",
+            "this is not a text",
         );
         return Err(session
             .reports
@@ -209,7 +209,7 @@ fn profile(
 fn misplaced(what: &str, span: Span, session: &mut Session<'_>) -> Reported {
     let diagnostic = Diagnostic::new(
         Code::Misplaced,
-        format!("{what} is no option of a target"),
+        format!("{what} is not an option of a target"),
         span,
         "options have the form `key = value`",
     );
@@ -293,7 +293,7 @@ fn texts(values: &[Spanned<Expr>], session: &mut Session<'_>) -> Checked<Vec<Str
                 Code::WrongKind,
                 "a list of lines holds texts in quotes",
                 value.span,
-                "this is no text",
+                "this is not a text",
             );
             Err(session
                 .reports

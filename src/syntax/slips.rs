@@ -140,8 +140,8 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
             "a positive number has no sign before it",
             "",
         ),
-        "*" if fault.expects_value() => joined(bad, fault, "**", "`**` is no operator", "^"),
-        ">" if fault.expects_value() => joined(bad, fault, "=>", "`=>` is no relation", ">="),
+        "*" if fault.expects_value() => joined(bad, fault, "**", "`**` is not an operator", "^"),
+        ">" if fault.expects_value() => joined(bad, fault, "=>", "`=>` is not a relation", ">="),
         "[" => Some(
             Diagnostic::new(
                 Code::UnexpectedText,

@@ -7,7 +7,7 @@
 
 use core::fmt::Write as _;
 
-/// A value that is no number was to be printed.
+/// A value that is not a number was to be printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotFinite;
 

@@ -178,7 +178,7 @@ impl Body<'_, '_, '_, '_> {
             .ok_or(EmitError::Internal("a move is not in the program's tables"))?;
         let before = index
             .checked_sub(1)
-            .ok_or(EmitError::Internal("the first op is no move from a pose"))?;
+            .ok_or(EmitError::Internal("the first op is not a move from a pose"))?;
         let (from, to) = (self.axes_after(before)?, self.axes_after(index)?);
         let pace = pace::of_stroke(settings, words, &stroke, &from, &to)
             .ok_or(EmitError::Internal("a motion has no speed"))?;

@@ -145,7 +145,7 @@ impl Limits {
         if dialect.axis_pace() != AxisPace::Rapid && cell.axes.iter().any(|axis| axis.rate.is_none()) {
             let issue = BackendIssue::OptionConflict {
                 key: HOME_SPEED,
-                why: "the machine's sheet does not state the rates of all its axes, so a part of them is no speed; \
+                why: "the machine's sheet does not state the rates of all its axes, so a part of them is not a speed; \
                       add `rate_mm_s` and `rate_deg_s` to the sheet"
                     .to_owned(),
             };

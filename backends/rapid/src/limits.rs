@@ -146,7 +146,7 @@ fn names(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
             && !is_name(name)
         {
             let why = format!(
-                "`{name}` is no name: a letter, then letters, digits and `_`, at most 32 in all, no word or data of RAPID, \
+                "`{name}` is not a name: a letter, then letters, digits and `_`, at most 32 in all, no word or data of RAPID, \
                  and no `vc_` at its start, with which the program's own names begin"
             );
             findings.tell(key, BackendIssue::OptionConflict { key, why });

@@ -82,7 +82,7 @@ fn spec(option: &DescribedOption) -> Result<OptionSpec, Fault> {
     let key = line(&option.key);
     let refused = |what: &str| Err(fault(format!("has an option `{key}` {what}")));
     if !is_name(&option.key) {
-        return refused("whose key is no name (letters a to z, digits and `_`, a letter first)");
+        return refused("whose key is not a name (letters a to z, digits and `_`, a letter first)");
     }
     if option.key == PROFILE {
         return refused("which is the key under which jobs name a profile");
@@ -155,7 +155,7 @@ fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
         None => {
             let key = line(key);
             Err(fault(format!(
-                "counts decimals by `{key}`, which is no whole-number option up to {MOST_DECIMALS}"
+                "counts decimals by `{key}`, which is not a whole-number option up to {MOST_DECIMALS}"
             )))
         }
     }

@@ -38,7 +38,7 @@ fn number(option: &str, part: &str, unit: &str) -> Result<f64, Failure> {
         Ok(number) if number.is_finite() => refused(format!("`{part}` is larger than {LARGEST}")),
         Ok(_) => refused(format!("`{part}` is not a finite number")),
         Err(_) if part.is_empty() => refused("a number is missing beside a comma".to_owned()),
-        Err(_) => refused(format!("`{part}` is no number{}", in_unit(unit))),
+        Err(_) => refused(format!("`{part}` is not a number{}", in_unit(unit))),
     }
 }
 

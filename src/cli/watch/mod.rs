@@ -62,7 +62,7 @@ fn prepare<'a>(args: &'a WatchArgs, targets: &'a Targets) -> Result<Watch<'a>, F
     let path = Path::new(&args.job);
     if !path.is_file() {
         let why = if path.exists() {
-            "it is no file"
+            "it is not a file"
         } else {
             "there is no such file"
         };

@@ -288,7 +288,7 @@ fn what_is_out_of_reach_has_no_answer() {
     assert_eq!(KUKA.inverse(&pose), Solutions::NONE);
     let turned_over = Branch::Numbered(0);
     assert_eq!(KUKA.on_branch(&pose, turned_over, &[0.0; 6]), None);
-    // A reflection is no rotation.
+    // A reflection is not a rotation.
     let mut mirrored = KUKA.forward(&[0.3; 6]);
     mirrored.rotation.x_axis = -mirrored.rotation.x_axis;
     assert_eq!(KUKA.inverse(&mirrored), Solutions::NONE);

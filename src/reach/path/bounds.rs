@@ -85,7 +85,7 @@ impl Bounds<'_> {
         self.hold_values(&found.value)?;
         for (i, axis) in self.axes.iter().enumerate().take(MOST_AXES) {
             let rate = found.rate[i].magnitude() / self.duration;
-            // What is no number is not slow enough.
+            // What is not a number is not slow enough.
             let is_slow_enough = rate <= axis.rate.map_or(f64::MAX, |most| most * (1.0 + RATE_SLACK));
             if !is_slow_enough {
                 return Err(Violation::Rate { axis: i, rate });

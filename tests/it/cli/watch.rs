@@ -315,7 +315,7 @@ fn what_cannot_be_watched_is_refused() {
     let folder = folder();
     for (arguments, told) in [
         (["watch", "none.vcut"], "there is no such file"),
-        (["watch", "."], "it is no file"),
+        (["watch", "."], "it is not a file"),
         (["watch", "-"], "takes a job from a file"),
     ] {
         let run = super::vcutc(folder.path(), &arguments);

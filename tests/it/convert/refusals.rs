@@ -473,7 +473,7 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
             Code::NotFollowed,
         ),
         (
-            "a coordinate that is no number",
+            "a coordinate that is not a number",
             instead("LIN {X NaN,Y -3.000,Z 45.600}"),
             WORDS,
             Code::NotFollowed,

@@ -118,8 +118,8 @@ fn names_that_would_mean_something_else_are_refused() {
         ("auto", "meaning of its own"),
         ("let", "meaning of its own"),
         ("radius", "meaning of its own"),
-        ("3x", "is no name"),
-        ("a-b", "is no name"),
+        ("3x", "is not a name"),
+        ("a-b", "is not a name"),
         ("slow", "is a value already, in /shop/blades.vcut"),
         ("dagger", "is a blade already"),
     ] {

@@ -16,7 +16,7 @@ pub const COARSEST: Grain = Grain {
 };
 
 impl Grain {
-    /// Which of its values is no number, below zero or above that of [`COARSEST`], and that one in words.
+    /// Which of its values is not a number, below zero or above that of [`COARSEST`], and that one in words.
     ///
     /// # Errors
     /// The key with what it may be.

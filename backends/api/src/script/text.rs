@@ -163,7 +163,7 @@ pub fn push_trimmed(out: &mut Vec<u8>, value: f64) -> Result<(), NotFinite> {
     Ok(())
 }
 
-/// Such a number as text; what is no number becomes its name, for messages.
+/// Such a number as text; what is not a number becomes its name, for messages.
 #[must_use]
 pub fn trimmed_text(value: f64) -> String {
     let mut digits = Vec::new();

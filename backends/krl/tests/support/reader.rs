@@ -255,7 +255,7 @@ impl Robot<'_> {
 
     fn bas(&mut self, call: &str) -> Result<(), String> {
         let (command, number) = call.split_once(',').ok_or("BAS without a number")?;
-        let number: u32 = number.parse().map_err(|_| "BAS with what is no number")?;
+        let number: u32 = number.parse().map_err(|_| "BAS with what is not a number")?;
         match (command, number) {
             ("TOOL", 1..=16) => self.events.push(Event::Tool(Setting::Number(number))),
             ("BASE", 1..=32) => self.events.push(Event::Base(Setting::Number(number))),
@@ -427,9 +427,9 @@ fn decimal(text: &str) -> Result<f64, String> {
     let plain = |digits: &str| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
     let zero = digits.bytes().all(|byte| matches!(byte, b'0' | b'.'));
     if !plain(whole) || !plain(part) || (zero && text.starts_with('-')) {
-        return Err(format!("{text} is no number"));
+        return Err(format!("{text} is not a number"));
     }
-    text.parse().map_err(|_| format!("{text} is no number"))
+    text.parse().map_err(|_| format!("{text} is not a number"))
 }
 
 fn positive(text: &str) -> Result<f64, String> {

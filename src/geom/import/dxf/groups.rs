@@ -91,7 +91,7 @@ impl<'t> Groups<'t> {
             let message = if line.text.is_empty() {
                 "a group code is missing here: this line is empty".to_owned()
             } else {
-                format!("`{}` is no group code of a DXF", shortened(line.text))
+                format!("`{}` is not a group code of a DXF", shortened(line.text))
             };
             DataError::new(range, message)
         })

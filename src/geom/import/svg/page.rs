@@ -55,7 +55,11 @@ fn length(text: Text<'_>) -> Result<Length, DataError> {
         "pt" => 25.4 / 72.0,
         "pc" => 25.4 / 6.0,
         "Q" | "q" => 0.25,
-        _ => return Err(text.place(0..text.text.len()).error("this is no length of SVG")),
+        _ => {
+            return Err(text
+                .place(0..text.text.len())
+                .error("this is not a length of SVG"));
+        }
     };
     Ok(Length::Real(value * mm))
 }

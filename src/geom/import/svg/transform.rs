@@ -26,7 +26,7 @@ pub(super) fn transform(text: Text<'_>) -> Result<Affine, DataError> {
         }
         let Some(map) = map(name, &numbers) else {
             let message = format!(
-                "`{}` with {} numbers is no transformation of SVG",
+                "`{}` with {} numbers is not a transformation of SVG",
                 super::super::shortened(name),
                 numbers.len()
             );

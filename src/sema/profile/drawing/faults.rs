@@ -190,7 +190,7 @@ impl Told<'_> {
                 let diagnostic = strokes.iter().take(3).fold(diagnostic, |told, &stroke| {
                     told.and(self.stroke(stroke), "one of them")
                 });
-                self.with_layers(diagnostic.help("delete the lines that are no part of the outline"))
+                self.with_layers(diagnostic.help("delete the lines that are not part of the outline"))
             }
             OutlineError::Crowded { at } => broken(
                 format!("too many lines of {} end near {}", self.subject(), shown(at)),
@@ -293,7 +293,7 @@ impl Told<'_> {
             Some(tolerance) => diagnostic.help(format!(
                 "close the gap in the drawing, or join over it with `tolerance = {tolerance}`"
             )),
-            None => diagnostic.help("delete the lines that are no part of the outline"),
+            None => diagnostic.help("delete the lines that are not part of the outline"),
         };
         self.with_layers(diagnostic)
     }

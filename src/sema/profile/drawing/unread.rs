@@ -51,7 +51,7 @@ impl Told<'_> {
             place,
             "more is drawn here than the outline",
         )
-        .help("move what is no part of the outline to another layer, or delete it");
+        .help("move what is not part of the outline to another layer, or delete it");
         let is_dark = |unread: &Unread| match unread.why {
             Why::Off | Why::Frozen => true,
             Why::Kind
