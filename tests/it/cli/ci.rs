@@ -73,7 +73,7 @@ fn workflows_are_well_formed_and_their_commands_run() {
             count += 1;
         }
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 7);
 }
 
 /// What the hook that checks jobs leaves out are the files that are none.
