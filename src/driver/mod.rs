@@ -1,7 +1,7 @@
 //! The pipeline as one call: from a path and a loader to a checked program and its report, and from there to files.
 //!
 //! Pure: what it needs it asks of the [`Loader`], what it finds out it returns, and what a backend writes goes into the
-//! caller's [`Sink`].
+//! caller's [`Sink`](vcutc_backend_api::bundle::Sink).
 
 mod air;
 mod asked;
