@@ -44,9 +44,9 @@ pub fn too_large(job: &CheckedJob) -> Option<Diagnostic> {
 /// How far apart places are that have to be cut, in mm.
 fn apart(job: &CheckedJob, edge: f64) -> f64 {
     let (depth, top) = (job.stock.depth.to_mm(), job.stock.height.to_mm());
-    let cut = |point: &&Point2| top - point.z > edge.min(0.5 * (top - job.profile.lowest().z));
+    let height = top - job.profile.lowest().z;
+    let cut = |point: &&Point2| top - point.z > edge.min(0.5 * height);
     let xs = || job.profile.points().iter().filter(cut).map(|point| point.x);
     let width = xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min);
-    let height = top - job.profile.lowest().z;
     libm::hypot(depth, height.max(width.max(0.0)))
 }
