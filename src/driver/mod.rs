@@ -9,6 +9,7 @@ mod axis_moves;
 mod emitting;
 mod home;
 mod mount;
+mod narrower;
 mod reaching;
 mod refusal;
 mod target;
@@ -433,8 +434,25 @@ fn along_its_routes<'j>(
     kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Ended<'j> {
+    let mut yielding = Yielding::new(job, kept.wanted);
+    match first_followed(job, sources, &mut yielding, kept, progress) {
+        Ended::Compiled(plan, told, compiled) => {
+            let slower = narrower::Slower { plan, told, compiled };
+            narrower::or_with_a_narrower_swing(slower, job, sources, yielding, kept, progress)
+        }
+        ended @ (Ended::Refused(_) | Ended::Overtaken) => ended,
+    }
+}
+
+/// The first plan that the machine follows, of those that the job yields to.
+fn first_followed<'j>(
+    job: &'j CheckedJob,
+    sources: &SourceMap,
+    yielding: &mut Yielding<'_>,
+    kept: &mut Kept<'_>,
+    progress: &mut dyn FnMut(Stage),
+) -> Ended<'j> {
     let wanted = kept.wanted;
-    let mut yielding = Yielding::new(job, wanted);
     let mut refused: Option<Box<NotCarriedOut>> = None;
     let unreached = |refused: Box<NotCarriedOut>| Ended::Refused(Refused::Unreached(refused));
     // Limits that the first plan of a swing chose hold for all others, as if the job had set them.
@@ -490,8 +508,7 @@ fn along_its_routes<'j>(
                         .reached()
                         .and_then(|reached| axis_moves::many(job, reached)),
                 );
-                let mut compiled = compiled(job, program, &plan, proven.report, sources);
-                compiled.yielded = yielding.into_first();
+                let compiled = compiled(job, program, &plan, proven.report, sources);
                 return Ended::Compiled(Box::new(plan), told, Box::new(compiled));
             }
             Err(_) if wanted.is_needless() => return Ended::Overtaken,

@@ -28,6 +28,9 @@ const LEAST_PLANS: usize = 4;
 /// Most cuts of all plans together that are put to the machine, beyond [`LEAST_PLANS`].
 const MOST_CUTS_PUT: usize = 1_500;
 
+/// Narrower swings that are tried for a faster route, where a slower one is already followed.
+const MOST_FOR_A_FASTER_ROUTE: usize = 2;
+
 /// By which factor swings are narrowed while one is looked for whose telling motions are followed.
 const NARROWER: f64 = 0.95;
 
@@ -54,6 +57,8 @@ pub(super) struct Yielding<'j> {
     wanted: &'j Wanted,
     /// What was refused first.
     first: Option<Box<Yielded>>,
+    /// Narrower swings that were tried for the route of the first plan.
+    for_a_faster_route: usize,
 }
 
 /// Why nothing more is tried.
@@ -75,6 +80,7 @@ impl<'j> Yielding<'j> {
             ended: Ended::ByItself,
             wanted,
             first: None,
+            for_a_faster_route: 0,
         }
     }
 
@@ -86,6 +92,29 @@ impl<'j> Yielding<'j> {
     /// What is considered now.
     pub(super) const fn leeway(&self) -> Leeway {
         self.leeway
+    }
+
+    /// Goes on to a narrower swing with which the machine may follow the first plan's route, where a slower route came out.
+    /// None where no swing is open, the first plan is not one of routes, or enough was tried.
+    pub(super) fn narrow_for_a_faster_route(&mut self) -> Option<Leeway> {
+        let first = self.first.as_ref()?;
+        let is_tried = self.for_a_faster_route >= MOST_FOR_A_FASTER_ROUTE || self.cuts >= MOST_CUTS_PUT;
+        if is_tried || self.wanted.is_needless() {
+            return None;
+        }
+        let lack = match &first.unreachable.trouble {
+            trouble @ (Trouble::Motion { .. } | Trouble::NoCommonBranch { .. }) => lack(trouble),
+            Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => return None,
+        };
+        let is_begin = self.for_a_faster_route == 0;
+        if is_begin && (self.leeway.routes == Latitude::Full || self.leeway.swing.is_some()) {
+            return None;
+        }
+        let PlannedOperation::RoughVcut(vcut) = first.plan.operations.first()?;
+        let leeway = self.narrower_swing(&first.plan, lack, &[vcut.order])?;
+        self.for_a_faster_route += 1;
+        self.leeway = leeway;
+        Some(leeway)
     }
 
     /// Whether what the machine refuses now is what the job is told of: beyond it, the compiler helped itself.
@@ -136,7 +165,7 @@ impl<'j> Yielding<'j> {
         }
         let next = self.other_routes(plan).or_else(|| match trouble(unreached)? {
             trouble @ (Trouble::Motion { .. } | Trouble::NoCommonBranch { .. }) => {
-                self.narrower_swing(plan, lack(trouble))
+                self.narrower_swing(plan, lack(trouble), &[Order::Point, Order::Layer])
             }
             Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => None,
         });
@@ -165,9 +194,10 @@ impl<'j> Yielding<'j> {
         })
     }
 
-    /// The widest of some narrower swings whose telling motions are followed in some order.
-    fn narrower_swing(&self, plan: &PlannedJob, lack: Lack) -> Option<Leeway> {
-        let now = widest_open(plan)?;
+    /// The widest of some narrower swings whose telling motions are followed in one of these orders.
+    fn narrower_swing(&self, plan: &PlannedJob, lack: Lack, orders: &[Order]) -> Option<Leeway> {
+        let open = widest_open(plan)?;
+        let now = self.leeway.swing.map_or(open, |swing| swing.widest.min(open));
         let least = self.least_swing();
         let mut swing = now;
         loop {
@@ -175,11 +205,8 @@ impl<'j> Yielding<'j> {
             if swing < least || self.wanted.is_needless() {
                 return None;
             }
-            let orders = [Order::Point, Order::Layer];
-            if orders
-                .into_iter()
-                .any(|order| self.is_followed(plan, Some(order), Some(swing)))
-            {
+            let mut orders = orders.iter();
+            if orders.any(|&order| self.is_followed(plan, Some(order), Some(swing))) {
                 break;
             }
         }

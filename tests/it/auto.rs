@@ -1,6 +1,9 @@
 //! What `auto` chooses, compared with choices made by hand.
 
 use crate::pipeline::{Files, compile};
+use vcutc::driver::Compiled;
+use vcutc::job::Order;
+use vcutc::plan::PlannedOperation;
 
 /// A job of an arched part whose best lattice an earlier search missed: its even and odd rows end at different places.
 fn arched(lattice: &str, layer: &str, step: &str) -> String {
@@ -36,4 +39,53 @@ fn what_auto_chooses_is_no_slower_than_a_lattice_chosen_by_hand() {
     let by_hand = seconds("interlaced", "18.196 mm", "8.5 mm");
     let chosen = seconds("auto", "auto", "auto");
     assert!(chosen <= by_hand, "{chosen} s, by hand {by_hand} s");
+}
+
+/// A job whose arm follows its widest swings only V by V, which turns the blade in the work, and somewhat narrower ones layer by
+/// layer.
+fn leaning(order: &str) -> String {
+    format!(
+        r#"job "leaning"
+stock {{ size = (200 mm, 300 mm, 45 mm) }}
+profile {{ start (0 mm, 18 mm) bezier (60 mm, 40 mm) (120 mm, 44 mm) to (200 mm, 14 mm) }}
+blade k {{ cutting_length = 30 mm, half_apex = 8 deg, thickness = 1.5 mm, edges = double }}
+rough vcut {{
+  blade = k
+  rake = 60 deg
+  order = {order}
+  limits {{ scallop <= 6 mm }}
+  feed {{ cut = 200 mm/s, travel = 300 mm/s, reorient = 60 deg/s }}
+  clearance = 20 mm
+}}
+machine cell = robot "kuka/kr210_r3100_ultra" {{
+  tool = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  base = frame(x = 1700 mm, y = -700 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)
+  home = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
+}}
+"#
+    )
+}
+
+#[test]
+fn a_narrower_swing_is_taken_where_it_costs_less_than_a_slower_route() {
+    let compiled = |order| {
+        let outcome = compile(
+            "leaning.vcut",
+            &Files::default().with("leaning.vcut", leaning(order)),
+        );
+        let [PlannedOperation::RoughVcut(vcut)] = outcome.plan.unwrap().operations.try_into().unwrap();
+        (vcut, outcome.compiled.unwrap())
+    };
+    let (by_point, slower) = compiled("point");
+    let (chosen, faster) = compiled("auto");
+    assert_eq!((by_point.order, chosen.order), (Order::Point, Order::Layer));
+    assert!(chosen.parameters.swing < by_point.parameters.swing);
+    let seconds = |compiled: &Compiled| compiled.report.times.all.total().to_s();
+    let (slower, with_narrower) = (seconds(&slower), seconds(&faster));
+    assert!(
+        with_narrower < 0.95 * slower,
+        "{with_narrower} s, by point {slower} s"
+    );
+    // What the machine did not follow is what hints after the success start from.
+    assert!(faster.yielded.is_some());
 }

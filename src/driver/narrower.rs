@@ -1,0 +1,105 @@
+//! A narrower swing where the machine left a faster route out.
+//!
+//! Where the machine does not follow the fastest route, slower routes come first, since they leave the lattice as it is. But
+//! a narrower swing may let it follow the faster route, and cost less than the slower one. Both are compiled, and the
+//! faster is taken.
+
+use super::yielding::Yielding;
+use super::{Compiled, Ended, Kept, Stage, axis_moves, compiled, reaching};
+use crate::choice::{self, Leeway};
+use crate::diag::{Diagnostic, has_errors};
+use crate::job::{CheckedJob, Objective, Operation};
+use crate::plan::PlannedJob;
+use crate::reach::solve::Changes;
+use crate::source::SourceMap;
+use crate::verdict;
+use crate::wanted::Wanted;
+
+/// A plan that the machine follows along a slower route, perhaps.
+pub(super) struct Slower {
+    /// The plan.
+    pub(super) plan: Box<PlannedJob>,
+    /// Its warnings.
+    pub(super) told: Vec<Diagnostic>,
+    /// What came of it.
+    pub(super) compiled: Box<Compiled>,
+}
+
+/// This plan, or a faster one with a narrower swing along the route that was left out.
+pub(super) fn or_with_a_narrower_swing<'j>(
+    mut best: Slower,
+    job: &CheckedJob,
+    sources: &SourceMap,
+    mut yielding: Yielding<'_>,
+    kept: &mut Kept<'_>,
+    progress: &mut dyn FnMut(Stage),
+) -> Ended<'j> {
+    let is_for_time = |Operation::RoughVcut(asked): &Operation| asked.objective.value == Objective::Time;
+    if job.operations.iter().all(is_for_time) {
+        // Limits that the compiler chose are kept: what leaves more on the part is not faster.
+        let within = choice::settled(job, &best.plan).unwrap_or_else(|| job.clone());
+        while let Some(leeway) = yielding.narrow_for_a_faster_route() {
+            match faster(&best, (job, &within), leeway, sources, kept, progress) {
+                Tried::Faster(found) => {
+                    best = *found;
+                    break;
+                }
+                Tried::Slower => break,
+                Tried::NotFollowed => {}
+            }
+        }
+    }
+    if kept.wanted.is_needless() {
+        return Ended::Overtaken;
+    }
+    best.compiled.yielded = yielding.into_first();
+    Ended::Compiled(best.plan, best.told, best.compiled)
+}
+
+/// What came of a narrower swing.
+enum Tried {
+    /// It is faster.
+    Faster(Box<Slower>),
+    /// It is not, or there is no such plan.
+    Slower,
+    /// The machine does not follow it.
+    NotFollowed,
+}
+
+fn faster(
+    than: &Slower,
+    (job, within): (&CheckedJob, &CheckedJob),
+    leeway: Leeway,
+    sources: &SourceMap,
+    kept: &mut Kept<'_>,
+    progress: &mut dyn FnMut(Stage),
+) -> Tried {
+    progress(Stage::Planning);
+    let Ok(plan) = kept.memory.choose(within, leeway, kept.wanted) else {
+        return Tried::Slower;
+    };
+    let plan = reaching::as_asked(plan, job);
+    progress(Stage::Proving);
+    let Ok(proven) = verdict::prove(&plan, sources) else {
+        return Tried::Slower;
+    };
+    let mut told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never());
+    let time = than.compiled.report.times.all.total();
+    if has_errors(&told) || proven.report.times.all.total() >= time {
+        return Tried::Slower;
+    }
+    let Ok(program) = reaching::reach(job, proven.program, Changes::InTheAir, kept, progress) else {
+        return Tried::NotFollowed;
+    };
+    let reached = program.reached();
+    told.extend(reached.and_then(|reached| axis_moves::many(job, reached)));
+    let compiled = compiled(job, program, &plan, proven.report, sources);
+    if compiled.report.times.all.total() >= time {
+        return Tried::Slower;
+    }
+    Tried::Faster(Box::new(Slower {
+        plan: Box::new(plan),
+        told,
+        compiled: Box::new(compiled),
+    }))
+}
