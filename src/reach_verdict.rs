@@ -1,5 +1,6 @@
 //! What keeps a machine from a program, in the words of the job: which cut, which axis, by how much, what to change.
 
+mod outside;
 mod posture;
 mod size;
 
@@ -21,7 +22,8 @@ use crate::remedy;
 use crate::source::Span;
 use crate::wanted::Wanted;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Axis, MachineKind, OpId, OrientationId, Program, Site};
+use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, OrientationId, Program, Site};
+use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
@@ -38,7 +40,7 @@ pub fn diagnose(
         return Vec::new();
     };
     let scene = Scene::of(job, machine, unreachable);
-    if let Some(diagnostic) = scene.lacks_an_axis(&unreachable.trouble) {
+    if let Some(diagnostic) = scene.of_the_job_alone(&unreachable.trouble) {
         return vec![diagnostic];
     }
     let diagnostic = scene.trouble(&unreachable.trouble);
@@ -55,8 +57,8 @@ pub fn diagnose(
 #[must_use]
 pub fn at_once(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic> {
     let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
-    let lacks = scene.lacks_an_axis(&unreachable.trouble);
-    Some(lacks.unwrap_or_else(|| {
+    let alone = scene.of_the_job_alone(&unreachable.trouble);
+    Some(alone.unwrap_or_else(|| {
         scene
             .trouble(&unreachable.trouble)
             .help(scene.general(unreachable))
@@ -68,8 +70,8 @@ pub fn at_once(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic
 #[must_use]
 pub fn in_words(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic> {
     let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
-    let lacks = scene.lacks_an_axis(&unreachable.trouble);
-    Some(lacks.unwrap_or_else(|| scene.trouble(&unreachable.trouble)))
+    let alone = scene.of_the_job_alone(&unreachable.trouble);
+    Some(alone.unwrap_or_else(|| scene.trouble(&unreachable.trouble)))
 }
 
 /// A job, its machine and the program made of it.
@@ -98,13 +100,19 @@ impl<'s> Scene<'s> {
                 Violation::Limit { .. } => {
                     "turn or shift the work with `base`, so that this axis stays in its range".to_owned()
                 }
-                Violation::Rate { .. } => {
+                Violation::Rate { axis, .. } => {
                     let slow_enough = self
                         .slow_enough(failing, hardest.as_ref())
                         .map_or_else(String::new, |speed| format!(" (this motion needs {speed} or less)"));
-                    format!(
-                        "lower this speed{slow_enough}, or shift the work with `base` to where the axis turns less"
-                    )
+                    // How far a linear axis travels for a cut does not depend on where the work lies.
+                    let is_linear = self.axis(axis).is_some_and(|axis| axis.kind == AxisKind::Linear);
+                    let or_else = match self.stroke(failing.op).map(|stroke| stroke.pace) {
+                        Some(Pace::Feed(_)) if is_linear => "",
+                        Some(Pace::Feed(_) | Pace::Rate(_)) | None => {
+                            ", or shift the work with `base` to where the axis turns less"
+                        }
+                    };
+                    format!("lower this speed{slow_enough}{or_else}")
                 }
                 Violation::Singular(_) => {
                     "shift or turn the work with `base`, or tilt the tool in its mount, so that the arm stays bent"
@@ -173,6 +181,25 @@ impl<'s> Scene<'s> {
         }
     }
 
+    /// What no place of the work mends: a posture that a five-axis machine cannot hold, or a length that carries the blade away.
+    fn of_the_job_alone(&self, trouble: &Trouble) -> Option<Diagnostic> {
+        self.lacks_an_axis(trouble).or_else(|| self.far_outside(trouble))
+    }
+
+    fn far_outside(&self, trouble: &Trouble) -> Option<Diagnostic> {
+        let failing = match trouble {
+            Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => failing,
+            Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => return None,
+        };
+        match failing.worst.what {
+            Violation::OutOfReach | Violation::Limit { .. } => {}
+            Violation::Rate { .. } | Violation::Singular(_) => return None,
+        }
+        let op = self.program.ops.get(failing.op.0 as usize)?;
+        let place = self.place(failing.op);
+        outside::far_outside(self.job, &place, op, self.tip(failing.op)?)
+    }
+
     /// A posture that a five-axis machine cannot hold wherever the work is.
     fn lacks_an_axis(&self, trouble: &Trouble) -> Option<Diagnostic> {
         let failing = match trouble {
@@ -210,8 +237,10 @@ impl<'s> Scene<'s> {
         };
         let diagnostic = diagnostic.note(at);
         let diagnostic = match failing.branch {
-            Some(branch) => diagnostic.note(format!("tried with {}", branch_words(branch))),
-            None => diagnostic,
+            Some(branch @ Branch::Arm { .. }) => {
+                diagnostic.note(format!("tried with {}", branch_words(branch)))
+            }
+            Some(Branch::Numbered(_)) | None => diagnostic,
         };
         let diagnostic = match hardest {
             Some(hardest) => diagnostic.note(self.hardest(hardest)),
@@ -238,8 +267,14 @@ impl<'s> Scene<'s> {
             (MachineKind::Robot, Some(tip)) => {
                 let rig = Rig::new(model, tool, self.machine.base.value.frame);
                 let (there, tool) = (rig.point_in_root(tip), tool.origin);
-                let distance = libm::hypot(there.x, there.y);
-                if distance <= reach + libm::hypot(libm::hypot(tool.x, tool.y), tool.z) {
+                let aside = libm::hypot(there.x, there.y);
+                // No arm stands higher than half its reach.
+                let (distance, within) = if there.z.abs() > 1.5 * reach {
+                    (libm::hypot(aside, there.z), 1.5 * reach)
+                } else {
+                    (aside, reach)
+                };
+                if distance <= within + libm::hypot(libm::hypot(tool.x, tool.y), tool.z) {
                     return either;
                 }
                 format!(

@@ -35,6 +35,7 @@ use crate::plan::PlannedJob;
 use crate::reach::solve::Reached;
 use crate::reach_summary::{self, ReachFigures};
 use crate::reach_verdict;
+use crate::remedy;
 use crate::sema;
 use crate::sim::report::Report;
 use crate::sim::timing::times;
@@ -513,7 +514,7 @@ fn first_followed<'j>(
             }
             Err(_) if wanted.is_needless() => return Ended::Overtaken,
             Err(why) => {
-                if let Some(roomier) = reaching::farther_out(settled.as_ref().unwrap_or(job), &plan, &why) {
+                if let Some(roomier) = remedy::farther_out(settled.as_ref().unwrap_or(job), &plan, &why) {
                     settled = Some(roomier);
                     refused = refused.or(Some(Box::new(NotCarriedOut {
                         plan,

@@ -2,14 +2,11 @@
 //! the job allows its blade, and cuts that run out as far as those turns need.
 
 use super::{Finished, Kept, Stage};
-use crate::job::{Auto, CheckedJob, Operation};
-use crate::plan::{PlannedJob, PlannedOperation, grid};
+use crate::job::{CheckedJob, Operation};
+use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::reorient::slowed;
 use crate::reach::solve::{Changes, Unreached};
-use crate::reach::sweep::Cure;
-use crate::reach::trouble::Trouble;
 use vcutc_backend_api::ir::MachineKind;
-use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 
 /// Finds how the job's machine carries out its program; a job without a machine has nothing to find.
@@ -36,38 +33,6 @@ pub(super) fn reach(
         reached = kept.memory.reach(slowed, &machine.model, changes, kept.wanted)?;
     }
     Ok(Finished::Reached(Box::new(reached)))
-}
-
-/// The job with the extension that the turns of its machine need, and `run_out` besides. None where something else is in the
-/// way, or the job states the extension itself.
-pub(super) fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Option<CheckedJob> {
-    let unreachable = match why {
-        Unreached::Unreachable(unreachable) => unreachable,
-        Unreached::Rules(_) | Unreached::Motion(_) => return None,
-    };
-    let sweep = match &unreachable.trouble {
-        Trouble::Sweep(sweep) => sweep,
-        Trouble::Motion { .. } | Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Nowhere => {
-            return None;
-        }
-    };
-    let by = match sweep.cure {
-        Cure::FartherOut(by) => by,
-        Cure::HigherUp(_) | Cure::Unknown => return None,
-    };
-    let program = unreachable.program.program();
-    let operation = program.ops.get(sweep.op.0 as usize)?.site.operation()?;
-    let place = usize::from(operation.0);
-    let PlannedOperation::RoughVcut(vcut) = plan.operations.get(place)?;
-    let mut roomier = job.clone();
-    let Operation::RoughVcut(asked) = roomier.operations.get_mut(place)?;
-    match asked.extension.value {
-        Auto::Auto => {}
-        Auto::Given(_) => return None,
-    }
-    let needed = vcut.parameters.extension + by + asked.run_out.value;
-    asked.extension.value = Auto::Given(Length::mm(grid::up(needed.to_mm())));
-    Some(roomier)
 }
 
 /// A plan whose extensions are still the compiler's choice where the job leaves them open, though the turns have decided them.

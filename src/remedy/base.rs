@@ -4,6 +4,7 @@
 //! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
 
 use super::{Case, Remedy, trial, wording};
+use crate::job::Machine;
 use crate::plan::parameters::show;
 use crate::reach::place::score::{Effort, Judge};
 use crate::reach::place::search::ask_all;
@@ -11,9 +12,10 @@ use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::reach::trouble::Trouble;
+use crate::source::Span;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
-use vcutc_backend_api::ir::{MachineKind, PlacedFrame};
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::ir::PlacedFrame;
+use vcutc_backend_api::units::Angle;
 
 /// How far the base is moved along a direction, in mm.
 const DISTANCES: [f64; 14] = [
@@ -36,9 +38,9 @@ const SPREAD: usize = 4;
 
 /// A change of the base: by these mm along the root's axes, and turned by these degrees about its z.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Shift {
-    by: [f64; 3],
-    turn: f64,
+pub(super) struct Shift {
+    pub(super) by: [f64; 3],
+    pub(super) turn: f64,
 }
 
 impl Shift {
@@ -49,7 +51,7 @@ impl Shift {
     }
 
     /// What a move of the base is called.
-    fn how(&self) -> String {
+    pub(super) fn how(&self) -> String {
         let parts = ["x", "y", "z"]
             .into_iter()
             .zip(self.by)
@@ -82,51 +84,7 @@ pub(super) fn moved(case: &mut Case<'_>) -> Option<Remedy> {
     Some(remedy(case, &elsewhere))
 }
 
-/// Distances of the work's middle from the first axis of an arm, as shares of its reach, the farthest first.
-const AWAY: [f64; 6] = [0.74, 0.66, 0.58, 0.5, 0.42, 0.35];
-/// How far the work is lifted or lowered there, in mm.
-const LIFTS: [f64; 5] = [0.0, 200.0, -200.0, 400.0, -400.0];
-
-/// The base straight towards an arm that the work is far away from: so far that steps around the present place lead nowhere.
-pub(super) fn nearer(case: &mut Case<'_>) -> Option<Remedy> {
-    let model = &case.machine.model;
-    let (middle, reach) = (middle_in_root(case), model.reach());
-    let distance = libm::hypot(middle.x, middle.y);
-    if model.kind() != MachineKind::Robot || distance <= reach {
-        return None;
-    }
-    // Whole centimetres: nobody measures a place of the work in its cell finer than that.
-    let tens = |value: f64| (value / 10.0).round() * 10.0;
-    let towards = |share: f64| {
-        let way = (share * reach - distance) / distance;
-        [tens(middle.x * way), tens(middle.y * way)]
-    };
-    let shifts = AWAY.map(towards).into_iter().flat_map(|[x, y]| {
-        LIFTS.map(|lift| Shift {
-            by: [x, y, lift],
-            turn: 0.0,
-        })
-    });
-    let (shift, base) = nearest(case, shifts.collect(), |mut shifts| {
-        shifts.retain(|shift| shift.by[2] == 0.0);
-        shifts
-    })?;
-    let elsewhere = Elsewhere {
-        how: shift.how(),
-        base,
-    };
-    Some(remedy(case, &elsewhere))
-}
-
-/// The middle of the stock, seen from the machine's root.
-fn middle_in_root(case: &Case<'_>) -> Point3 {
-    let stock = case.unreachable.program.program().stock;
-    let half = |size: Length| size.to_mm() / 2.0;
-    let middle = Point3::new(half(stock.width), half(stock.depth), half(stock.height));
-    rig(case).point_in_root(middle)
-}
-
-fn rig<'c>(case: &Case<'c>) -> Rig<'c> {
+pub(super) fn rig<'c>(case: &Case<'c>) -> Rig<'c> {
     let machine = case.machine;
     Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame)
 }
@@ -173,10 +131,19 @@ pub(super) fn turned_to(case: &mut Case<'_>) -> Option<Elsewhere> {
     })
 }
 
-fn remedy(case: &Case<'_>, elsewhere: &Elsewhere) -> Remedy {
+pub(super) fn remedy(case: &Case<'_>, elsewhere: &Elsewhere) -> Remedy {
     let Elsewhere { how, base } = elsewhere;
-    let text = wording::frame_text(base);
-    Remedy::replace(format!("{how}: `base = {text}`"), case.machine.base.span, text)
+    let advice = format!("{how}: `base = {}`", wording::frame_text(base));
+    Remedy {
+        advice,
+        edits: stated(case.machine, base),
+    }
+}
+
+/// What to write where, so that the base is there. Nothing where it does not stand in a file.
+fn stated(machine: &Machine, base: &PlacedFrame) -> Vec<(Span, String)> {
+    let span = machine.base.span.into_iter();
+    span.map(|span| (span, wording::frame_text(base))).collect()
 }
 
 /// The motion that fails.
@@ -198,7 +165,7 @@ fn along_one_axis(shifts: Vec<Shift>) -> Vec<Shift> {
 
 /// The nearest of these places that carries out the whole program. `thinned` leaves the few of them, in order, that are worth asking
 /// a machine about whose poses are searched for numerically.
-fn nearest(
+pub(super) fn nearest(
     case: &mut Case<'_>,
     mut shifts: Vec<Shift>,
     thinned: impl FnOnce(Vec<Shift>) -> Vec<Shift>,
@@ -249,7 +216,9 @@ fn nearest(
                 frame: shift.of(&now.frame),
                 ..now
             };
-            if let Some(Ok(_)) = trial::with_base(case.plan, base, case.wanted) {
+            let there = trial::with_base(case.plan, base, case.wanted);
+            // There, the job may yield to its machine in another way than here.
+            if matches!(there, Some(Ok(_))) || (case.works)(&stated(case.machine, &base)) {
                 return Some((*shift, base));
             }
             failed_at = shift.size();

@@ -15,13 +15,16 @@
 //! other kinds is tried then, too.
 
 mod base;
+mod extension;
 mod home;
+mod nearer;
 mod process;
 pub mod speed;
 pub mod trial;
 pub mod wording;
 
 pub use base::Elsewhere;
+pub use extension::farther_out;
 
 use crate::diag::Diagnostic;
 use crate::job::{CheckedJob, Direction, Machine, RoughVcut};
@@ -165,7 +168,7 @@ pub fn elsewhere_for(
         unreachable,
         tries_left: tries(plan),
         wanted,
-        works: &mut |_| true,
+        works: &mut |_| false,
     };
     base::moved_to(&mut case).or_else(|| base::turned_to(&mut case))
 }
@@ -184,8 +187,16 @@ fn tried<'c>(case: &mut Case<'c>, find: impl FnOnce(&mut Case<'c>) -> Option<Rem
 
 /// Lower speeds, and where they would be far lower, another posture before them.
 fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
-    let lowered = speed::lowered(case);
-    let lowered = lowered.and_then(|(remedy, loss)| Some((case.confirmed(remedy)?, loss)));
+    let confirmed = |case: &mut Case<'_>, lowered: Option<(Remedy, speed::Loss)>| {
+        let (remedy, loss) = lowered?;
+        Some((case.confirmed(remedy)?, loss))
+    };
+    // One speed is compiled soonest. Without a place in a file there is nothing to compile.
+    let at_once = speed::of_a_linear_axis(case).filter(|(remedy, _)| !remedy.edits.is_empty());
+    let lowered = confirmed(case, at_once).or_else(|| {
+        let lowered = speed::lowered(case);
+        confirmed(case, lowered)
+    });
     match lowered {
         Some((remedy, speed::Loss::Bearable)) => {
             let base = tried(case, base::moved);
@@ -204,7 +215,7 @@ fn slower(case: &mut Case<'_>) -> Vec<Remedy> {
 /// The same cuts in another way, cuts that ask less of the arm, or the work in another place: one of each kind.
 fn elsewhere(case: &mut Case<'_>) -> Vec<Remedy> {
     // Where the work is out of all reach, neither its cuts nor small steps matter.
-    if let Some(nearer) = tried(case, base::nearer) {
+    if let Some(nearer) = tried(case, nearer::nearer) {
         return vec![nearer];
     }
     let way = tried(case, process::other_direction).or_else(|| tried(case, process::other_order));

@@ -11,10 +11,12 @@ use crate::machine::Model;
 use crate::plan::parameters::show;
 use crate::reach::demand::Demand;
 use crate::reach::legs::{Leg, Pace, legs};
+use crate::reach::path::Violation;
+use crate::reach::trouble::Trouble;
 use crate::source::Span;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use vcutc_backend_api::ir::{Action, MOST_AXES, OpId, Program};
+use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
 
 /// What a lower speed costs.
@@ -77,6 +79,32 @@ type Speeds = BTreeMap<(u16, Field), f64>;
 const MOST_STEPS: u32 = 6;
 /// Below this share of what was asked for a loss is severe.
 const SEVERE: f64 = 0.25;
+
+/// The highest speed at which the motion that lacks most is followed, where a linear axis paces it: others need as much of it, but
+/// for turns. What a rotary axis needs differs from motion to motion.
+pub(super) fn of_a_linear_axis(case: &Case<'_>) -> Option<(Remedy, Loss)> {
+    let failing = match &case.unreachable.trouble {
+        Trouble::Motion { failing, hardest, .. } => hardest.as_ref().unwrap_or(failing),
+        Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => {
+            return None;
+        }
+    };
+    let share = match failing.worst.what {
+        Violation::Rate { axis, rate } => {
+            let axes = &case.machine.model.axes;
+            let axis = axes.get(axis).filter(|axis| axis.kind == AxisKind::Linear)?;
+            rate / axis.rate?
+        }
+        Violation::OutOfReach | Violation::Limit { .. } | Violation::Singular(_) => return None,
+    };
+    let program = case.unreachable.program.program();
+    let field = pacing(program, failing.op)?;
+    let operation = program.ops.get(failing.op.0 as usize)?.site.operation()?;
+    let asked = asked(&case.job.operations, operation.0)?;
+    let speed = lower(field.value(asked) / share)?;
+    let speeds = Speeds::from([((operation.0, field), speed)]);
+    remedy(&case.job.operations, &speeds)
+}
 
 /// The highest speeds with which the job compiles.
 pub(super) fn lowered(case: &mut Case<'_>) -> Option<(Remedy, Loss)> {

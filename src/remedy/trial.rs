@@ -1,6 +1,6 @@
 //! Trials: a changed job through the whole pipeline.
 
-use super::Case;
+use super::{Case, farther_out};
 use crate::job::{CheckedJob, Machine};
 use crate::lower;
 use crate::machine::Model;
@@ -18,6 +18,9 @@ use crate::wanted::Wanted;
 use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 
+/// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.
+const MOST_EXTENSIONS: usize = 3;
+
 /// What room a program leaves its machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Room {
@@ -31,23 +34,29 @@ pub struct Room {
 pub(super) fn whole(case: &Case<'_>, change: impl FnOnce(&mut CheckedJob)) -> Option<Reached> {
     let mut changed = case.job.clone();
     change(&mut changed);
-    let (_, proven) = verdict::sound(&changed, case.wanted)?;
-    let machine = changed.machine.as_ref()?;
+    for _ in 0..MOST_EXTENSIONS {
+        let (plan, why) = match carried_out(case, &changed)? {
+            Ok(reached) => return Some(reached),
+            Err(refused) => *refused,
+        };
+        changed = farther_out(&changed, &plan, &why)?;
+    }
+    None
+}
+
+/// A job through the whole pipeline. None where it is not sound, or a few of its motions say that it is not followed.
+fn carried_out(case: &Case<'_>, job: &CheckedJob) -> Option<Result<Reached, Box<(PlannedJob, Unreached)>>> {
+    let (plan, proven) = verdict::sound(job, case.wanted)?;
+    let machine = job.machine.as_ref()?;
     // A program that fails as a whole is dear to refute, for every branch is proven from end to end. A few motions usually
     // say as much.
     let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
     if !Strokes::of(proven.program.program()).are_each_followed(&rig) {
         return None;
     }
-    let changes = Changes::Never;
-    solve_while(
-        proven.program,
-        &machine.model,
-        &LEAST_CLEARANCE,
-        changes,
-        case.wanted,
-    )
-    .ok()
+    let (model, changes) = (&machine.model, Changes::Never);
+    let reached = solve_while(proven.program, model, &LEAST_CLEARANCE, changes, case.wanted);
+    Some(reached.map_err(|why| Box::new((plan, why))))
 }
 
 /// The plan on its machine with the base elsewhere.

@@ -1,0 +1,41 @@
+//! Extensions that the turns of a five-axis machine need.
+
+use crate::job::{Auto, CheckedJob, Operation};
+use crate::plan::{PlannedJob, PlannedOperation, grid};
+use crate::reach::solve::Unreached;
+use crate::reach::sweep::Cure;
+use crate::reach::trouble::Trouble;
+use vcutc_backend_api::units::Length;
+
+/// The job with the extension that the turns of its machine need, and `run_out` besides. None where something else is in the
+/// way, or the job states the extension itself.
+#[must_use]
+pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Option<CheckedJob> {
+    let unreachable = match why {
+        Unreached::Unreachable(unreachable) => unreachable,
+        Unreached::Rules(_) | Unreached::Motion(_) => return None,
+    };
+    let sweep = match &unreachable.trouble {
+        Trouble::Sweep(sweep) => sweep,
+        Trouble::Motion { .. } | Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Nowhere => {
+            return None;
+        }
+    };
+    let by = match sweep.cure {
+        Cure::FartherOut(by) => by,
+        Cure::HigherUp(_) | Cure::Unknown => return None,
+    };
+    let program = unreachable.program.program();
+    let operation = program.ops.get(sweep.op.0 as usize)?.site.operation()?;
+    let place = usize::from(operation.0);
+    let PlannedOperation::RoughVcut(vcut) = plan.operations.get(place)?;
+    let mut roomier = job.clone();
+    let Operation::RoughVcut(asked) = roomier.operations.get_mut(place)?;
+    match asked.extension.value {
+        Auto::Auto => {}
+        Auto::Given(_) => return None,
+    }
+    let needed = vcut.parameters.extension + by + asked.run_out.value;
+    asked.extension.value = Auto::Given(Length::mm(grid::up(needed.to_mm())));
+    Some(roomier)
+}
