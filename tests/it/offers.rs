@@ -1,8 +1,10 @@
 //! Values that are offered are near the largest or least that works: found again by compiling what lies beside them.
 
+use crate::help::patiently;
 use crate::pipeline::{Files, compile, numbers, told};
 use vcutc::diag::Diagnostic;
 use vcutc::driver::Outcome;
+use vcutc::wanted::Wanted;
 
 const JOB: &str = "job.vcut";
 
@@ -149,10 +151,9 @@ fn values_are_left_to_the_compiler_one_by_one_first() {
 /// A swing that is open is not said to be too wide.
 #[test]
 fn advice_names_only_what_the_job_states() {
-    let text =
-        with("swing = 35 deg", "layer = 1 mm").replace("scallop <= 6 mm", "scallop <= 3 mm, swing >= 60 deg");
-    let outcome = compiled(&text);
-    assert!(outcome.compiled.is_none());
-    let said = told(&outcome.diagnostics, &outcome);
-    assert!(!said.contains("use a smaller `swing`"), "{said}");
+    let text = with("swing = 35 deg", "layer = 0.1 mm");
+    let (_, at_once, _) = patiently(&text, Wanted::never());
+    assert_eq!(numbers(&at_once), ["VC0403"]);
+    let help = at_once[0].help.join("; ");
+    assert!(help.contains("`layer`") && !help.contains("swing"), "{help}");
 }
