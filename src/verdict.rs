@@ -10,7 +10,7 @@ mod stays;
 
 pub use stays::{Compile, much_stays};
 
-use crate::choice::{Effort, Latitude};
+use crate::choice::{Effort, Latitude, WorksThere};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::curve::Point2;
 use crate::job::{CheckedJob, RoughVcut};
@@ -91,16 +91,18 @@ pub fn bounds(plan: &PlannedJob) -> Vec<Bound<'_>> {
 /// Puts everything that is wrong with a proven program into words.
 #[must_use]
 pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Diagnostic> {
-    diagnose_while(job, plan, proven, &Wanted::ALWAYS)
+    diagnose_while(job, plan, proven, &Wanted::ALWAYS, &mut |_| true)
 }
 
 /// As [`diagnose`] while that is wanted: no more changes are tried afterwards, which may then be missing ([`Wanted::answer`]).
+/// Of the values that prove, one is offered with which those who come after planning agree.
 #[must_use]
 pub fn diagnose_while(
     job: &CheckedJob,
     plan: &PlannedJob,
     proven: &Proven,
     wanted: &Wanted,
+    works_there: &mut WorksThere<'_>,
 ) -> Vec<Diagnostic> {
     let case = Case { job, wanted };
     let mut effort = Effort::OF_A_REFUSAL;
@@ -121,6 +123,7 @@ pub fn diagnose_while(
                         &mut Attempts::new(case, finding.operation, &mut effort),
                         vcut,
                         chips,
+                        works_there,
                     )
                 }
                 CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
@@ -189,7 +192,12 @@ struct Chips {
     available: Length,
 }
 
-fn not_freed(attempts: &mut Attempts<'_>, vcut: &PlannedVcut, chips: Chips) -> Diagnostic {
+fn not_freed(
+    attempts: &mut Attempts<'_>,
+    vcut: &PlannedVcut,
+    chips: Chips,
+    works_there: &mut WorksThere<'_>,
+) -> Diagnostic {
     let Chips {
         finding,
         count,
@@ -210,7 +218,7 @@ fn not_freed(attempts: &mut Attempts<'_>, vcut: &PlannedVcut, chips: Chips) -> D
     // Rounded up: 10.003 mm is not 10 mm.
     let needed = show((needed.to_mm() * 1000.0).ceil() / 1000.0);
     let layer = show(vcut.parameters.layer.to_mm());
-    let remedy = chips::remedy(attempts, vcut);
+    let remedy = chips::remedy(attempts, vcut, works_there);
     let (span, label) = match (&remedy, asked.step.span, asked.layer.span) {
         (Some(Remedy::Step(_) | Remedy::OpenStep), Some(span), _) => (
             span,
@@ -254,20 +262,12 @@ fn not_freed(attempts: &mut Attempts<'_>, vcut: &PlannedVcut, chips: Chips) -> D
             Some(span) => diagnostic.fix("let the compiler choose the step: `auto`", span, "auto"),
             None => diagnostic.help("leave the `step` `auto`"),
         },
-        Some(Remedy::LargestLayer(layer)) => {
-            let value = format!("{} mm", show(layer.to_mm()));
-            let advice = format!("use a `layer` of at most {value}");
+        Some(Remedy::Layer(layer)) => {
+            let value = chips::written(layer);
+            let advice = format!("use a `layer` of {value}");
             match asked.layer.span {
                 Some(span) => diagnostic.fix(advice, span, value),
                 None => diagnostic.help(advice),
-            }
-        }
-        Some(Remedy::SmallerLayer(layer)) => {
-            let value = format!("{} mm", show(layer.to_mm()));
-            let diagnostic = diagnostic.help(format!("use a `layer` of {value}"));
-            match asked.layer.span {
-                Some(span) => diagnostic.fix("use a layer that works", span, value),
-                None => diagnostic,
             }
         }
         Some(Remedy::ResidualMixed) => {
@@ -283,7 +283,7 @@ fn not_freed(attempts: &mut Attempts<'_>, vcut: &PlannedVcut, chips: Chips) -> D
                 None => diagnostic.help("add `residual = mixed`, which mends such cuts"),
             }
         }
-        Some(Remedy::AllOpen(offer)) => diagnostic.fix_all(offer.title, &offer.edits),
+        Some(Remedy::Opened(offer)) => diagnostic.fix_all(offer.title, &offer.edits),
         None => diagnostic.help("use a longer blade, a smaller `swing` or a smaller `step`"),
     }
 }

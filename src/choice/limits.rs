@@ -92,7 +92,7 @@ pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
     Refused {
         told: found(vcut, excess),
         ladders: vec![ladder],
-        resort: Offer::all_open(asked),
+        resort: Offer::openings(asked),
         otherwise: Some("widen the limit, or leave more of the parameters `auto`".to_owned()),
     }
 }

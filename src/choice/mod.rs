@@ -30,7 +30,7 @@ pub use leeway::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 
 use crate::diag::Diagnostic;
 use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
-use crate::plan::decision::{Candidate, Decision, Standing};
+use crate::plan::decision::{Candidate, Decision, Excess, Standing};
 use crate::plan::parameters::{Refusal, VcutParameters};
 use crate::plan::refusal::Refused;
 use crate::plan::residual::Strategies;
@@ -300,8 +300,7 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
         return Ok(first);
     };
     if trial::is_searched(asked) {
-        let kept = any_within_limits(bench, asked, cuts_left);
-        return kept.ok_or_else(|| limits::complaint(&first.vcut, broken).into());
+        return kept_by_any(bench, asked, (first, broken), cuts_left);
     }
     let (mut assumed, mut by) = (asked.clone(), broken);
     for _ in 0..limits::MOST_TIGHTENED {
@@ -316,6 +315,41 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
         }
     }
     Err(limits::complaint(&first.vcut, broken).into())
+}
+
+/// A plan that keeps the limits on time and cuts where the best one that was searched for within them does not: the best one
+/// of all if that keeps them, for the search goes on from one sound plan to the next, and limits take some of them away; else
+/// any. Of the plans that break them, the one that comes nearest is what there is to tell of.
+fn kept_by_any(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    (first, broken): (LaidOut, Excess),
+    cuts_left: usize,
+) -> Result<LaidOut, Unplanned> {
+    let free = best_lattice(bench, &limits::of_plans(asked), cuts_left).ok();
+    let free = free.and_then(|laid| {
+        let limit = asked.limits.scallop.map(|limit| limit.value);
+        let weighed = bench.weigh(laid).held_to(limit, &limits::of_plans(asked));
+        let is_sound = weighed.standing.time().is_some();
+        let mut laid = weighed.laid;
+        laid.vcut.asked.limits = asked.limits;
+        is_sound.then_some(laid)
+    });
+    let still = free
+        .as_ref()
+        .map(|laid| limits::broken(bench.job, asked, &laid.vcut));
+    if let (Some(laid), Some(None)) = (&free, &still) {
+        return Ok(laid.clone());
+    }
+    if let Some(kept) = any_within_limits(bench, asked, cuts_left) {
+        return Ok(kept);
+    }
+    Err(match (free, still.flatten()) {
+        (Some(laid), Some(excess)) if excess.share() < broken.share() => {
+            limits::complaint(&laid.vcut, excess).into()
+        }
+        (Some(_) | None, _) => limits::complaint(&first.vcut, broken).into(),
+    })
 }
 
 /// The operation with any parameters whose plan keeps all limits: what is held to them from the start goes other ways than what

@@ -100,12 +100,9 @@ fn with_what_works(
     if !diagnostic.fixes.is_empty() {
         return diagnostic;
     }
-    if let Some(offer) = resort {
-        match attempt(&offer, effort) {
-            Attempt::Works => return diagnostic.fix_all(offer.title, &offer.edits),
-            Attempt::Fails => failed.push(offer.title),
-            Attempt::LeftOut => {}
-        }
+    match first_that_works(resort, effort, &mut attempt) {
+        Ok(offer) => return diagnostic.fix_all(offer.title, &offer.edits),
+        Err(titles) => failed.extend(in_short(&titles)),
     }
     let diagnostic = match failed.as_slice() {
         [] => diagnostic,
@@ -138,6 +135,9 @@ fn in_short(titles: &[String]) -> Option<String> {
     }
 }
 
+/// What one offer may spend at least of what its ladder has left: one part of so many.
+const LARGEST_SHARE: usize = 8;
+
 /// The first offer that works, or the titles of those that do not.
 fn first_that_works(
     ladder: Ladder,
@@ -147,7 +147,8 @@ fn first_that_works(
     let mut rest = ladder.len();
     let mut failed = Vec::new();
     for offer in ladder {
-        let mut part = effort.part(rest);
+        // The first ones are the nearest, and may cost more.
+        let mut part = effort.part(rest.min(LARGEST_SHARE));
         rest -= 1;
         let came = attempt(&offer, &mut part);
         effort.give_back(&part);
@@ -179,6 +180,25 @@ pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, e
     }
     let (assumed, lattices) = (as_time(asked), parameters::open_lattices(asked));
     any(bench, &assumed, &lattices, cuts_left, effort, &mut Vec::new()).is_some()
+        || keeps_what_the_best_plan_needs(bench, asked, cuts_left, effort)
+}
+
+/// Whether the choice keeps limits on time and cuts that a search for any plan does not: the best plan of all may do.
+fn keeps_what_the_best_plan_needs(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    cuts_left: usize,
+    effort: &mut Effort,
+) -> bool {
+    let is_limited = asked.limits.time.is_some() || asked.limits.cuts.is_some();
+    if !is_limited || bench.wanted.is_needless() {
+        return false;
+    }
+    let Ok(laid) = within_limits(bench, asked, cuts_left) else {
+        return false;
+    };
+    effort.spend(laid.vcut.cuts.len());
+    keeps_all(bench.weigh(laid), asked)
 }
 
 /// Whether an operation has more cuts by the model than may be planned.

@@ -367,7 +367,7 @@ fn end(diagnostics: &[Diagnostic], made: &Made, console: &Console) -> End {
         _ if console.warnings().refuse(diagnostics) => End::Failed,
         Some(true) => End::Different,
         Some(false) => End::Unchanged,
-        None if made.placed.iter().any(|file| matches!(file, Placed::Written(_))) => End::Written,
+        None if made.placed.iter().any(Placed::is_new) => End::Written,
         None => End::Unchanged,
     }
 }

@@ -19,6 +19,7 @@ use crate::memory::Memory;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
+use vcutc_backend_api::ir::AIR_ENDING;
 use vcutc_backend_api::units::Length;
 
 /// What is made of a job.
@@ -111,12 +112,12 @@ pub(super) fn check(args: &CheckArgs, targets: &Targets, console: &Console) -> E
 }
 
 /// A program for a target, to be written.
-pub(super) fn program_of(
+pub(super) fn program_of<'d>(
     target: &str,
     output: Option<&str>,
     options: &[String],
     targets: &Targets,
-    asking: &dyn Fn() -> Driven,
+    asking: &dyn Fn() -> Driven<'d>,
 ) -> Result<Product, Failure> {
     Ok(Product::Program(Program {
         backend: targets::find(targets, target, asking)?,
@@ -245,6 +246,7 @@ pub(super) fn carried_out(
         let mut made = make(product, &outcome, carried.disk, console.warnings(), &mut progress)?;
         made.placed.splice(0..0, amended.placed);
         made.remarks = amended.remarks;
+        made.remarks.extend(shortened(&outcome, &made.placed));
         Ok(made)
     });
     let timings = progress.finish();
@@ -320,6 +322,24 @@ pub(super) fn tell(
         timings,
     });
     exit
+}
+
+/// That a program has not its job's whole name, where its target takes none as long.
+fn shortened(outcome: &Outcome, placed: &[Placed]) -> Option<String> {
+    let job = outcome.job.as_ref()?.name.as_str();
+    let is_written_in_full = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let main = Path::new(placed.first()?.path()).file_stem()?.to_str()?;
+    let own = match job.ends_with(AIR_ENDING) {
+        true => main,
+        false => main.strip_suffix(AIR_ENDING).unwrap_or(main),
+    };
+    // Other characters may fall together in one `_`.
+    let is_shortened = job.chars().filter(|&c| is_written_in_full(c)).count() > own.len();
+    is_shortened.then(|| {
+        format!(
+            "the program is called `{main}`, because its control takes no name as long as that of the job"
+        )
+    })
 }
 
 /// What needs saying of files.

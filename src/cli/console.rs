@@ -147,6 +147,13 @@ struct Line<T> {
     body: T,
 }
 
+/// A file that took the place of the program of another job.
+#[derive(Serialize)]
+struct Replaced<'a> {
+    file: &'a str,
+    job: &'a str,
+}
+
 #[derive(Serialize)]
 struct SummaryBody<'a> {
     job: &'a str,
@@ -167,6 +174,8 @@ struct SummaryBody<'a> {
     files: Vec<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unchanged: Vec<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    replaced: Vec<Replaced<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     stages: Vec<StageBody>,
 }
@@ -432,6 +441,7 @@ impl Console {
             reach: summary.reach,
             files: summary.placed.iter().map(Placed::path).collect(),
             unchanged: unchanged(summary.placed),
+            replaced: replaced(summary.placed),
             stages: self.stage_bodies(summary.timings),
         }
     }
@@ -542,6 +552,15 @@ fn count(diagnostics: &[Diagnostic]) -> (usize, usize) {
     (errors, diagnostics.len() - errors)
 }
 
+/// Files that took the place of another job's program.
+fn replaced(placed: &[Placed]) -> Vec<Replaced<'_>> {
+    let replaced = placed.iter().filter_map(|file| {
+        let (file, job) = (file.path(), file.replaced()?);
+        Some(Replaced { file, job })
+    });
+    replaced.collect()
+}
+
 fn unchanged(placed: &[Placed]) -> Vec<&str> {
     let is_unchanged = |file: &&Placed| matches!(file, Placed::Unchanged(_));
     placed.iter().filter(is_unchanged).map(Placed::path).collect()
@@ -549,9 +568,17 @@ fn unchanged(placed: &[Placed]) -> Vec<&str> {
 
 /// What was written, then what was left alone.
 fn placed(files: &[Placed]) -> String {
-    let is_written = |file: &&Placed| matches!(file, Placed::Written(_));
-    let written: Vec<&str> = files.iter().filter(is_written).map(Placed::path).collect();
-    listed("wrote", &written) + &listed("unchanged:", &unchanged(files))
+    let written = files.iter().filter(|file| file.is_new());
+    let written: Vec<&str> = written.map(Placed::path).collect();
+    let over = files
+        .iter()
+        .filter_map(|file| Some((file.path(), file.replaced()?)));
+    let over: String = over
+        .map(|(path, job)| {
+            format!("note: {path} was the program of another job, `{job}`, which this one has replaced\n")
+        })
+        .collect();
+    listed("wrote", &written) + &listed("unchanged:", &unchanged(files)) + &over
 }
 
 /// A line for each file; a program of many parts is told in one.

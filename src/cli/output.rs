@@ -14,7 +14,7 @@
 use super::console::ignore_broken_pipe;
 use super::os_words::os_words;
 use std::fs::{self, File, Permissions};
-use std::io::{self, BufRead, BufReader, BufWriter, Seek, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, SpooledTempFile, TempPath};
 use vcutc_backend_api::bundle::{Sink, SinkError};
@@ -47,6 +47,13 @@ pub(super) enum Headings {
 pub(super) enum Placed {
     /// It is new, or has other bytes than before.
     Written(String),
+    /// It took the place of a program of another job.
+    Replaced {
+        /// Its path.
+        path: String,
+        /// The job whose program was there, as the head of that says it.
+        job: String,
+    },
     /// It had these bytes already and was left alone, with the time of its last change.
     Unchanged(String),
 }
@@ -55,7 +62,23 @@ impl Placed {
     /// Its path.
     pub(super) fn path(&self) -> &str {
         match self {
-            Self::Written(path) | Self::Unchanged(path) => path,
+            Self::Written(path) | Self::Replaced { path, .. } | Self::Unchanged(path) => path,
+        }
+    }
+
+    /// Whether its bytes are new.
+    pub(super) const fn is_new(&self) -> bool {
+        match self {
+            Self::Written(_) | Self::Replaced { .. } => true,
+            Self::Unchanged(_) => false,
+        }
+    }
+
+    /// The job whose program it replaced.
+    pub(super) fn replaced(&self) -> Option<&str> {
+        match self {
+            Self::Replaced { job, .. } => Some(job),
+            Self::Written(_) | Self::Unchanged(_) => None,
         }
     }
 }
@@ -229,7 +252,10 @@ impl Folder {
                 placed.push(Placed::Unchanged(shown));
                 continue;
             }
-            placed.push(Placed::Written(shown));
+            placed.push(match (owner(&path), owner(&staged.passing)) {
+                (Some(job), Some(other)) if job != other => Placed::Replaced { path: shown, job },
+                (_, _) => Placed::Written(shown),
+            });
             match replace(&path, staged.passing) {
                 Ok(file) => published.push(file),
                 Err(reason) => return Err(take_back(published, reason)),
@@ -237,6 +263,37 @@ impl Folder {
         }
         Ok(placed)
     }
+}
+
+/// How much of a program is looked at for the name of its job, in bytes: its head has it.
+const HEAD: u64 = 4096;
+
+/// The job that a program was written for, as its head says it; none where the file is something else.
+fn owner(path: &Path) -> Option<String> {
+    let is_file = fs::symlink_metadata(path).is_ok_and(|file| file.is_file());
+    let mut head = Vec::new();
+    File::open(path)
+        .ok()
+        .filter(|_| is_file)?
+        .take(HEAD)
+        .read_to_end(&mut head)
+        .ok()?;
+    String::from_utf8_lossy(&head)
+        .lines()
+        .find_map(owner_in)
+        .map(str::to_owned)
+}
+
+/// The job's name in a line `; job NAME`, in the comments of whatever language.
+fn owner_in(line: &str) -> Option<&str> {
+    let (_, comment) = line.split_once([';', '!', '('])?;
+    let comment = comment.trim_start().trim_end().trim_end_matches(')');
+    let (word, name) = comment.split_once(' ')?;
+    let is_hash = name.len() > 5
+        && name
+            .get(..5)
+            .is_some_and(|start| start.eq_ignore_ascii_case("hash "));
+    (word.eq_ignore_ascii_case("job") && !is_hash).then_some(name)
 }
 
 /// Whether two files hold the same bytes.

@@ -51,10 +51,10 @@ pub(super) fn describe(targets: &Targets, id: &str, console: &Console) -> Exit {
 
 /// The backend that `--target` names, which can be asked. `asking` says what machine it is for; it is looked at only when there
 /// is no such target.
-pub(super) fn find(
+pub(super) fn find<'d>(
     targets: &Targets,
     id: &str,
-    asking: &dyn Fn() -> Driven,
+    asking: &dyn Fn() -> Driven<'d>,
 ) -> Result<&'static dyn Backend, Failure> {
     let known = targets.iter().copied().find(|backend| backend.id() == id);
     let backend = known.ok_or_else(|| unknown(targets, id, &asking()))?;

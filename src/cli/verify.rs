@@ -157,7 +157,7 @@ fn given(args: &VerifyArgs, linked: &Targets, targets: &Targets) -> Result<(Vec<
     Ok((paths.collect(), Found::InFolder))
 }
 
-fn asking(args: &VerifyArgs, targets: &Targets) -> Driven {
+fn asking<'a>(args: &'a VerifyArgs, targets: &'a Targets) -> Driven<'a> {
     Driven::of(slice::from_ref(&args.job), &args.overrides, targets)
 }
 

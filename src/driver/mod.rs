@@ -18,9 +18,9 @@ mod yielding;
 
 pub use crate::sema::Typed;
 pub use air::{air_cut_height, into_air_cut};
-pub use asked::{machine_words, understood};
+pub use asked::{machine_words, misfits, understood};
 pub use emitting::{EmitFailure, emit, write};
-pub use refusal::{Patience, Unhurried};
+pub use refusal::{Patience, Unhelped, Unhurried};
 pub use yielding::Yielded;
 
 use crate::checks::{Carried, Checks};
@@ -493,7 +493,7 @@ fn first_followed<'j>(
                 return Ended::Refused(Refused::Broken(Box::new(plan), fault));
             }
         };
-        let mut told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never());
+        let mut told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never(), &mut |_| false);
         if has_errors(&told) {
             // What the machine did not follow was sound, and is what there is to tell.
             return match refused {

@@ -48,6 +48,24 @@ impl Patience for Unhurried {
     }
 }
 
+/// Who wants to know whether a job compiles, and not what would help one that does not.
+#[derive(Clone, Copy, Debug)]
+pub struct Unhelped;
+
+impl Patience for Unhelped {
+    fn refused(&mut self, _: &[Diagnostic], _: &SourceMap) -> Wanted {
+        Wanted::never()
+    }
+
+    fn cut_short(&self) -> Option<String> {
+        None
+    }
+
+    fn slowed(&mut self) -> Wanted {
+        Wanted::never()
+    }
+}
+
 /// Why a job is not compiled.
 pub(super) enum Refused<'j> {
     /// There is no plan.
@@ -86,7 +104,9 @@ impl Refused<'_> {
         match self {
             Self::Unplanned(complaints) => complaints.at_once(),
             Self::Broken(_, internal) => vec![(**internal).clone()],
-            Self::Unsound(plan, proven) => verdict::diagnose_while(job, plan, proven, &Wanted::never()),
+            Self::Unsound(plan, proven) => {
+                verdict::diagnose_while(job, plan, proven, &Wanted::never(), &mut |_| false)
+            }
             Self::Unreached(refused) => refused.in_words(job, |unreachable| {
                 reach_verdict::at_once(job, unreachable).into_iter().collect()
             }),
@@ -108,7 +128,9 @@ impl Refused<'_> {
         match self {
             Self::Unplanned(complaints) => complaints.with_help(wanted, &mut |edits| trials.works(edits)),
             Self::Broken(..) => self.at_once(job),
-            Self::Unsound(plan, proven) => verdict::diagnose_while(job, plan, proven, wanted),
+            Self::Unsound(plan, proven) => {
+                verdict::diagnose_while(job, plan, proven, wanted, &mut |edits| trials.works(edits))
+            }
             Self::Unreached(refused) => refused.in_words(job, |unreachable| {
                 reach_verdict::diagnose(job, &refused.plan, unreachable, wanted, &mut |edits| {
                     trials.works(edits)

@@ -1,11 +1,12 @@
 //! What the planner has to say when there is no plan.
 
+use super::optimum::Bound;
 use super::parameters::{VcutParameters, show};
 use super::refusal::{Ladder, Offer, Refused};
 use super::{MOST_CUTS, MOST_OPERATIONS, grid};
 use crate::diag::{Code, Diagnostic};
 use crate::geom::profile::Profile;
-use crate::job::{Auto, CheckedJob, Residual, RoughVcut};
+use crate::job::{Auto, CheckedJob, Residual, RoughVcut, Sourced};
 use crate::source::Span;
 use vcutc_backend_api::units::Length;
 
@@ -63,7 +64,7 @@ pub(super) fn nothing_to_cut(
     Refused {
         told: diagnostic.note(note),
         ladders: vec![raised_tips(asked), thinner_layers(asked, depth)],
-        resort: Offer::all_open(asked),
+        resort: Offer::openings(asked),
         otherwise: Some(format!(
             "set `residual = lift`, or use a `layer` of at most {layer} mm"
         )),
@@ -137,29 +138,121 @@ pub(super) fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, coun
     for (span, label) in labels {
         diagnostic = diagnostic.and(span, label);
     }
-    let (ladders, otherwise) = match (asked.layer.value, asked.step.value, asked.limits.scallop) {
-        (Auto::Auto, _, Some(limit)) => {
-            let least = asked.allowance.value + parameters.drop;
-            diagnostic = diagnostic.and(
-                limit.span.unwrap_or(asked.head_span),
-                "the layer follows from this limit",
-            );
-            let otherwise =
-                "use a larger `scallop`: what allowance and standoff leave of it decides the layer";
-            (vec![wider_scallops(asked, least)], otherwise)
-        }
-        (Auto::Auto, Auto::Auto, None) => (Vec::new(), "use a longer blade or a smaller stock"),
-        (Auto::Given(_), _, _) | (Auto::Auto, Auto::Given(_), None) => (
-            vec![open_layer_and_step(asked)],
-            "use a larger `layer` and `step`, or leave both `auto`",
-        ),
-    };
+    let Small {
+        label,
+        ladders,
+        otherwise,
+    } = what_is_small(asked, parameters, count);
+    if let Some((span, label)) = label {
+        diagnostic = diagnostic.and(span, label);
+    }
     Refused {
         told: diagnostic,
         ladders,
-        resort: Offer::all_open(asked),
+        resort: Offer::openings(asked),
         otherwise: Some(otherwise.to_owned()),
     }
+}
+
+/// What of an operation makes so many cuts of it.
+struct Small {
+    label: Option<(Span, &'static str)>,
+    ladders: Vec<Ladder>,
+    otherwise: &'static str,
+}
+
+/// What the job states that is small: a layer or a step, a limit that the layer came up against, or else the limit on scallop.
+fn what_is_small(asked: &RoughVcut, parameters: &VcutParameters, count: usize) -> Small {
+    let is_given = |value: &Auto<Length>| matches!(value, Auto::Given(_));
+    let opened = match (is_given(&asked.layer.value), is_given(&asked.step.value)) {
+        (true, true) => Some("use a larger `layer` and `step`, or leave both `auto`"),
+        (true, false) => Some("use a larger `layer`, or leave it `auto`"),
+        (false, true) => Some("use a larger `step`, or leave it `auto`"),
+        (false, false) => None,
+    };
+    if let Some(otherwise) = opened {
+        return Small {
+            label: None,
+            ladders: vec![open_layer_and_step(asked)],
+            otherwise,
+        };
+    }
+    let limited = SMALL_LIMITS.into_iter().find_map(|small| {
+        let (bound, _, place, _) = small;
+        let limit = place(&mut asked.clone()).copied()?;
+        parameters.binding.contains(&bound).then_some((limit, small))
+    });
+    match (limited, asked.limits.scallop) {
+        (Some((limit, (_, name, place, otherwise))), _) => Small {
+            label: limit.span.map(|span| (span, "the layer follows from this limit")),
+            ladders: vec![wider_limits(asked, name, place, count)],
+            otherwise,
+        },
+        (None, Some(limit)) => Small {
+            label: Some((
+                limit.span.unwrap_or(asked.head_span),
+                "the layer follows from this limit",
+            )),
+            ladders: vec![wider_scallops(asked, asked.allowance.value + parameters.drop)],
+            otherwise: "use a larger `scallop`: what allowance and standoff leave of it decides the layer",
+        },
+        (None, None) => Small {
+            label: None,
+            ladders: Vec::new(),
+            otherwise: "use a longer blade or a smaller stock",
+        },
+    }
+}
+
+/// Where an operation has a limit on a length.
+type Place = fn(&mut RoughVcut) -> Option<&mut Sourced<Length>>;
+
+/// Limits that hold the layer from above, where each stands, and what to do about it.
+const SMALL_LIMITS: [(Bound, &str, Place, &str); 3] = [
+    (
+        Bound::LayerMost,
+        "layer",
+        |asked| asked.limits.layer.most.as_mut(),
+        "use a larger limit on `layer`",
+    ),
+    (
+        Bound::StepMost,
+        "step",
+        |asked| asked.limits.step.most.as_mut(),
+        "use a larger limit on `step`",
+    ),
+    (
+        Bound::Edge,
+        "edge",
+        |asked| asked.limits.edge.as_mut(),
+        "use a larger limit on `edge`",
+    ),
+];
+
+/// How many cuts are aimed at where limits make too many: as many as are still compared with others.
+const USUAL_CUTS: f64 = 5_000.0;
+
+/// Larger limits on a length than the job's, from one with which there are likely to be few enough cuts to be sure: layer and
+/// step grow with it, so cuts become fewer by its square.
+fn wider_limits(asked: &RoughVcut, name: &str, place: Place, count: usize) -> Ladder {
+    let least = (count as f64 / USUAL_CUTS).sqrt().max(1.0);
+    let wider = |times: f64| {
+        let mut changed = asked.clone();
+        let limit = place(&mut changed)?;
+        let wide = limit.value.to_mm() * least * times;
+        let digits = libm::pow(10.0, 1.0 - libm::floor(libm::log10(wide)));
+        limit.value = Length::mm(grid::up((wide * digits).ceil() / digits));
+        let (span, text) = (limit.span?, format!("{} mm", show(limit.value.to_mm())));
+        Some(Offer {
+            title: format!("use `{name} <= {text}`"),
+            edits: vec![(span, text)],
+            changed,
+        })
+    };
+    [1.0, 2.0, 4.0, 8.0, 16.0, 32.0]
+        .into_iter()
+        .filter_map(wider)
+        .collect()
 }
 
 /// How much wider each limit on scallop that may do is than the one before, and how many there are: far enough from the

@@ -10,7 +10,7 @@ mod infeasible;
 mod search;
 mod swung;
 
-pub use grid_forms::{largest_layer, largest_layer_at};
+pub use grid_forms::largest_layers;
 pub use swung::Swung;
 
 use super::blade_reach::{self, Flanks};
@@ -250,8 +250,7 @@ impl Refusal {
             Self::Contradiction(refused) => refused,
             Self::Conflict(problem) => {
                 let bounds = optimum::conflicting(&problem);
-                let nearest = optimum::nearest(&problem, &bounds);
-                vec![infeasible::conflict(asked, &bounds, &nearest)]
+                vec![infeasible::conflict(asked, &problem, &bounds)]
             }
             Self::Unbounded => vec![complaints::nothing_holds_the_layer(asked, &[])],
             Self::OffGrid => vec![infeasible::off_grid(asked).into()],

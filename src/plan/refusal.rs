@@ -14,8 +14,8 @@ pub struct Refused {
     pub told: Diagnostic,
     /// Changes that may mend it, a ladder for each thing that can be changed.
     pub ladders: Vec<Ladder>,
-    /// A change that is tried where none of them works.
-    pub resort: Option<Offer>,
+    /// Changes that are tried where none of them works.
+    pub resort: Ladder,
     /// What to do where that does not work either.
     pub otherwise: Option<String>,
 }
@@ -39,41 +39,95 @@ impl From<Diagnostic> for Refused {
         Self {
             told,
             ladders: Vec::new(),
-            resort: None,
+            resort: Vec::new(),
             otherwise: None,
         }
     }
 }
 
 impl Offer {
-    /// All that an operation gives of its cuts left to the compiler; none where it gives nothing.
+    /// What an operation gives of its cuts left to the compiler: one value after the other, and then all of them at once.
     #[must_use]
-    pub fn all_open(asked: &RoughVcut) -> Option<Self> {
-        fn open<T>(name: &'static str, value: &mut Sourced<Auto<T>>, opened: &mut Vec<(&'static str, Span)>) {
-            if let (Auto::Given(_), Some(span)) = (&value.value, value.span) {
-                value.value = Auto::Auto;
-                opened.push((name, span));
-            }
-        }
-        let mut changed = asked.clone();
-        let mut opened = Vec::new();
-        open("lattice", &mut changed.lattice, &mut opened);
-        open("swing", &mut changed.swing, &mut opened);
-        open("layer", &mut changed.layer, &mut opened);
-        open("step", &mut changed.step, &mut opened);
-        open("overlap", &mut changed.overlap, &mut opened);
-        open("residual", &mut changed.residual, &mut opened);
-        let names: Vec<String> = opened
-            .iter()
-            .map(|(name, _)| format!("`{name} = auto`"))
+    pub fn openings(asked: &RoughVcut) -> Ladder {
+        let given: Vec<Opening> = OPENINGS
+            .into_iter()
+            .filter(|opening| (opening.open)(&mut asked.clone()).is_some())
             .collect();
-        (!opened.is_empty()).then(|| Self {
-            title: format!("let the compiler choose: {}", names.join(", ")),
-            edits: opened
-                .into_iter()
-                .map(|(_, span)| (span, "auto".to_owned()))
-                .collect(),
-            changed,
-        })
+        let single = given.iter().map(std::slice::from_ref);
+        let all = (given.len() > 1).then_some(given.as_slice());
+        single
+            .chain(all)
+            .map(|openings| Self::opened(asked, openings))
+            .collect()
     }
+
+    /// The operation with some of its values left to the compiler.
+    fn opened(asked: &RoughVcut, openings: &[Opening]) -> Self {
+        let mut changed = asked.clone();
+        let spans = openings.iter().filter_map(|opening| (opening.open)(&mut changed));
+        let edits = spans.map(|span| (span, "auto".to_owned())).collect();
+        let names: Vec<String> = openings
+            .iter()
+            .map(|opening| format!("`{} = auto`", opening.name))
+            .collect();
+        let title = match names.as_slice() {
+            [one, other] => format!("let the compiler choose both: {one} and {other}"),
+            [first @ .., last] if !first.is_empty() => {
+                format!(
+                    "let the compiler choose all of these: {} and {last}",
+                    first.join(", ")
+                )
+            }
+            few => format!("let the compiler choose: {}", few.join(", ")),
+        };
+        Self {
+            title,
+            edits,
+            changed,
+        }
+    }
+}
+
+/// A value of an operation that can be left to the compiler.
+#[derive(Clone, Copy)]
+struct Opening {
+    name: &'static str,
+    /// Leaves a given value open, and says where it stands; none where it is not given.
+    open: fn(&mut RoughVcut) -> Option<Span>,
+}
+
+/// Those that people give for the least reason first.
+const OPENINGS: [Opening; 6] = [
+    Opening {
+        name: "step",
+        open: |asked| left_open(&mut asked.step),
+    },
+    Opening {
+        name: "layer",
+        open: |asked| left_open(&mut asked.layer),
+    },
+    Opening {
+        name: "overlap",
+        open: |asked| left_open(&mut asked.overlap),
+    },
+    Opening {
+        name: "residual",
+        open: |asked| left_open(&mut asked.residual),
+    },
+    Opening {
+        name: "lattice",
+        open: |asked| left_open(&mut asked.lattice),
+    },
+    Opening {
+        name: "swing",
+        open: |asked| left_open(&mut asked.swing),
+    },
+];
+
+fn left_open<T>(value: &mut Sourced<Auto<T>>) -> Option<Span> {
+    let (Auto::Given(_), Some(span)) = (&value.value, value.span) else {
+        return None;
+    };
+    value.value = Auto::Auto;
+    Some(span)
 }

@@ -9,9 +9,10 @@ mod places;
 mod text;
 
 use crate::diag::{Diagnostic, has_errors};
-use crate::driver::{self, Request, Typed};
+use crate::driver::{self, Request, Typed, Unhelped};
 use crate::format;
 use crate::machine::Model;
+use crate::memory::Memory;
 use crate::reach::legs::{Leg, Poses, Taught, legs};
 use crate::reach::place::score::Judge;
 use crate::reach::place::strokes::Strokes;
@@ -67,6 +68,13 @@ struct Setup {
     reorient: u32,
 }
 
+impl Setup {
+    /// The same set-up with a blade that leans along the cut; none where it does.
+    fn leaning(&self) -> Option<Self> {
+        self.tool.leaning().map(|tool| Self { tool, ..self.clone() })
+    }
+}
+
 /// The text of a first job. With a machine it has been compiled, home, frames and all.
 ///
 /// # Errors
@@ -95,11 +103,15 @@ pub fn job(asked: &Asked<'_>) -> Result<String, Refusal> {
                 verified.program(),
                 &TaughtPoses::of(verified),
             );
-            let texts = setups
-                .iter()
-                .map(|setup| text::with_machine(asked.name, model, setup, asked.targets));
-            if let Some(text) = texts.map(laid_out).find(|text| compiled(asked, text).is_ok()) {
-                return Ok(text);
+            let written = |setup: &Setup| {
+                let text = text::with_machine(asked.name, model, setup, asked.targets);
+                Some(laid_out(text)).filter(|text| compiled(asked, text).is_ok())
+            };
+            let mut tried = setups.iter().map(|setup| (setup, written(setup)));
+            if let Some((setup, Some(text))) = tried.find(|(_, text)| text.is_some()) {
+                // Where the blade is upright the job says that it cannot lean, so that is tried in the same place.
+                let leaning = setup.leaning().and_then(|leaning| written(&leaning));
+                return Ok(leaning.unwrap_or(text));
             }
         }
     }
@@ -121,7 +133,7 @@ fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagn
         options: Typed::default(),
         targets: asked.targets,
     };
-    match driver::compile(request, &mut |_| {}) {
+    match driver::compile_patiently(request, &mut Memory::none(), &mut Unhelped, &mut |_| {}) {
         Ok(outcome) if has_errors(&outcome.diagnostics) => Err((outcome.diagnostics, outcome.sources)),
         Ok(outcome) => Ok(outcome),
         // The draft is in memory: it can always be read.

@@ -28,6 +28,19 @@ impl Tool {
             orientation: about_z(self.turn),
         }
     }
+
+    /// Whether the blade does not lean along the cut.
+    pub(super) const fn is_upright(self) -> bool {
+        self.rake == UPRIGHT
+    }
+
+    /// The blade leaning along the cut; none where it does.
+    pub(super) const fn leaning(self) -> Option<Self> {
+        match self.is_upright() {
+            true => Some(Self { rake: RAKE, ..self }),
+            false => None,
+        }
+    }
 }
 
 /// A place of the work, in mm and whole degrees.

@@ -116,11 +116,12 @@ fn remarks(model: &Model, setup: &Setup) -> Vec<String> {
             .to_owned(),
         "those of your cell: measure tool and base, wire the generator, and put your values in.".to_owned(),
     ];
-    if setup.tool.rake == 90 {
+    if setup.tool.is_upright() {
         remarks.push(
-            "This machine cannot lean the blade along the cut as well as across it, hence `rake = 90 deg`:"
+            "With a blade that leans along the cut (`rake = 60 deg`) this machine cuts the job in none of the"
                 .to_owned(),
         );
+        remarks.push("places that were tried, this one included, hence `rake = 90 deg`:".to_owned());
         remarks.push("see docs/machines_five_axis.md about an orientable spindle.".to_owned());
     }
     let unknown = |known: &dyn Fn(&Axis) -> bool| -> String {

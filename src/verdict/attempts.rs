@@ -45,9 +45,11 @@ impl<'a> Attempts<'a> {
         self.case
     }
 
-    /// All that the operation gives of its cuts left to the compiler, if that works.
-    pub(super) fn all_open(&mut self, asked: &RoughVcut) -> Option<Offer> {
-        Offer::all_open(asked).filter(|offer| self.prove(|asked| asked.clone_from(&offer.changed)))
+    /// The first of what the operation gives of its cuts that works left to the compiler, or all of it.
+    pub(super) fn opened(&mut self, asked: &RoughVcut) -> Option<Offer> {
+        Offer::openings(asked)
+            .into_iter()
+            .find(|offer| self.prove(|asked| asked.clone_from(&offer.changed)))
     }
 
     /// Whether the job plans and proves with a change, within all its limits.

@@ -18,6 +18,12 @@ const WIDER: f64 = 1.1;
 /// Narrower swings that are tried, as shares of the planned one.
 const NARROWER: [f64; 6] = [0.8, 0.65, 0.5, 0.35, 0.25, 0.15];
 
+/// Swings wider than this make Vs that are nearly flat.
+const WIDE: Angle = Angle::deg(60.0);
+
+/// Plans of more cuts than this take long enough that others like them are tried last.
+const MANY: usize = 500;
+
 /// A change of residual strategy and layer.
 struct Change {
     residual: Option<(Residual, Span)>,
@@ -51,6 +57,7 @@ pub(super) fn over_limit(
     let change = match asked.tips {
         // Nothing moves given tips.
         Some(_) => None,
+        None if vcut.cuts.len() > MANY => None,
         None => residual_and_layer(&mut attempts, vcut),
     };
     Some(match change {
@@ -123,6 +130,19 @@ fn limit_or_swing(
     height: Length,
 ) -> Diagnostic {
     let asked = &vcut.asked;
+    if vcut.cuts.len() > MANY && asked.tips.is_none() {
+        // What is tried after this would hardly be cheaper than the plan that is refused.
+        if let Some(offer) = attempts.opened(asked) {
+            return diagnostic.fix_all(offer.title, &offer.edits);
+        }
+    }
+    // Beside a V this wide hardly anything is steep enough to matter: the swing is what is likely to be wrong.
+    if let Auto::Given(swing) = asked.swing.value
+        && swing > WIDE
+        && let Some(offered) = with_narrower_swing(&diagnostic, attempts, asked)
+    {
+        return offered;
+    }
     let little_wider = wider_limit(attempts, asked, height);
     let mut diagnostic = match little_wider {
         Some(_) => diagnostic,
@@ -138,22 +158,46 @@ fn limit_or_swing(
             None => diagnostic.help(title),
         };
     }
-    if let (Auto::Given(swing), Some(span), None) = (asked.swing.value, asked.swing.span, &asked.tips)
-        && let Some(narrower) = swing_that_keeps_it(attempts, swing)
-    {
-        let value = format!("{} deg", show(narrower.to_deg()));
-        let title = format!("use a `swing` of {value}, whose steeper flanks follow the part farther");
-        return diagnostic.fix(title, span, value);
+    if let Some(offered) = with_narrower_swing(&diagnostic, attempts, asked) {
+        return offered;
     }
     if asked.tips.is_none()
-        && let Some(offer) = attempts.all_open(asked)
+        && let Some(offer) = attempts.opened(asked)
     {
         diagnostic = diagnostic.fix_all(offer.title, &offer.edits);
     }
-    if diagnostic.fixes.is_empty() {
-        diagnostic = diagnostic.help("use a smaller `swing`, whose steeper flanks follow the part farther");
+    match diagnostic.fixes.is_empty() {
+        true => diagnostic.help(last_resort(asked)),
+        false => diagnostic,
     }
-    diagnostic
+}
+
+/// What to do where nothing that was tried works, of what the job states.
+fn last_resort(asked: &RoughVcut) -> &'static str {
+    let is_given = |value: &Auto<Length>| matches!(value, Auto::Given(_));
+    let is_layer_given = is_given(&asked.layer.value) || is_given(&asked.step.value);
+    match (asked.swing.value, is_layer_given && asked.tips.is_none()) {
+        (Auto::Given(_), _) => "use a smaller `swing`, whose steeper flanks follow the part farther",
+        (Auto::Auto, true) => {
+            "raise the limit on `scallop`, or leave `layer` and `step` to the compiler: `auto`"
+        }
+        (Auto::Auto, false) => "raise the limit on `scallop`",
+    }
+}
+
+/// The diagnostic with a narrower swing than the given one, if one keeps the limit.
+fn with_narrower_swing(
+    diagnostic: &Diagnostic,
+    attempts: &mut Attempts<'_>,
+    asked: &RoughVcut,
+) -> Option<Diagnostic> {
+    let (Auto::Given(swing), Some(span), None) = (asked.swing.value, asked.swing.span, &asked.tips) else {
+        return None;
+    };
+    let narrower = swing_that_keeps_it(attempts, swing)?;
+    let value = format!("{} deg", show(narrower.to_deg()));
+    let title = format!("use a `swing` of {value}, whose steeper flanks follow the part farther");
+    Some(diagnostic.clone().fix(title, span, value))
 }
 
 fn swing_that_keeps_it(attempts: &mut Attempts<'_>, swing: Angle) -> Option<Angle> {

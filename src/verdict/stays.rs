@@ -171,7 +171,7 @@ fn with_what_leaves_less(
             (None, None) => told.help(with),
         };
     }
-    let opened = Offer::all_open(asked);
+    let opened = Offer::openings(asked).pop();
     match opened.and_then(|offer| Some((share_with(&|asked| asked.clone_from(&offer.changed))?, offer))) {
         Some((then, offer)) => told.fix_all(
             format!("{}; {} % stays then", offer.title, percent(then)),

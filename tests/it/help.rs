@@ -35,7 +35,7 @@ impl Patience for Noting {
     }
 }
 
-fn patiently(text: &str, wanted: Wanted) -> (Outcome, Vec<Diagnostic>, Vec<Stage>) {
+pub(crate) fn patiently(text: &str, wanted: Wanted) -> (Outcome, Vec<Diagnostic>, Vec<Stage>) {
     let files = Files::default().with(JOB, text);
     let request = Request {
         path: JOB,

@@ -44,6 +44,7 @@ mod krl_text;
 mod lsp;
 #[cfg(feature = "krl")]
 mod mutations;
+mod offers;
 mod optimum_table;
 mod opw_peer;
 #[cfg(feature = "krl")]

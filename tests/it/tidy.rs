@@ -123,6 +123,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "format",
             "kinematics",
             "machine",
+            "memory",
             "reach",
             "remedy",
             "source",

@@ -86,7 +86,7 @@ impl Bound {
 
     /// The problem without it, as far as that makes sense: swings within a degree of flat and upright, overlaps from a gap
     /// as wide as the step.
-    pub(super) fn dropped(self, problem: &Problem) -> Problem {
+    pub(in crate::plan) fn dropped(self, problem: &Problem) -> Problem {
         let mut other = problem.clone();
         match self {
             Self::SwingLeast => other.swing.least = other.swing.least.min(Angle::deg(1.0)),

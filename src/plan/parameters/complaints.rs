@@ -176,10 +176,11 @@ pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Re
     Some(Refused {
         told: diagnostic,
         ladders: vec![
-            wider_swings(asked, drop, limit.value - asked.allowance.value),
+            // Larger limits are kept by the plans that there are, so the first one mostly does.
             wider_scallops(asked, stays),
+            wider_swings(asked, drop, limit.value - asked.allowance.value),
         ],
-        resort: Offer::all_open(asked),
+        resort: Offer::openings(asked),
         otherwise: Some(
             "use a larger `scallop`, a wider `swing`, a thinner blade or a smaller `allowance`".to_owned(),
         ),
@@ -285,7 +286,7 @@ pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> 
     Refused {
         told,
         ladders: vec![times.iter().map(offer).collect()],
-        resort: Offer::all_open(asked),
+        resort: Offer::openings(asked),
         otherwise: None,
     }
 }

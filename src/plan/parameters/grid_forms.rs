@@ -68,34 +68,43 @@ pub(super) fn open_overlaps() -> impl Iterator<Item = f64> {
     (0..20).map(|twentieth| f64::from(twentieth) / 20.0)
 }
 
-/// The largest layer with the step left open, at the swing and on the lattice of these parameters: for error messages. With
-/// an open overlap that is the largest at any overlap.
+/// The largest layers of closed form at the swing of these parameters, the largest first: on each of some lattices by what the
+/// blade reaches, and by what the scallop bound leaves of that. The bound is often far above what a plan leaves, so a layer
+/// that is too large for it may do. An open step follows from the layer, at any overlap that the job allows.
 #[must_use]
-pub fn largest_layer(asked: &RoughVcut, parameters: &VcutParameters) -> Length {
-    let at = |overlap| largest_layer_at_overlap(asked, parameters, overlap);
-    match asked.overlap.value {
-        Auto::Given(overlap) => at(overlap),
-        Auto::Auto => open_overlaps().map(at).fold(Length::ZERO, Length::max),
-    }
+pub fn largest_layers(asked: &RoughVcut, parameters: &VcutParameters, lattices: &[Lattice]) -> Vec<Length> {
+    let room = scallop_room(asked, parameters.drop);
+    let mut layers: Vec<Length> = lattices
+        .iter()
+        .flat_map(|&lattice| [None, room].map(|room| (lattice, room)))
+        .filter_map(|(lattice, room)| match (asked.step.value, asked.overlap.value) {
+            (Auto::Given(step), _) => at_step(&parameters.flanks, lattice, step, room),
+            (Auto::Auto, Auto::Given(overlap)) => {
+                Some(at_overlap(&parameters.flanks, lattice, overlap, room))
+            }
+            (Auto::Auto, Auto::Auto) => open_overlaps()
+                .map(|overlap| at_overlap(&parameters.flanks, lattice, overlap, room))
+                .max_by(Length::total_cmp),
+        })
+        .collect();
+    layers.sort_by(|a, b| b.total_cmp(a));
+    layers.dedup();
+    layers
 }
 
-fn largest_layer_at_overlap(asked: &RoughVcut, parameters: &VcutParameters, overlap: f64) -> Length {
-    let (lattice, flanks) = (parameters.lattice, &parameters.flanks);
+fn at_overlap(flanks: &Flanks, lattice: Lattice, overlap: f64, room: Option<Length>) -> Length {
     let by_reach = blade_reach::largest_layer(lattice, overlap, flanks.reach);
-    let by_scallop = scallop_room(asked, parameters.drop)
-        .map(|room| blade_reach::largest_layer_for_scallop(lattice, overlap, flanks.slope, room));
+    let by_scallop =
+        room.map(|room| blade_reach::largest_layer_for_scallop(lattice, overlap, flanks.slope, room));
     let closed_form = by_scallop.map_or(by_reach, |layer| layer.min(by_reach));
     largest_fitting(lattice, closed_form, flanks, |layer| {
         widest_step(lattice, layer, overlap, flanks)
     })
 }
 
-/// The largest layer at a given step, if there is any.
-#[must_use]
-pub fn largest_layer_at(asked: &RoughVcut, parameters: &VcutParameters, step: Length) -> Option<Length> {
-    let (lattice, flanks) = (parameters.lattice, &parameters.flanks);
+fn at_step(flanks: &Flanks, lattice: Lattice, step: Length, room: Option<Length>) -> Option<Length> {
     let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach)?;
-    let closed_form = match scallop_room(asked, parameters.drop) {
+    let closed_form = match room {
         None => by_reach,
         Some(room) => {
             blade_reach::largest_layer_for_scallop_at_step(lattice, step, flanks.slope, room)?.min(by_reach)

@@ -6,7 +6,7 @@ use super::show;
 use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, RoughVcut, Sourced};
 use crate::plan::complaints::wider_scallops;
-use crate::plan::optimum::Bound;
+use crate::plan::optimum::{self, Bound, Problem};
 use crate::plan::refusal::{Ladder, Offer, Refused};
 use crate::source::Span;
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -14,6 +14,16 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 /// How much more than the nearest value may be needed, as shares of it: bounds that touch leave nothing to round, and plans
 /// come to other values than the model.
 const MARGINS: [f64; 8] = [0.0, 0.0005, 0.005, 0.02, 0.1, 0.25, 0.5, 0.75];
+
+/// Values between the one that the job states and the nearest by the model, as shares of the way: the model's scallop bound is
+/// often far above what plans leave, so much nearer values may do.
+const BETWEEN: [f64; 9] = [0.01, 0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.8];
+
+/// How many of the margins are tried on the nearest value by the blade's reach alone.
+const MARGINS_BY_REACH: usize = 3;
+
+/// Given values on the other side of the stated one, as shares of it: which ones work may change back and forth.
+const BEYOND: [f64; 3] = [0.02, 0.05, 0.1];
 
 /// Most larger limits on scallop that are looked at beside another change.
 const MOST_WIDER: usize = 5;
@@ -47,8 +57,40 @@ impl Party {
     }
 }
 
-/// Bounds that cannot be kept together, with the nearest value of each that the others allow.
-pub(super) fn conflict(asked: &RoughVcut, bounds: &[Bound], nearest: &[Option<f64>]) -> Refused {
+/// Values of a bound, as the model counts them.
+struct Values {
+    /// What the job states.
+    stated: f64,
+    /// The nearest that all other bounds allow.
+    nearest: f64,
+    /// The nearest that all other bounds but the scallop's allow, where that is nearer.
+    by_reach: Option<f64>,
+}
+
+/// For each bound the values that may do, where there are any.
+fn values(problem: &Problem, bounds: &[Bound]) -> Vec<Option<Values>> {
+    let nearest = optimum::nearest(problem, bounds);
+    let free = Bound::Scallop.dropped(problem);
+    let is_of_scallop = bounds.contains(&Bound::Scallop) && optimum::any(&free).is_none();
+    let by_reach = match is_of_scallop {
+        true => optimum::nearest(&free, bounds),
+        false => bounds.iter().map(|_| None).collect(),
+    };
+    let all = bounds.iter().zip(nearest).zip(by_reach);
+    all.map(|((bound, nearest), by_reach)| {
+        let (stated, nearest) = (bound.value(problem)?, nearest?);
+        let is_nearer = |value: &f64| (stated - value) * (value - nearest) > 0.0;
+        Some(Values {
+            stated,
+            nearest,
+            by_reach: by_reach.filter(is_nearer),
+        })
+    })
+    .collect()
+}
+
+/// Bounds that cannot be kept together, with values of each that the others may allow.
+pub(super) fn conflict(asked: &RoughVcut, problem: &Problem, bounds: &[Bound]) -> Refused {
     let mut parties: Vec<(Party, Bound)> = bounds.iter().map(|&bound| (party(asked, bound), bound)).collect();
     parties.sort_by_key(|(party, _)| party.said);
     // A given value can bind from below and from above.
@@ -70,13 +112,14 @@ pub(super) fn conflict(asked: &RoughVcut, bounds: &[Bound], nearest: &[Option<f6
     for (span, label) in places {
         diagnostic = diagnostic.and(span, label);
     }
-    let ladders = bounds.iter().zip(nearest);
+    let values = values(problem, bounds);
+    let ladders = bounds.iter().zip(&values);
     Refused {
         told: diagnostic,
         ladders: ladders
-            .filter_map(|(&bound, nearest)| nearest.map(|nearest| ladder(asked, bound, nearest)))
+            .filter_map(|(&bound, values)| values.as_ref().map(|values| ladder(asked, bound, values)))
             .collect(),
-        resort: Offer::all_open(asked),
+        resort: Offer::openings(asked),
         otherwise: Some("widen several of these at once, or set more of the parameters to `auto`".to_owned()),
     }
 }
@@ -108,35 +151,84 @@ pub(super) fn off_grid(asked: &RoughVcut) -> Diagnostic {
     .help("widen one of the limits by a few micrometres")
 }
 
-/// Values for a bound that may work, and where they go.
-fn ladder(asked: &RoughVcut, bound: Bound, nearest: f64) -> Ladder {
-    let direction = outwards(bound);
+/// Values for a bound that may work, the nearest to what the job states first, and where they go.
+fn ladder(asked: &RoughVcut, bound: Bound, values: &Values) -> Ladder {
     let mut ladder: Ladder = Vec::new();
-    for margin in MARGINS {
-        let number = in_units(bound, nearest * (1.0 + direction * margin), direction);
-        let mut changed = asked.clone();
-        let Some(span) = set(&mut changed, bound, number) else {
-            break;
-        };
-        // A given value also has to stay within the limit on it.
-        let mut complaints = Vec::new();
-        check_given(&changed, &mut complaints);
-        let text = format!("{}{}", show(number), unit(bound));
-        let edits = vec![(span, text.clone())];
-        if complaints.is_empty() && ladder.iter().all(|offer: &Offer| offer.edits != edits) {
-            ladder.push(Offer {
-                title: format!("use {}", relation(asked, bound, &text)),
-                edits,
-                changed,
-            });
+    for offer in numbers(asked, bound, values)
+        .into_iter()
+        .filter_map(|number| offer(asked, bound, number))
+    {
+        if ladder.iter().all(|other| other.edits != offer.edits) {
+            ladder.push(offer);
         }
     }
-    let wider = match (bound, ladder.first()) {
+    let by_model = in_units(bound, values.nearest, outwards(bound));
+    let wider = match (bound, offer(asked, bound, by_model)) {
         (Bound::Scallop, _) | (_, None) => Vec::new(),
-        (_, Some(nearest)) => with_wider_scallops(nearest),
+        (_, Some(nearest)) => with_wider_scallops(&nearest),
     };
     ladder.extend(wider);
     ladder
+}
+
+/// A number in the place of a bound; none where the job does not say it, or where it breaks the limit on a given value.
+fn offer(asked: &RoughVcut, bound: Bound, number: f64) -> Option<Offer> {
+    let mut changed = asked.clone();
+    let span = set(&mut changed, bound, number)?;
+    let mut complaints = Vec::new();
+    check_given(&changed, &mut complaints);
+    let text = format!("{}{}", show(number), unit(bound));
+    complaints.is_empty().then(|| Offer {
+        title: format!("use {}", relation(asked, bound, &text)),
+        edits: vec![(span, text)],
+        changed,
+    })
+}
+
+/// The numbers of a ladder, in the unit that people use.
+fn numbers(asked: &RoughVcut, bound: Bound, values: &Values) -> Vec<f64> {
+    let Values {
+        stated,
+        nearest,
+        by_reach,
+    } = *values;
+    let direction = outwards(bound);
+    let exact = |value: f64| in_units(bound, value, direction);
+    let way = nearest - stated;
+    let between = match bound {
+        // The model knows these as well as it knows anything.
+        Bound::Time | Bound::Cuts => Vec::new(),
+        _ => BETWEEN.map(|share| stated + way * share).to_vec(),
+    };
+    let beyond = match is_given(asked, bound) && way.is_finite() {
+        true => BEYOND
+            .map(|share| stated - stated * share * way.signum())
+            .to_vec(),
+        false => Vec::new(),
+    };
+    let by_reach = by_reach.into_iter().flat_map(|value| {
+        let margins = MARGINS.iter().take(MARGINS_BY_REACH);
+        margins.map(move |margin| value * (1.0 + direction * margin))
+    });
+    let by_model = MARGINS.map(|margin| nearest * (1.0 + direction * margin));
+    let mut all: Vec<(f64, f64)> = between
+        .into_iter()
+        .chain(beyond)
+        .map(|value| (value, plain(exact(value), direction)))
+        .chain(by_reach.chain(by_model).map(|value| (value, exact(value))))
+        .filter(|&(_, number)| number > 0.0)
+        .collect();
+    all.sort_by(|(one, _), (other, _)| (one - stated).abs().total_cmp(&(other - stated).abs()));
+    all.into_iter().map(|(_, number)| number).collect()
+}
+
+/// To three digits, outwards: values that are found by trying need no more.
+fn plain(number: f64, direction: f64) -> f64 {
+    if number <= 0.0 {
+        return number;
+    }
+    let per_unit = libm::pow(10.0, 2.0 - libm::floor(libm::log10(number)));
+    outwards_to(number, per_unit, direction)
 }
 
 /// In which direction a bound is relaxed.
@@ -168,6 +260,11 @@ fn in_units(bound: Bound, value: f64, direction: f64) -> f64 {
         Bound::Time => (value, 10.0),
         Bound::Cuts => (value, 1.0),
     };
+    outwards_to(value, per_unit, direction)
+}
+
+/// Rounded to parts of a unit, outwards.
+fn outwards_to(value: f64, per_unit: f64, direction: f64) -> f64 {
     let count = value * per_unit;
     let rounded = if direction < 0.0 {
         (count + 1e-6).floor()

@@ -3,6 +3,7 @@
 use super::{command, folder, names, run, vcutc};
 use crate::repository::read;
 use std::fs;
+use std::path::Path;
 use vcutc::machine::catalogue;
 
 #[test]
@@ -70,6 +71,23 @@ fn a_machine_of_ones_own_will_do() {
     assert_eq!(written.code, Some(0), "{}", written.stderr);
 }
 
+/// What is untrue of a job with an upright blade, if that can lean on its machine.
+fn leans_all_the_same(folder: &Path, job: &str) -> Option<&'static str> {
+    const UPRIGHT: &str = "rake      = 90 deg";
+    if !job.contains(UPRIGHT) {
+        return None;
+    }
+    let leaning = job.replace(UPRIGHT, "rake      = 60 deg");
+    fs::write(folder.join("leaning.vcut"), leaning).unwrap();
+    let run = vcutc(folder, &["check", "--help-budget", "0s", "leaning.vcut"]);
+    let is_said = job.contains("With a blade that leans along the cut");
+    match (run.code, is_said) {
+        (Some(1), true) => None,
+        (Some(1), false) => Some("does not say why the blade is upright"),
+        (_, _) => Some("the blade could lean"),
+    }
+}
+
 /// The job of every machine of the catalogue is written for its control, in the way that `init` says.
 #[test]
 fn every_machine_of_the_catalogue_gets_a_program() {
@@ -91,6 +109,9 @@ fn every_machine_of_the_catalogue_gets_a_program() {
             failed.push(format!("{machine}: {}", written.stderr));
         }
         let job = fs::read_to_string(folder.path().join("part.vcut")).unwrap();
+        if let Some(what) = leans_all_the_same(folder.path(), &job) {
+            failed.push(format!("{machine}: {what}"));
+        }
         let model = catalogue::find(machine).unwrap();
         let has_rates = model.axes.iter().all(|axis| axis.rate.is_some());
         if job.contains("has no speeds") == has_rates {

@@ -78,6 +78,64 @@ fn a_program_is_written_and_told_of() {
     }
 }
 
+/// A program takes the place of another job's only with a word about it, and of its own without.
+#[test]
+fn who_replaces_the_program_of_another_job_says_so() {
+    let shop = shop();
+    let text = read(shop.path(), "rib.vcut");
+    let renamed = text.replace("job \"rib\"", "job \"rib!\"");
+    assert_ne!(renamed, text);
+    fs::write(shop.path().join("other.vcut"), renamed).unwrap();
+    let own = "was the program of another job";
+    for (job, replaced) in [
+        ("rib.vcut", None),
+        ("rib.vcut", None),
+        ("other.vcut", Some("`rib`")),
+        ("other.vcut", None),
+    ] {
+        let run = compile(shop.path(), job, &[]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert_eq!(
+            run.stderr.contains(own),
+            replaced.is_some(),
+            "{job}: {}",
+            run.stderr
+        );
+        assert!(
+            run.stderr.contains(replaced.unwrap_or_default()),
+            "{job}: {}",
+            run.stderr
+        );
+    }
+    let run = compile(shop.path(), "rib.vcut", &["--message-format", "json"]);
+    let summary = json_lines(&run.stderr)
+        .into_iter()
+        .find(|line| line["kind"] == "summary")
+        .unwrap();
+    assert_eq!(summary["replaced"][0]["job"], "rib!", "{summary}");
+}
+
+#[test]
+fn a_name_that_is_shortened_is_told_and_is_no_other_jobs() {
+    let shop = shop();
+    let text = read(shop.path(), "rib.vcut");
+    for end in ["a", "b"] {
+        let job = format!("{end}.vcut");
+        let name = format!("job \"rib_of_the_left_wing_{end}\"");
+        fs::write(shop.path().join(&job), text.replace("job \"rib\"", &name)).unwrap();
+        let run = compile(shop.path(), &job, &[]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(
+            run.stderr.contains("the program is called `rib_of_the_"),
+            "{}",
+            run.stderr
+        );
+    }
+    assert_eq!(names(&shop.path().join("out")).len(), 4);
+    let run = compile(shop.path(), "rib.vcut", &[]);
+    assert!(!run.stderr.contains("the program is called"), "{}", run.stderr);
+}
+
 #[test]
 fn without_a_folder_files_go_to_the_current_one() {
     let shop = shop();

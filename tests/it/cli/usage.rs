@@ -167,6 +167,30 @@ fn targets_are_offered_that_drive_the_machine_of_the_job() {
     assert!(run.stderr.contains("the job has no machine"), "{}", run.stderr);
 }
 
+/// Options of the machine's block that a dialect does not have are taken back in what is offered, which then works as it is.
+#[test]
+#[cfg(feature = "gcode")]
+fn a_dialect_is_offered_with_what_its_job_needs() {
+    let folder = folder();
+    let made = vcutc(
+        folder.path(),
+        &["init", "part", "--robot", "generic/head_head_ac"],
+    );
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let run = vcutc(
+        folder.path(),
+        &["part.vcut", "--target", "sinumerik", "-o", "out"],
+    );
+    assert_eq!(run.code, Some(2));
+    let offer = run.stderr.split("did you mean `").nth(1);
+    let offer = offer.and_then(|rest| rest.split('`').next()).unwrap_or_default();
+    assert!(offer.contains("dialect=sinumerik"), "{}", run.stderr);
+    let mut args = vec!["part.vcut", "-o", "out"];
+    args.extend(offer.split(' '));
+    let run = vcutc(folder.path(), &args);
+    assert_eq!(run.code, Some(0), "{args:?}: {}", run.stderr);
+}
+
 #[test]
 fn lists_with_blanks_are_answered_with_commas() {
     let run = vcutc(
