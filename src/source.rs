@@ -48,6 +48,15 @@ impl Span {
         }
     }
 
+    /// The empty stretch right before this one.
+    #[must_use]
+    pub const fn before(self) -> Self {
+        Self {
+            end: self.start,
+            ..self
+        }
+    }
+
     /// The empty stretch behind this one.
     #[must_use]
     pub const fn after(self) -> Self {

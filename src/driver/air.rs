@@ -22,7 +22,16 @@ use vcutc_backend_api::verify::{VerifiedProgram, verify};
 /// Nothing in a cell is higher, in mm.
 const HIGHEST: f64 = 10_000.0;
 
-/// The height of an air cut as people write it: mm unless another unit follows.
+/// What is said of a height that none can be.
+const OUT_OF_RANGE: &str = "a height must be greater than 0 mm and at most 10 m";
+
+/// How often the way between a height that is carried out and one that is not is halved.
+const HALVINGS: u32 = 7;
+
+/// Heights that are offered are multiples of this, in mm, but for the least.
+const OFFERED: f64 = 10.0;
+
+/// The height of an air cut as people write it, with its unit.
 ///
 /// # Errors
 /// What to write instead.
@@ -30,8 +39,13 @@ pub fn air_cut_height(text: &str) -> Result<Length, String> {
     let trimmed = text.trim();
     let end = trimmed.find(|c: char| c.is_alphabetic()).unwrap_or(trimmed.len());
     let (number, unit) = trimmed.split_at(end);
-    let unit = if unit.is_empty() { "mm" } else { unit };
     let number = number.trim().parse::<f64>().ok();
+    if let (Some(number), true) = (number, unit.is_empty()) {
+        return Err(match number > 0.0 {
+            true => format!("a height needs a unit: write `{}mm`", show(number)),
+            false => OUT_OF_RANGE.to_owned(),
+        });
+    }
     let found = number.and_then(|number| units::quantity(number, unit));
     let one = units::quantity(1.0, "mm");
     match (found, one) {
@@ -39,7 +53,7 @@ pub fn air_cut_height(text: &str) -> Result<Length, String> {
             if found.value > 0.0 && found.value <= HIGHEST {
                 Ok(Length::mm(found.value))
             } else {
-                Err("a height must be greater than 0 mm and at most 10 m".to_owned())
+                Err(OUT_OF_RANGE.to_owned())
             }
         }
         _ => Err("write a length with its unit, such as 100mm".to_owned()),
@@ -133,8 +147,9 @@ impl Lifted<'_> {
             None => diagnostic,
         };
         let least = show(self.least.to_mm());
-        if self.is_carried_out(self.least) {
-            return diagnostic.help(format!("use `--air-cut {least}mm`, which it carries out"));
+        if let Some(highest) = self.highest() {
+            let highest = show(highest.to_mm());
+            return diagnostic.help(format!("use `--air-cut {highest}mm`, which it carries out"));
         }
         let diagnostic = if self.least < self.lift {
             diagnostic.note(format!(
@@ -144,6 +159,27 @@ impl Lifted<'_> {
             diagnostic
         };
         diagnostic.help("run the program itself without stock, blade and generator, in manual mode")
+    }
+
+    /// The greatest height of those tried that the machine carries out, if it carries out the least.
+    fn highest(&self) -> Option<Length> {
+        if !self.is_carried_out(self.least) {
+            return None;
+        }
+        let (mut works, mut fails) = (self.least, self.lift);
+        for _ in 0..HALVINGS {
+            let between = (works + fails) / 2.0;
+            let between = Length::mm((between.to_mm() / OFFERED).floor() * OFFERED);
+            if between <= works {
+                break;
+            }
+            if self.is_carried_out(between) {
+                works = between;
+            } else {
+                fails = between;
+            }
+        }
+        Some(works)
     }
 
     fn is_carried_out(&self, lift: Length) -> bool {

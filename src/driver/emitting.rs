@@ -43,7 +43,7 @@ pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>
     };
     let refused = |issues: &[BackendIssue]| {
         let program = reached.program.program();
-        EmitFailure::Diagnostics(target::diagnose(job, backend, program, issues))
+        EmitFailure::Diagnostics(target::diagnose(job, backend, program, issues, &outcome.drivers))
     };
     let missing = target::missing(backend, reached.program.verified());
     if !missing.is_empty() {

@@ -120,6 +120,8 @@ pub struct Outcome {
     pub plan: Option<PlannedJob>,
     /// The program, when the job is without errors.
     pub compiled: Option<Compiled>,
+    /// The targets of this build that drive the job's machine.
+    pub drivers: Vec<&'static str>,
 }
 
 /// A program as far as its job takes it.
@@ -285,6 +287,7 @@ fn as_far_as_wanted(
         outcome
             .diagnostics
             .extend(target::unknown_targets(job, request.targets));
+        outcome.drivers = target::drivers(job, request.targets);
         outcome.diagnostics.extend(mount::doubts(job));
         outcome.diagnostics.extend(reach_verdict::too_large(job));
     }

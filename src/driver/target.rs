@@ -95,7 +95,7 @@ pub(super) fn objections(job: &CheckedJob, compiled: &Compiled, request: Request
         }
         issues.retain(is_of_program);
         all.extend(issues.iter().map(|issue| Objection {
-            told: objection(job, backend.id(), program, issue),
+            told: objection(job, backend.id(), program, issue, &[]),
             off: speeds::Off::of(job, program, issue),
         }));
     }
@@ -293,20 +293,41 @@ pub(super) fn diagnose(
     backend: &dyn Backend,
     program: &Program,
     issues: &[BackendIssue],
+    drivers: &[&str],
 ) -> Vec<Diagnostic> {
     issues
         .iter()
-        .map(|issue| objection(job, backend.id(), program, issue))
+        .map(|issue| objection(job, backend.id(), program, issue, drivers))
         .collect()
 }
 
-fn objection(job: &CheckedJob, target: &str, program: &Program, issue: &BackendIssue) -> Diagnostic {
+/// The targets of this build that drive the machine of a job, as far as they say by themselves.
+pub(super) fn drivers(job: &CheckedJob, targets: &[&'static dyn Backend]) -> Vec<&'static str> {
+    let Some(machine) = &job.machine else {
+        return Vec::new();
+    };
+    let (kind, maker) = (machine.model.kind(), machine.model.maker);
+    let drivers = targets
+        .iter()
+        .filter(|backend| backend.origin() == Origin::Linked && backend.mismatch(kind, maker).is_none());
+    drivers.map(|backend| backend.id()).collect()
+}
+
+fn objection(
+    job: &CheckedJob,
+    target: &str,
+    program: &Program,
+    issue: &BackendIssue,
+    drivers: &[&str],
+) -> Diagnostic {
     let machine = job
         .machine
         .as_ref()
         .map_or(job.name_span, |machine| machine.head_span);
     match issue {
-        BackendIssue::WrongMachine { mismatch, drives } => wrong_machine(job, target, *mismatch, drives),
+        BackendIssue::WrongMachine { mismatch, drives } => {
+            wrong_machine(job, target, (*mismatch, drives), drivers)
+        }
         BackendIssue::MissingMachineField { field, why } => Diagnostic::new(
             Code::MissingMachineField,
             format!("target `{target}` needs the machine's `{field}`"),
@@ -422,7 +443,12 @@ pub(super) fn by_maker(model: Option<&Model>) -> String {
 }
 
 /// A machine that the target does not drive.
-fn wrong_machine(job: &CheckedJob, target: &str, mismatch: MachineMismatch, drives: &str) -> Diagnostic {
+fn wrong_machine(
+    job: &CheckedJob,
+    target: &str,
+    (mismatch, drives): (MachineMismatch, &str),
+    drivers: &[&str],
+) -> Diagnostic {
     let machine = job.machine.as_ref();
     let span = machine.map_or(job.name_span, |machine| machine.model_span);
     let model = machine.map(|machine| machine.model.as_ref());
@@ -444,7 +470,12 @@ fn wrong_machine(job: &CheckedJob, target: &str, mismatch: MachineMismatch, driv
     let message = format!("target `{target}` does not drive `{name}`, {is}");
     let diagnostic =
         Diagnostic::new(Code::WrongMachine, message, span, label).note(format!("`{target}` drives {drives}"));
+    let others = drivers.iter().filter(|&&driver| driver != target);
+    let others: Vec<String> = others.map(|driver| format!("`--target {driver}`")).collect();
     match (mismatch, model.map(|model| model.maker)) {
+        (_, _) if !others.is_empty() => {
+            diagnostic.help(format!("write {}, which drives it", others.join(" or ")))
+        }
         (MachineMismatch::Maker, Some(Maker::Other)) => match drives.split(' ').next() {
             Some(maker @ ("KUKA" | "ABB")) => diagnostic.help(format!(
                 "if it is one of these, state `manufacturer = \"{maker}\"` in the file that describes it"

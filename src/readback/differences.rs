@@ -156,7 +156,17 @@ impl Teller<'_> {
             1 => "1 part".to_owned(),
             count => format!("{count} parts"),
         };
-        let message = if is.len() == should.len() {
+        let has_none = is.is_empty() && !should.is_empty();
+        let (label, help) = match has_none {
+            true => ("no part begins in this file", "compile the job again"),
+            false => (
+                "the first part begins here",
+                "give the options that the program was written with, such as --option lines_per_part=N, or compile the job again",
+            ),
+        };
+        let message = if has_none {
+            "the beginning of the program is missing".to_owned()
+        } else if is.len() == should.len() {
             format!(
                 "the {} begin elsewhere than where the compiler begins them",
                 parts(is.len().max(1))
@@ -170,10 +180,10 @@ impl Teller<'_> {
         };
         let span = self.span(is.first().copied().unwrap_or_default());
         self.tell(
-            Diagnostic::new(Code::OtherSetting, message, span, "the first part begins here")
+            Diagnostic::new(Code::OtherSetting, message, span, label)
                 .and(self.scene.job.name_span, "the job")
                 .note("what the parts do is compared all the same, and what each sets up and restates is not a difference")
-                .help("give the options that the program was written with, such as --option lines_per_part=N, or compile the job again"),
+                .help(help),
         );
         // How a program is split changes nothing of what its statements do.
         self.after_effects = AfterEffects::default();

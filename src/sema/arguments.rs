@@ -165,13 +165,16 @@ impl<'a> Arguments<'a> {
         parameters: &[Parameter<'_>],
         reader: &mut Reader<'_>,
     ) -> Checked<Vec<f64>> {
-        let mut fault = None;
-        for (at, argument) in self.given.iter().enumerate() {
+        let mut fault = self.nameless(parameters).map(|told| reader.reports.push(told));
+        let named = if fault.is_some() { &[][..] } else { &self.given[..] };
+        for (at, argument) in named.iter().enumerate() {
             if let Some(diagnostic) = self.misnamed(at, argument, parameters) {
                 fault = Some(reader.reports.push(diagnostic));
             }
         }
-        let mut values = Vec::new();
+        // A misnamed value may be the one that is missing.
+        let is_misnamed = fault.is_some();
+        let (mut values, mut missing) = (Vec::new(), Vec::new());
         for parameter in parameters {
             match self.find(parameter.name) {
                 Some(argument) => {
@@ -181,10 +184,11 @@ impl<'a> Arguments<'a> {
                         Err(reported) => fault = Some(reported),
                     }
                 }
-                // A misnamed value may be the one that is missing.
-                None if fault.is_none() => fault = Some(reader.reports.push(self.lacks(parameter))),
-                None => {}
+                None => missing.push(parameter),
             }
+        }
+        if !is_misnamed && !missing.is_empty() {
+            fault = Some(reader.reports.push(self.lacks(&missing)));
         }
         match fault {
             None => Ok(values),
@@ -231,20 +235,56 @@ impl<'a> Arguments<'a> {
         Some(did_you_mean(diagnostic, label.span, &near))
     }
 
-    /// A parameter that is not given.
-    fn lacks(&self, parameter: &Parameter<'_>) -> Diagnostic {
+    /// Values that all lack their names: with the names in the order of the parameters, where there are as many.
+    fn nameless(&self, parameters: &[Parameter<'_>]) -> Option<Diagnostic> {
+        let first = self.given.first()?;
+        if self.given.len() < 2 || self.given.iter().any(|argument| argument.name.is_some()) {
+            return None;
+        }
         let diagnostic = Diagnostic::new(
             Code::BadCall,
-            format!("`{}` needs `{}`", self.function, parameter.name),
-            self.span,
-            format!("`{}` is missing here", parameter.name),
+            format!("the values of `{}` need names", self.function),
+            first.value.span,
+            "which value is this?",
         );
-        let sample = format!("{} = {}", parameter.name, parameter.typical);
+        if self.given.len() != parameters.len() {
+            return Some(diagnostic.help(format!("write it like `{}`", self.example)));
+        }
+        let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name).collect();
+        let written: Vec<String> = names.iter().map(|name| format!("`{name} =`")).collect();
+        let pairs = self.given.iter().zip(&names);
+        let edits: Vec<(Span, String)> = pairs
+            .map(|(argument, name)| (argument.value.span.before(), format!("{name} = ")))
+            .collect();
+        Some(diagnostic.fix_all(format!("name them: {}", written.join(", ")), &edits))
+    }
+
+    /// Parameters that are not given.
+    fn lacks(&self, missing: &[&Parameter<'_>]) -> Diagnostic {
+        let names: Vec<String> = missing
+            .iter()
+            .map(|parameter| format!("`{}`", parameter.name))
+            .collect();
+        let (names, are) = match names.as_slice() {
+            [first @ .., last] if !first.is_empty() => (format!("{} and {last}", first.join(", ")), "are"),
+            few => (few.concat(), "is"),
+        };
+        let diagnostic = Diagnostic::new(
+            Code::BadCall,
+            format!("`{}` needs {names}", self.function),
+            self.span,
+            format!("{names} {are} missing here"),
+        );
+        let samples: Vec<String> = missing
+            .iter()
+            .map(|parameter| format!("{} = {}", parameter.name, parameter.typical))
+            .collect();
+        let samples = samples.join(", ");
         match self.given.last() {
             Some(last) => diagnostic.fix(
-                format!("add `, {sample}`"),
+                format!("add `, {samples}`"),
                 last.value.span.after(),
-                format!(", {sample}"),
+                format!(", {samples}"),
             ),
             None => diagnostic.help(format!("write it like `{}`", self.example)),
         }

@@ -241,7 +241,27 @@ impl<'a> Fields<'a> {
             name.span,
             "not a field of this block",
         );
-        did_you_mean(diagnostic, name.span, near).note(field_list(self.spec))
+        let diagnostic = did_you_mean(diagnostic, name.span, near);
+        let diagnostic = match self.block_with(&name.node) {
+            Some((block, sample)) => diagnostic.help(format!(
+                "it is a field of `{block}`: write `{block} {{ {sample} }}`"
+            )),
+            None => diagnostic,
+        };
+        diagnostic.note(field_list(self.spec))
+    }
+
+    /// The block within this one that has a field of that name, and how it is written there.
+    fn block_with(&self, name: &str) -> Option<(&'static str, String)> {
+        self.spec.fields.iter().find_map(|field| match field.takes {
+            Takes::Fields(inner) => Some((field.name, inner.field(name)?.sample())),
+            Takes::Anything
+            | Takes::Quantity(_)
+            | Takes::Words(_)
+            | Takes::Blade
+            | Takes::Machine
+            | Takes::Calls(_) => None,
+        })
     }
 
     fn belongs_in_profile(&self, what: &str, span: Span) -> Diagnostic {

@@ -4,6 +4,7 @@
 //! knows that it means one thing.
 
 use super::report::{Reported, Reports};
+use super::units;
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{Span, Spanned};
@@ -162,6 +163,13 @@ impl<'a> Names<'a> {
             span,
             "not defined in this file or in any that it uses",
         );
+        if what == "value" && units::is_unit(name) {
+            return diagnostic
+                .note(format!(
+                    "`{name}` is a unit, which goes after a number: `1 {name}`"
+                ))
+                .help("a unit has one `/` at most, as in `mm/s`");
+        }
         let near = self.near(what, name, is_wanted, reports);
         diagnostic = did_you_mean(diagnostic, span, &near);
         if near.is_empty() {

@@ -1,5 +1,6 @@
 //! Reading fields: from an expression to a typed value within its range.
 
+use super::dimension::Dimension;
 use super::eval::Scope;
 use super::fields::Fields;
 use super::names::did_you_mean;
@@ -33,6 +34,13 @@ pub(crate) const fn default<T>(value: T) -> Sourced<T> {
     Sourced { value, span: None }
 }
 
+/// A plain number that is a share of the range once it is read as a percentage, written as that.
+fn as_percent(expr: &Spanned<Expr>, value: f64, range: Range) -> Option<String> {
+    let is_plain = matches!(&expr.node, Expr::Number { unit: None, .. });
+    let is_share = range.dimension == Dimension::PURE && !range.holds(2.0) && range.holds(value / 100.0);
+    (is_plain && is_share && value >= 1.0).then(|| format!("{} %", number(value)))
+}
+
 impl Reader<'_> {
     /// The value of an expression within a range, in mm, rad, s, kg. `taker` names who takes it: `` `rake` ``.
     pub(crate) fn within(
@@ -57,6 +65,10 @@ impl Reader<'_> {
         );
         let diagnostic = match self.scope.let_named_by(expr) {
             Some(by) => diagnostic.and(by.value.span, format!("`{}` gets its value here", by.name.node)),
+            None => diagnostic,
+        };
+        let diagnostic = match as_percent(expr, value, range) {
+            Some(percent) => diagnostic.fix(format!("use `{percent}`"), expr.span, percent),
             None => diagnostic,
         };
         let diagnostic = match typical {

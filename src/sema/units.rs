@@ -164,6 +164,8 @@ const AMBIGUOUS: &[(&str, [&str; 2])] = &[
 /// Units that the language lacks, and how they are written in those it has.
 const CONVERSIONS: &[(&str, &str)] = &[
     ("rpm", "1 rpm is 6 deg/s"),
+    ("km", "1 km is 1000 m"),
+    ("km/h", "1 km/h is 1000 m/h, which is 277.8 mm/s"),
     ("gon", "1 gon is 0.9 deg"),
     ("mil", "1 mil is 0.0254 mm"),
     ("thou", "1 thou is 0.0254 mm"),
@@ -191,6 +193,11 @@ fn meant_simple(name: &str) -> Vec<&'static str> {
         return Vec::new();
     }
     crate::diag::suggest::nearest(name, UNITS.iter().map(|unit| unit.name))
+}
+
+/// Whether a word is a unit.
+pub(super) fn is_unit(name: &str) -> bool {
+    UNITS.iter().any(|unit| unit.name == name)
 }
 
 /// All simple units, for a help line.

@@ -23,7 +23,7 @@ use crate::source::{Entry, LoadError, Loader, SourceMap};
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::{Frame, Point3};
-use vcutc_backend_api::ir::{Axis, AxisValues, Program};
+use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
 
 /// Rates of turning the blade that are tried, in deg/s, the usual one first.
 const REORIENT: [u32; 3] = [60, 40, 20];
@@ -87,35 +87,78 @@ pub fn job(asked: &Asked<'_>) -> Result<String, Refusal> {
             Err((diagnostics, sources)) => Err(Refusal::Name(diagnostics, sources)),
         };
     };
-    for tool in places::tools(model) {
-        for reorient in REORIENT {
-            let draft = text::cuts(asked.name, tool.rake, reorient, tool.block);
-            let outcome =
-                compiled(asked, &draft).map_err(|(found, sources)| Refusal::Name(found, sources))?;
-            let Some(planned) = outcome.compiled else {
-                continue;
-            };
-            let verified = planned.program.verified();
-            let setups = setups(
-                model,
-                tool,
-                reorient,
-                verified.program(),
-                &TaughtPoses::of(verified),
-            );
-            let written = |setup: &Setup| {
-                let text = text::with_machine(asked.name, model, setup, asked.targets);
-                Some(laid_out(text)).filter(|text| compiled(asked, text).is_ok())
-            };
-            let mut tried = setups.iter().map(|setup| (setup, written(setup)));
-            if let Some((setup, Some(text))) = tried.find(|(_, text)| text.is_some()) {
-                // Where the blade is upright the job says that it cannot lean, so that is tried in the same place.
-                let leaning = setup.leaning().and_then(|leaning| written(&leaning));
-                return Ok(leaning.unwrap_or(text));
-            }
+    let mut upright = None;
+    for (tool, reorient) in ways(model) {
+        if tool.is_upright() && upright.is_some() {
+            continue;
+        }
+        match with_tool(asked, model, (tool, reorient))? {
+            Some(Found::Leaning(text)) => return Ok(text),
+            Some(Found::Upright(text)) => upright = Some(text),
+            None => {}
         }
     }
-    Err(Refusal::NoPlace)
+    upright.ok_or(Refusal::NoPlace)
+}
+
+/// How the blade may be mounted and how fast it may turn, in the order in which that is tried. On a five-axis machine upright
+/// blades come between the rates of leaning ones: most find their place at once, and there a leaning one may do, too.
+fn ways(model: &Model) -> Vec<(Tool, u32)> {
+    let tools = places::tools(model);
+    match model.kind() {
+        MachineKind::Robot => {
+            let ways = tools.iter().flat_map(|&tool| REORIENT.map(|rate| (tool, rate)));
+            ways.collect()
+        }
+        MachineKind::FiveAxis => {
+            let ways = REORIENT
+                .iter()
+                .flat_map(|&rate| tools.iter().map(move |&tool| (tool, rate)));
+            ways.collect()
+        }
+    }
+}
+
+/// The text of a set-up that compiles.
+enum Found {
+    /// The blade leans along the cut.
+    Leaning(String),
+    /// It stands upright, and a leaning one does not do in its place.
+    Upright(String),
+}
+
+/// The text of the first set-up with a tool that compiles.
+fn with_tool(
+    asked: &Asked<'_>,
+    model: &Model,
+    (tool, reorient): (Tool, u32),
+) -> Result<Option<Found>, Refusal> {
+    let draft = text::cuts(asked.name, tool.rake, reorient, tool.block);
+    let outcome = compiled(asked, &draft).map_err(|(found, sources)| Refusal::Name(found, sources))?;
+    let Some(planned) = outcome.compiled else {
+        return Ok(None);
+    };
+    let verified = planned.program.verified();
+    let setups = setups(
+        model,
+        tool,
+        reorient,
+        verified.program(),
+        &TaughtPoses::of(verified),
+    );
+    let written = |setup: &Setup| {
+        let text = text::with_machine(asked.name, model, setup, asked.targets);
+        Some(laid_out(text)).filter(|text| compiled(asked, text).is_ok())
+    };
+    let mut tried = setups.iter().map(|setup| (setup, written(setup)));
+    let Some((setup, Some(text))) = tried.find(|(_, text)| text.is_some()) else {
+        return Ok(None);
+    };
+    Ok(Some(match setup.leaning() {
+        None => Found::Leaning(text),
+        // The job of an upright blade says that a leaning one does not do here, so that is tried.
+        Some(leaning) => written(&leaning).map_or(Found::Upright(text), Found::Leaning),
+    }))
 }
 
 /// What comes of a text, or what is wrong with it.

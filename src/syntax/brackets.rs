@@ -65,6 +65,8 @@ struct Scan<'t> {
     is_matched: bool,
     /// The token before, comments left out.
     previous: Option<Token>,
+    /// The one before that.
+    before_previous: Option<Token>,
     /// Where the last block of the file ended.
     last_end: usize,
     reports: Reports,
@@ -82,6 +84,7 @@ impl<'t> Scan<'t> {
             too_deep: None,
             is_matched: true,
             previous: None,
+            before_previous: None,
             last_end: 0,
             reports: Reports::default(),
             doubtful: Vec::new(),
@@ -140,10 +143,17 @@ impl<'t> Scan<'t> {
             TokenKind::InchMark => self.inch_mark(token),
             TokenKind::Word | TokenKind::Number | TokenKind::Symbol => self.believe_indentation(token),
         }
+        self.before_previous = self.previous;
         self.previous = Some(token);
     }
 
     fn opened(&mut self, bracket: Bracket, token: Token) {
+        if let (Bracket::Round, true, Some(&(Bracket::Round, opener))) =
+            (bracket, self.follows_value(), self.open.last())
+        {
+            self.open.pop();
+            self.unclosed(Bracket::Round, opener, Some(token));
+        }
         if self.open.len() < DEEPEST {
             self.open.push((bracket, token));
             return;
@@ -158,6 +168,16 @@ impl<'t> Scan<'t> {
             )
             .help("give the inner part a name of its own with `let`, or delete brackets that are not needed"),
         );
+    }
+
+    /// Whether the last token ends a number or its unit, after which no bracket opens: `40 mm (`.
+    fn follows_value(&self) -> bool {
+        let kind = |token: Option<Token>| token.map(|token| token.kind);
+        match (kind(self.before_previous), kind(self.previous)) {
+            (_, Some(TokenKind::Number)) => true,
+            (Some(TokenKind::Number), Some(TokenKind::Word)) => true,
+            (_, _) => false,
+        }
     }
 
     fn deeper(&mut self, by: usize) {

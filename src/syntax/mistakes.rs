@@ -7,6 +7,7 @@ use super::build::Place;
 use super::grammar::{Mismatch, Rule, read};
 use super::lexical::{Bracket, Token, TokenKind, tokens};
 use super::slips;
+use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
 use std::ops::Range;
@@ -100,6 +101,21 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
                 "move the `{word}` out of the block, to the top of the file"
             )),
         ),
+        (_, Some((TokenKind::Open(Bracket::Round), _)))
+            if is_entry
+                && is_plain_name(word)
+                && let [meant, ..] = nearest(word, WITH_POINTS)[..] =>
+        {
+            Some(
+                Diagnostic::new(
+                    Code::UnexpectedText,
+                    format!("there is no `{}` that points follow", shown(word)),
+                    here,
+                    "not a word of the language",
+                )
+                .fix(format!("did you mean `{meant}`?"), here, meant),
+            )
+        }
         (_, None) if is_entry && is_leftover(bad) => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
@@ -142,6 +158,9 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
         _ => None,
     }
 }
+
+/// Words that points in brackets follow.
+const WITH_POINTS: [&str; 5] = ["start", "bezier", "spline", "polyline", "tips"];
 
 /// Whether the statement goes on where the one before it ended, with no comma or line end between.
 fn is_leftover(bad: &Bad<'_>) -> bool {

@@ -166,8 +166,13 @@ fn a_height_that_does_not_do_is_refused_with_one_that_does() {
         assert!(outcome.compiled.is_none());
         let offered = offered(&outcome);
         assert!(lifted(bench(), offered).compiled.is_some(), "{offered}");
-        // The least one.
-        assert!(lifted(bench(), offered - 1.0).compiled.is_none(), "{offered}");
+        // About the least one, or the greatest.
+        let beyond = if height < offered {
+            offered - 1.0
+        } else {
+            offered + 100.0
+        };
+        assert!(lifted(bench(), beyond).compiled.is_none(), "{offered}");
     }
 }
 
@@ -176,7 +181,6 @@ fn heights_are_lengths() {
     for (text, mm) in [
         ("100mm", 100.0),
         ("100 mm", 100.0),
-        ("100", 100.0),
         ("10 cm", 100.0),
         ("0.1m", 100.0),
     ] {
@@ -185,7 +189,9 @@ fn heights_are_lengths() {
             "{text}"
         );
     }
-    for text in ["", "mm", "-5mm", "0", "100deg", "100 mn", "11 m", "nan", "inf mm"] {
+    for text in [
+        "", "mm", "-5mm", "0", "100", "100deg", "100 mn", "11 m", "nan", "inf mm",
+    ] {
         assert!(air_cut_height(text).is_err(), "{text}");
     }
 }

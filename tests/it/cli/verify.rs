@@ -194,6 +194,19 @@ fn an_air_cut_is_verified_with_its_height() {
 }
 
 #[test]
+fn a_program_that_was_emptied_has_no_beginning() {
+    let folder = bench();
+    let run = vcutc(folder.path(), &["-q", "bench.vcut", "--target", "krl"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    fs::write(folder.path().join("bench.src"), "").unwrap();
+    let run = vcutc(folder.path(), &["verify", "bench.vcut", "bench.dat", "bench.src"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    let words = "the beginning of the program is missing";
+    assert!(run.stderr.contains(words), "{}", run.stderr);
+    assert!(!run.stderr.contains("split otherwise"), "{}", run.stderr);
+}
+
+#[test]
 fn the_summary_of_an_air_cut_claims_no_surface() {
     let folder = bench();
     let run = vcutc(folder.path(), &["check", "bench.vcut", "--air-cut", "100mm"]);
