@@ -54,7 +54,16 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "remedy",
         &[
-            "diag", "job", "lower", "machine", "plan", "reach", "source", "verdict", "wanted",
+            "diag",
+            "job",
+            "kinematics",
+            "lower",
+            "machine",
+            "plan",
+            "reach",
+            "source",
+            "verdict",
+            "wanted",
         ],
     ),
     (
@@ -185,6 +194,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "reach_verdict",
             "readback",
             "registry",
+            "remedy",
             "sema",
             "sim",
             "source",

@@ -90,7 +90,7 @@ mod tests {
             ("12", "VC_12"),
             ("traori", "VC_TRAORI"),
             ("", "VC"),
-            ("a_very_long_name_of_a_job", "VC_A_VERY_LONG_NAM"),
+            ("a_very_long_name_of_a_job", "VC_A_VERY_LON_YOO2"),
         ] {
             assert_eq!(named(job, "sinumerik", &[]), name, "{job}");
         }

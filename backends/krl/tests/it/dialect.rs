@@ -190,7 +190,7 @@ fn the_longest_name_is_kept_and_a_longer_one_is_cut() {
     for (name, module) in [
         ("rib_of_18_letters_", "rib_of_18_letters"),
         ("a_name_of_eighteen", "a_name_of_eighteen"),
-        ("a_name_of_eighteen_and_more", "a_name_of_eighteen"),
+        ("a_name_of_eighteen_and_more", "a_name_of_eig_0pz1"),
         ("Flügel 7", "Fl_gel_7"),
         ("lin", "VC_lin"),
         ("bas", "VC_bas"),
