@@ -239,11 +239,12 @@ proptest! {
             (Formulas::Paper, Lattice::Interlaced) => chosen.layer + chosen.step * (chosen.flanks.slope / 2.0),
             (Formulas::Paper | Formulas::Exact, _) => super::blade_reach::scallop_bound(chosen.lattice, chosen.layer, chosen.step, chosen.flanks.slope),
         };
-        let stays = match chosen.scallop_by {
-            ScallopBy::Bound => bound + vcut.asked.allowance.value + chosen.drop,
-            ScallopBy::Simulation => proven.report.scallop.height,
+        // What is simulated may exceed the limit by the micrometre that the choice allows.
+        let (stays, excess) = match chosen.scallop_by {
+            ScallopBy::Bound => (bound + vcut.asked.allowance.value + chosen.drop, Length::mm(1e-6)),
+            ScallopBy::Simulation => (proven.report.scallop.height, Length::mm(1e-3)),
         };
-        prop_assert!(limits.scallop.is_none_or(|limit| stays <= limit.value + Length::mm(1e-6)), "{chosen:?} {stays:?}");
+        prop_assert!(limits.scallop.is_none_or(|limit| stays <= limit.value + excess), "{chosen:?} {stays:?}");
         let edge = limits.edge.map_or(Length::mm(f64::INFINITY), |limit| limit.value);
         prop_assert!(proven.report.longest_edge <= edge + Length::mm(1e-6), "{chosen:?}");
         // Neighbouring Vs meet, but for the micrometre that rounding may take.
