@@ -4,14 +4,14 @@
 
 mod places;
 
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use crate::machine::Model;
 use crate::source::{Span, Spanned};
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 /// A value and where it was written; `None` when it is a default.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,6 @@ pub use stays::{Compile, much_stays};
 
 use crate::choice::{Effort, Latitude, WorksThere};
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::Point2;
 use crate::job::{CheckedJob, RoughVcut};
 use crate::lower;
 use crate::plan::parameters::show;
@@ -28,6 +27,7 @@ use chips::Remedy;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
+use vcutc_geometry::curve::Point2;
 
 /// A program with its proof, good or bad.
 #[derive(Debug)]

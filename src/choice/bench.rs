@@ -1,8 +1,6 @@
 //! Ways to cut an operation, written down as programs of their own and measured.
 
 use super::{Contender, Latitude};
-use crate::geom::offset::offset_up;
-use crate::geom::profile::Profile;
 use crate::job::{CheckedJob, Objective, RoughVcut};
 use crate::lower::alone;
 use crate::plan::decision::Standing;
@@ -15,6 +13,8 @@ use crate::sim::timing::total;
 use crate::wanted::Wanted;
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_geometry::offset::offset_up;
+use vcutc_geometry::profile::Profile;
 
 /// What a plan comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,6 @@
 
 use super::bench::Bench;
 use super::{Unplanned, within_limits};
-use crate::geom::curve::Point2;
 use crate::job::{
     Auto, CheckedJob, ChosenScallop, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced, WhyChosen,
 };
@@ -17,6 +16,7 @@ use crate::plan::blade_reach::{self, Flanks};
 use crate::plan::removable::{Removable, standoff};
 use crate::plan::{LaidOut, PlannedJob, PlannedOperation};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::curve::Point2;
 
 /// What may stay of what is to go before it is worth a word, as a share.
 pub const LITTLE: f64 = 0.1;

@@ -5,7 +5,6 @@ mod finest;
 
 use super::choose;
 use crate::diag::Code;
-use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 use crate::plan::decision::Standing;
 use crate::plan::route::{Heading, layers};
@@ -16,6 +15,7 @@ use crate::source::SourceMap;
 use crate::verdict::{self, Proven};
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_geometry::curve::Point2;
 
 const ROUTES: [(Sequence, Order); 6] = [
     (Sequence::Rows, Order::Point),
@@ -226,7 +226,7 @@ fn nearest_finishes_a_hollow_before_it_crosses_the_hill() {
 fn boustrophedon_turns_round_and_stays_beside_the_work() {
     let mut job = hollows();
     job.profile =
-        crate::geom::profile::Profile::new(vec![Point2 { x: 0.0, z: 5.0 }, Point2 { x: 85.0, z: 5.0 }])
+        vcutc_geometry::profile::Profile::new(vec![Point2 { x: 0.0, z: 5.0 }, Point2 { x: 85.0, z: 5.0 }])
             .unwrap();
     let (plan, proven) = along(&job, (Sequence::Boustrophedon, Order::Point)).unwrap();
     let runs = &vcut(&plan).runs;

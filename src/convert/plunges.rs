@@ -7,9 +7,9 @@
 
 use super::place::Blank;
 use super::raster::{Pass, SAME};
-use crate::geom::curve::Point2;
 use crate::sim::surface::{Surface, Vee};
 use crate::source::Span;
+use vcutc_geometry::curve::Point2;
 
 /// A motion that ends, or begins, below the top of the blank, in its axes from its corner.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,13 +5,13 @@ use super::milling::Milling;
 use super::place::Blank;
 use super::raster::{Pass, Raster};
 use crate::format::format;
-use crate::geom::curve::Point2;
 use crate::plan::parameters::show;
 use crate::source::{FileId, SourceMap, Span};
 use crate::syntax::ast::{Entry, Item, Point};
 use crate::syntax::parse;
 use core::ops::Range;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::curve::Point2;
 
 /// A job's text.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,10 +5,10 @@ use super::parameters::{VcutParameters, show};
 use super::refusal::{Ladder, Offer, Refused};
 use super::{MOST_CUTS, MOST_OPERATIONS, grid};
 use crate::diag::{Code, Diagnostic};
-use crate::geom::profile::Profile;
 use crate::job::{Auto, CheckedJob, Residual, RoughVcut, Sourced};
 use crate::source::Span;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::profile::Profile;
 
 pub(super) fn too_many_operations(asked: &RoughVcut, count: usize) -> Diagnostic {
     Diagnostic::new(

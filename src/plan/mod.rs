@@ -27,9 +27,6 @@ pub mod time_model;
 pub(crate) mod tests;
 
 use crate::diag::Diagnostic;
-use crate::geom::cone;
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
 use crate::sim::surface::Surface;
 use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
@@ -41,6 +38,9 @@ use residual::Strategies;
 use route::Run;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_geometry::cone;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 /// A job with every choice made.
 #[derive(Clone, Debug, PartialEq)]

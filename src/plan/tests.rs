@@ -1,7 +1,5 @@
 //! Random jobs, planned and proven: no overcut, every kept chip freed, every V complete.
 
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use crate::job::{
     Auto, Blade, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order,
     Residual, RoughVcut, Sequence, Sourced,
@@ -13,6 +11,8 @@ use crate::verdict;
 use proptest::prelude::*;
 use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 fn given<T>(value: T) -> Sourced<T> {
     Sourced { value, span: None }

@@ -14,13 +14,13 @@ pub use paths::paths;
 pub use time::time;
 
 use super::Material;
-use crate::geom::curve::Point2;
 use crate::picture::thin::Thinned;
 use crate::picture::{Prefix, contour, correlation, deviation, lattice};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut, TipOrigin};
 use crate::sim::contour::{SAMPLES, Sampled, sampled};
 use crate::verdict;
+use vcutc_geometry::curve::Point2;
 
 /// The lattice: tips by origin, flanks, layers (`picture::lattice`).
 #[must_use]

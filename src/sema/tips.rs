@@ -12,7 +12,6 @@ use super::read::sourced;
 use super::report::{Checked, Reported, Reports};
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::Point2;
 use crate::job::{Auto, Bounds, Lattice, Limits, Residual, RoughVcut, Sequence, Tip, Tips};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::Point;
@@ -21,6 +20,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
 
 /// Tips with the distances that are commonest among them.
 pub(super) struct Given {

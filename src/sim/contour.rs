@@ -1,9 +1,9 @@
 //! The machined contour held against the part: distances, and the correlation of both [Cui IV.B].
 
 use super::prove::merge_heights;
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 /// A point of one contour, by its distance from the other: material left standing.
 #[derive(Clone, Copy, Debug, PartialEq)]

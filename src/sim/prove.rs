@@ -12,14 +12,14 @@
 //! earlier one). They are compared corner by corner at the end; between corners both are straight.
 
 use super::surface::{Side, Surface, Vee};
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use core::num::NonZeroU32;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Flank, OpId, OperationId, OrientationId, Program, Site};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 /// What an operation must stay out of.
 #[derive(Clone, Copy, Debug)]

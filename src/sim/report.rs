@@ -3,10 +3,10 @@
 use super::contour::{Sampled, Scallop, farthest};
 use super::prove::Replay;
 use super::timing::Times;
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use vcutc_backend_api::ir::{OperationId, Stock};
 use vcutc_backend_api::units::{Area, Length};
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 /// Figures of a program.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,10 +5,10 @@
 //! tip up, as far as it is long, and no point of that line may lie below the part.
 
 use super::prove::Bound;
-use crate::geom::curve::Point2;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::Blade;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
 
 /// A place in the part, and how far above it the part's contour lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,8 +93,8 @@ fn entry(bound: &Bound<'_>, tip: Point2, edge: Point2) -> Option<Entry> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::profile::Profile;
     use proptest::prelude::*;
+    use vcutc_geometry::profile::Profile;
 
     proptest! {
         #[test]

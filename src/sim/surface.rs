@@ -16,8 +16,8 @@
 //! it: at a corner it touches, in a segment it crosses, or at the stock's side. The height of that point above the tip is
 //! the vertical reach the blade needs: beyond `d cos(swing)` the chip is not freed (`docs/process.md`, "One V-cut").
 
-use crate::geom::curve::Point2;
 use vcutc_backend_api::ir::Stock;
+use vcutc_geometry::curve::Point2;
 
 /// Heights this close are equal: a nanometre, a thousandth of the grid that tips lie on. Without it the flank of a cut
 /// that passes exactly through an older tip, as interlaced lattices want it, would miss it by rounding.

@@ -3,8 +3,6 @@
 use super::prove::{Bound, CutFault, Findings, replay};
 use super::timing::timing;
 use crate::choice::choose;
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use crate::job::{Auto, Operation, Residual};
 use crate::lower::lower;
 use crate::plan::PlannedOperation;
@@ -13,6 +11,8 @@ use crate::source::SourceMap;
 use crate::verdict::prove;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::verify;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 fn flat(z: f64) -> Vec<Point2> {
     vec![Point2 { x: 0.0, z }, Point2 { x: 85.0, z }]

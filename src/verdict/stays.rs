@@ -7,7 +7,6 @@
 use super::attempts::changed;
 use crate::choice::LITTLE;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::Point2;
 use crate::job::{Auto, CheckedJob, RoughVcut, Sourced};
 use crate::plan::parameters::show;
 use crate::plan::refusal::Offer;
@@ -17,6 +16,7 @@ use crate::sim::report::Report;
 use crate::source::Span;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::{Area, Length};
+use vcutc_geometry::curve::Point2;
 
 /// What may stay where the job itself says what does, as a share.
 const SAID: f64 = 0.5;

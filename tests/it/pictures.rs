@@ -7,7 +7,7 @@ use crate::shop::{compiling, folder};
 use std::collections::BTreeSet;
 use std::fs;
 use vcutc::driver::Outcome;
-use vcutc::geom::curve::Point2;
+use vcutc::geometry::curve::Point2;
 use vcutc::picture::thin::Thinned;
 use vcutc::picture::{PAGE_WIDTH, PHONE_WIDTH, Prefix, contour, joints, lattice};
 use vcutc::report::{Material, pictures};

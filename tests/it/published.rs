@@ -6,7 +6,7 @@
 
 use crate::pipeline::{Files, compile, told};
 use vcutc::driver::Outcome;
-use vcutc::geom::curve::Point2;
+use vcutc::geometry::curve::Point2;
 use vcutc::plan::{PlannedOperation, PlannedVcut};
 use vcutc::sim::surface::{Surface, Vee};
 

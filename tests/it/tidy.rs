@@ -8,13 +8,12 @@ use vcutc::diag::Code;
 /// Longest source file. Beyond it a file is about more than one subject.
 const MOST_LINES: usize = 700;
 
-/// Which module of `src` may use which others.
+/// Which module of the root package may use which others; Cargo says it of rooms.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("source", &[]),
     ("air", &[]),
     ("fingerprint", &["source", "syntax"]),
     ("registry", &[]),
-    ("geom", &[]),
     ("posture", &[]),
     ("wanted", &[]),
     ("diag", &["source"]),
@@ -25,20 +24,20 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("numbers", &["document", "plan", "sim"]),
     ("manifest", &["diag", "document", "numbers", "source"]),
     ("machine", &["diag", "document", "kinematics", "source"]),
-    ("reach", &["geom", "kinematics", "machine", "sim", "wanted"]),
-    ("job", &["geom", "machine", "source"]),
+    ("reach", &["kinematics", "machine", "sim", "wanted"]),
+    ("job", &["machine", "source"]),
     ("syntax", &["diag", "source"]),
     ("format", &["diag", "source", "syntax"]),
     (
         "sema",
-        &["diag", "document", "geom", "job", "machine", "source", "syntax"],
+        &["diag", "document", "job", "machine", "source", "syntax"],
     ),
-    ("sim", &["geom"]),
-    ("plan", &["diag", "geom", "job", "posture", "sim", "source"]),
-    ("lower", &["geom", "job", "plan", "posture", "source"]),
+    ("sim", &[]),
+    ("plan", &["diag", "job", "posture", "sim", "source"]),
+    ("lower", &["job", "plan", "posture", "source"]),
     (
         "choice",
-        &["diag", "geom", "job", "lower", "plan", "sim", "source", "wanted"],
+        &["diag", "job", "lower", "plan", "sim", "source", "wanted"],
     ),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
     (
@@ -70,7 +69,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "reach_verdict",
         &[
             "diag",
-            "geom",
             "job",
             "kinematics",
             "plan",
@@ -140,9 +138,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ),
     (
         "convert",
-        &[
-            "diag", "format", "geom", "plan", "sema", "sim", "source", "syntax",
-        ],
+        &["diag", "format", "plan", "sema", "sim", "source", "syntax"],
     ),
     (
         "report",
@@ -150,7 +146,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "checks",
             "diag",
             "driver",
-            "geom",
             "hints",
             "job",
             "kinematics",
@@ -167,7 +162,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "verdict",
         &[
-            "choice", "diag", "geom", "job", "lower", "plan", "sim", "source", "wanted",
+            "choice", "diag", "job", "lower", "plan", "sim", "source", "wanted",
         ],
     ),
     (
@@ -260,7 +255,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
         &["src/kinematics/", "src/machine/", "src/posture.rs", "src/reach/"],
     ),
     ("nalgebra::", &["src/kinematics/"]),
-    ("roxmltree::", &["src/geom/import/svg/", "src/machine/urdf/"]),
+    ("roxmltree::", &["src/geometry/import/svg/", "src/machine/urdf/"]),
     (
         "pulp::",
         &[
@@ -551,7 +546,8 @@ fn documents() -> Vec<TextFile> {
 fn module(path: &str) -> Option<&str> {
     let inside = path.strip_prefix("src/")?;
     let module = inside.split('/').next()?.trim_end_matches(".rs");
-    (!matches!(module, "lib" | "main")).then_some(module)
+    let is_room = root().join("src").join(module).join("Cargo.toml").is_file();
+    (!is_room && !matches!(module, "lib" | "main")).then_some(module)
 }
 
 /// The modules that a line names as `crate::module`.

@@ -13,7 +13,6 @@ pub mod timeline;
 pub mod track;
 
 use crate::driver::{Compiled, Finished};
-use crate::geom::curve::Point2;
 use crate::kinematics::linkage::Linkage;
 use crate::kinematics::pose::Pose;
 use crate::plan::PlannedJob;
@@ -23,6 +22,7 @@ use timeline::Timeline;
 use track::Track;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
+use vcutc_geometry::curve::Point2;
 
 /// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.
 pub const MOST_OPS: usize = 400_000;

@@ -2,7 +2,6 @@
 
 use super::{Piece, TOLERANCE, Trace, data, drawing};
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::{Curve as Shape, CurveError, Point2};
 use crate::sema::dimension::Dimension;
 use crate::sema::eval::Scope;
 use crate::sema::fields::curve_words;
@@ -13,6 +12,7 @@ use crate::sema::session::Session;
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{ArcBy, Curve, Entry, Point};
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::{Curve as Shape, CurveError, Point2};
 
 /// The polyline of a chain of pieces.
 pub(super) fn trace(pieces: &[Piece<'_>], scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Trace> {

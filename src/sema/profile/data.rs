@@ -5,8 +5,6 @@
 
 use super::repairs;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::{LARGEST_COORDINATE, Point2};
-use crate::geom::import::{self, DataError, Side};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
 use crate::sema::files::{Relative, not_loaded, text_of};
@@ -17,6 +15,8 @@ use crate::sema::session::Session;
 use crate::source::{FileId, Span, Spanned, join_path};
 use crate::syntax::ast::Entry;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::{LARGEST_COORDINATE, Point2};
+use vcutc_geometry::import::{self, DataError, Side};
 
 pub(crate) const POINTS: BlockSpec = BlockSpec {
     title: "`points`",

@@ -1,6 +1,6 @@
 //! Profiles from drawings: `dxf "file.dxf"` and `svg "file.svg"`.
 //!
-//! A reader of [`crate::geom::import`] turns the file into strokes; here the options say which of them count, what their
+//! A reader of [`vcutc_geometry::import`] turns the file into strokes; here the options say which of them count, what their
 //! unit is and where they lie, and what is wrong is put into words ([`faults`]).
 
 mod faults;
@@ -9,11 +9,6 @@ mod unread;
 use super::TOLERANCE;
 use super::data::{as_text, bad_data, bytes_of, place_of};
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::Point2;
-use crate::geom::import::drawing::{
-    Affine, Drawing, Outline, OutlineError, Side, SideError, Unit, drawn_over, outline, side,
-};
-use crate::geom::import::{self, DataError, NoText};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, FieldSpec, Fields, Inner, Takes, value};
 use crate::sema::range::{COORDINATE, JOINING, SCALE};
@@ -24,6 +19,11 @@ use crate::source::{FileId, Span, Spanned};
 use crate::syntax::ast::Entry;
 use faults::Told;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::import::drawing::{
+    Affine, Drawing, Outline, OutlineError, Side, SideError, Unit, drawn_over, outline, side,
+};
+use vcutc_geometry::import::{self, DataError, NoText};
 
 /// A format of drawings.
 #[derive(Debug)]

@@ -2,7 +2,6 @@
 
 use super::{Formula, TOLERANCE, Trace};
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::{SampleError, sample};
 use crate::sema::dimension::Dimension;
 use crate::sema::eval::{Scope, walk};
 use crate::sema::quantity::{Quantity, mm};
@@ -10,6 +9,7 @@ use crate::sema::report::{Checked, Reports};
 use crate::source::{Span, Spanned};
 use std::cell::Cell;
 use vcutc_backend_api::ir::Stock;
+use vcutc_geometry::curve::{SampleError, sample};
 
 /// A profile's formula is called `z`.
 pub(super) fn check_name(formula: &Formula<'_>, reports: &mut Reports) -> Checked<()> {

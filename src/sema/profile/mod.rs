@@ -16,12 +16,12 @@ use super::fields::{Place, curve_words, head_span};
 use super::report::Checked;
 use super::session::Session;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::Point2;
-use crate::geom::profile::Profile;
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Block, Curve, Entry, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 
 /// Curves become polylines that stay this close to them: far below what a knife can do in honeycomb.
 const TOLERANCE: Length = Length::mm(0.001);

@@ -4,12 +4,12 @@
 
 use crate::diag::position::position;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::import::{Altered, Repair, Side};
 use crate::sema::quantity::{mm, number};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::import::{Altered, Repair, Side};
 
 /// Most places that are shown.
 const MOST_PLACES: usize = 6;

@@ -4,12 +4,12 @@
 
 use super::Trace;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::Point2;
-use crate::geom::profile::{Profile, ProfileError};
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reports};
 use crate::source::{Span, Spanned};
 use vcutc_backend_api::ir::Stock;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::{Profile, ProfileError};
 
 /// Places closer than this count as one, in mm: a nanometre.
 const SAME: f64 = 1e-6;

@@ -2,12 +2,14 @@
 
 use crate::diag::suggest::nearest;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::curve::{CurveError, Point2};
-use crate::geom::import::drawing::{Chain, Drawing, Gap, Outline, OutlineError, Overlap, Place, SideError};
 use crate::sema::fields::Fields;
 use crate::sema::quantity::mm;
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::{CurveError, Point2};
+use vcutc_geometry::import::drawing::{
+    Chain, Drawing, Gap, Outline, OutlineError, Overlap, Place, SideError,
+};
 
 /// Most layers or chains that are listed.
 const MOST_LISTED: usize = 12;

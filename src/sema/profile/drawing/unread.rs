@@ -3,7 +3,7 @@
 use super::faults::Told;
 use crate::diag::position::position;
 use crate::diag::{Code, Diagnostic};
-use crate::geom::import::drawing::{Outline, Place, Unread, Why};
+use vcutc_geometry::import::drawing::{Outline, Place, Unread, Why};
 
 /// Most lines of one kind of remark.
 const MOST_LINES: usize = 8;

@@ -3,7 +3,7 @@
 use super::super::drawing::Place;
 use super::super::{DataError, Piece, coordinate, number, shortened};
 use super::groups::{Group, Groups};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// The groups of an entity behind its name.
 pub(super) struct Fields<'t> {

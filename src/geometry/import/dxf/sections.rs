@@ -5,7 +5,7 @@ use super::super::{DataError, shortened};
 use super::entity::{self, Entity};
 use super::fields::{Fields, Value};
 use super::groups::{Group, Groups};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use std::collections::BTreeMap;
 
 /// All of a file that matters to outlines.

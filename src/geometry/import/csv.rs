@@ -1,7 +1,7 @@
 //! Points as two columns of text.
 
 use super::{DataError, Piece, coordinate, lines, number};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// What stands between the columns of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

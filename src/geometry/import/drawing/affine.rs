@@ -1,6 +1,6 @@
 //! Affine maps of the plane, as blocks, groups and units make them.
 
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// How unequal a map may stretch, and how far from square it may leave a right angle, to count as a similarity.
 const SIMILAR: f64 = 1e-9;

@@ -11,7 +11,7 @@
 
 use super::join::SAME;
 use super::pairs::{Dense, Extent, first_pair};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// Which way round a ring goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! From strokes to one chain: scaled to the workpiece, flattened, joined end to end.
 //!
-//! Every stroke is flattened within the tolerance of curves ([`crate::geom::curve`]) after scaling, so that the bound
+//! Every stroke is flattened within the tolerance of curves ([`crate::curve`]) after scaling, so that the bound
 //! holds in the workpiece. Where two ends are joined over a gap both go to its middle: there the chain is off the drawing
 //! by at most the gap.
 
@@ -8,8 +8,8 @@ use super::join::{End, JoinError, SAME, join};
 use super::repeats::without_repeats;
 use super::shape::ShapeError;
 use super::{Affine, Stroke};
-use crate::geom::curve::{COINCIDENT, CurveError, MOST_POINTS, NurbsError};
-use crate::geom::point::Point2;
+use crate::curve::{COINCIDENT, CurveError, MOST_POINTS, NurbsError};
+use crate::point::Point2;
 use vcutc_backend_api::units::Length;
 
 /// A chain that is everything drawn.

@@ -16,7 +16,7 @@ mod sides;
 pub use repair::{Altered, Repair};
 
 use super::{DataError, western};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use core::ops::Range;
 
 /// Shares of the chord below this are noise of the digits written: a micrometre on a metre.

@@ -8,7 +8,7 @@ use super::super::drawing::{Shape, Why};
 use super::entity::{Content, is_level, placed};
 use super::fields::Fields;
 use super::groups::Groups;
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// A corner, and the bulge of what follows it.
 struct Corner {

@@ -6,7 +6,7 @@
 //! Neighbours are found in a grid whose cells are so small that two ends in one cell are within reach of each other; so
 //! the work is bounded by the number of ends in a cell, and that is bounded too.
 
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use std::collections::BTreeMap;
 
 /// Ends closer than this coincide, in mm: a nanometre, as everywhere in profiles.

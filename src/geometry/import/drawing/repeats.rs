@@ -9,7 +9,7 @@ use super::chain::{Line, flatten};
 use super::join::SAME;
 use super::pairs::{Extent, first_pair};
 use super::{Affine, Shape, Stroke};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use core::f64::consts::TAU;
 use std::collections::BTreeSet;
 use vcutc_backend_api::units::Length;

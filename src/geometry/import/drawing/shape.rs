@@ -4,7 +4,7 @@
 //! under moves, turns, mirrors and even scaling; stretched it becomes an ellipse.
 
 use super::Affine;
-use crate::geom::curve::{Curve, CurveError, Nurbs, NurbsError, Point2};
+use crate::curve::{Curve, CurveError, Nurbs, NurbsError, Point2};
 use vcutc_backend_api::units::Angle;
 
 /// Arcs that turn through less are straight when they are stretched: their centre is out of range. In rad.

@@ -6,7 +6,7 @@ use super::page::{length_or, user_units};
 use super::path;
 use super::scan::Scan;
 use super::tree::{attribute, place};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use core::f64::consts::{FRAC_PI_2, TAU};
 use roxmltree::Node;
 

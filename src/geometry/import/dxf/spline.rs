@@ -4,8 +4,8 @@ use super::super::DataError;
 use super::super::drawing::{Shape, Why};
 use super::entity::{Content, is_level};
 use super::fields::Fields;
-use crate::geom::curve::{Curve, Nurbs, NurbsError, spline_cubics};
-use crate::geom::point::Point2;
+use crate::curve::{Curve, Nurbs, NurbsError, spline_cubics};
+use crate::point::Point2;
 
 /// The repeated groups of a SPLINE.
 #[derive(Default)]

@@ -1,9 +1,9 @@
 //! Outlines of drawings, against the points that ezdxf and svgpathtools put on them, and joined from random pieces.
 
 use super::*;
-use crate::geom::curve::CurveError;
-use crate::geom::import::{csv, dxf, svg};
-use crate::geom::point::Point2;
+use crate::curve::CurveError;
+use crate::import::{csv, dxf, svg};
+use crate::point::Point2;
 use proptest::prelude::*;
 use vcutc_backend_api::units::Length;
 

@@ -7,7 +7,7 @@
 use super::sheet::Sheet;
 use super::sides::{Outline, Pair, height};
 use super::{NOISE, Range, Side, Vertex};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// A place where an airfoil is not what its file says.
 #[derive(Clone, Debug, PartialEq)]

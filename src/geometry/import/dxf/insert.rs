@@ -11,7 +11,7 @@ use super::super::{DataError, shortened};
 use super::entity::{Content, Entity, Facing};
 use super::fields::Fields;
 use super::sections::{Block, File, folded};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use std::collections::BTreeMap;
 
 /// How deep blocks may be nested.

@@ -9,7 +9,7 @@ use super::super::drawing::{Affine, Place, Shape, Why, sincos_degrees};
 use super::fields::Fields;
 use super::groups::{Group, Groups};
 use super::{insert, polyline, spline};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use core::f64::consts::TAU;
 
 /// Heights over the plane of the drawing that differ by less are the same, in the file's unit; and so are directions.

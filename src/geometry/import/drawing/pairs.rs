@@ -5,7 +5,7 @@
 //! lie across each other's boxes without end would take the square of it; the work is bounded, and nobody learns of
 //! pairs beyond ([`Dense`]).
 
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// Most boxes that are compared: so many for each thing, and some more.
 const MOST_PER_THING: usize = 100;

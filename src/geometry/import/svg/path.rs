@@ -4,7 +4,7 @@ use super::super::DataError;
 use super::super::drawing::Shape;
 use super::scan::Scan;
 use super::tree::Text;
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use core::f64::consts::{PI, TAU};
 
 /// Reads path data: the shapes of each subpath. Subpaths that are a single point are left out.

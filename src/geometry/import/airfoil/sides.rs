@@ -1,7 +1,7 @@
 //! From a chain of points around or along an airfoil to its two sides.
 
 use super::{NOISE, Vertex};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 
 /// A step in x of at least this share of the chord, against the steps before and after it, starts a new side.
 const JUMP: f64 = 0.8;

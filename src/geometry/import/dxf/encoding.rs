@@ -4,7 +4,7 @@
 //! these the western one is read, which most files name whether or not they have such letters. In either form letters may be
 //! written by codes: `\U+00E4` for ä, `%%d` for the sign of degrees.
 
-use crate::geom::import::western;
+use crate::import::western;
 
 /// Why bytes are no text of a DXF.
 #[derive(Clone, Debug, PartialEq, Eq)]

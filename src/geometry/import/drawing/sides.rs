@@ -7,7 +7,7 @@ use super::chain::reverse;
 use super::join::SAME;
 use super::ring::{RingError, Turn, prove_simple};
 use super::{Gap, Outline};
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use vcutc_backend_api::units::Length;
 
 /// The two sides of a closed outline.

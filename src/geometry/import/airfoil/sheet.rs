@@ -6,8 +6,8 @@
 //! a line, and a decimal comma is understood where blanks, tabs or semicolons separate.
 
 use super::{Altered, Range, Repair, Side, Vertex, sides};
-use crate::geom::import::{DataError, Piece, coordinate_of, lines, number};
-use crate::geom::point::Point2;
+use crate::import::{DataError, Piece, coordinate_of, lines, number};
+use crate::point::Point2;
 
 /// What stands in a file.
 pub(super) struct Sheet {

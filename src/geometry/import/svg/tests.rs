@@ -2,7 +2,7 @@
 
 use super::super::drawing::{Affine, OutlineError, Unit, Why, outline};
 use super::*;
-use crate::geom::point::Point2;
+use crate::point::Point2;
 use proptest::prelude::*;
 use vcutc_backend_api::units::Length;
 
