@@ -5,11 +5,11 @@
 mod places;
 
 use crate::machine::Model;
-use crate::source::{Span, Spanned};
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
+use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 

@@ -6,7 +6,6 @@ mod size;
 
 pub use size::too_large;
 
-use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
 use crate::plan::PlannedJob;
 use crate::plan::parameters::show;
@@ -19,12 +18,13 @@ use crate::reach::sweep::{BladePart, Cure, Sweep};
 use crate::reach::trouble::{Count, Failing, Leads, Trouble};
 use crate::reach::way::Obstacle;
 use crate::remedy;
-use crate::source::Span;
 use crate::wanted::Wanted;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, OrientationId, Program, Site};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.

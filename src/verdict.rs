@@ -11,7 +11,6 @@ mod stays;
 pub use stays::{Compile, much_stays};
 
 use crate::choice::{Effort, Latitude, WorksThere};
-use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, RoughVcut};
 use crate::lower;
 use crate::plan::parameters::show;
@@ -20,13 +19,14 @@ use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Release, Repla
 use crate::sim::report::{Report, report};
 use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
-use crate::source::{SourceMap, Span};
 use crate::wanted::Wanted;
 use attempts::{Attempts, Case};
 use chips::Remedy;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
+use vcutc_diagnostics::source::{SourceMap, Span};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 
 /// A program with its proof, good or bad.

@@ -10,7 +10,7 @@ use vcutc::plan::{PlannedJob, PlannedOperation};
 use vcutc::sema;
 use vcutc::sim::prove::{self, Bound, Findings, Replay};
 use vcutc::sim::timing::Times;
-use vcutc::source::{LoadError, Loader, SourceMap};
+use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
 use vcutc::syntax::{self, ast::Ast};
 use vcutc::{lower, sim};
 use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};

@@ -4,10 +4,10 @@ use super::Unplanned;
 use super::bench::Bench;
 use super::effort::Effort;
 use super::offers;
-use crate::diag::Diagnostic;
 use crate::job::RoughVcut;
-use crate::source::Span;
 use crate::wanted::Wanted;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::Span;
 
 /// Whether the job compiles with these changes of its text, as far as those see who come after planning: the machine of the
 /// job, and its target.

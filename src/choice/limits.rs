@@ -6,14 +6,14 @@
 //! is refused, with the value that the plan would keep.
 
 use super::bench;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, Objective, RoughVcut};
 use crate::plan::PlannedVcut;
 use crate::plan::decision::Excess;
 use crate::plan::parameters::show;
 use crate::plan::refusal::{Offer, Refused};
-use crate::source::Span;
 use vcutc_backend_api::units::Duration;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// How often limits are tightened for the model.
 pub(super) const MOST_TIGHTENED: u32 = 4;

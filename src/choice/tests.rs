@@ -4,17 +4,17 @@ mod chosen;
 mod finest;
 
 use super::choose;
-use crate::diag::Code;
 use crate::job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 use crate::plan::decision::Standing;
 use crate::plan::route::{Heading, layers};
 use crate::plan::tests::{a_job, all_auto, operation, paper_job};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::surface::{Side, Surface, Vee};
-use crate::source::SourceMap;
 use crate::verdict::{self, Proven};
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_diagnostics::Code;
+use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
 
 const ROUTES: [(Sequence, Order); 6] = [

@@ -11,11 +11,9 @@ use super::output::{Destination, Placed};
 use super::snapshot::{self, Complete, Fate, Made, NotReady};
 use super::{Exit, Targets, compile, targets};
 use crate::checks::Checks;
-use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{self, Request, RequestError, Typed};
 use crate::numbers::Numbers;
 use crate::numbers::baseline::{Name, Record};
-use crate::source::{SourceMap, Span};
 use crate::summary::chosen::OperationFigures;
 use crate::summary::times::TimeFigures;
 use serde::Serialize;
@@ -27,6 +25,8 @@ use std::thread;
 use std::time::Instant;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{SourceMap, Span};
+use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 
 /// One program to make.
 pub(super) struct Unit {

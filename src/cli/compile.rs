@@ -13,7 +13,6 @@ use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
-use crate::diag::has_errors;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
 use crate::memory::Memory;
 use std::path::{Path, PathBuf};
@@ -21,6 +20,7 @@ use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::AIR_ENDING;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::has_errors;
 
 /// What is made of a job.
 pub(super) enum Product {

@@ -12,11 +12,9 @@ use super::patience::HelpBudget;
 use super::progress::Following;
 use super::snapshot::Differences;
 use crate::checks::{CheckFigure, Checks};
-use crate::diag::{Code, Diagnostic, Severity, github, has_errors, json, render};
 use crate::hints::Hint;
 use crate::numbers::Numbers;
 use crate::reach_summary::{self, ReachFigures};
-use crate::source::SourceMap;
 use crate::summary::chosen::OperationFigures;
 use crate::summary::times::{self, TimeFigures};
 use crate::summary::verdict;
@@ -25,6 +23,8 @@ use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+use vcutc_diagnostics::source::SourceMap;
+use vcutc_diagnostics::{Code, Diagnostic, Severity, github, has_errors, json, render};
 
 /// Version of the JSON objects this module writes.
 const SCHEMA: u32 = 1;

@@ -3,10 +3,10 @@
 use super::snapshot::Differences;
 use crate::comparison::text::{Hunk, LineKind, TextChange};
 use crate::comparison::{Change, FileChange};
-use crate::diag::Severity;
-use crate::diag::github::Annotation;
-use crate::diag::render::ColorChoice;
 use serde::Serialize;
+use vcutc_diagnostics::Severity;
+use vcutc_diagnostics::github::Annotation;
+use vcutc_diagnostics::render::ColorChoice;
 
 /// Most stale files that are named one by one.
 const MOST_STALE: usize = 8;

@@ -4,11 +4,11 @@ mod page;
 
 use super::Exit;
 use super::console::{Console, Failure};
-use crate::diag::suggest::nearest;
-use crate::diag::{Code, Severity};
 use std::env;
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
+use vcutc_diagnostics::suggest::nearest;
+use vcutc_diagnostics::{Code, Severity};
 
 /// Prints the page of a code, or the list of all.
 pub(super) fn explain(code: Option<&str>, console: &Console) -> Exit {

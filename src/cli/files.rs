@@ -1,13 +1,13 @@
 //! Job files on the real file system.
 
 use super::os_words::os_words;
-use crate::diag::suggest::nearest;
-use crate::source::{Entry, LARGEST_FILE, LoadError, Loader};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use vcutc_diagnostics::source::{Entry, LARGEST_FILE, LoadError, Loader};
+use vcutc_diagnostics::suggest::nearest;
 
 /// How a job from standard input is called in messages.
 const STDIN_NAME: &str = "<stdin>";

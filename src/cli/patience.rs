@@ -4,15 +4,15 @@
 //! told, so the time decides which help lines appear, and nothing else.
 
 use super::progress::Progress;
-use crate::diag::{Diagnostic, Severity};
 use crate::driver::{self, Outcome, Patience, Request, RequestError};
 use crate::memory::Memory;
-use crate::source::SourceMap;
 use crate::wanted::{Interest, Wanted};
 use std::cell::RefCell;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::Duration;
+use vcutc_diagnostics::source::SourceMap;
+use vcutc_diagnostics::{Diagnostic, Severity};
 
 /// How long help is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

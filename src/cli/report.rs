@@ -12,7 +12,6 @@ use super::patience;
 use super::progress::Progress;
 use super::snapshot::read_back;
 use super::{Exit, Targets, targets};
-use crate::diag::has_errors;
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use crate::hints::Hint;
 use crate::memory::Memory;
@@ -21,6 +20,7 @@ use crate::report::page::{Further, page};
 use crate::report::sheet::sheet;
 use std::path::Path;
 use std::slice;
+use vcutc_diagnostics::has_errors;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {

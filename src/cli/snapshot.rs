@@ -4,14 +4,14 @@ use super::files::load_program;
 use super::output::{Destination, Output, Placed};
 use crate::checks::ReadBack;
 use crate::comparison::{Change, FileChange, Sides, compare, family};
-use crate::diag::{Code, Diagnostic};
 use crate::driver::{self, EmitFailure, Outcome};
 use crate::readback::Written;
-use crate::source::LoadError;
 use std::fs;
 use std::path::Path;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::bundle::Sink;
+use vcutc_diagnostics::source::LoadError;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// What is done with a program that is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

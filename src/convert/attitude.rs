@@ -9,8 +9,8 @@ use super::milling::{Milling, Move};
 use super::raster::SAME;
 use super::runs::{Kind, stretches};
 use super::{Axes, Blank};
-use crate::diag::Diagnostic;
 use vcutc_backend_api::geometry::Orientation;
+use vcutc_diagnostics::Diagnostic;
 
 /// Cosine of the largest lean that is taken for rounding: a tenth of a degree.
 const UPRIGHT: f64 = 1.0 - 1.5e-6;

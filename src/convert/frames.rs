@@ -7,13 +7,13 @@
 use super::complaints;
 use super::milling::Way;
 use super::read::Reader;
-use crate::source::Span;
 use std::collections::BTreeMap;
 use vcutc_backend_api::readback::essence;
 use vcutc_backend_krl::read::syntax::{
     Component, Declaration, Field, Setting, SettingValue, Tail, Value, Variable, is_same_name,
 };
 use vcutc_backend_krl::read::variables::Asker;
+use vcutc_diagnostics::source::Span;
 
 /// Variables that set up motions, and those that inline forms of the pendant leave behind.
 #[rustfmt::skip]

@@ -4,9 +4,9 @@ use super::milling::Milling;
 use super::plunges::Plunge;
 use super::raster::{Pass, Raster};
 use super::write::Numbered;
-use crate::diag::{Code, Diagnostic};
 use crate::plan::parameters::show;
-use crate::source::{SourceMap, Span};
+use vcutc_diagnostics::source::{SourceMap, Span};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// All warnings about a program.
 pub(super) fn warnings(milling: &Milling, raster: &Raster, sources: &SourceMap) -> Vec<Diagnostic> {

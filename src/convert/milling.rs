@@ -2,8 +2,8 @@
 //! statements that are none of these.
 
 use super::arc::CircularArc;
-use crate::source::Span;
 use vcutc_backend_api::geometry::Orientation;
+use vcutc_diagnostics::source::Span;
 
 /// A milling program as its motions.
 #[derive(Clone, Debug, PartialEq)]

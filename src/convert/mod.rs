@@ -35,11 +35,9 @@ mod read;
 mod runs;
 pub mod write;
 
-use crate::diag::{Diagnostic, Label};
 use crate::plan::blade_reach::Flanks;
 use crate::plan::grid;
 use crate::plan::parameters::show;
-use crate::source::{FileId, SourceMap, Span};
 use asked::Asked;
 use axes::Axes;
 use core::fmt;
@@ -51,6 +49,8 @@ use read::Files;
 use serde::Serialize;
 use vcutc_backend_api::readback::ProgramFile;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::source::{FileId, SourceMap, Span};
+use vcutc_diagnostics::{Diagnostic, Label};
 use write::{Blade, JobText, Material, Part, ProfileFile};
 
 /// Half the apex angle of the blade of [Cui 2020], table 1, for a blade of which nothing is said.

@@ -10,7 +10,6 @@ use super::complaints;
 use super::frames::Framing;
 use super::milling::{Move, Way, Written};
 use super::read::{Reader, Told};
-use crate::source::Span;
 use vcutc_backend_api::geometry::{Orientation, Zyx};
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_krl::read::syntax::{
@@ -18,6 +17,7 @@ use vcutc_backend_krl::read::syntax::{
     Target, Value, is_same_name,
 };
 use vcutc_backend_krl::read::variables::Asker;
+use vcutc_diagnostics::source::Span;
 
 /// Where the tool is, as far as the program has said it.
 #[derive(Debug, Default)]

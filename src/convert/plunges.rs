@@ -8,7 +8,7 @@
 use super::place::Blank;
 use super::raster::{Pass, SAME};
 use crate::sim::surface::{Surface, Vee};
-use crate::source::Span;
+use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::Point2;
 
 /// A motion that ends, or begins, below the top of the blank, in its axes from its corner.
@@ -96,8 +96,8 @@ pub(super) fn sorted(plunges: &[Plunge], passes: &[Pass], blank: Blank, slope: f
 mod tests {
     use super::*;
     use crate::convert::milling::Way;
-    use crate::source::SourceMap;
     use proptest::prelude::*;
+    use vcutc_diagnostics::source::SourceMap;
 
     const BLANK: Blank = Blank {
         width: 80.0,

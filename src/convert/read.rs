@@ -9,14 +9,14 @@ use super::complaints;
 use super::frames::Frames;
 use super::milling::{Milling, Written};
 use super::motions::Tool;
-use crate::diag::Diagnostic;
-use crate::source::{FileId, SourceMap, Span};
 use vcutc_backend_api::readback::{ProgramFile, essence};
 use vcutc_backend_krl::read::index::{FileKind, Index, stem};
 use vcutc_backend_krl::read::syntax::{
     Phrase, Span as Bytes, Statement, Statements, Value, Variable, is_same_name, statements,
 };
 use vcutc_backend_krl::read::variables::{Asker, Outcome, Variables};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 
 /// Most motions of a program.
 const MOST_MOVES: usize = 4_000_000;

@@ -6,11 +6,11 @@ use super::place::Blank;
 use super::raster::{Pass, Raster};
 use crate::format::format;
 use crate::plan::parameters::show;
-use crate::source::{FileId, SourceMap, Span};
 use crate::syntax::ast::{Entry, Item, Point};
 use crate::syntax::parse;
 use core::ops::Range;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 use vcutc_geometry::curve::Point2;
 
 /// A job's text.

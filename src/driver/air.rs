@@ -4,7 +4,6 @@
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
 use crate::air::{least_gap, least_lift, lifted};
 use crate::checks::{Carried, Checks};
-use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, Operation};
 use crate::plan::parameters::show;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
@@ -18,6 +17,7 @@ use vcutc_backend_api::ir::{Head, Program, Purpose};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// Nothing in a cell is higher, in mm.
 const HIGHEST: f64 = 10_000.0;

@@ -5,7 +5,7 @@
 
 use super::trials::{Machine, Trials};
 use super::{Kept, Outcome, Request, Stage};
-use crate::diag::{Code, Diagnostic, Fix, Severity};
+use vcutc_diagnostics::{Code, Diagnostic, Fix, Severity};
 
 /// Leaves the homes that work, where the home is all that is wrong with a job.
 pub(super) fn try_offers(

@@ -25,7 +25,6 @@ pub use yielding::Yielded;
 
 use crate::checks::{Carried, Checks};
 use crate::choice;
-use crate::diag::{Code, Diagnostic, Severity, has_errors};
 use crate::fingerprint;
 use crate::job::CheckedJob;
 use crate::memory::Memory;
@@ -39,7 +38,6 @@ use crate::remedy;
 use crate::sema;
 use crate::sim::report::Report;
 use crate::sim::timing::times;
-use crate::source::{Loader, SourceMap};
 use crate::summary::chosen::{self, OperationFigures};
 use crate::summary::summary;
 use crate::summary::times::{TimeFigures, figures as time_figures};
@@ -53,6 +51,8 @@ use vcutc_backend_api::ir::{Head, OpId, Purpose};
 use vcutc_backend_api::motion::MotionFault;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
+use vcutc_diagnostics::source::{Loader, SourceMap};
+use vcutc_diagnostics::{Code, Diagnostic, Severity, has_errors};
 use yielding::Yielding;
 
 /// What to compile.

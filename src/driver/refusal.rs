@@ -8,14 +8,14 @@
 use super::target::{self, Objection};
 use super::trials::Trials;
 use crate::choice::Complaints;
-use crate::diag::Diagnostic;
 use crate::job::CheckedJob;
 use crate::plan::PlannedJob;
 use crate::reach::solve::Unreached;
 use crate::reach_verdict;
-use crate::source::SourceMap;
 use crate::verdict::{self, Proven};
 use crate::wanted::Wanted;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::SourceMap;
 
 /// Who waits for an outcome, and for how long.
 pub trait Patience {

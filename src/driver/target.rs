@@ -5,11 +5,8 @@ mod speeds;
 pub(super) use speeds::with_help;
 
 use super::{Compiled, Request};
-use crate::diag::suggest::nearest;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
 use crate::machine::{Model, usual_home};
-use crate::source::{Span, Spanned};
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options, Origin,
 };
@@ -18,6 +15,9 @@ use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::suggest::nearest;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// The option that a profile can set too.
 const DECIMALS: &str = "decimals";

@@ -5,13 +5,13 @@
 //! refusal is bounded by a number of cuts.
 
 use super::{Ended, Kept, Request, Stage, Unhurried, along_its_routes, target};
-use crate::diag::{Code, Diagnostic, Edit, fix, has_errors};
 use crate::memory::Memory;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::sema;
-use crate::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
 use crate::wanted::Wanted;
 use std::collections::{BTreeMap, BTreeSet};
+use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
+use vcutc_diagnostics::{Code, Diagnostic, Edit, fix, has_errors};
 
 /// Most changes that are compiled for one refusal.
 const MOST_TRIALS: usize = 12;

@@ -14,10 +14,10 @@ use crate::reach::rig::Rig;
 use crate::reach::solve::{Changes, Unreachable, Unreached};
 use crate::reach::trouble::Trouble;
 use crate::sim::surface::Surface;
-use crate::source::SourceMap;
 use crate::wanted::Wanted;
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::verify;
+use vcutc_diagnostics::source::SourceMap;
 
 /// Most plans that are put to the machine.
 const MOST_PLANS: usize = 10;

@@ -17,10 +17,10 @@ mod value;
 #[cfg(test)]
 mod tests;
 
-use crate::diag::{Code, Diagnostic, has_errors};
-use crate::source::{FileId, Span};
 use crate::syntax;
 use read::Source;
+use vcutc_diagnostics::source::{FileId, Span};
+use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 
 /// Longest line of code that is kept, in characters; trailing comments do not count.
 const WIDTH: usize = 110;

@@ -1,11 +1,11 @@
 //! The layout on chosen texts, and what must hold for any.
 
 use super::format;
-use crate::diag::Diagnostic;
-use crate::source::SourceMap;
 use crate::syntax::ast::Ast;
 use crate::syntax::parse;
 use proptest::prelude::*;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::SourceMap;
 
 fn parsed(text: &str) -> (Ast, Vec<Diagnostic>) {
     let file = SourceMap::default().add("t.vcut", text);

@@ -13,7 +13,6 @@ mod change;
 #[cfg(test)]
 mod tests;
 
-use crate::diag::Fix;
 use crate::driver::{self, Compiled, Yielded};
 use crate::job::{CheckedJob, Direction, Machine, Operation};
 use crate::lower;
@@ -25,12 +24,13 @@ use crate::reach::trouble::{Failing, Trouble};
 use crate::reach_summary;
 use crate::remedy;
 use crate::remedy::speed::{self, Field};
-use crate::source::SourceMap;
 use crate::summary::time;
 use crate::wanted::Wanted;
 use change::Change;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::verify;
+use vcutc_diagnostics::Fix;
+use vcutc_diagnostics::source::SourceMap;
 
 /// Most hints for one job.
 const MOST_HINTS: usize = 3;

@@ -5,7 +5,7 @@ use crate::choice::choose;
 use crate::driver::{Outcome, Request, Typed, compile};
 use crate::reach::solve::Unreached;
 use crate::remedy::trial;
-use crate::source::{LoadError, Loader};
+use vcutc_diagnostics::source::{LoadError, Loader};
 
 /// Few cuts, with a `reorient` that no axis of the head follows.
 const JOB: &str = r#"job "tip"

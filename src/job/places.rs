@@ -6,7 +6,7 @@
 use super::{
     Blade, Bounds, CheckedJob, GivenOption, Limits, Machine, Operation, RoughVcut, Sourced, TargetOptions,
 };
-use crate::source::{SourceMap, Span};
+use vcutc_diagnostics::source::{SourceMap, Span};
 
 impl CheckedJob {
     /// The same job, written at one place.

@@ -11,9 +11,9 @@ mod vcut;
 
 use crate::job::{CheckedJob, Machine};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
-use crate::source::{SourceMap, Span};
 use builder::Builder;
 use vcutc_backend_api::ir::{Action, Cell, Program, Site, SourceRef, Stock};
+use vcutc_diagnostics::source::{SourceMap, Span};
 
 /// Writes the plan down as a program.
 #[must_use]

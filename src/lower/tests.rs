@@ -5,12 +5,12 @@ use crate::choice::choose;
 use crate::job::{Auto, CheckedJob, Direction, Order};
 use crate::plan::tests::{operation, paper_job};
 use crate::plan::{PlannedOperation, PlannedVcut, Way};
-use crate::source::SourceMap;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, Edges, Flank, Op, Program, Site};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::verify;
+use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
 
 /// Two hollows with a hill between them that the leaning blade does not pass beside.

@@ -6,18 +6,18 @@
 //! the analysis it belongs to is no longer there.
 
 use super::text::Text;
-use crate::diag::Diagnostic;
 use crate::driver::{self, Outcome, Patience, Request, RequestError, Typed, Unhurried};
 use crate::hints::{Hint, hints};
 use crate::memory::Memory;
 use crate::plan::PlannedJob;
 use crate::sema::study::{Study, study};
 use crate::sema::{Choices, Part};
-use crate::source::{Entry, FileId, LoadError, Loader, SourceMap};
 use crate::syntax::ast::{Ast, Item};
 use crate::wanted::{Interest, Needless, Wanted};
 use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
 
 /// The texts of open documents, by their paths. They stand for the files.
 pub(super) type OpenTexts = BTreeMap<String, Text>;

@@ -2,20 +2,20 @@
 
 use super::text::{Encoding, Text};
 use super::uri::uri_of;
-use crate::diag::{Diagnostic, Fix, Label, Severity};
 use crate::hints::Hint;
-use crate::source::SourceMap;
 use lsp_types::{
     DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Range, TextEdit,
 };
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
+use vcutc_diagnostics::source::SourceMap;
+use vcutc_diagnostics::{Diagnostic, Fix, Label, Severity};
 
 /// The texts of a source map with their lines, each worked out once.
 pub(super) struct Lines<'a> {
     sources: &'a SourceMap,
     encoding: Encoding,
-    texts: BTreeMap<crate::source::FileId, Text>,
+    texts: BTreeMap<vcutc_diagnostics::source::FileId, Text>,
 }
 
 impl<'a> Lines<'a> {
@@ -29,7 +29,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The range of a span.
-    pub(super) fn range(&mut self, span: crate::source::Span) -> Range {
+    pub(super) fn range(&mut self, span: vcutc_diagnostics::source::Span) -> Range {
         let (sources, encoding) = (self.sources, self.encoding);
         let text = self.texts.entry(span.file).or_insert_with(|| {
             let text = sources.get(span.file).map_or("", |file| file.text.as_str());
@@ -39,7 +39,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The place of a span, if its file has a URI.
-    pub(super) fn location(&mut self, span: crate::source::Span) -> Option<Location> {
+    pub(super) fn location(&mut self, span: vcutc_diagnostics::source::Span) -> Option<Location> {
         let uri = uri_of(self.sources.name(span.file))?;
         let range = self.range(span);
         Some(Location { uri, range })

@@ -2,8 +2,8 @@
 
 use super::text::Text;
 use crate::format::format;
-use crate::source::SourceMap;
 use lsp_types::TextEdit;
+use vcutc_diagnostics::source::SourceMap;
 
 /// The edit that gives a text its layout: no more than what differs, so that cursors stay where they are. None for a text with
 /// mistakes, which has no layout, and no edit for one that has it already.

@@ -9,10 +9,10 @@ use super::sites::{Kind, Path, Place, Site, sites};
 use crate::machine::catalogue;
 use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, walk};
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Block, Entry, Expr, HeadPart, Item};
 use crate::syntax::lexical::{TokenKind, tokens};
 use vcutc_backend_api::backend::{Backend, OptionKind};
+use vcutc_diagnostics::source::{Span, Spanned};
 
 /// What there is to say about a place.
 #[derive(Debug, PartialEq, Eq)]

@@ -46,7 +46,7 @@ mod tests;
 pub use analysis::{Done, Task};
 pub use server::{Ending, Server};
 
-use crate::source::Loader;
+use vcutc_diagnostics::source::Loader;
 
 /// The files around the open documents.
 pub trait Workspace: Loader {

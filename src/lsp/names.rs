@@ -3,12 +3,12 @@
 use super::analysis::{Analysis, OpenTexts, Overlay};
 use super::sites::{Kind, Site, Words, sites};
 use super::text::{Encoding, Text};
-use crate::diag::Code;
 use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, RESERVED};
-use crate::source::{FileId, Loader, Span};
 use crate::syntax::lexical::{TokenKind, tokens};
 use std::collections::{BTreeMap, BTreeSet};
+use vcutc_diagnostics::Code;
+use vcutc_diagnostics::source::{FileId, Loader, Span};
 
 /// A name in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -274,5 +274,5 @@ fn renamed(text: &str, spans: &BTreeSet<(u32, u32)>, new: &str) -> String {
 
 /// The file that a path in a text means, relative to the file it stands in.
 pub(super) fn file_meant(analysis: &Analysis, file: FileId, written: &str) -> String {
-    crate::source::join_path(analysis.sources.name(file), written)
+    vcutc_diagnostics::source::join_path(analysis.sources.name(file), written)
 }

@@ -1,8 +1,8 @@
 //! The files that a text in quotes may name: those of a fitting ending in the folder that is written so far, and its folders.
 
 use super::completion::{Offer, Rank, offer};
-use crate::source::{Entry, Loader, join_path};
 use lsp_types::CompletionItemKind;
+use vcutc_diagnostics::source::{Entry, Loader, join_path};
 
 /// A kind of file that a job names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

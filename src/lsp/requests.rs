@@ -19,9 +19,7 @@ use super::text::Text;
 use super::tokens::{legend, modifiers, semantic_tokens};
 use super::uri::{path_of, uri_of};
 use super::wire::{Fault, notification};
-use crate::diag::Fix;
 use crate::machine::Origin;
-use crate::source::Span;
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
     DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation,
@@ -32,6 +30,8 @@ use lsp_types::{
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use vcutc_diagnostics::Fix;
+use vcutc_diagnostics::source::Span;
 
 /// So many symbols are enough for one answer.
 const MOST_FOUND: usize = 1000;

@@ -4,8 +4,8 @@
 //! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
 
 use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
+use vcutc_diagnostics::source::{Span, Spanned};
 
 /// A place and what stands there.
 #[derive(Clone, Copy, Debug)]
@@ -378,8 +378,8 @@ mod tests {
     use super::*;
     use crate::sema::vocabulary::{Form, Need};
     use crate::sema::{Choices, check};
-    use crate::source::{LoadError, Loader, SourceMap};
     use std::collections::{BTreeMap, BTreeSet};
+    use vcutc_diagnostics::source::{LoadError, Loader, SourceMap};
 
     /// Files in memory.
     struct Shop(BTreeMap<&'static str, String>);

@@ -7,9 +7,9 @@ use super::manual::{self, Table};
 use crate::registry;
 use crate::sema::study::Meaning;
 use crate::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
-use crate::source::{LoadError, Loader};
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::OptionKind;
+use vcutc_diagnostics::source::{LoadError, Loader};
 
 /// One text for every path that ends as jobs do, and no other files.
 struct One(String);

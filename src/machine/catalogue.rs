@@ -4,8 +4,8 @@
 
 use super::Model;
 use super::sheet::{self, Confidence, Sheet};
-use crate::diag::suggest::closest;
 use vcutc_backend_api::ir::MachineKind;
+use vcutc_diagnostics::suggest::closest;
 
 /// Names and sheets, in the order of the names.
 const SHEETS: &[(&str, &str)] = &[

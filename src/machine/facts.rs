@@ -1,12 +1,12 @@
 //! What people want to know of a machine besides what is computed with: sources, disagreements, published poses, masses.
 
-use crate::document::flaw::Flaw;
-use crate::document::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Table};
 use crate::kinematics::{Joints, Mechanism};
 use core::ops::Range;
 use glam::DVec3;
 use vcutc_backend_api::geometry::{Frame, Orientation};
 use vcutc_backend_api::ir::{Axis, AxisKind};
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Table};
 
 /// For people.
 #[derive(Clone, Debug, Default, PartialEq)]

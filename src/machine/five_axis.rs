@@ -24,16 +24,16 @@
 
 use super::facts::Sources;
 use super::sheet::{Body, Form};
-use crate::document::flaw::Flaw;
-use crate::document::table::{
-    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_JERK, SLIDING_RATE, TURNING_ACCELERATION,
-    TURNING_JERK, TURNING_RATE, Table,
-};
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense, Unfit};
 use core::ops::Range;
 use glam::DVec3;
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::{
+    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_JERK, SLIDING_RATE, TURNING_ACCELERATION,
+    TURNING_JERK, TURNING_RATE, Table,
+};
 
 /// Sheets of five-axis machines.
 pub(super) const FORM: Form = Form {

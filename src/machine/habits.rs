@@ -3,11 +3,11 @@
 //! A profile is data only. What it may ask for is bounded here, so that whatever a backend does with it stays text of a program;
 //! whether a dialect can do it is for the backend to say. `docs/profiles.md` has the form.
 
-use crate::document::flaw::Flaw;
-use crate::document::table::Table;
-use crate::document::{self, Wording};
 use core::ops::{Range, RangeInclusive};
 use vcutc_backend_api::profile::{LineNumbers, PROFILE_DECIMALS, Profile};
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::Table;
+use vcutc_diagnostics::document::{self, Wording};
 
 const WORDING: Wording = Wording {
     name: "profile",

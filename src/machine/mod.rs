@@ -14,10 +14,10 @@ mod usual_home;
 
 pub use usual_home::usual_home;
 
-use crate::document::flaw::Flaw;
 use crate::kinematics::Mechanism;
 use path_limits::PathLimits;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
+use vcutc_diagnostics::document::flaw::Flaw;
 
 /// A machine as the compiler needs it, wherever its description came from.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,8 +12,10 @@
 //! Limits of the axes stand with the axes. A key that is left out is not known, and limits nothing.
 
 use super::facts::Sources;
-use crate::document::flaw::Flaw;
-use crate::document::table::{SLIDING_ACCELERATION, SLIDING_JERK, TURNING_ACCELERATION, TURNING_JERK, Table};
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::{
+    SLIDING_ACCELERATION, SLIDING_JERK, TURNING_ACCELERATION, TURNING_JERK, Table,
+};
 
 /// The heading of the table.
 pub(super) const KEY: &str = "path";

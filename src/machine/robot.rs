@@ -4,13 +4,13 @@
 
 use super::facts::Sources;
 use super::sheet::{Body, Form};
-use crate::document::flaw::Flaw;
-use crate::document::table::{
-    ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE, Table,
-};
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::{
+    ANGLE, LENGTH, Measure, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE, Table,
+};
 
 /// Sheets of robots.
 pub(super) const FORM: Form = Form {

@@ -7,11 +7,11 @@
 use super::facts::{self, Facts, FkCheck, Sources};
 use super::path_limits::{self, PathLimits};
 use super::{Model, five_axis, robot};
-use crate::document::flaw::Flaw;
-use crate::document::table::{MASS, Table};
-use crate::document::{self, Wording};
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::{MASS, Table};
+use vcutc_diagnostics::document::{self, Wording};
 
 /// A machine with what is known about it.
 #[derive(Clone, Debug, PartialEq)]

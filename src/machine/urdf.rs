@@ -21,7 +21,6 @@ mod tree;
 
 use super::Model;
 use super::path_limits::PathLimits;
-use crate::document::flaw::Flaw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::{JointAxis, SerialArm};
 use crate::kinematics::{Mechanism, recognise};
@@ -29,6 +28,7 @@ use elements::{Kind, MovingJoint};
 use glam::DVec3;
 use tree::Tree;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, Maker};
+use vcutc_diagnostics::document::flaw::Flaw;
 
 /// Most flaws that are told of one file.
 const MOST_FLAWS: usize = 20;

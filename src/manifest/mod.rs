@@ -5,12 +5,12 @@
 
 pub mod pattern;
 
-use crate::document::flaw::Flaw;
-use crate::document::table::Table;
-use crate::document::{self, Wording};
 use crate::numbers::Figure;
 use core::ops::Range;
 use pattern::Pattern;
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::Table;
+use vcutc_diagnostics::document::{self, Wording};
 
 /// The name of the file, looked for in the current folder and those above it.
 pub const FILE_NAME: &str = "vcut.toml";

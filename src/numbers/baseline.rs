@@ -2,9 +2,9 @@
 //! what has become worse since.
 
 use super::{Figure, Numbers};
-use crate::document::flaw::Flaw;
 use serde::{Deserialize, Serialize};
 use serde_json::error::Category;
+use vcutc_diagnostics::document::flaw::Flaw;
 
 /// Largest file that is read, in bytes: the most programs of one run, at some hundred bytes each, fit in.
 pub const LARGEST: usize = 1 << 23;

@@ -8,9 +8,9 @@ use crate::job::{CheckedJob, Operation, RoughVcut};
 use crate::plan::PlannedOperation;
 use crate::plan::parameters::VcutParameters;
 use crate::sim::prove::Findings;
-use crate::source::SourceMap;
 use crate::verdict;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_diagnostics::source::SourceMap;
 
 /// What came of a change of the job.
 #[derive(Clone, Debug, PartialEq)]

@@ -13,17 +13,17 @@ pub use bounds::Relaxed;
 pub use came::{Came, Plan};
 pub use trade_off::TradeOff;
 
-use crate::diag::Diagnostic;
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
 use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced};
 use crate::picture::pareto::{self, Curve, Pareto};
 use crate::plan::optimum::{self, Optimum, Problem};
 use crate::plan::parameters::{self, VcutParameters};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
-use crate::source::SourceMap;
 use came::{Room, came};
 use vcutc_backend_api::ir::{OperationId, Site};
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::SourceMap;
 
 /// What came of a job's open parameters.
 #[derive(Debug)]

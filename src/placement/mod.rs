@@ -12,7 +12,6 @@ pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
 use crate::choice::{self, Latitude, Leeway};
-use crate::diag::{Code, Diagnostic, has_errors};
 use crate::driver::{self, Request, Stage, internal, rules_broken};
 use crate::job::{CheckedJob, Machine};
 use crate::plan::PlannedJob;
@@ -25,10 +24,11 @@ use crate::reach::rig::Rig;
 use crate::remedy::trial::{self, Room};
 use crate::remedy::wording;
 use crate::sema;
-use crate::source::SourceMap;
 use crate::verdict;
 use crate::wanted::Wanted;
 use vcutc_backend_api::ir::PlacedFrame;
+use vcutc_diagnostics::source::SourceMap;
+use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 
 /// Where the work stands best.
 #[derive(Clone, Debug)]

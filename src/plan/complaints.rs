@@ -4,10 +4,10 @@ use super::optimum::Bound;
 use super::parameters::{VcutParameters, show};
 use super::refusal::{Ladder, Offer, Refused};
 use super::{MOST_CUTS, MOST_OPERATIONS, grid};
-use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, CheckedJob, Residual, RoughVcut, Sourced};
-use crate::source::Span;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::profile::Profile;
 
 pub(super) fn too_many_operations(asked: &RoughVcut, count: usize) -> Diagnostic {

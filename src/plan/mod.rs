@@ -26,7 +26,6 @@ pub mod time_model;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use crate::diag::Diagnostic;
 use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
 use crate::sim::surface::Surface;
 use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
@@ -38,6 +37,7 @@ use residual::Strategies;
 use route::Run;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;

@@ -6,11 +6,11 @@ use crate::job::{
 };
 use crate::plan::parameters::ScallopBy;
 use crate::sim::prove::Findings;
-use crate::source::{SourceMap, Span};
 use crate::verdict;
 use proptest::prelude::*;
 use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
+use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 

@@ -1,9 +1,9 @@
 //! Files of a program that were not given: without them nearly every statement would read otherwise.
 
 use super::written::Written;
-use crate::diag::{Code, Diagnostic};
-use crate::source::{FileId, Span};
 use vcutc_backend_api::readback::ProgramFile;
+use vcutc_diagnostics::source::{FileId, Span};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// The files of a fresh program that the given one needs and that were not given: one whose companion is there (a `.dat`
 /// beside its `.src`, a `.pgf` beside its module), or that a given file speaks of.

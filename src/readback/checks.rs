@@ -7,7 +7,6 @@
 use super::differences::{Scene, asked, place_in};
 use super::rebuild::{Obstacle, Rebuilt};
 use super::wording::op_words;
-use crate::diag::{Code, Diagnostic};
 use crate::machine::Model;
 use crate::plan::PlannedJob;
 use crate::plan::parameters::show;
@@ -17,7 +16,6 @@ use crate::sim::prove::{CutFault, Finding};
 use crate::sim::report::report;
 use crate::sim::slit::{Entry, deepest, edge};
 use crate::sim::timing::timing;
-use crate::source::Span;
 use crate::verdict;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
@@ -26,6 +24,8 @@ use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Deed, Judge, Mismatch, Moment, Reader, Says};
 use vcutc_backend_api::stroke::Pose;
 use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// What is needed to prove a program that was read.
 #[derive(Clone, Copy)]

@@ -22,11 +22,9 @@ mod written;
 
 pub use written::{Astray, Written};
 
-use crate::diag::Diagnostic;
 use crate::job::CheckedJob;
 use crate::plan::PlannedJob;
 use crate::reach::solve::{Reached, rig};
-use crate::source::{FileId, SourceMap};
 use absent::{absent, not_given};
 use checks::{Bench, left_out};
 use closing::{OtherSpeed, other_speeds};
@@ -37,6 +35,8 @@ use told::Told;
 use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::{FileId, SourceMap};
 
 /// A job's program as it is written now, and who can read it.
 #[derive(Clone, Copy)]

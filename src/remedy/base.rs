@@ -12,10 +12,10 @@ use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::reach::trouble::Trouble;
-use crate::source::Span;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
+use vcutc_diagnostics::source::Span;
 
 /// How far the base is moved along a direction, in mm.
 const DISTANCES: [f64; 14] = [

@@ -26,14 +26,14 @@ pub mod wording;
 pub use base::Elsewhere;
 pub use extension::farther_out;
 
-use crate::diag::Diagnostic;
 use crate::job::{CheckedJob, Direction, Machine, RoughVcut};
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
 use crate::reach::solve::Unreachable;
 use crate::reach::trouble::Trouble;
-use crate::source::Span;
 use crate::wanted::Wanted;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::Span;
 
 /// A change that was tried and makes the job compile.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,9 +6,9 @@ use crate::plan::PlannedOperation;
 use crate::plan::parameters::show;
 use crate::reach::sweep::{Cure, Sweep};
 use crate::reach::trouble::Trouble;
-use crate::source::Span;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::source::Span;
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];

@@ -13,11 +13,11 @@ use crate::reach::demand::Demand;
 use crate::reach::legs::{Leg, Pace, legs};
 use crate::reach::path::Violation;
 use crate::reach::trouble::Trouble;
-use crate::source::Span;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
+use vcutc_diagnostics::source::Span;
 
 /// What a lower speed costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,11 +12,11 @@ use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve_while};
 use crate::reach::trouble::{Failing, Trouble};
-use crate::source::SourceMap;
 use crate::verdict;
 use crate::wanted::Wanted;
 use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
+use vcutc_diagnostics::source::SourceMap;
 
 /// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.
 const MOST_EXTENSIONS: usize = 3;

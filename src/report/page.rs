@@ -23,14 +23,14 @@ mod top;
 
 use super::{Material, playback};
 use crate::checks::ReadBack;
-use crate::diag::Diagnostic;
 use crate::driver::Outcome;
 use crate::hints::Hint;
 use crate::picture::dark;
-use crate::source::SourceMap;
 use html::escaped;
 pub use live::Served;
 use policy::Requests;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::SourceMap;
 
 /// What a page is made from.
 #[derive(Clone, Copy)]

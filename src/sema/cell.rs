@@ -10,11 +10,11 @@ use super::names::{Definition, Thing, did_you_mean};
 use super::read::looks_like;
 use super::report::Checked;
 use super::session::Session;
-use crate::diag::suggest::nearest;
-use crate::diag::{Code, Diagnostic};
 use crate::job::Machine;
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::Expr;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::suggest::nearest;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`cell`",

@@ -3,9 +3,9 @@
 use super::files::{Relative, not_loaded, text_of};
 use super::report::Checked;
 use super::session::Session;
-use crate::diag::{Code, Diagnostic};
-use crate::document::flaw::Flaw;
-use crate::source::Span;
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// What a file describes. Its flaws are told under a code, each with the place where the file is named.
 pub(crate) fn read<T>(

@@ -6,11 +6,11 @@ use super::quantity::with_unit;
 use super::range::{AXIS_ANGLE, COORDINATE};
 use super::read::Reader;
 use super::report::Checked;
-use crate::diag::{Code, Diagnostic, Edit, Fix};
 use crate::machine::{Model, usual_home};
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::Expr;
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MOST_AXES, MachineKind};
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic, Edit, Fix};
 
 /// How the home of a robot is written.
 pub(crate) const JOINTS: &str = "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)";
@@ -182,7 +182,7 @@ const fn dimension(axis: &Axis) -> Dimension {
 mod tests {
     use super::*;
     use crate::machine::catalogue;
-    use crate::source::SourceMap;
+    use vcutc_diagnostics::source::SourceMap;
 
     /// What a fix writes is within the limits as they are kept, in rad or mm, and as near to them as four decimals allow.
     #[test]

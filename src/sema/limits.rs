@@ -8,10 +8,10 @@ use super::read::Reader;
 use super::report::Checked;
 use super::rough_vcut::inner_place;
 use super::session::Session;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{Bounds, Limits, Sourced};
-use crate::source::Span;
 use crate::syntax::ast::Block;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 pub(super) const LIMITS: BlockSpec = BlockSpec {
     title: "`limits`",

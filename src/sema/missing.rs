@@ -6,9 +6,9 @@ use super::gather::Definitions;
 use super::quantity::number;
 use super::report::Reported;
 use super::session::{Session, start_of};
-use crate::diag::{Code, Diagnostic};
-use crate::source::{Span, Spanned};
 use vcutc_backend_api::ir::Stock;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// Where missing blocks are reported, and where they can be added.
 pub(crate) struct Missing {

@@ -48,9 +48,7 @@ pub(crate) mod vocabulary;
 #[cfg(test)]
 mod tests;
 
-use crate::diag::Diagnostic;
 use crate::job::{Blade, CheckedJob, Machine, Operation};
-use crate::source::{LoadError, Loader, SourceMap, Spanned};
 use crate::syntax::ast::Ast;
 use eval::Scope;
 use files::{File, Files};
@@ -59,6 +57,8 @@ use missing::Missing;
 use overrides::Overrides;
 use report::Checked;
 use session::Session;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::{LoadError, Loader, SourceMap, Spanned};
 
 /// What the command line says about a job, over what the job's files say.
 #[derive(Clone, Copy, Debug, Default)]

@@ -5,11 +5,11 @@
 
 use super::report::{Reported, Reports};
 use super::units;
-use crate::diag::suggest::nearest;
-use crate::diag::{Code, Diagnostic};
-use crate::source::{Span, Spanned};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::suggest::nearest;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// What a name stands for, with its place in the list of its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 //! beside.
 
 use super::session::Session;
-use crate::diag::Diagnostic;
-use crate::diag::suggest::nearest;
-use crate::source::{Entry, Loader, Span, path_from};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::{Entry, Loader, Span, path_from};
+use vcutc_diagnostics::suggest::nearest;
 
 /// Most folders that are looked into for a file of the name.
 const MOST_FOLDERS: usize = 32;
@@ -112,7 +112,7 @@ fn files_of(folder: &str, files: &dyn Loader) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::{LoadError, entries_among};
+    use vcutc_diagnostics::source::{LoadError, entries_among};
 
     struct Paths(&'static [&'static str]);
 

@@ -10,14 +10,14 @@ use super::names::Thing;
 use super::overrides::Override;
 use super::report::{Checked, Reported};
 use super::session::Session;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{GivenOption, GivenValue, Machine, TargetOptions};
 use crate::machine::habits;
-use crate::source::{Span, Spanned, join_path};
 use crate::syntax::ast::{Block, Entry, Expr};
 use std::collections::BTreeMap;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{Span, Spanned, join_path};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// The key of a file with the machine's habits. No target has an option of this name.
 const PROFILE: &str = "profile";

@@ -3,8 +3,8 @@
 use super::dimension::Dimension;
 use super::eval::Scope;
 use super::report::{Checked, Reports};
-use crate::source::Spanned;
 use crate::syntax::ast::{Expr, Point};
+use vcutc_diagnostics::source::Spanned;
 use vcutc_geometry::curve::Point2;
 
 /// A point, in mm.

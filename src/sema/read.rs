@@ -7,11 +7,11 @@ use super::names::did_you_mean;
 use super::quantity::{Measured, Quantity, number};
 use super::range::Range;
 use super::report::{Checked, Reports};
-use crate::diag::suggest::nearest;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, Sourced};
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::Expr;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::suggest::nearest;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// Reads values, and reports what is wrong with them.
 pub(crate) struct Reader<'s> {

@@ -3,7 +3,7 @@
 //! A check that cannot go on returns [`Reported`], which only [`Reports::push`] makes. So nothing fails silently, and
 //! whoever builds on the failed part stays quiet instead of complaining about a consequence.
 
-use crate::diag::Diagnostic;
+use vcutc_diagnostics::Diagnostic;
 
 /// Proof that a diagnostic has been reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,14 +9,14 @@ use super::read::{Reader, default, looks_like, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::tips;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{
     Blade, Direction, Formulas, Lattice, Objective, Order, Residual, RoughVcut, Sequence, Sourced,
 };
-use crate::source::Spanned;
 use crate::syntax::ast::{Block, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
+use vcutc_diagnostics::source::Spanned;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`rough vcut`",

@@ -2,10 +2,10 @@
 
 use super::report::{Checked, Reported, Reports};
 use crate::machine::Model;
-use crate::source::{FileId, Loader, SourceMap, Span};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::profile::Profile;
+use vcutc_diagnostics::source::{FileId, Loader, SourceMap, Span};
 
 /// One run.
 pub(crate) struct Session<'a> {

@@ -13,10 +13,10 @@ use super::quantity::{Quantity, with_unit};
 use super::report::{Checked, Reports};
 use super::session::Session;
 use super::{Choices, Part, Said, cell, cut_short, options, understand, units};
-use crate::diag::{Diagnostic, has_errors};
 use crate::job::CheckedJob;
-use crate::source::{FileId, LoadError, Loader, SourceMap, Spanned};
 use crate::syntax::ast::{Ast, Expr};
+use vcutc_diagnostics::source::{FileId, LoadError, Loader, SourceMap, Spanned};
+use vcutc_diagnostics::{Diagnostic, has_errors};
 
 /// What is known of a job, or of a library.
 #[derive(Debug)]

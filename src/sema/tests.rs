@@ -1,13 +1,13 @@
 //! Tests of the checks as a whole: expressions against an independent evaluator, and jobs that try to be a burden.
 
 use super::{Choices, Typed, check};
-use crate::diag::{Code, Diagnostic, fix};
 use crate::job::{Auto, CheckedJob, Operation, Sourced};
-use crate::source::{Entry, LoadError, Loader, SourceMap, entries_among};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap, entries_among};
+use vcutc_diagnostics::{Code, Diagnostic, fix};
 
 /// Files in memory.
 #[derive(Clone, Default)]

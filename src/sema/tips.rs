@@ -11,15 +11,15 @@ use super::quantity::mm;
 use super::read::sourced;
 use super::report::{Checked, Reported, Reports};
 use super::session::Session;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, Bounds, Lattice, Limits, Residual, RoughVcut, Sequence, Tip, Tips};
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::Point;
 use core::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 
 /// Tips with the distances that are commonest among them.

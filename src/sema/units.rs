@@ -192,7 +192,7 @@ fn meant_simple(name: &str) -> Vec<&'static str> {
     if conversion(name).is_some() {
         return Vec::new();
     }
-    crate::diag::suggest::nearest(name, UNITS.iter().map(|unit| unit.name))
+    vcutc_diagnostics::suggest::nearest(name, UNITS.iter().map(|unit| unit.name))
 }
 
 /// Whether a word is a unit.

@@ -7,10 +7,10 @@ use crate::job::{Auto, Operation, Residual};
 use crate::lower::lower;
 use crate::plan::PlannedOperation;
 use crate::plan::tests::{operation, paper_job};
-use crate::source::SourceMap;
 use crate::verdict::prove;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::verify;
+use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 

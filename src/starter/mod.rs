@@ -8,7 +8,6 @@
 mod places;
 mod text;
 
-use crate::diag::{Diagnostic, has_errors};
 use crate::driver::{self, Request, Typed, Unhelped};
 use crate::format;
 use crate::machine::Model;
@@ -19,11 +18,12 @@ use crate::reach::place::strokes::Strokes;
 use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::remedy::wording;
-use crate::source::{Entry, LoadError, Loader, SourceMap};
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
+use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
+use vcutc_diagnostics::{Diagnostic, has_errors};
 
 /// Rates of turning the blade that are tried, in deg/s, the usual one first.
 const REORIENT: [u32; 3] = [60, 40, 20];

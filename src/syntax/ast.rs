@@ -3,7 +3,7 @@
 //! Blocks are kept general (words, then entries), so that a new kind of block or field needs no new grammar; only the
 //! profile's curves have a form of their own. Every node knows where it stands.
 
-use crate::source::{Span, Spanned};
+use vcutc_diagnostics::source::{Span, Spanned};
 
 /// One source file.
 #[derive(Clone, Debug, Default, PartialEq)]

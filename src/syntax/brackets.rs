@@ -8,9 +8,9 @@
 
 use super::lexical::{Bracket, Token, TokenKind, tokens};
 use super::reports::Reports;
-use crate::diag::{Code, Diagnostic, Edit, Fix};
-use crate::source::{FileId, Span};
 use std::ops::Range;
+use vcutc_diagnostics::source::{FileId, Span};
+use vcutc_diagnostics::{Code, Diagnostic, Edit, Fix};
 
 /// How deep brackets can be nested. Bounds all recursion of this stage and the next ones.
 pub(super) const DEEPEST: usize = 64;
@@ -527,9 +527,9 @@ fn scan_starts_with_mark(text: &str, token: Token) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::SourceMap;
     use crate::syntax::tests::TOKENS;
     use proptest::prelude::*;
+    use vcutc_diagnostics::source::SourceMap;
 
     proptest! {
         /// What was balanced is balanced: the grammar relies on it for its speed.

@@ -8,10 +8,10 @@ use super::expression::unquoted;
 use super::grammar::{Mismatch, Rule};
 use super::mistakes::{self, Bad};
 use super::reports::Reports;
-use crate::diag::{Code, Diagnostic};
-use crate::source::{FileId, Span, Spanned};
 use pest::iterators::{Pair, Pairs};
 use std::ops::Range;
+use vcutc_diagnostics::source::{FileId, Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// Where the text at hand stands.
 #[derive(Clone, Copy, Debug)]

@@ -3,10 +3,10 @@
 use super::ast::{Argument, Expr, Operator};
 use super::build::Builder;
 use super::grammar::Rule;
-use crate::diag::{Code, Diagnostic};
-use crate::source::Spanned;
 use pest::iterators::Pair;
 use pest::pratt_parser::{Assoc, ConstPrattParser, Op};
+use vcutc_diagnostics::source::Spanned;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// How many operators one value can have, with all that is in its brackets. Bounds the depth of the tree, and so the
 /// recursion of everybody who walks it.

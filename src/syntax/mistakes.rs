@@ -7,10 +7,10 @@ use super::build::Place;
 use super::grammar::{Mismatch, Rule, read};
 use super::lexical::{Bracket, Token, TokenKind, tokens};
 use super::slips;
-use crate::diag::suggest::nearest;
-use crate::diag::{Code, Diagnostic};
-use crate::source::Span;
 use std::ops::Range;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::suggest::nearest;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// A statement that cannot be read.
 #[derive(Clone, Copy, Debug)]

@@ -22,11 +22,11 @@ mod slips;
 #[cfg(test)]
 mod tests;
 
-use crate::diag::{Code, Diagnostic};
-use crate::source::{FileId, Span, Spanned};
 use ast::{Ast, Expr};
 use build::Builder;
 use grammar::{Mismatch, Rule, read};
+use vcutc_diagnostics::source::{FileId, Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// Reads a file's text. What is wrong is added to `diagnostics`, in the order of the text.
 pub fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Ast {
@@ -45,7 +45,7 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Ast
 
 /// The report on a file that is no UTF-8. `span` is where the file is asked for, or its own beginning, `name` is what
 /// people call it, and `right` is the number of bytes before the first wrong one
-/// ([`text_from_bytes`](crate::source::text_from_bytes)).
+/// ([`text_from_bytes`](vcutc_diagnostics::source::text_from_bytes)).
 #[must_use]
 pub fn not_utf8(span: Span, name: &str, right: usize) -> Diagnostic {
     Diagnostic::new(

@@ -1,6 +1,6 @@
 //! The list of what is wrong with one file's text, kept to a length that people read.
 
-use crate::diag::Diagnostic;
+use vcutc_diagnostics::Diagnostic;
 
 /// How many mistakes of one file are told; behind so many the rest tends to be echoes.
 const MOST: usize = 20;

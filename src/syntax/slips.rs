@@ -3,7 +3,7 @@
 use super::grammar::Rule;
 use super::lexical::{Token, TokenKind};
 use super::mistakes::{Bad, Fault, shown};
-use crate::diag::{Code, Diagnostic, Edit, Fix};
+use vcutc_diagnostics::{Code, Diagnostic, Edit, Fix};
 
 /// The message for a usual slip, if the mistake is one.
 pub(super) fn find(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {

@@ -2,10 +2,10 @@
 
 use super::ast::{Curve, Entry, HeadPart, Item, Operator};
 use super::*;
-use crate::diag::Code;
-use crate::diag::render::{ColorChoice, render};
-use crate::source::SourceMap;
 use proptest::prelude::*;
+use vcutc_diagnostics::Code;
+use vcutc_diagnostics::render::{ColorChoice, render};
+use vcutc_diagnostics::source::SourceMap;
 
 fn parsed(text: &str) -> (Ast, Vec<Diagnostic>) {
     let file = SourceMap::default().add("t.vcut", text);
@@ -133,7 +133,7 @@ fn places_are_exact() {
     let text = "let w = 85 mm // c\nblade b { x = (1, 2) y <= a + b }";
     let (ast, diagnostics) = parsed(text);
     assert_eq!(diagnostics, []);
-    let slice = |span: crate::source::Span| &text[span.bytes()];
+    let slice = |span: vcutc_diagnostics::source::Span| &text[span.bytes()];
     let [Item::Let { name, value, span }, Item::Block(block)] = &ast.items[..] else {
         panic!("{ast:?}");
     };
@@ -478,7 +478,7 @@ fn is_survived(text: &str) {
         }
         for fix in &diagnostic.fixes {
             assert!(
-                crate::diag::fix::apply(text, file, &fix.edits).is_some(),
+                vcutc_diagnostics::fix::apply(text, file, &fix.edits).is_some(),
                 "{fix:?}"
             );
         }

@@ -9,9 +9,9 @@ use crate::job::{CheckedJob, Operation, RoughVcut};
 use crate::plan::PlannedJob;
 use crate::plan::refusal::Offer;
 use crate::sim::prove::Findings;
-use crate::source::SourceMap;
 use crate::wanted::Wanted;
 use vcutc_backend_api::ir::OperationId;
+use vcutc_diagnostics::source::SourceMap;
 
 /// What it counts as, in cuts, to plan and prove all of a job with more than one operation.
 const WHOLE_JOB: usize = 20_000;

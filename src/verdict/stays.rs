@@ -6,16 +6,16 @@
 
 use super::attempts::changed;
 use crate::choice::LITTLE;
-use crate::diag::{Code, Diagnostic};
 use crate::job::{Auto, CheckedJob, RoughVcut, Sourced};
 use crate::plan::parameters::show;
 use crate::plan::refusal::Offer;
 use crate::plan::removable::Removable;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::sim::report::Report;
-use crate::source::Span;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::{Area, Length};
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 
 /// What may stay where the job itself says what does, as a share.

@@ -5,11 +5,11 @@ use crate::repository::expected_codes;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use vcutc::diag::render::{ColorChoice, render};
-use vcutc::diag::{Code, Diagnostic, Fix, fix};
+use vcutc::diagnostics::render::{ColorChoice, render};
+use vcutc::diagnostics::source::{Entry, LoadError, Loader, SourceMap};
+use vcutc::diagnostics::{Code, Diagnostic, Fix, fix};
 use vcutc::job::CheckedJob;
 use vcutc::sema::{Choices, Typed, check};
-use vcutc::source::{Entry, LoadError, Loader, SourceMap};
 
 /// The files of a folder, with one of them changed.
 struct Folder {
@@ -174,7 +174,7 @@ fn wrong_jobs_are_explained() {
         insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
             insta::assert_snapshot!(format!("{}\n{}", case.text, outcome.told()));
         });
-        let refused = vcutc::diag::has_errors(&outcome.diagnostics);
+        let refused = vcutc::diagnostics::has_errors(&outcome.diagnostics);
         assert_eq!(outcome.job.is_none(), refused, "{}", path.display());
         if outcome.codes() != case.expected() {
             surprises.push(format!("{}: {:?}", path.display(), outcome.codes()));

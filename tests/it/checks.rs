@@ -6,7 +6,8 @@ use crate::repository::{read, root};
 use std::collections::BTreeSet;
 use vcutc::checks::{Check, Outcome as Came};
 use vcutc::choice;
-use vcutc::diag::Code;
+use vcutc::diagnostics::Code;
+use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::{Compiled, Outcome, Typed};
 use vcutc::job::CheckedJob;
 use vcutc::lower::lower;
@@ -15,7 +16,6 @@ use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, solve};
 use vcutc::report::page::{Further, page};
 use vcutc::report::sheet::sheet;
 use vcutc::sema;
-use vcutc::source::SourceMap;
 use vcutc_backend_api::verify::verify;
 
 const JOB: &str = "job.vcut";

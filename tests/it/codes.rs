@@ -3,7 +3,7 @@
 use crate::repository::{read, root};
 use std::collections::BTreeSet;
 use std::fs;
-use vcutc::diag::Code;
+use vcutc::diagnostics::Code;
 
 /// Codes that no job can bring about, with the test that does and why there is no job.
 const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[

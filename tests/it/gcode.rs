@@ -2,7 +2,7 @@
 
 use crate::pipeline::{Files, compile, numbers, told};
 use crate::repository::read;
-use vcutc::diag::Diagnostic;
+use vcutc::diagnostics::Diagnostic;
 use vcutc::driver::{self, EmitFailure, Outcome};
 use vcutc::registry;
 use vcutc_backend_api::bundle::Bundle;

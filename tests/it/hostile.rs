@@ -7,7 +7,7 @@ use crate::repository::{files, read};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use std::fmt::Write;
-use vcutc::diag::{Code, has_errors};
+use vcutc::diagnostics::{Code, has_errors};
 
 const JOB: &str = "job.vcut";
 

@@ -2,7 +2,7 @@
 
 use crate::help::patiently;
 use crate::pipeline::{Files, compile, numbers, told};
-use vcutc::diag::Diagnostic;
+use vcutc::diagnostics::Diagnostic;
 use vcutc::driver::Outcome;
 use vcutc::wanted::Wanted;
 

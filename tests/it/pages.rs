@@ -6,9 +6,9 @@
 use crate::repository::root;
 use std::collections::BTreeSet;
 use std::fs;
-use vcutc::diag::{Code, has_errors};
+use vcutc::diagnostics::source::{LoadError, Loader};
+use vcutc::diagnostics::{Code, has_errors};
 use vcutc::driver::{EmitFailure, Request, Typed, compile, emit};
-use vcutc::source::{LoadError, Loader};
 use vcutc_backend_api::bundle::Bundle;
 
 const JOB: &str = "page.vcut";

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use vcutc::diag::render::{ColorChoice, render};
-use vcutc::diag::{Diagnostic, Fix, fix};
+use vcutc::diagnostics::render::{ColorChoice, render};
+use vcutc::diagnostics::source::{LoadError, Loader};
+use vcutc::diagnostics::{Diagnostic, Fix, fix};
 use vcutc::driver::{self, EmitFailure, Outcome, Request, Typed};
 use vcutc::registry;
-use vcutc::source::{LoadError, Loader};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::bundle::Bundle;
 

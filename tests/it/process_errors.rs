@@ -8,7 +8,7 @@ use crate::pipeline::{Files, all_diagnostics, compile, fixed, numbers, told};
 use crate::repository::expected_codes;
 use std::fs;
 use std::path::Path;
-use vcutc::diag::{Code, Diagnostic, Severity};
+use vcutc::diagnostics::{Code, Diagnostic, Severity};
 use vcutc::driver::Outcome;
 
 const JOB: &str = "job.vcut";

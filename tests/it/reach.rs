@@ -4,6 +4,7 @@
 use crate::pipeline::{Files, compile, emit, told};
 use crate::repository::root;
 use vcutc::choice;
+use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::Outcome;
 use vcutc::job::CheckedJob;
 use vcutc::kinematics::Joints;
@@ -13,7 +14,6 @@ use vcutc::reach::legs::{Leg, Poses, legs};
 use vcutc::reach::path::prove;
 use vcutc::reach::rig::Rig;
 use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, Reached, rig, solve};
-use vcutc::source::SourceMap;
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};

@@ -2,7 +2,7 @@
 
 use crate::pipeline::{Files, compile, told};
 use vcutc::checks::Standing;
-use vcutc::diag::{Code, fix};
+use vcutc::diagnostics::{Code, fix};
 use vcutc::driver::Outcome;
 use vcutc::kinematics::Mechanism;
 use vcutc::reach::legs::{Leg, Poses, legs};

@@ -3,10 +3,10 @@
 
 use std::fs;
 use std::path::Path;
-use vcutc::diag::Diagnostic;
-use vcutc::diag::render::{ColorChoice, render};
-use vcutc::diag::{Code, fix};
-use vcutc::source::{FileId, SourceMap, Span, text_from_bytes};
+use vcutc::diagnostics::Diagnostic;
+use vcutc::diagnostics::render::{ColorChoice, render};
+use vcutc::diagnostics::source::{FileId, SourceMap, Span, text_from_bytes};
+use vcutc::diagnostics::{Code, fix};
 use vcutc::syntax::parse;
 
 struct Case {

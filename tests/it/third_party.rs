@@ -1,7 +1,7 @@
 //! A backend from outside of this repository: its options are known, and what it cannot say is refused.
 
 use crate::pipeline::Files;
-use vcutc::diag::Code;
+use vcutc::diagnostics::Code;
 use vcutc::driver::{EmitFailure, Outcome, Request, Typed, compile, emit};
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Emission, EmitError, OptionKind, OptionSpec, Options,

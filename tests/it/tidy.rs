@@ -3,107 +3,80 @@
 //! A rule reports all breaches in one run, each with file and line.
 
 use crate::repository::{TextFile, files, read, root};
-use vcutc::diag::Code;
+use vcutc::diagnostics::Code;
 
 /// Longest source file. Beyond it a file is about more than one subject.
 const MOST_LINES: usize = 700;
 
 /// Which module of the root package may use which others; Cargo says it of rooms.
 const MAY_USE: &[(&str, &[&str])] = &[
-    ("source", &[]),
     ("air", &[]),
-    ("fingerprint", &["source", "syntax"]),
+    ("fingerprint", &["syntax"]),
     ("registry", &[]),
     ("posture", &[]),
     ("wanted", &[]),
-    ("diag", &["source"]),
     ("kinematics", &[]),
     ("align", &[]),
     ("comparison", &["align"]),
-    ("document", &["diag", "source"]),
-    ("numbers", &["document", "plan", "sim"]),
-    ("manifest", &["diag", "document", "numbers", "source"]),
-    ("machine", &["diag", "document", "kinematics", "source"]),
+    ("numbers", &["plan", "sim"]),
+    ("manifest", &["numbers"]),
+    ("machine", &["kinematics"]),
     ("reach", &["kinematics", "machine", "sim", "wanted"]),
-    ("job", &["machine", "source"]),
-    ("syntax", &["diag", "source"]),
-    ("format", &["diag", "source", "syntax"]),
-    (
-        "sema",
-        &["diag", "document", "job", "machine", "source", "syntax"],
-    ),
+    ("job", &["machine"]),
+    ("syntax", &[]),
+    ("format", &["syntax"]),
+    ("sema", &["job", "machine", "syntax"]),
     ("sim", &[]),
-    ("plan", &["diag", "job", "posture", "sim", "source"]),
-    ("lower", &["job", "plan", "posture", "source"]),
-    (
-        "choice",
-        &["diag", "job", "lower", "plan", "sim", "source", "wanted"],
-    ),
+    ("plan", &["job", "posture", "sim"]),
+    ("lower", &["job", "plan", "posture"]),
+    ("choice", &["job", "lower", "plan", "sim", "wanted"]),
     ("pace", &["kinematics", "machine", "reach", "sim"]),
     (
         "summary",
         &["air", "checks", "job", "pace", "plan", "reach_summary", "sim"],
     ),
-    (
-        "checks",
-        &["diag", "job", "kinematics", "machine", "pace", "reach"],
-    ),
+    ("checks", &["job", "kinematics", "machine", "pace", "reach"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
     (
         "remedy",
         &[
-            "diag",
             "job",
             "kinematics",
             "lower",
             "machine",
             "plan",
             "reach",
-            "source",
             "verdict",
             "wanted",
         ],
     ),
     (
         "reach_verdict",
-        &[
-            "diag",
-            "job",
-            "kinematics",
-            "plan",
-            "reach",
-            "remedy",
-            "source",
-            "wanted",
-        ],
+        &["job", "kinematics", "plan", "reach", "remedy", "wanted"],
     ),
     (
         "readback",
         &[
             "align",
-            "diag",
             "job",
             "machine",
             "plan",
             "reach",
             "reach_verdict",
             "sim",
-            "source",
             "verdict",
         ],
     ),
     (
         "placement",
         &[
-            "choice", "diag", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "source",
-            "verdict", "wanted",
+            "choice", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "verdict", "wanted",
         ],
     ),
     (
         "hints",
         &[
-            "diag",
             "driver",
             "job",
             "lower",
@@ -111,7 +84,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "reach",
             "reach_summary",
             "remedy",
-            "source",
             "summary",
             "wanted",
         ],
@@ -119,13 +91,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "optimisation",
         &[
-            "choice", "diag", "driver", "job", "picture", "plan", "sim", "source", "summary", "verdict",
+            "choice", "driver", "job", "picture", "plan", "sim", "summary", "verdict",
         ],
     ),
     (
         "starter",
         &[
-            "diag",
             "driver",
             "format",
             "kinematics",
@@ -133,18 +104,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "memory",
             "reach",
             "remedy",
-            "source",
         ],
     ),
-    (
-        "convert",
-        &["diag", "format", "plan", "sema", "sim", "source", "syntax"],
-    ),
+    ("convert", &["format", "plan", "sema", "sim", "syntax"]),
     (
         "report",
         &[
             "checks",
-            "diag",
             "driver",
             "hints",
             "job",
@@ -154,28 +120,18 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "reach",
             "reach_summary",
             "sim",
-            "source",
             "summary",
             "verdict",
         ],
     ),
-    (
-        "verdict",
-        &[
-            "choice", "diag", "job", "lower", "plan", "sim", "source", "wanted",
-        ],
-    ),
-    (
-        "memory",
-        &["choice", "diag", "job", "machine", "plan", "reach", "wanted"],
-    ),
+    ("verdict", &["choice", "job", "lower", "plan", "sim", "wanted"]),
+    ("memory", &["choice", "job", "machine", "plan", "reach", "wanted"]),
     (
         "driver",
         &[
             "air",
             "checks",
             "choice",
-            "diag",
             "fingerprint",
             "job",
             "lower",
@@ -192,7 +148,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "remedy",
             "sema",
             "sim",
-            "source",
             "summary",
             "syntax",
             "verdict",
@@ -202,8 +157,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "lsp",
         &[
-            "diag", "driver", "format", "hints", "machine", "memory", "plan", "sema", "source", "summary",
-            "syntax", "wanted",
+            "driver", "format", "hints", "machine", "memory", "plan", "sema", "summary", "syntax", "wanted",
         ],
     ),
     (
@@ -212,8 +166,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "checks",
             "comparison",
             "convert",
-            "diag",
-            "document",
             "driver",
             "format",
             "hints",
@@ -233,7 +185,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "readback",
             "registry",
             "report",
-            "source",
             "starter",
             "summary",
             "syntax",
@@ -244,12 +195,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
 const ONLY_IN: &[(&str, &[&str])] = &[
-    ("ariadne::", &["src/diag/render.rs"]),
+    ("ariadne::", &["src/diagnostics/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
     ("rayon::", &["src/choice/", "src/pace/", "src/reach/"]),
     ("hmac_sha256::", &["src/fingerprint.rs", "src/report/digest.rs"]),
-    ("strsim::", &["src/diag/suggest.rs"]),
+    ("strsim::", &["src/diagnostics/suggest.rs"]),
     (
         "glam::",
         &["src/kinematics/", "src/machine/", "src/posture.rs", "src/reach/"],
@@ -272,7 +223,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("indicatif::", &["src/cli/"]),
     ("lsp_types::", &["src/lsp/"]),
     ("tempfile::", &["src/cli/"]),
-    ("toml::", &["src/document/"]),
+    ("toml::", &["src/diagnostics/document/"]),
     ("std::fs", &["src/cli/"]),
     ("std::net", &["src/cli/watch/server.rs"]),
     ("ctrlc::", &["src/cli/watch/"]),

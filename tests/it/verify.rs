@@ -8,7 +8,7 @@ use crate::pipeline::{Files, compile, krl, numbers, told};
 use crate::repository::{expected_codes, root};
 use std::collections::BTreeSet;
 use std::fs;
-use vcutc::diag::fix;
+use vcutc::diagnostics::fix;
 use vcutc::driver::{self, EmitFailure, Outcome};
 use vcutc::readback::{Fresh, Reference, Verdict, Written};
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, EmitError, OptionSpec, Options};

@@ -4,7 +4,7 @@
 use crate::pipeline::{Files, compile_on, numbers};
 use crate::repository::root;
 use std::fs;
-use vcutc::diag::Diagnostic;
+use vcutc::diagnostics::Diagnostic;
 use vcutc::driver::{self, Outcome};
 use vcutc::readback::{Fresh, Reference, Verdict, Written};
 use vcutc::registry;

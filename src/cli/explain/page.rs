@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn no_page_has_marks_or_long_lines_left() {
-        for code in crate::diag::Code::ALL {
+        for code in vcutc_diagnostics::Code::ALL {
             let shown = plain(code.page(), 80);
             let is_text = |line: &&str| !line.starts_with([' ', '|']);
             for line in shown.lines().filter(is_text) {

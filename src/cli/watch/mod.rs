@@ -14,7 +14,6 @@ mod stamps;
 use super::args::WatchArgs;
 use super::console::{Console, Failure};
 use super::{Exit, Targets};
-use crate::diag::render::{ColorChoice, render};
 use crate::memory::Memory;
 use crate::report::page::{Content, Further, Served, served_errors, served_page};
 use crate::wanted::Wanted;
@@ -27,6 +26,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+use vcutc_diagnostics::render::{ColorChoice, render};
 
 /// How long after a program could not be written that is tried again.
 const FIRST_RETRY: Duration = Duration::from_secs(1);

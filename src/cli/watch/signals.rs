@@ -194,7 +194,7 @@ mod tests {
     use super::super::stamps::Recorder;
     use super::*;
     use crate::cli::files::Disk;
-    use crate::source::Loader;
+    use vcutc_diagnostics::source::Loader;
 
     #[test]
     fn files_are_read_when_they_rest_and_a_missing_one_is_waited_for() {

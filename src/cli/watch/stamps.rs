@@ -5,11 +5,11 @@
 //! makes a new one; and a file that is not there yet has a stamp as well. A job has a handful of files, so that looking costs
 //! next to nothing; where it is slow it is done less often ([`Pause`]).
 
-use crate::source::{Entry, LoadError, Loader};
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
+use vcutc_diagnostics::source::{Entry, LoadError, Loader};
 
 /// What tells one version of a file from another; none for a file that is not there.
 type Stamp = Option<Version>;

@@ -4,13 +4,13 @@
 //! which the job's speed is off there; another motion may need twice that.
 
 use super::Objection;
-use crate::diag::Diagnostic;
 use crate::driver::trials::Trials;
 use crate::job::{CheckedJob, Operation, RoughVcut};
 use crate::plan::parameters::show;
-use crate::source::Span;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Action, Program};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::Span;
 
 /// How far beyond the factor of the first motion is looked.
 const FARTHER: [f64; 3] = [1.0, 2.0, 4.0];

@@ -1,12 +1,12 @@
 //! Sheets of five-axis machines: those of the catalogue, and one with a fault at a time.
 
-use crate::document::flaw::Flaw;
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::FiveAxis;
 use crate::machine::catalogue;
 use crate::machine::sheet::parse;
 use glam::DVec3;
 use vcutc_backend_api::ir::AxisKind;
+use vcutc_diagnostics::document::flaw::Flaw;
 
 fn machine(name: &str) -> FiveAxis {
     match catalogue::find(name).unwrap().mechanism {

@@ -1,10 +1,10 @@
 //! Sheets with one fault each, small sheets of users, and sheets meant to do harm.
 
 use super::*;
-use crate::document::{LARGEST, MOST_FLAWS};
 use crate::kinematics::opw::Coupling;
 use proptest::prelude::*;
 use vcutc_backend_api::ir::AxisKind;
+use vcutc_diagnostics::document::{LARGEST, MOST_FLAWS};
 
 /// The least a user writes.
 const SMALL: &str = r#"

@@ -1,13 +1,13 @@
 //! The elements of a URDF: links and joints with their numbers, each flaw at its place in the text.
 
 use super::axis_in_tree;
-use crate::document::flaw::Flaw;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::JointAxis;
 use core::f64::consts::TAU;
 use core::ops::Range;
 use glam::{DMat3, DVec3};
 use roxmltree::{Document, Error, Node, ParsingOptions, TextPos};
+use vcutc_diagnostics::document::flaw::Flaw;
 
 /// Largest file, in bytes. Descriptions of robots with all their shapes have a tenth of it.
 const LARGEST: usize = 1 << 20;

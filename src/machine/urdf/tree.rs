@@ -2,10 +2,10 @@
 
 use super::Flange;
 use super::elements::{self, Joint, Kind, MovingJoint, Named, shortened};
-use crate::document::flaw::Flaw;
 use crate::kinematics::pose::Pose;
 use roxmltree::Document;
 use std::collections::{BTreeMap, BTreeSet};
+use vcutc_diagnostics::document::flaw::Flaw;
 
 /// Names that the flange goes by, the first one there counts (REP 199).
 const FLANGES: [&str; 2] = ["tool0", "flange"];

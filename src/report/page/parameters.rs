@@ -7,11 +7,11 @@ use super::{Section, Subject};
 use crate::job::{Auto, Bounds, Formulas, Machine, Objective, Operation, RoughVcut, Sourced};
 use crate::plan::parameters::show;
 use crate::plan::{PlannedOperation, PlannedVcut};
-use crate::source::Span;
 use crate::summary;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Load, Ready, Registered};
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_diagnostics::source::Span;
 
 /// A parameter.
 struct Row {

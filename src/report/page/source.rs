@@ -2,8 +2,8 @@
 
 use super::html::escaped;
 use super::{Section, Subject};
-use crate::diag::position::position;
-use crate::source::{FileId, SourceMap, Span};
+use vcutc_diagnostics::position::position;
+use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 
 /// Most lines of a text that are shown.
 const MOST_LINES: usize = 5000;

@@ -3,9 +3,9 @@
 use super::Subject;
 use super::html::{escaped, unbroken};
 use crate::checks::{Checks, Standing};
-use crate::diag::render::{ColorChoice, render};
 use crate::reach_summary::margin_words;
 use crate::summary::{self, time};
+use vcutc_diagnostics::render::{ColorChoice, render};
 
 /// The header: job, machine, verdict, warnings.
 pub(super) fn header(subject: Subject<'_>) -> String {

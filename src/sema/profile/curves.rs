@@ -1,7 +1,6 @@
 //! A profile drawn piece by piece: every piece begins where the one before ended.
 
 use super::{Piece, TOLERANCE, Trace, data, drawing};
-use crate::diag::{Code, Diagnostic};
 use crate::sema::dimension::Dimension;
 use crate::sema::eval::Scope;
 use crate::sema::fields::curve_words;
@@ -9,9 +8,10 @@ use crate::sema::point::point;
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reported, Reports};
 use crate::sema::session::Session;
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::{ArcBy, Curve, Entry, Point};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::{Curve as Shape, CurveError, Point2};
 
 /// The polyline of a chain of pieces.

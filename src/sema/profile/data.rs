@@ -4,7 +4,6 @@
 //! that a line that cannot be understood can be shown.
 
 use super::repairs;
-use crate::diag::{Code, Diagnostic};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
 use crate::sema::files::{Relative, not_loaded, text_of};
@@ -12,9 +11,10 @@ use crate::sema::range::{COORDINATE, SCALE, SIZE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-use crate::source::{FileId, Span, Spanned, join_path};
 use crate::syntax::ast::Entry;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{FileId, Span, Spanned, join_path};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::{LARGEST_COORDINATE, Point2};
 use vcutc_geometry::import::{self, DataError, Side};
 

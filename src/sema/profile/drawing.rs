@@ -8,17 +8,17 @@ mod unread;
 
 use super::TOLERANCE;
 use super::data::{as_text, bad_data, bytes_of, place_of};
-use crate::diag::{Code, Diagnostic};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, FieldSpec, Fields, Inner, Takes, value};
 use crate::sema::range::{COORDINATE, JOINING, SCALE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-use crate::source::{FileId, Span, Spanned};
 use crate::syntax::ast::Entry;
 use faults::Told;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{FileId, Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::import::drawing::{
     Affine, Drawing, Outline, OutlineError, Side, SideError, Unit, drawn_over, outline, side,

@@ -1,14 +1,14 @@
 //! `z(x) = ...`: a profile by formula.
 
 use super::{Formula, TOLERANCE, Trace};
-use crate::diag::{Code, Diagnostic};
 use crate::sema::dimension::Dimension;
 use crate::sema::eval::{Scope, walk};
 use crate::sema::quantity::{Quantity, mm};
 use crate::sema::report::{Checked, Reports};
-use crate::source::{Span, Spanned};
 use std::cell::Cell;
 use vcutc_backend_api::ir::Stock;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::{SampleError, sample};
 
 /// A profile's formula is called `z`.

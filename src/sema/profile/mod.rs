@@ -15,11 +15,11 @@ use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
 use super::report::Checked;
 use super::session::Session;
-use crate::diag::{Code, Diagnostic};
-use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Block, Curve, Entry, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 

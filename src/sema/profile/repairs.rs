@@ -2,13 +2,13 @@
 //!
 //! Lengths are said in mm of the job, for its chord. A repair that would change the shape is refused with the same figures.
 
-use crate::diag::position::position;
-use crate::diag::{Code, Diagnostic};
 use crate::sema::quantity::{mm, number};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-use crate::source::{FileId, SourceMap, Span, Spanned};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::position::position;
+use vcutc_diagnostics::source::{FileId, SourceMap, Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::import::{Altered, Repair, Side};
 
 /// Most places that are shown.

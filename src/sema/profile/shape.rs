@@ -3,11 +3,11 @@
 //! What the drawing does beyond the two sides of the stock does not matter, so it is cut away first.
 
 use super::Trace;
-use crate::diag::{Code, Diagnostic};
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reports};
-use crate::source::{Span, Spanned};
 use vcutc_backend_api::ir::Stock;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::{Profile, ProfileError};
 

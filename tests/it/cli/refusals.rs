@@ -3,7 +3,7 @@
 use super::{command, folder, json_lines, run, vcutc};
 use insta::assert_snapshot;
 use std::process::Stdio;
-use vcutc::diag::Code;
+use vcutc::diagnostics::Code;
 
 #[test]
 fn help_teaches() {

@@ -4,8 +4,8 @@ use super::posts::{PASSES, Post, Raster, Style, Zero};
 use super::{WORDS, paper, request};
 use vcutc::convert::asked::Words;
 use vcutc::convert::convert;
-use vcutc::diag::{Code, Diagnostic, has_errors, render};
-use vcutc::source::SourceMap;
+use vcutc::diagnostics::source::SourceMap;
+use vcutc::diagnostics::{Code, Diagnostic, has_errors, render};
 use vcutc_backend_api::readback::ProgramFile;
 
 fn program() -> String {

@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use vcutc::diagnostics::source::{Entry, LoadError, Loader, entries_among};
 use vcutc::lsp::wire::Incoming;
 use vcutc::lsp::{Server, Workspace};
 use vcutc::registry;
-use vcutc::source::{Entry, LoadError, Loader, entries_among};
 
 /// Files by path.
 #[derive(Default)]

@@ -3,10 +3,10 @@
 
 use super::editor::{BLADES, Editor, Memory, RIB, position, uri};
 use serde_json::{Value, json};
-use vcutc::diag::{Diagnostic, Severity};
+use vcutc::diagnostics::source::SourceMap;
+use vcutc::diagnostics::{Diagnostic, Severity};
 use vcutc::sema::study::study;
 use vcutc::sema::{Choices, Part};
-use vcutc::source::SourceMap;
 use vcutc::syntax::ast::Item;
 
 /// Numbers that look random and are the same in every run (SplitMix64).

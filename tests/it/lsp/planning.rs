@@ -3,11 +3,11 @@
 use super::editor::{BLADES, Editor, RIB, uri};
 use crate::repository::read;
 use serde_json::{Value, json};
+use vcutc::diagnostics::source::{LoadError, Loader};
 use vcutc::driver::Unhurried;
 use vcutc::lsp::Task;
 use vcutc::memory::Memory;
 use vcutc::registry;
-use vcutc::source::{LoadError, Loader};
 
 const PATH: &str = "/shop/rib.vcut";
 

@@ -1,11 +1,11 @@
 //! What is wrong with a drawing, in words.
 
-use crate::diag::suggest::nearest;
-use crate::diag::{Code, Diagnostic};
 use crate::sema::fields::Fields;
 use crate::sema::quantity::mm;
-use crate::source::{FileId, SourceMap, Span, Spanned};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{FileId, SourceMap, Span, Spanned};
+use vcutc_diagnostics::suggest::nearest;
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::{CurveError, Point2};
 use vcutc_geometry::import::drawing::{
     Chain, Drawing, Gap, Outline, OutlineError, Overlap, Place, SideError,

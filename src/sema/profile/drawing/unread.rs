@@ -1,8 +1,8 @@
 //! What of a drawing is not taken as it stands: one warning, with a line for each kind.
 
 use super::faults::Told;
-use crate::diag::position::position;
-use crate::diag::{Code, Diagnostic};
+use vcutc_diagnostics::position::position;
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::import::drawing::{Outline, Place, Unread, Why};
 
 /// Most lines of one kind of remark.

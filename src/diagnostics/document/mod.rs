@@ -1,7 +1,7 @@
 //! Texts in TOML as people write them: read once, with all flaws at their places.
 
 pub mod flaw;
-pub(crate) mod table;
+pub mod table;
 
 use flaw::Flaw;
 use table::Table;
@@ -9,24 +9,24 @@ use toml::de::DeTable;
 
 /// What a document is called in messages, and looks like.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wording {
+pub struct Wording {
     /// Its name, such as `sheet`.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// What lines of it look like.
-    pub(crate) looks: &'static str,
+    pub looks: &'static str,
 }
 
 /// Largest document in bytes. Sheets of the catalogue are below 10 000.
-pub(crate) const LARGEST: usize = 1 << 18;
+pub const LARGEST: usize = 1 << 18;
 
 /// Most flaws of one document that are told.
-pub(crate) const MOST_FLAWS: usize = 20;
+pub const MOST_FLAWS: usize = 20;
 
 /// Reads a document.
 ///
 /// # Errors
 /// What is wrong with it, in the order of the text; the first [`MOST_FLAWS`] of it.
-pub(crate) fn parse<T>(
+pub fn parse<T>(
     text: &str,
     wording: Wording,
     read: impl FnOnce(&Table<'_>, &mut Vec<Flaw>) -> Option<T>,

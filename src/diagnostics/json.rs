@@ -120,7 +120,7 @@ pub fn fix_in_json<'a>(fix: &'a Fix, sources: &'a SourceMap) -> FixJson<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diag::Code;
+    use crate::Code;
     use crate::source::Span;
 
     #[test]

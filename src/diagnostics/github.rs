@@ -87,7 +87,7 @@ fn property(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diag::Code;
+    use crate::Code;
     use crate::source::Span;
 
     #[test]

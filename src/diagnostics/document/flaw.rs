@@ -3,8 +3,8 @@
 //! Readers of sheets and of URDF collect flaws instead of stopping at the first, and know nothing of jobs: who asked for
 //! the file turns each flaw into a diagnostic that points into it.
 
-use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Span};
+use crate::{Code, Diagnostic};
 use core::ops::Range;
 
 /// One thing that is wrong with a description.

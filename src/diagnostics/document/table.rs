@@ -4,42 +4,42 @@
 //! goes on to the end, so that one run shows all of them.
 
 use super::flaw::Flaw;
-use crate::diag::suggest::nearest;
+use crate::suggest::nearest;
 use core::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Numbers of one kind: their unit, and the span of values that can mean something.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Measure {
+pub struct Measure {
     /// Unit, with which keys end too.
-    pub(crate) unit: &'static str,
+    pub unit: &'static str,
     /// Smallest.
-    pub(crate) min: f64,
+    pub min: f64,
     /// Largest.
-    pub(crate) max: f64,
+    pub max: f64,
 }
 
 /// Lengths and coordinates.
-pub(crate) const LENGTH: Measure = measure("mm", -100_000.0, 100_000.0);
+pub const LENGTH: Measure = measure("mm", -100_000.0, 100_000.0);
 /// Angles of axes and offsets.
-pub(crate) const ANGLE: Measure = measure("deg", -720.0, 720.0);
+pub const ANGLE: Measure = measure("deg", -720.0, 720.0);
 /// Rates of rotary axes.
-pub(crate) const TURNING_RATE: Measure = measure("deg/s", 0.001, 100_000.0);
+pub const TURNING_RATE: Measure = measure("deg/s", 0.001, 100_000.0);
 /// Accelerations of rotary axes.
-pub(crate) const TURNING_ACCELERATION: Measure = measure("deg/s2", 0.001, 10_000_000.0);
+pub const TURNING_ACCELERATION: Measure = measure("deg/s2", 0.001, 10_000_000.0);
 /// Rates of linear axes.
-pub(crate) const SLIDING_RATE: Measure = measure("mm/s", 0.001, 1_000_000.0);
+pub const SLIDING_RATE: Measure = measure("mm/s", 0.001, 1_000_000.0);
 /// Accelerations of linear axes.
-pub(crate) const SLIDING_ACCELERATION: Measure = measure("mm/s2", 0.001, 100_000_000.0);
+pub const SLIDING_ACCELERATION: Measure = measure("mm/s2", 0.001, 100_000_000.0);
 /// Jerks of rotary axes.
-pub(crate) const TURNING_JERK: Measure = measure("deg/s3", 0.001, 1e9);
+pub const TURNING_JERK: Measure = measure("deg/s3", 0.001, 1e9);
 /// Jerks of linear axes.
-pub(crate) const SLIDING_JERK: Measure = measure("mm/s3", 0.001, 1e10);
+pub const SLIDING_JERK: Measure = measure("mm/s3", 0.001, 1e10);
 /// Masses.
-pub(crate) const MASS: Measure = measure("kg", 0.0, 1_000_000.0);
+pub const MASS: Measure = measure("kg", 0.0, 1_000_000.0);
 /// Pure numbers from -1 to 1.
-pub(crate) const SHARE: Measure = measure("", -1.0, 1.0);
+pub const SHARE: Measure = measure("", -1.0, 1.0);
 
 const fn measure(unit: &'static str, min: f64, max: f64) -> Measure {
     Measure { unit, min, max }
@@ -60,7 +60,7 @@ const MOST_UNKNOWN: usize = 10;
 
 /// A table that is being read.
 #[derive(Clone)]
-pub(crate) struct Table<'t> {
+pub struct Table<'t> {
     /// What it is a table of, such as `sheet`.
     document: &'static str,
     /// How the document writes it, such as `[opw]`; empty for the document as a whole.
@@ -82,7 +82,7 @@ impl<'t> Table<'t> {
     }
 
     /// Reports keys other than these.
-    pub(crate) fn allow(&self, known: &[&str], flaws: &mut Vec<Flaw>) {
+    pub fn allow(&self, known: &[&str], flaws: &mut Vec<Flaw>) {
         let unknown = self
             .entries
             .keys()
@@ -115,12 +115,12 @@ impl<'t> Table<'t> {
 
     /// Where complaints about the table as a whole point.
     #[must_use]
-    pub(crate) fn span(&self) -> Range<usize> {
+    pub fn span(&self) -> Range<usize> {
         self.span.clone()
     }
 
     /// Reports those of these keys that the table lacks. Each comes with a line that would do.
-    pub(crate) fn require(&self, lines: &[(&str, &str)], flaws: &mut Vec<Flaw>) {
+    pub fn require(&self, lines: &[(&str, &str)], flaws: &mut Vec<Flaw>) {
         let lacking: Vec<_> = lines.iter().filter(|(key, _)| self.get(key).is_none()).collect();
         if lacking.is_empty() {
             return;
@@ -149,13 +149,13 @@ impl<'t> Table<'t> {
 
     /// Whether the key is there.
     #[must_use]
-    pub(crate) fn has(&self, key: &str) -> bool {
+    pub fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
     }
 
     /// Where the value of a key stands.
     #[must_use]
-    pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
+    pub fn span_of(&self, key: &str) -> Range<usize> {
         self.get(key).map_or_else(|| self.span(), Spanned::span)
     }
 
@@ -167,14 +167,14 @@ impl<'t> Table<'t> {
     }
 
     /// The table under a key, which has these keys.
-    pub(crate) fn table(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Option<Self> {
+    pub fn table(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Option<Self> {
         let table = self.loose_table(key, flaws)?;
         table.allow(known, flaws);
         Some(table)
     }
 
     /// The table under a key, whatever it holds: sections that only people read.
-    pub(crate) fn loose_table(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<Self> {
+    pub fn loose_table(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<Self> {
         let value = self.get(key)?;
         match value.get_ref() {
             DeValue::Table(entries) => Some(Self {
@@ -191,7 +191,7 @@ impl<'t> Table<'t> {
     }
 
     /// The tables under a key that stands in double brackets; empty when there is none.
-    pub(crate) fn tables(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Vec<Self> {
+    pub fn tables(&self, key: &str, known: &[&str], flaws: &mut Vec<Flaw>) -> Vec<Self> {
         let mut tables = Vec::new();
         for value in self.elements(key, "tables in double brackets", flaws) {
             match value.get_ref() {
@@ -212,18 +212,18 @@ impl<'t> Table<'t> {
     }
 
     /// The text under a key.
-    pub(crate) fn text(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<&'t str> {
+    pub fn text(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<&'t str> {
         text(key, "a text in quotes", self.get(key)?, flaws)
     }
 
     /// The texts under a key: a list, or a single one.
-    pub(crate) fn texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<String> {
+    pub fn texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<String> {
         let texts = self.placed_texts(key, flaws).into_iter();
         texts.map(|(text, _)| text.to_owned()).collect()
     }
 
     /// The same, each with where it stands.
-    pub(crate) fn placed_texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<(&'t str, Range<usize>)> {
+    pub fn placed_texts(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<(&'t str, Range<usize>)> {
         let single = self
             .get(key)
             .filter(|value| matches!(value.get_ref(), DeValue::String(_)));
@@ -237,7 +237,7 @@ impl<'t> Table<'t> {
     }
 
     /// The names in a list under a key.
-    pub(crate) fn names(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<&'t str> {
+    pub fn names(&self, key: &str, flaws: &mut Vec<Flaw>) -> Vec<&'t str> {
         let mut names = Vec::new();
         for value in self.elements(key, "a list of names", flaws) {
             match value.get_ref() {
@@ -249,7 +249,7 @@ impl<'t> Table<'t> {
     }
 
     /// The word under a key, one of a few.
-    pub(crate) fn word<T: Copy>(&self, key: &str, words: &[(&str, T)], flaws: &mut Vec<Flaw>) -> Option<T> {
+    pub fn word<T: Copy>(&self, key: &str, words: &[(&str, T)], flaws: &mut Vec<Flaw>) -> Option<T> {
         let given = self.text(key, flaws)?;
         if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == given) {
             return Some(*meaning);
@@ -269,7 +269,7 @@ impl<'t> Table<'t> {
     }
 
     /// `true` or `false` under a key.
-    pub(crate) fn truth(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<bool> {
+    pub fn truth(&self, key: &str, flaws: &mut Vec<Flaw>) -> Option<bool> {
         let value = self.get(key)?;
         match value.get_ref() {
             DeValue::Boolean(truth) => Some(*truth),
@@ -281,7 +281,7 @@ impl<'t> Table<'t> {
     }
 
     /// The whole number under a key, within this range.
-    pub(crate) fn whole(&self, key: &str, range: RangeInclusive<u32>, flaws: &mut Vec<Flaw>) -> Option<u32> {
+    pub fn whole(&self, key: &str, range: RangeInclusive<u32>, flaws: &mut Vec<Flaw>) -> Option<u32> {
         let (min, max) = (f64::from(*range.start()), f64::from(*range.end()));
         let number = self.number(key, measure("", min, max), flaws)?;
         #[expect(
@@ -303,12 +303,12 @@ impl<'t> Table<'t> {
     }
 
     /// The number under a key.
-    pub(crate) fn number(&self, key: &str, measure: Measure, flaws: &mut Vec<Flaw>) -> Option<f64> {
+    pub fn number(&self, key: &str, measure: Measure, flaws: &mut Vec<Flaw>) -> Option<f64> {
         number(key, self.get(key)?, measure, flaws)
     }
 
     /// A fixed count of numbers under a key.
-    pub(crate) fn numbers<const N: usize>(
+    pub fn numbers<const N: usize>(
         &self,
         key: &str,
         measure: Measure,
@@ -318,7 +318,7 @@ impl<'t> Table<'t> {
     }
 
     /// A fixed count of ranges `[min, max]` under a key, each at most `widest` wide.
-    pub(crate) fn ranges<const N: usize>(
+    pub fn ranges<const N: usize>(
         &self,
         key: &str,
         measure: Measure,
@@ -335,7 +335,7 @@ impl<'t> Table<'t> {
     }
 
     /// A range `[min, max]` under a key, at most `widest` wide.
-    pub(crate) fn range(
+    pub fn range(
         &self,
         key: &str,
         measure: Measure,

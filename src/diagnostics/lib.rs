@@ -5,11 +5,13 @@
 //! where the cause lies elsewhere, and says what to do.
 
 mod codes;
+pub mod document;
 pub mod fix;
 pub mod github;
 pub mod json;
 pub mod position;
 pub mod render;
+pub mod source;
 pub mod suggest;
 
 pub use codes::Code;
