@@ -10,8 +10,6 @@ pub mod comparison;
 #[cfg(feature = "krl")]
 pub mod convert;
 pub mod driver;
-pub mod fingerprint;
-pub mod format;
 pub mod hints;
 pub mod job;
 pub mod kinematics;
@@ -39,8 +37,8 @@ pub mod sema;
 pub mod sim;
 pub mod starter;
 pub mod summary;
-pub mod syntax;
 pub mod verdict;
 pub mod wanted;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_geometry as geometry;
+pub use vcutc_syntax as syntax;

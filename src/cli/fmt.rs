@@ -10,14 +10,14 @@ use super::files::{Disk, load_file};
 use super::output::rewrite;
 use super::snapshot::{Differences, Fate};
 use crate::comparison::{FileChange, Sides, compare};
-use crate::format::format;
-use crate::syntax;
 use serde::Serialize;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Loader, SourceMap, Span, text_from_bytes};
+use vcutc_syntax as syntax;
+use vcutc_syntax::format::format;
 
 /// How the layout is called where a job is named that gives a file.
 const NAME: &str = "vcutc fmt";

@@ -4,14 +4,14 @@ use super::feeds::Feeds;
 use super::milling::Milling;
 use super::place::Blank;
 use super::raster::{Pass, Raster};
-use crate::format::format;
 use crate::plan::parameters::show;
-use crate::syntax::ast::{Entry, Item, Point};
-use crate::syntax::parse;
 use core::ops::Range;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 use vcutc_geometry::curve::Point2;
+use vcutc_syntax::ast::{Entry, Item, Point};
+use vcutc_syntax::format::format;
+use vcutc_syntax::parse;
 
 /// A job's text.
 #[derive(Clone, Debug, PartialEq)]

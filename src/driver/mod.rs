@@ -25,7 +25,6 @@ pub use yielding::Yielded;
 
 use crate::checks::{Carried, Checks};
 use crate::choice;
-use crate::fingerprint;
 use crate::job::CheckedJob;
 use crate::memory::Memory;
 use crate::numbers::Numbers;
@@ -41,7 +40,6 @@ use crate::sim::timing::times;
 use crate::summary::chosen::{self, OperationFigures};
 use crate::summary::summary;
 use crate::summary::times::{TimeFigures, figures as time_figures};
-use crate::syntax::ast::Ast;
 use crate::verdict;
 use crate::wanted::{Needless, Wanted};
 use refusal::{NotCarriedOut, NotTaken, Refused};
@@ -53,6 +51,8 @@ use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
 use vcutc_diagnostics::source::{Loader, SourceMap};
 use vcutc_diagnostics::{Code, Diagnostic, Severity, has_errors};
+use vcutc_syntax::ast::Ast;
+use vcutc_syntax::fingerprint;
 use yielding::Yielding;
 
 /// What to compile.

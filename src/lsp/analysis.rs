@@ -12,12 +12,12 @@ use crate::memory::Memory;
 use crate::plan::PlannedJob;
 use crate::sema::study::{Study, study};
 use crate::sema::{Choices, Part};
-use crate::syntax::ast::{Ast, Item};
 use crate::wanted::{Interest, Needless, Wanted};
 use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
+use vcutc_syntax::ast::{Ast, Item};
 
 /// The texts of open documents, by their paths. They stand for the files.
 pub(super) type OpenTexts = BTreeMap<String, Text>;

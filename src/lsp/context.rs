@@ -4,8 +4,8 @@
 use super::slots::Slot;
 use super::surroundings::Surroundings;
 use crate::sema::vocabulary;
-use crate::syntax::lexical::{Bracket, Token, TokenKind, tokens};
 use core::ops::Range;
+use vcutc_syntax::lexical::{Bracket, Token, TokenKind, tokens};
 
 /// What is being written.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! What an editor can fold: blocks, and comments that take several lines.
 
 use super::text::Text;
-use crate::syntax::ast::{Ast, Block, Entry, Item};
-use crate::syntax::lexical::{TokenKind, tokens};
 use lsp_types::{FoldingRange, FoldingRangeKind};
 use vcutc_diagnostics::source::Span;
+use vcutc_syntax::ast::{Ast, Block, Entry, Item};
+use vcutc_syntax::lexical::{TokenKind, tokens};
 
 /// The foldable ranges of a file, from the first to the last line of each.
 pub(super) fn folds(ast: &Ast, text: &Text) -> Vec<FoldingRange> {

@@ -1,9 +1,9 @@
 //! The one layout of job files, as the edit that leads to it.
 
 use super::text::Text;
-use crate::format::format;
 use lsp_types::TextEdit;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_syntax::format::format;
 
 /// The edit that gives a text its layout: no more than what differs, so that cursors stay where they are. None for a text with
 /// mistakes, which has no layout, and no edit for one that has it already.

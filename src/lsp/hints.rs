@@ -4,9 +4,9 @@ use super::analysis::Analysis;
 use super::chosen::{Chosen, chosen};
 use super::sites::{Kind, Site, sites};
 use crate::sema::study::Evaluator;
-use crate::syntax::ast::Expr;
 use core::ops::Range;
 use vcutc_diagnostics::source::Spanned;
+use vcutc_syntax::ast::Expr;
 
 /// Most hints of an answer. Nobody looks at more at once.
 const MOST_HINTS: usize = 5000;

@@ -9,10 +9,10 @@ use super::sites::{Kind, Path, Place, Site, sites};
 use crate::machine::catalogue;
 use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, walk};
-use crate::syntax::ast::{Block, Entry, Expr, HeadPart, Item};
-use crate::syntax::lexical::{TokenKind, tokens};
 use vcutc_backend_api::backend::{Backend, OptionKind};
 use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_syntax::ast::{Block, Entry, Expr, HeadPart, Item};
+use vcutc_syntax::lexical::{TokenKind, tokens};
 
 /// What there is to say about a place.
 #[derive(Debug, PartialEq, Eq)]

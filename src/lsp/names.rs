@@ -5,10 +5,10 @@ use super::sites::{Kind, Site, Words, sites};
 use super::text::{Encoding, Text};
 use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, RESERVED};
-use crate::syntax::lexical::{TokenKind, tokens};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_diagnostics::Code;
 use vcutc_diagnostics::source::{FileId, Loader, Span};
+use vcutc_syntax::lexical::{TokenKind, tokens};
 
 /// A name in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@
 //! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
 
 use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
-use crate::syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
 use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
 
 /// A place and what stands there.
 #[derive(Clone, Copy, Debug)]
@@ -437,7 +437,7 @@ mod tests {
         for (file, text) in shop().0 {
             let mut sources = SourceMap::default();
             let id = sources.add(file, text.as_str());
-            let ast = crate::syntax::parse(id, &text, &mut Vec::new());
+            let ast = vcutc_syntax::parse(id, &text, &mut Vec::new());
             let mut name = None;
             for site in sites(&ast) {
                 if let Kind::Field(_) = site.kind {

@@ -2,7 +2,7 @@
 
 use super::context::BlockAround;
 use crate::sema::vocabulary;
-use crate::syntax::lexical::{Bracket, Token, TokenKind};
+use vcutc_syntax::lexical::{Bracket, Token, TokenKind};
 
 /// A text as its tokens, comments left out. Tokens are known by their numbers.
 pub(super) struct Surroundings<'t> {

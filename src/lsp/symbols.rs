@@ -2,9 +2,9 @@
 
 use super::hover::head_text;
 use super::text::Text;
-use crate::syntax::ast::{Ast, Block, Entry, HeadPart, Item};
 use lsp_types::{DocumentSymbol, SymbolKind};
 use vcutc_diagnostics::source::Span;
+use vcutc_syntax::ast::{Ast, Block, Entry, HeadPart, Item};
 
 /// What a file defines for others or is called by: jobs, values, blades and machines, without what is inside of them.
 pub(super) fn defined(ast: &Ast, text: &Text) -> Vec<DocumentSymbol> {

@@ -3,10 +3,10 @@
 use super::sites::{Kind, Named, sites};
 use super::text::Text;
 use crate::sema::vocabulary;
-use crate::syntax::ast::Ast;
-use crate::syntax::lexical::{Token, TokenKind, tokens};
 use lsp_types::{SemanticToken, SemanticTokenModifier, SemanticTokenType};
 use std::collections::BTreeMap;
+use vcutc_syntax::ast::Ast;
+use vcutc_syntax::lexical::{Token, TokenKind, tokens};
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

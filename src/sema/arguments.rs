@@ -5,10 +5,10 @@ use super::names::did_you_mean;
 use super::range::Range;
 use super::read::{Reader, looks_like};
 use super::report::{Checked, Reports};
-use crate::syntax::ast::{Argument, Expr};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Argument, Expr};
 
 /// A named value of a call.
 #[derive(Clone, Copy, Debug)]

@@ -7,9 +7,9 @@ use super::read::{Reader, words_of};
 use super::report::Checked;
 use super::session::Session;
 use crate::job::Blade;
-use crate::syntax::ast::Block;
 use vcutc_backend_api::ir::Edges;
 use vcutc_diagnostics::source::Spanned;
+use vcutc_syntax::ast::Block;
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`blade`",

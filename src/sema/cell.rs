@@ -11,10 +11,10 @@ use super::read::looks_like;
 use super::report::Checked;
 use super::session::Session;
 use crate::job::Machine;
-use crate::syntax::ast::Expr;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::Expr;
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`cell`",

@@ -1,8 +1,8 @@
 //! A decimal comma between values: `45,5 mm` reads as two of them.
 
-use crate::syntax::ast::Expr;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::Expr;
 
 /// The first number without a unit that has nothing but a comma between it and a next one with a unit.
 pub(super) fn between<'v>(values: impl IntoIterator<Item = &'v Spanned<Expr>>) -> Option<Diagnostic> {

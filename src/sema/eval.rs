@@ -12,9 +12,9 @@ use super::names::{Names, Thing, did_you_mean};
 use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
 use super::units;
-use crate::syntax::ast::{Expr, Operator};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Expr, Operator};
 
 /// Deepest nesting of an expression.
 const DEEPEST: usize = 200;

@@ -7,11 +7,11 @@
 use super::names::did_you_mean;
 use super::report::{Checked, Reported, Reports};
 use super::session::Session;
-use crate::syntax::ast::{Block, Curve, Entry, Expr, HeadPart, Point, Relation};
 use std::collections::BTreeMap;
 use vcutc_diagnostics::source::{SourceMap, Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Block, Curve, Entry, Expr, HeadPart, Point, Relation};
 
 use super::spec::Written;
 pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Takes, block, bounds, limit, points, value};

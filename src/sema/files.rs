@@ -6,11 +6,11 @@
 use super::near_files;
 use super::report::Reported;
 use super::session::Session;
-use crate::syntax;
-use crate::syntax::ast::{Ast, Item};
 use std::collections::{BTreeMap, VecDeque};
 use vcutc_diagnostics::source::{FileId, LARGEST_FILE, LoadError, Span, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax as syntax;
+use vcutc_syntax::ast::{Ast, Item};
 
 /// Most files of one job.
 const MOST_FILES: usize = 1000;

@@ -7,12 +7,12 @@ use super::quantity::number;
 use super::range::{COORDINATE, FRAME_ANGLE, QUATERNION_PART};
 use super::read::{Reader, looks_like};
 use super::report::Checked;
-use crate::syntax::ast::{Argument, Expr};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Argument, Expr};
 
 /// How a frame is written.
 pub(crate) const FRAME: &str = "frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)";

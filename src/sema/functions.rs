@@ -6,10 +6,10 @@ use super::mismatch::Mismatch;
 use super::names::did_you_mean;
 use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
-use crate::syntax::ast::Argument;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::Argument;
 
 /// A function.
 struct Function {

@@ -9,9 +9,9 @@ use super::names::{Names, Thing, did_you_mean, more_than_one};
 use super::overrides::Overrides;
 use super::report::{Reported, Reports};
 use super::session::Session;
-use crate::syntax::ast::{Block, Expr, Item};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Block, Expr, Item};
 
 /// A block and where it stands.
 #[derive(Clone, Copy)]

@@ -3,11 +3,11 @@
 use super::fields::head_span;
 use super::machine;
 use super::names::did_you_mean;
-use crate::syntax::ast::{Block, HeadPart};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Block, HeadPart};
 
 /// A kind of block.
 #[derive(Clone, Copy)]

@@ -7,10 +7,10 @@ use super::range::{AXIS_ANGLE, COORDINATE};
 use super::read::Reader;
 use super::report::Checked;
 use crate::machine::{Model, usual_home};
-use crate::syntax::ast::Expr;
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MOST_AXES, MachineKind};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, Fix};
+use vcutc_syntax::ast::Expr;
 
 /// How the home of a robot is written.
 pub(crate) const JOINTS: &str = "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)";

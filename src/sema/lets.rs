@@ -8,9 +8,9 @@ use super::eval::{Scope, walk};
 use super::names::{Names, Thing};
 use super::quantity::{Quantity, with_unit};
 use super::report::{Checked, Reports};
-use crate::syntax::ast::Expr;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::Expr;
 
 /// A `let`.
 #[derive(Clone, Copy, Debug)]

@@ -9,9 +9,9 @@ use super::report::Checked;
 use super::rough_vcut::inner_place;
 use super::session::Session;
 use crate::job::{Bounds, Limits, Sourced};
-use crate::syntax::ast::Block;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::Block;
 
 pub(super) const LIMITS: BlockSpec = BlockSpec {
     title: "`limits`",

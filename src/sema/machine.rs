@@ -11,11 +11,11 @@ use super::report::Checked;
 use super::session::Session;
 use super::{model, options};
 use crate::job::{Machine, Sourced};
-use crate::syntax::ast::{Block, Expr};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Load, MachineKind, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::units::{Duration, Mass};
 use vcutc_diagnostics::source::Spanned;
+use vcutc_syntax::ast::{Block, Expr};
 
 const LOADS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
 const OUTPUTS: &[(&str, &str)] = &[("output", "output(12)")];

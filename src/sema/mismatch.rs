@@ -7,9 +7,9 @@ use super::dimension::Dimension;
 use super::eval::Scope;
 use super::lets::Let;
 use super::quantity::Quantity;
-use crate::syntax::ast::Expr;
 use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::Expr;
 
 /// What stands where another dimension is wanted.
 pub(crate) struct Mismatch<'a> {

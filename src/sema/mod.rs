@@ -49,7 +49,6 @@ pub(crate) mod vocabulary;
 mod tests;
 
 use crate::job::{Blade, CheckedJob, Machine, Operation};
-use crate::syntax::ast::Ast;
 use eval::Scope;
 use files::{File, Files};
 use gather::Definitions;
@@ -59,6 +58,7 @@ use report::Checked;
 use session::Session;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{LoadError, Loader, SourceMap, Spanned};
+use vcutc_syntax::ast::Ast;
 
 /// What the command line says about a job, over what the job's files say.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,11 +4,11 @@
 
 use super::report::Reports;
 use super::session::Session;
-use crate::syntax;
-use crate::syntax::ast::Expr;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_diagnostics::source::{FileId, Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic, Fix};
+use vcutc_syntax as syntax;
+use vcutc_syntax::ast::Expr;
 
 /// A value from the command line.
 pub(crate) struct Override {

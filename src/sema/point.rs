@@ -3,9 +3,9 @@
 use super::dimension::Dimension;
 use super::eval::Scope;
 use super::report::{Checked, Reports};
-use crate::syntax::ast::{Expr, Point};
 use vcutc_diagnostics::source::Spanned;
 use vcutc_geometry::curve::Point2;
+use vcutc_syntax::ast::{Expr, Point};
 
 /// A point, in mm.
 pub(crate) fn point(point: &Point, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Point2> {

@@ -8,10 +8,10 @@ use super::quantity::{Measured, Quantity, number};
 use super::range::Range;
 use super::report::{Checked, Reports};
 use crate::job::{Auto, Sourced};
-use crate::syntax::ast::Expr;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::Expr;
 
 /// Reads values, and reports what is wrong with them.
 pub(crate) struct Reader<'s> {

@@ -12,11 +12,11 @@ use super::tips;
 use crate::job::{
     Blade, Direction, Formulas, Lattice, Objective, Order, Residual, RoughVcut, Sequence, Sourced,
 };
-use crate::syntax::ast::{Block, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Block, Expr};
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`rough vcut`",

@@ -4,7 +4,7 @@
 //! ([`super::vocabulary`]): the checks read values by themselves, and tests hold the two against each other.
 
 use super::range::Range;
-use crate::syntax::ast::Relation;
+use vcutc_syntax::ast::Relation;
 
 /// What kind of entry a field is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,11 +7,11 @@ use super::range::SIZE;
 use super::read::{Reader, looks_like};
 use super::report::{Checked, Reported};
 use super::session::Session;
-use crate::syntax::ast::{Block, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Block, Expr};
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`stock`",

@@ -14,9 +14,9 @@ use super::report::{Checked, Reports};
 use super::session::Session;
 use super::{Choices, Part, Said, cell, cut_short, options, understand, units};
 use crate::job::CheckedJob;
-use crate::syntax::ast::{Ast, Expr};
 use vcutc_diagnostics::source::{FileId, LoadError, Loader, SourceMap, Spanned};
 use vcutc_diagnostics::{Diagnostic, has_errors};
+use vcutc_syntax::ast::{Ast, Expr};
 
 /// What is known of a job, or of a library.
 #[derive(Debug)]

@@ -12,7 +12,6 @@ use super::read::sourced;
 use super::report::{Checked, Reported, Reports};
 use super::session::Session;
 use crate::job::{Auto, Bounds, Lattice, Limits, Residual, RoughVcut, Sequence, Tip, Tips};
-use crate::syntax::ast::Point;
 use core::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,6 +20,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
+use vcutc_syntax::ast::Point;
 
 /// Tips with the distances that are commonest among them.
 pub(super) struct Given {

@@ -12,8 +12,8 @@ pub(crate) use super::range::Range;
 use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
 pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use super::{Part, blade, cell, frame, functions, machine, names, rough_vcut, stock, units};
-use crate::syntax::ast::Block;
 use vcutc_backend_api::ir::MachineKind;
+use vcutc_syntax::ast::Block;
 
 /// What can stand at the top of a file: its first word, and how all of it looks.
 pub(crate) fn items() -> impl Iterator<Item = (&'static str, &'static str)> {

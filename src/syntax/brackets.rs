@@ -527,7 +527,7 @@ fn scan_starts_with_mark(text: &str, token: Token) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::syntax::tests::TOKENS;
+    use crate::tests::TOKENS;
     use proptest::prelude::*;
     use vcutc_diagnostics::source::SourceMap;
 

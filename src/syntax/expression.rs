@@ -1,7 +1,7 @@
 //! Values: from the grammar's flat row of operands and operators to a tree.
 
 use super::ast::{Argument, Expr, Operator};
-use super::build::Builder;
+use super::builder::Builder;
 use super::grammar::Rule;
 use pest::iterators::Pair;
 use pest::pratt_parser::{Assoc, ConstPrattParser, Op};

@@ -13,7 +13,7 @@ pub(super) use generated::Rule;
 mod generated {
     /// The parser of `grammar/vcut.pest`.
     #[derive(pest_derive::Parser)]
-    #[grammar = "grammar/vcut.pest"]
+    #[grammar = "../../grammar/vcut.pest"]
     pub struct Grammar;
 }
 

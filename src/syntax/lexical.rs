@@ -6,7 +6,7 @@
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum TokenKind {
+pub enum TokenKind {
     /// A name or keyword.
     Word,
     /// A number without its unit.
@@ -31,7 +31,7 @@ pub(crate) enum TokenKind {
 
 /// A kind of bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Bracket {
+pub enum Bracket {
     /// `( )`
     Round,
     /// `{ }`
@@ -58,24 +58,24 @@ impl Bracket {
 
 /// One token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Token {
+pub struct Token {
     /// What it is.
-    pub(crate) kind: TokenKind,
+    pub kind: TokenKind,
     /// Its first byte.
-    pub(crate) start: usize,
+    pub start: usize,
     /// One past its last byte.
-    pub(crate) end: usize,
+    pub end: usize,
     /// How far the first token of its line is indented, in characters.
     pub(crate) indent: usize,
     /// Number of its line, from 0.
-    pub(crate) line: usize,
+    pub line: usize,
     /// Whether it is the first of its line.
-    pub(crate) leads: bool,
+    pub leads: bool,
 }
 
 /// The tokens of a text, comments included.
 #[derive(Clone, Debug)]
-pub(crate) struct Tokens<'t> {
+pub struct Tokens<'t> {
     text: &'t str,
     at: usize,
     line: usize,
@@ -87,7 +87,7 @@ pub(crate) struct Tokens<'t> {
 }
 
 /// The tokens of `text`.
-pub(crate) const fn tokens(text: &str) -> Tokens<'_> {
+pub const fn tokens(text: &str) -> Tokens<'_> {
     Tokens {
         text,
         at: 0,

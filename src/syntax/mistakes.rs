@@ -3,7 +3,7 @@
 //! A statement that the grammar took up as bad is read once more on its own. How far that goes is where the mistake
 //! is, and what the grammar could have gone on with there is what the message asks for, in the language's own words.
 
-use super::build::Place;
+use super::builder::Place;
 use super::grammar::{Mismatch, Rule, read};
 use super::lexical::{Bracket, Token, TokenKind, tokens};
 use super::slips;

@@ -8,11 +8,11 @@ use crate::sema::point::point;
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reported, Reports};
 use crate::sema::session::Session;
-use crate::syntax::ast::{ArcBy, Curve, Entry, Point};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::{Curve as Shape, CurveError, Point2};
+use vcutc_syntax::ast::{ArcBy, Curve, Entry, Point};
 
 /// The polyline of a chain of pieces.
 pub(super) fn trace(pieces: &[Piece<'_>], scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Trace> {

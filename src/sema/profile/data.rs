@@ -11,12 +11,12 @@ use crate::sema::range::{COORDINATE, SCALE, SIZE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-use crate::syntax::ast::Entry;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{FileId, Span, Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::{LARGEST_COORDINATE, Point2};
 use vcutc_geometry::import::{self, DataError, Side};
+use vcutc_syntax::ast::Entry;
 
 pub(crate) const POINTS: BlockSpec = BlockSpec {
     title: "`points`",

@@ -14,7 +14,6 @@ use crate::sema::range::{COORDINATE, JOINING, SCALE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-use crate::syntax::ast::Entry;
 use faults::Told;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{FileId, Span, Spanned};
@@ -24,6 +23,7 @@ use vcutc_geometry::import::drawing::{
     Affine, Drawing, Outline, OutlineError, Side, SideError, Unit, drawn_over, outline, side,
 };
 use vcutc_geometry::import::{self, DataError, NoText};
+use vcutc_syntax::ast::Entry;
 
 /// A format of drawings.
 #[derive(Debug)]

@@ -15,13 +15,13 @@ use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
 use super::report::Checked;
 use super::session::Session;
-use crate::syntax::ast::{Block, Curve, Entry, Expr};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_syntax::ast::{Block, Curve, Entry, Expr};
 
 /// Curves become polylines that stay this close to them: far below what a knife can do in honeycomb.
 const TOLERANCE: Length = Length::mm(0.001);

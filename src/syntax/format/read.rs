@@ -5,8 +5,8 @@
 //! statement ends belongs to that statement, every other one to what follows.
 
 use super::spacing::{Role, roles};
-use crate::syntax::ast::{Ast, Curve, Entry, Item};
-use crate::syntax::lexical::{Bracket, Token, TokenKind, tokens};
+use crate::ast::{Ast, Curve, Entry, Item};
+use crate::lexical::{Bracket, Token, TokenKind, tokens};
 
 /// What stands between a thing and the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

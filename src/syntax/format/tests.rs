@@ -1,8 +1,8 @@
 //! The layout on chosen texts, and what must hold for any.
 
 use super::format;
-use crate::syntax::ast::Ast;
-use crate::syntax::parse;
+use crate::ast::Ast;
+use crate::parse;
 use proptest::prelude::*;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;

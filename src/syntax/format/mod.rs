@@ -17,7 +17,7 @@ mod value;
 #[cfg(test)]
 mod tests;
 
-use crate::syntax;
+use crate as syntax;
 use read::Source;
 use vcutc_diagnostics::source::{FileId, Span};
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};

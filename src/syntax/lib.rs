@@ -12,10 +12,12 @@
 
 pub mod ast;
 mod brackets;
-mod build;
+mod builder;
 mod expression;
+pub mod fingerprint;
+pub mod format;
 mod grammar;
-pub(crate) mod lexical;
+pub mod lexical;
 mod mistakes;
 mod reports;
 mod slips;
@@ -23,7 +25,7 @@ mod slips;
 mod tests;
 
 use ast::{Ast, Expr};
-use build::Builder;
+use builder::Builder;
 use grammar::{Mismatch, Rule, read};
 use vcutc_diagnostics::source::{FileId, Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};

@@ -1,7 +1,7 @@
 //! What the words of a statement are to one another, and what stands between two of them.
 
 use super::read::{Kind, Word};
-use crate::syntax::lexical::{Bracket, TokenKind};
+use crate::lexical::{Bracket, TokenKind};
 
 /// What a word is in its statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@
 //! files and no folders, which are others on another computer, no `--option`, which changes how a program is written and not
 //! what it does, and nothing of the compiler: where another version makes the same program, that program stays the same.
 
-use crate::syntax::lexical::{TokenKind, tokens};
+use crate::lexical::{TokenKind, tokens};
 use core::fmt::Write;
 use hmac_sha256::Hash;
 use vcutc_diagnostics::source::SourceMap;
