@@ -11,12 +11,12 @@ mod words;
 pub use words::CheckFigure;
 
 use crate::job::Machine;
-use crate::kinematics::Mechanism;
-use crate::kinematics::opw::Coupling;
-use crate::machine::Model;
 use crate::pace::{Basis, Kept};
 use crate::reach::solve::{ReachReport, Reached};
 use vcutc_backend_api::ir::Axis;
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::Mechanism;
+use vcutc_machine::kinematics::opw::Coupling;
 
 /// Something that is worth knowing of a program before it runs.
 #[derive(Clone, Debug, PartialEq, Eq)]

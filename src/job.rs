@@ -4,7 +4,6 @@
 
 mod places;
 
-use crate::machine::Model;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
@@ -12,6 +11,7 @@ use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Spee
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_machine::Model;
 
 /// A value and where it was written; `None` when it is a default.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,11 +12,9 @@ pub mod convert;
 pub mod driver;
 pub mod hints;
 pub mod job;
-pub mod kinematics;
 pub mod lower;
 #[cfg(feature = "lsp")]
 pub mod lsp;
-pub mod machine;
 pub mod manifest;
 pub mod memory;
 pub mod numbers;
@@ -41,4 +39,5 @@ pub mod verdict;
 pub mod wanted;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_geometry as geometry;
+pub use vcutc_machine as machine;
 pub use vcutc_syntax as syntax;

@@ -1,7 +1,7 @@
 //! Inverse kinematics by us and by others; the throughput shown is poses per second.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use vcutc::kinematics::batch::{Answers, BranchAnswers};
+use vcutc::machine::kinematics::batch::{Answers, BranchAnswers};
 use vcutc_benches::kinematics::Task;
 
 fn all(criterion: &mut Criterion) {

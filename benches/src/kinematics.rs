@@ -9,10 +9,10 @@ use rs_opw_kinematics::kinematic_traits::Kinematics;
 use rs_opw_kinematics::pose::Pose as PeerPose;
 use std::hint::black_box;
 use std::sync::Arc;
-use vcutc::kinematics::Joints;
-use vcutc::kinematics::batch::{Answers, BranchAnswers, Poses};
-use vcutc::kinematics::opw::{BRANCHES, Opw};
-use vcutc::kinematics::pose::Pose;
+use vcutc::machine::kinematics::Joints;
+use vcutc::machine::kinematics::batch::{Answers, BranchAnswers, Poses};
+use vcutc::machine::kinematics::opw::{BRANCHES, Opw};
+use vcutc::machine::kinematics::pose::Pose;
 use vcutc_backend_api::motion::Branch;
 
 /// Poses in a batch: their answers fit the cache of a core.

@@ -3,10 +3,10 @@
 use super::words::listed;
 use super::{Check, Checks, Outcome};
 use crate::job::Machine;
-use crate::machine::{FileKind, Origin};
 use crate::reach::solve::Reached;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_machine::{FileKind, Origin};
 
 impl Checks {
     /// The warnings of a job on its machine: all that keeps it from counting as proven. What no job has checked, such as

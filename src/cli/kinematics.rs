@@ -8,15 +8,15 @@ use super::Exit;
 use super::args::CellArgs;
 use super::console::{Console, Failure};
 use super::machines;
-use crate::kinematics::configuration::branch_of;
-use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, Mechanism};
-use crate::machine::Model;
 use answer::{Found, Reached};
 use core::f64::consts::TAU;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::configuration::branch_of;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// By how much an axis may be beyond its limit, in rad or mm: rounding.
 const AT_LIMIT: f64 = 1e-9;

@@ -6,16 +6,16 @@ mod text;
 use super::Exit;
 use super::console::{Console, Failure};
 use super::files::Disk;
-use crate::machine::catalogue::Summary;
-use crate::machine::facts::{Dynamics, Facts, FkCheck};
-use crate::machine::path_limits::PathLimits;
-use crate::machine::sheet::{self, Sheet};
-use crate::machine::{self, FileKind, Model, Origin, catalogue};
 use serde_json::{Value, json};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, Maker};
 use vcutc_diagnostics::Code;
 use vcutc_diagnostics::document::flaw::Flaw;
 use vcutc_diagnostics::source::{Loader, SourceMap, text_from_bytes};
+use vcutc_machine::catalogue::Summary;
+use vcutc_machine::facts::{Dynamics, Facts, FkCheck};
+use vcutc_machine::path_limits::PathLimits;
+use vcutc_machine::sheet::{self, Sheet};
+use vcutc_machine::{self as machine, FileKind, Model, Origin, catalogue};
 
 /// Version of the JSON objects that describe machines and their poses.
 pub(super) const SCHEMA: u32 = 1;

@@ -2,13 +2,13 @@
 
 use super::{Request, Unhelped, target};
 use crate::job::CheckedJob;
-use crate::machine::Model;
 use crate::memory::Memory;
 use crate::sema;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::{Backend, BackendIssue};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_machine::Model;
 
 /// The job alone, understood and not planned; none where it has errors or cannot be read.
 #[must_use]

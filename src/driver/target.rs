@@ -6,7 +6,6 @@ pub(super) use speeds::with_help;
 
 use super::{Compiled, Request};
 use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
-use crate::machine::{Model, usual_home};
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options, Origin,
 };
@@ -18,6 +17,7 @@ use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_machine::{Model, usual_home};
 
 /// The option that a profile can set too.
 const DECIMALS: &str = "decimals";

@@ -8,10 +8,10 @@ use super::manual::{self, Table};
 use super::paths;
 use super::slots::{Owner, Slot};
 use super::values::{Begun, Place};
-use crate::machine::catalogue;
 use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::Backend;
+use vcutc_machine::catalogue;
 
 /// Something that can be written.
 #[derive(Clone, Debug, PartialEq)]

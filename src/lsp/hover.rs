@@ -6,11 +6,11 @@ use super::chosen::{Chosen, chosen};
 use super::manual::{self, Table};
 use super::names::{definition_at, sites_at};
 use super::sites::{Kind, Path, Place, Site, sites};
-use crate::machine::catalogue;
 use crate::sema::study::{Definition, Meaning};
 use crate::sema::vocabulary::{self, walk};
 use vcutc_backend_api::backend::{Backend, OptionKind};
 use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_machine::catalogue;
 use vcutc_syntax::ast::{Block, Entry, Expr, HeadPart, Item};
 use vcutc_syntax::lexical::{TokenKind, tokens};
 

@@ -19,7 +19,6 @@ use super::text::Text;
 use super::tokens::{legend, modifiers, semantic_tokens};
 use super::uri::{path_of, uri_of};
 use super::wire::{Fault, notification};
-use crate::machine::Origin;
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
     DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation,
@@ -32,6 +31,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use vcutc_diagnostics::Fix;
 use vcutc_diagnostics::source::Span;
+use vcutc_machine::Origin;
 
 /// So many symbols are enough for one answer.
 const MOST_FOUND: usize = 1000;

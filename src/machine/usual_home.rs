@@ -68,7 +68,7 @@ fn clear(axis: &Axis, degrees: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::catalogue;
+    use crate::catalogue;
 
     #[test]
     fn the_home_of_every_robot_of_the_catalogue_is_within_its_limits() {

@@ -17,7 +17,6 @@ mod tests;
 
 use crate::choice::{self, Complaints, Leeway};
 use crate::job::{CheckedJob, Operation};
-use crate::machine::Model;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::solve::{
     Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
@@ -28,6 +27,7 @@ use shelf::Shelf;
 use std::sync::Arc;
 use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_machine::Model;
 
 /// Most cuts and ops of all that is kept: some 100 MB.
 const ROOM: usize = 400_000;

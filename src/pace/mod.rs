@@ -24,9 +24,6 @@ mod smooth;
 mod tests;
 mod track;
 
-use crate::kinematics::Joints;
-use crate::machine::Model;
-use crate::machine::path_limits::PathLimits;
 use crate::reach::legs::{Leg, Poses, Stroke, Taught, legs, numbered};
 use crate::reach::path::{Course, Followed};
 use crate::reach::rig::Rig;
@@ -40,6 +37,9 @@ use vcutc_backend_api::ir::{Axis, MOST_AXES, Maker, OpId, Program};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::Joints;
+use vcutc_machine::path_limits::PathLimits;
 
 /// What of a machine the times of a program keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,14 +4,14 @@ use super::chebyshev::Weights;
 use super::profile::Bounds;
 use super::track::{Part, Slopes};
 use super::{phase, smooth, track};
-use crate::kinematics::Joints;
-use crate::kinematics::pose::Pose;
-use crate::machine::catalogue;
 use crate::reach::path::{Course, Followed};
 use crate::reach::rig::Rig;
 use proptest::prelude::*;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_machine::catalogue;
+use vcutc_machine::kinematics::Joints;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// A way of two axes with their first three derivatives.
 type Curve = fn(f64) -> [[f64; 3]; 2];

@@ -1,8 +1,8 @@
 //! How the axes move along a way: their derivatives by the part of it that is done.
 
 use super::chebyshev::{DEGREE, PARTS, POINTS, Weights};
-use crate::kinematics::Joints;
 use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_machine::kinematics::Joints;
 
 /// Derivatives of an axis value by the part of the way that is done, which goes from 0 to 1; in rad or mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

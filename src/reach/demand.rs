@@ -9,9 +9,9 @@
 //! Rates are no part of it: they are kept or not, and a job that keeps them gains nothing from being slower.
 
 use super::path::{Clearance, Proof};
-use crate::kinematics::Joints;
 use core::f64::consts::{FRAC_PI_2, TAU};
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId};
+use vcutc_machine::kinematics::Joints;
 
 /// Distances from singular poses that count as all one could wish for: a hand bent square, an elbow bent square, the wrist a
 /// metre away from axis 1.

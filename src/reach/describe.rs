@@ -1,7 +1,7 @@
 //! Branches, places and axis values in words.
 
-pub use crate::kinematics::configuration::{branch_words, kuka_status};
 use vcutc_backend_api::ir::{Axis, AxisKind, Site};
+pub use vcutc_machine::kinematics::configuration::{branch_words, kuka_status};
 
 /// A place in words: `layer 7, cut 12`.
 #[must_use]

@@ -32,11 +32,11 @@
 
 use super::path::{Breach, Clearance, Course, Proof, Violation};
 use super::rig::Rig;
-use crate::kinematics::Joints;
-use crate::kinematics::five_axis::{FiveAxis, Rotary};
 use glam::DVec3;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::Joints;
+use vcutc_machine::kinematics::five_axis::{FiveAxis, Rotary};
 
 /// By how much an axis may be beyond its limit, in rad or mm (or a second): rounding.
 const AT_LIMIT: f64 = 1e-9;

@@ -4,9 +4,9 @@
 //! the time between them, so that the legs of a program can be judged in any order.
 
 use super::path::Course;
-use crate::kinematics::pose::Pose;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Action, FeedId, OpId, OrientationId, Program, RateId};
+use vcutc_machine::kinematics::pose::Pose;
 
 /// A pose that a program teaches.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,13 +3,13 @@
 //! The rate of an op is that of the shortest turn between its postures. Rotary axes that go each at a constant rate turn the blade
 //! on a longer way ([`super::five_axis_path`]), so in the time of the shortest turn it is turned faster than the job allows: a few
 //! per cent on a head that swings and rakes, by half on one whose C axis carries the blade round a cone. Here such ops get the rate
-//! with which the blade never turns faster than it should ([`crate::kinematics::five_axis::FiveAxis::fastest_turn`]).
+//! with which the blade never turns faster than it should ([`vcutc_machine::kinematics::five_axis::FiveAxis::fastest_turn`]).
 
 use super::legs::{Leg, Pace, legs};
-use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Action, OrientationId, Program, RateId};
 use vcutc_backend_api::motion::Motion;
 use vcutc_backend_api::units::AngularSpeed;
+use vcutc_machine::kinematics::Mechanism;
 
 /// Rates are rounded down to so many parts of a degree a second, so that equal turns have equal rates.
 const UNITS: f64 = 10_000.0;

@@ -1,10 +1,10 @@
 //! A machine set up in its cell: mechanism, axes, and the frames between flange and blade, root and work.
 
-use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, Mechanism};
-use crate::machine::Model;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::Axis;
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// A machine set up in its cell.
 #[derive(Clone, Debug)]

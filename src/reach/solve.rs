@@ -28,8 +28,6 @@ use super::sweep::{self, Sweep};
 use super::trouble::{self, Trouble};
 use super::waypoints::waypoints;
 use super::ways::{OnBranch, Ways};
-use crate::kinematics::{Joints, Mechanism};
-use crate::machine::Model;
 use crate::wanted::Wanted;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -37,6 +35,8 @@ use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Action, Axis, AxisValues, Cell, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch};
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// How near a singular pose an arm may come: a degree of axis 5, a degree of the elbow, 10 mm between wrist and axis 1. Nearer
 /// than that a controller's own rounding decides what the axes do; how fast they must go near such a pose is told by the

@@ -10,13 +10,13 @@ use super::legs::{Leg, Poses, Taught};
 use super::path::joints_on;
 use super::rig::Rig;
 use super::solve::best_margin;
-use crate::kinematics::serial::SerialArm;
-use crate::kinematics::{Joints, Mechanism, Solution, Solutions, newton};
 use crate::wanted::Wanted;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OrientationId, Program};
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::serial::SerialArm;
+use vcutc_machine::kinematics::{Joints, Mechanism, Solution, Solutions, newton};
 
 /// The axes on every branch at every taught pose to which the branch could be followed.
 #[derive(Clone, Debug)]

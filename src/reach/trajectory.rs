@@ -3,10 +3,10 @@
 use super::legs::{Leg, Poses, Stroke, legs, numbered};
 use super::path::Followed;
 use super::rig::Rig;
-use crate::kinematics::Joints;
 use rayon::prelude::*;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program};
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_machine::kinematics::Joints;
 
 /// Farthest that the tip moves from one sample to the next, in mm.
 pub const CLOSE: f64 = 5.0;

@@ -10,10 +10,10 @@ use super::survey::{ENOUGH_TOO_FAST, Extent, Failure, Survey, moved};
 use super::sweep::Sweep;
 use super::way::Obstacle;
 use super::ways::{OnBranch, Refused, axis_without_turn};
-use crate::kinematics::Joints;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::{OpId, Site};
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::Joints;
 
 /// What keeps a machine from a program.
 #[derive(Clone, Copy, Debug, PartialEq)]

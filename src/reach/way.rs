@@ -2,10 +2,10 @@
 
 use super::path::{AxesViolation, Block, are_axes_refuted, prove_axes};
 use super::survey::Survey;
-use crate::kinematics::Joints;
 use glam::DVec3;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Blade, Program};
+use vcutc_machine::kinematics::Joints;
 
 /// What is in the way.
 #[derive(Clone, Copy, Debug, PartialEq)]

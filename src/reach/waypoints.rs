@@ -7,13 +7,13 @@
 use super::legs::{Leg, Poses, Stroke, numbered};
 use super::path::{Course, joints_on};
 use super::rig::Rig;
-use crate::kinematics::Joints;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisValues, Maker, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Motion, Waypoint};
 use vcutc_backend_api::stroke;
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::wrist;
+use vcutc_machine::kinematics::Joints;
 
 /// By how much an axis of the wrist turns at most from one step to the next.
 const CLOSE: Angle = Angle::deg(5.0);
@@ -105,13 +105,13 @@ fn steps(rig: &Rig<'_>, course: &Course, branch: Branch, ends: [&Joints; 2]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::pose::Pose;
-    use crate::machine::catalogue;
     use crate::reach::path::prove;
     use crate::reach::solve::LEAST_CLEARANCE;
     use proptest::prelude::*;
     use vcutc_backend_api::geometry::{Orientation, Point3};
     use vcutc_backend_api::motion::{Elbow, Shoulder, Wrist};
+    use vcutc_machine::catalogue;
+    use vcutc_machine::kinematics::pose::Pose;
 
     const TOOL: Frame = Frame {
         origin: Point3 {

@@ -6,9 +6,9 @@ use super::path::Proof;
 use super::runs::{Station, StationKind};
 use super::survey::{Carried, Survey, moved, travel, turns_between};
 use super::way::{Obstacle, clear, is_refuted};
-use crate::kinematics::Joints;
 use vcutc_backend_api::ir::{Axis, MOST_AXES};
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::Joints;
 
 /// A run on a branch.
 #[derive(Clone, Debug)]

@@ -2,13 +2,13 @@
 //! and which axis is missing.
 
 use crate::job::Machine;
-use crate::kinematics::Mechanism;
-use crate::kinematics::five_axis::FiveAxis;
-use crate::kinematics::pose::Pose;
 use crate::plan::parameters::show;
 use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_machine::kinematics::Mechanism;
+use vcutc_machine::kinematics::five_axis::FiveAxis;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// What is told of a pose of the blade in the work that rotary axes without limits do not reach. None for other machines, and
 /// for poses that they do. `place` says which pose it is, such as `layer 7, cut 12`.

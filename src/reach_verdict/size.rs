@@ -5,10 +5,10 @@
 //! within the length of an edge of all these places, or they stay as they are.
 
 use crate::job::{CheckedJob, Operation};
-use crate::kinematics::pose::Pose;
 use crate::plan::parameters::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// Why the job's machine cannot cut work of that size. None says nothing.
 #[must_use]

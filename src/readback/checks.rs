@@ -7,7 +7,6 @@
 use super::differences::{Scene, asked, place_in};
 use super::rebuild::{Obstacle, Rebuilt};
 use super::wording::op_words;
-use crate::machine::Model;
 use crate::plan::PlannedJob;
 use crate::plan::parameters::show;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
@@ -26,6 +25,7 @@ use vcutc_backend_api::stroke::Pose;
 use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_machine::Model;
 
 /// What is needed to prove a program that was read.
 #[derive(Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use super::base::{Elsewhere, Shift, nearest, remedy, rig};
 use super::{Case, Remedy};
-use crate::kinematics::Joints;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
 use vcutc_backend_api::units::Length;
+use vcutc_machine::kinematics::Joints;
 
 /// The base straight to where the machine works.
 pub(super) fn nearer(case: &mut Case<'_>) -> Option<Remedy> {

@@ -7,7 +7,6 @@
 
 use super::{Case, Remedy, trial};
 use crate::job::{Operation, RoughVcut};
-use crate::machine::Model;
 use crate::plan::parameters::show;
 use crate::reach::demand::Demand;
 use crate::reach::legs::{Leg, Pace, legs};
@@ -18,6 +17,7 @@ use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
 use vcutc_diagnostics::source::Span;
+use vcutc_machine::Model;
 
 /// What a lower speed costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

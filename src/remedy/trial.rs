@@ -3,7 +3,6 @@
 use super::{Case, farther_out};
 use crate::job::{CheckedJob, Machine};
 use crate::lower;
-use crate::machine::Model;
 use crate::plan::PlannedJob;
 use crate::reach::demand::{Demand, axis_margin};
 use crate::reach::describe::{site_words, value_words};
@@ -17,6 +16,7 @@ use crate::wanted::Wanted;
 use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_machine::Model;
 
 /// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.
 const MOST_EXTENSIONS: usize = 3;

@@ -6,10 +6,10 @@ use super::quantity::with_unit;
 use super::range::{AXIS_ANGLE, COORDINATE};
 use super::read::Reader;
 use super::report::Checked;
-use crate::machine::{Model, usual_home};
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MOST_AXES, MachineKind};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, Fix};
+use vcutc_machine::{Model, usual_home};
 use vcutc_syntax::ast::Expr;
 
 /// How the home of a robot is written.
@@ -181,8 +181,8 @@ const fn dimension(axis: &Axis) -> Dimension {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::catalogue;
     use vcutc_diagnostics::source::SourceMap;
+    use vcutc_machine::catalogue;
 
     /// What a fix writes is within the limits as they are kept, in rad or mm, and as near to them as four decimals allow.
     #[test]

@@ -7,11 +7,11 @@ use super::machine::Head;
 use super::names::did_you_mean;
 use super::report::{Checked, Reports};
 use super::session::Session;
-use crate::machine::{self, FileKind, Model, Origin, catalogue};
 use std::sync::Arc;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_machine::{self as machine, FileKind, Model, Origin, catalogue};
 
 /// The model, which is of the kind that the head says.
 pub(crate) fn resolve(head: &Head<'_>, session: &mut Session<'_>) -> Checked<Arc<Model>> {

@@ -11,12 +11,12 @@ use super::overrides::Override;
 use super::report::{Checked, Reported};
 use super::session::Session;
 use crate::job::{GivenOption, GivenValue, Machine, TargetOptions};
-use crate::machine::habits;
 use std::collections::BTreeMap;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_machine::habits;
 use vcutc_syntax::ast::{Block, Entry, Expr};
 
 /// The key of a file with the machine's habits. No target has an option of this name.

@@ -1,11 +1,11 @@
 //! What the checks of one run share: the loader, the source texts, and what has been found so far.
 
 use super::report::{Checked, Reported, Reports};
-use crate::machine::Model;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::profile::Profile;
 use vcutc_diagnostics::source::{FileId, Loader, SourceMap, Span};
+use vcutc_machine::Model;
 
 /// One run.
 pub(crate) struct Session<'a> {

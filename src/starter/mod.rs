@@ -9,7 +9,6 @@ mod places;
 mod text;
 
 use crate::driver::{self, Request, Typed, Unhelped};
-use crate::machine::Model;
 use crate::memory::Memory;
 use crate::reach::legs::{Leg, Poses, Taught, legs};
 use crate::reach::place::score::Judge;
@@ -23,6 +22,7 @@ use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
 use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc_diagnostics::{Diagnostic, has_errors};
+use vcutc_machine::Model;
 use vcutc_syntax::format;
 
 /// Rates of turning the blade that are tried, in deg/s, the usual one first.

@@ -1,11 +1,11 @@
 //! Where the work of a first job may stand, and how the blade may be mounted.
 
-use crate::kinematics::Joints;
-use crate::kinematics::pose::Pose;
-use crate::machine::Model;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{AxisKind, MachineKind};
 use vcutc_backend_api::units::Angle;
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::Joints;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// How the blade is mounted, and the rake at which it cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]

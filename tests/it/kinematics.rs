@@ -3,8 +3,8 @@
 use crate::opw_peer::{FINGERPRINT, Random, Robot, compare, fingerprint};
 use core::f64::consts::TAU;
 use glam::{DMat3, DQuat, DVec3};
-use vcutc::kinematics::pose::Pose;
 use vcutc::machine::catalogue;
+use vcutc::machine::kinematics::pose::Pose;
 
 #[test]
 fn inverse_kinematics_agree_with_another_authors() {

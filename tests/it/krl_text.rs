@@ -10,8 +10,8 @@ use expected::{Rounding, compare, poses_agree, steps};
 use reader::{Event, Pose, Setting};
 use vcutc::driver::Outcome;
 use vcutc::job::GivenValue;
-use vcutc::kinematics::Mechanism;
-use vcutc::kinematics::opw::Opw;
+use vcutc::machine::kinematics::Mechanism;
+use vcutc::machine::kinematics::opw::Opw;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::{AxisValues, PlacedFrame};
 

@@ -9,10 +9,10 @@ use rs_opw_kinematics::parallelogram::Parallelogram;
 use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 use rs_opw_kinematics::pose::Pose as PeerPose;
 use std::sync::Arc;
-use vcutc::kinematics::opw::{Coupling, Opw};
-use vcutc::kinematics::pose::Pose;
-use vcutc::kinematics::{Joints, Mechanism};
 use vcutc::machine::catalogue;
+use vcutc::machine::kinematics::opw::{Coupling, Opw};
+use vcutc::machine::kinematics::pose::Pose;
+use vcutc::machine::kinematics::{Joints, Mechanism};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 pub struct Random(pub u64);

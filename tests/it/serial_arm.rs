@@ -4,7 +4,7 @@ use crate::pipeline::{Files, compile, told};
 use vcutc::checks::Standing;
 use vcutc::diagnostics::{Code, fix};
 use vcutc::driver::Outcome;
-use vcutc::kinematics::Mechanism;
+use vcutc::machine::kinematics::Mechanism;
 use vcutc::reach::legs::{Leg, Poses, legs};
 use vcutc::reach::rig::Rig;
 use vcutc::reach::solve::{Reached, rig};

@@ -10,7 +10,7 @@ use crate::pipeline::krl;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
-use vcutc::kinematics::{Mechanism, Solution};
+use vcutc::machine::kinematics::{Mechanism, Solution};
 use vcutc::machine::{Model, catalogue};
 use vcutc::reach::rig::Rig;
 use vcutc_backend_api::backend::Options;

@@ -2,14 +2,14 @@
 
 use super::{AT_LIMIT, margin};
 use crate::cli::machines::{SCHEMA, axis_unit};
-use crate::kinematics::configuration::{Border, borders, branch_words, kuka_status, kuka_turn};
-use crate::kinematics::{Joints, Mechanism};
-use crate::machine::Model;
 use serde_json::{Map, Value, json};
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, Maker};
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::configuration::{Border, borders, branch_words, kuka_status, kuka_turn};
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// Where axis values bring a machine.
 pub(super) struct Reached<'m> {

@@ -2,14 +2,14 @@
 
 use super::DEGREES;
 use super::text::row;
-use crate::kinematics::Mechanism;
-use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
-use crate::kinematics::mounted::Mounted;
-use crate::kinematics::opw::{Coupling, Opw};
-use crate::kinematics::pose::Pose;
-use crate::kinematics::serial::SerialArm;
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::Frame;
+use vcutc_machine::kinematics::Mechanism;
+use vcutc_machine::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
+use vcutc_machine::kinematics::mounted::Mounted;
+use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::serial::SerialArm;
 
 /// A few indented lines.
 pub(super) fn text(mechanism: &Mechanism) -> String {

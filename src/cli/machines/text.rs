@@ -1,12 +1,12 @@
 //! Machines as people read them: columns, and wrapped lists.
 
 use super::{Description, axis_unit, kind_word, maker_word, mechanism, path_numbers};
-use crate::machine::catalogue::Summary;
-use crate::machine::facts::{Dynamics, Facts, FkCheck};
-use crate::machine::path_limits::PathLimits;
-use crate::machine::sheet::{Confidence, Sheet};
 use std::fmt::Write;
 use vcutc_backend_api::ir::{Axis, AxisKind};
+use vcutc_machine::catalogue::Summary;
+use vcutc_machine::facts::{Dynamics, Facts, FkCheck};
+use vcutc_machine::path_limits::PathLimits;
+use vcutc_machine::sheet::{Confidence, Sheet};
 
 /// Width at which texts are wrapped.
 const WIDTH: usize = 100;

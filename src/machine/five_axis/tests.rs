@@ -1,9 +1,9 @@
 //! Sheets of five-axis machines: those of the catalogue, and one with a fault at a time.
 
+use crate::catalogue;
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::FiveAxis;
-use crate::machine::catalogue;
-use crate::machine::sheet::parse;
+use crate::sheet::parse;
 use glam::DVec3;
 use vcutc_backend_api::ir::AxisKind;
 use vcutc_diagnostics::document::flaw::Flaw;

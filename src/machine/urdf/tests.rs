@@ -6,7 +6,7 @@ use super::{Flange, parse};
 use crate::kinematics::recognise::FIT;
 use crate::kinematics::samples::{pose, ur10e};
 use crate::kinematics::{Joints, Mechanism};
-use crate::machine::{Model, catalogue};
+use crate::{Model, catalogue};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 use proptest::prelude::*;

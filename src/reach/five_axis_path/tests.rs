@@ -1,13 +1,13 @@
 //! Tests of the five-axis path check against dense sampling, with linear axes found by solving for the tip.
 
 use super::*;
-use crate::kinematics::Mechanism;
-use crate::kinematics::five_axis::{Arrangement, Direction, SpindleSense};
-use crate::kinematics::pose::Pose;
 use glam::DMat3;
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use vcutc_backend_api::ir::AxisKind;
+use vcutc_machine::kinematics::Mechanism;
+use vcutc_machine::kinematics::five_axis::{Arrangement, Direction, SpindleSense};
+use vcutc_machine::kinematics::pose::Pose;
 
 fn at(about: Direction, x: f64, y: f64, z: f64) -> Rotary {
     Rotary {

@@ -10,9 +10,9 @@ use super::course::Turning;
 use super::interval::Interval;
 use super::march::{Effort, March};
 use super::{Breach, Clearance, Course, Machine, Proof, Violation, Way};
-use crate::kinematics::Joints;
 use crate::reach::rig::Rig;
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::Joints;
 
 /// A course whose proof is under way.
 pub(super) struct Underway<'r> {

@@ -1,6 +1,6 @@
 //! Ortho-parallel arms with a spherical wrist: their closed-form inverse kinematics, computed along a span.
 //!
-//! These are the formulas of [`crate::kinematics::opw`] (Brandstötter, Angerer, Hofbaur 2014), with [`Along`] in the place
+//! These are the formulas of [`vcutc_machine::kinematics::opw`] (Brandstötter, Angerer, Hofbaur 2014), with [`Along`] in the place
 //! of numbers. Every root and arc exists on the whole span or the span is refused, so what comes out is one continuous
 //! branch. Several courses are computed side by side, as lanes of a vector.
 
@@ -10,11 +10,11 @@ use super::course::{CARRIED, Flange, Flight, Span, Turning};
 use super::interval::Interval;
 use super::number::{Number, Wide};
 use super::{Clearance, Singularity, Violation};
-use crate::kinematics::opw::{Coupling, Opw};
 use core::f64::consts::PI;
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
+use vcutc_machine::kinematics::opw::{Coupling, Opw};
 
 /// The branch of an arm.
 #[derive(Clone, Copy, Debug)]

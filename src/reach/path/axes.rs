@@ -9,9 +9,9 @@ use super::bounds::limits;
 use super::chain::{Chain, Point, evenly, moved};
 use super::interval::Interval;
 use super::march::{Tried, march};
-use crate::kinematics::Joints;
 use crate::reach::rig::Rig;
 use glam::DVec3;
+use vcutc_machine::kinematics::Joints;
 
 /// By how much a point may be inside of a face, in mm: rounding.
 const SLACK: f64 = 1e-6;

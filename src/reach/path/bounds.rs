@@ -3,9 +3,9 @@
 use super::interval::Interval;
 use super::march::{Effort, Tried};
 use super::{Clearance, Proof, Singularity, Violation};
-use crate::kinematics::Joints;
 use core::f64::consts::{PI, TAU};
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
+use vcutc_machine::kinematics::Joints;
 
 /// What an axis may be beyond its range (rad, mm), and a pose nearer to a singular one: rounding.
 const SLACK: f64 = 1e-9;

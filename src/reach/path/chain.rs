@@ -1,12 +1,12 @@
 //! Where axes carry a point, computed along a span on which they move: forward kinematics of every mechanism.
 
 use super::along::Along;
-use crate::kinematics::five_axis::FiveAxis;
-use crate::kinematics::pose::Pose;
-use crate::kinematics::serial::SerialArm;
-use crate::kinematics::{Joints, Mechanism};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_machine::kinematics::five_axis::FiveAxis;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::serial::SerialArm;
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// A point that moves.
 pub(super) type Point = [Along; 3];

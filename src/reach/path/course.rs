@@ -4,8 +4,8 @@ use super::along::Along;
 use super::interval::Interval;
 use super::number::Number;
 use super::{Course, Rig};
-use crate::kinematics::pose::Pose;
 use glam::{DMat3, DQuat, DVec3};
+use vcutc_machine::kinematics::pose::Pose;
 
 /// Farther out (mm) there is nothing to work on, and nothing to compute with.
 const FARTHEST: f64 = 1e9;

@@ -61,7 +61,7 @@
 //! - The blade's pose at a place is taken from floating point numbers, which are off by about 1e-15 of their size: over a
 //!   metre of arm by 1e-12 mm, less than the slack above unless the pose is next to singular, and asking for a clearance
 //!   excludes these.
-//! - Sine, cosine and arc tangent, of `libm` and of [`crate::kinematics::trig`], are right to two units in the last place; four are
+//! - Sine, cosine and arc tangent, of `libm` and of [`vcutc_machine::kinematics::trig`], are right to two units in the last place; four are
 //!   allowed for.
 //! - The machine is as its model says. Calibration, elasticity and what else is in the cell are for others.
 
@@ -87,16 +87,16 @@ pub use worst::{Look, worst};
 
 use super::five_axis_path;
 use super::rig::Rig;
-use crate::kinematics::five_axis::FiveAxis;
-use crate::kinematics::opw::Opw;
-use crate::kinematics::pose::Pose;
-use crate::kinematics::serial::SerialArm;
-use crate::kinematics::{Joints, Mechanism, newton};
 use abreast::Underway;
 use arm::{ArmBranch, Carrying};
 use bounds::Stretch;
 use course::{Flight, Span};
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::five_axis::FiveAxis;
+use vcutc_machine::kinematics::opw::Opw;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::serial::SerialArm;
+use vcutc_machine::kinematics::{Joints, Mechanism, newton};
 
 /// A motion as controllers interpolate it: the tip on a straight line, the orientation on one rotation axis (of a robot) or
 /// the rotary axes each at a constant rate (of a five-axis machine), both at a constant rate and finishing together.

@@ -3,9 +3,9 @@
 //! The formulas are written once, for any [`Number`]. Nothing in them branches on a value, so that courses side by side go
 //! through the same steps; what a branch would say is computed as a number, too ([`Number::below`]).
 
-use crate::kinematics::trig::{Turn, atan2};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use pulp::{Simd, bytemuck};
+use vcutc_machine::kinematics::trig::{Turn, atan2};
 
 /// A number, or one for each lane.
 pub(super) trait Number:

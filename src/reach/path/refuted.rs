@@ -8,11 +8,11 @@
 //! turns meanwhile changes nothing, for then it went farther still.
 
 use super::{Course, Machine, Way};
-use crate::kinematics::{Joints, Mechanism};
 use crate::reach::demand::{axis_margin, turn_to_middle};
 use crate::reach::rig::Rig;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// Parts of a course at whose ends samples are taken.
 const PARTS: u32 = 16;

@@ -29,11 +29,11 @@ use super::bounds::Stretch;
 use super::course::{Flight, Span};
 use super::interval::Interval;
 use super::{Clearance, Violation};
-use crate::kinematics::pose::Pose;
-use crate::kinematics::serial::SerialArm;
-use crate::kinematics::{Joints, newton};
 use glam::DVec3;
 use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::serial::SerialArm;
+use vcutc_machine::kinematics::{Joints, newton};
 
 /// How far found axis values may be from the true ones, in rad.
 const UNCERTAIN: f64 = 1e-8;

@@ -7,13 +7,13 @@ mod serial;
 mod windows;
 
 use super::*;
-use crate::kinematics::opw::{Coupling, Opw};
-use crate::machine::path_limits::PathLimits;
-use crate::machine::{Model, catalogue};
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DQuat, DVec3};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
+use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::path_limits::PathLimits;
+use vcutc_machine::{Model, catalogue};
 
 /// How near singular poses the tests let an arm come.
 const LEAST: Clearance = Clearance {

@@ -4,10 +4,10 @@ use super::arm::{Carrying, LANES};
 use super::bounds::Stretch;
 use super::march::about;
 use super::{Breach, Course, Machine, Singularity, Violation, Way};
-use crate::kinematics::Joints;
 use crate::reach::rig::Rig;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::Joints;
 
 /// How closely a course is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

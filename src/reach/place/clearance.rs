@@ -1,9 +1,9 @@
 //! How far a machine stands from its singular poses at given axis values.
 
-use crate::kinematics::opw::{Coupling, Opw};
-use crate::kinematics::{Joints, Mechanism};
 use crate::reach::path::Clearance;
 use core::f64::consts::PI;
+use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// How far an arm is from its singular poses.
 pub(super) fn clearance(mechanism: &Mechanism, joints: &Joints) -> Clearance {

@@ -16,9 +16,9 @@ pub mod taught;
 #[cfg(test)]
 mod tests;
 
-use crate::kinematics::pose::Pose;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::units::Angle;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// A place for the base: its origin in whole millimetres in the machine's root, and by how many tenths of a degree the work
 /// is turned about the root's z against how it stands now.

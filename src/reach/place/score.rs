@@ -6,13 +6,13 @@
 //! branch that misses fewest stands for the base, so that a search can tell better from worse out there too.
 
 use super::clearance::clearance;
-use crate::kinematics::pose::Pose;
-use crate::kinematics::{Joints, MOST_BRANCHES, Mechanism, Solution, Solutions, trig};
 use crate::reach::demand::{FULL, axis_margin};
 use crate::reach::path::Clearance;
 use core::cmp::Ordering;
 use vcutc_backend_api::ir::{Axis, AxisKind};
 use vcutc_backend_api::motion::Branch;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::{Joints, MOST_BRANCHES, Mechanism, Solution, Solutions, trig};
 
 /// How good a base is. More is better.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,6 @@
 //! proven there: those between the same two ways to hold the blade, at the same speed, with their ends farthest out.
 
 use super::taught::outermost;
-use crate::kinematics::{Mechanism, Solution, newton};
 use crate::reach::legs::{Leg, Pace, Poses, Stroke, legs};
 use crate::reach::path::{Course, prove};
 use crate::reach::rig::Rig;
@@ -14,6 +13,7 @@ use crate::reach::survey::middles;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, OrientationId, Program};
+use vcutc_machine::kinematics::{Mechanism, Solution, newton};
 
 /// Telling motions of a program.
 #[derive(Clone, Debug, Default, PartialEq)]

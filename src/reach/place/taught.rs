@@ -1,12 +1,12 @@
 //! The poses that a program teaches, and the few of them that tell whether the machine reaches them all.
 
-use crate::kinematics::pose::Pose;
 use crate::reach::legs::{Leg, Taught, legs};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::OrientationId;
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// The tips of a program by how the blade is held there, each list in the order of the program.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,8 +4,6 @@ use super::clearance::clearance;
 use super::score::{Judge, Score, singular_share};
 use super::search::{Bounds, Criteria, search};
 use super::{Spot, score};
-use crate::kinematics::pose::Pose;
-use crate::machine::{Model, catalogue};
 use crate::reach::demand::axis_margin;
 use core::f64::consts::TAU;
 use glam::{DMat3, DVec3};
@@ -13,6 +11,8 @@ use proptest::prelude::*;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Angle;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::{Model, catalogue};
 
 fn model() -> Model {
     catalogue::find("kuka/kr210_r3100_ultra").unwrap()

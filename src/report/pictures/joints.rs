@@ -5,7 +5,6 @@
 //! slowing down.
 
 use super::time::name;
-use crate::kinematics::Joints;
 use crate::picture::thin::Thinned;
 use crate::picture::{Prefix, joints};
 use crate::reach::demand::axis_margin;
@@ -19,6 +18,7 @@ use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
+use vcutc_machine::kinematics::Joints;
 
 /// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.
 #[must_use]

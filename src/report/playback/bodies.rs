@@ -4,10 +4,10 @@
 //! slides along X, a carriage on it, a ram, a head and a table. Sizes that the kinematics leaves open follow from the
 //! machine's own: they are for the eye, and nothing is proven with them.
 
-use crate::kinematics::linkage::{Joint, Linkage};
-use crate::kinematics::serial::JointAxis;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Axis, AxisKind};
+use vcutc_machine::kinematics::linkage::{Joint, Linkage};
+use vcutc_machine::kinematics::serial::JointAxis;
 
 /// What carries a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,12 +5,12 @@ use super::packing::column;
 use super::timeline::Timeline;
 use super::track::Track;
 use super::{Cell, Playback};
-use crate::kinematics::linkage::{Joint, Linkage};
-use crate::kinematics::pose::Pose;
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{ActionKind, Axis, AxisKind, Blade, Edges, Operation, Stock};
 use vcutc_geometry::curve::Point2;
+use vcutc_machine::kinematics::linkage::{Joint, Linkage};
+use vcutc_machine::kinematics::pose::Pose;
 
 /// The data as JSON text. What could end the element that holds it is written as an escape: a `<` can stand in strings only.
 pub(super) fn text(playback: &Playback<'_>) -> String {
@@ -155,9 +155,9 @@ fn track(track: &Track, axes: usize) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::linkage::Linkage;
-    use crate::machine::catalogue;
     use vcutc_backend_api::units::Length;
+    use vcutc_machine::catalogue;
+    use vcutc_machine::kinematics::linkage::Linkage;
 
     #[test]
     fn no_name_ends_the_element_that_holds_it() {

@@ -3,7 +3,7 @@
 //! What is shown is taken from the finished program, not from the plan: poses op by op ([`timeline`]), times, and the axes
 //! that were proven ([`track`]). The viewer (`src/report/assets/player`, WebGL 2, no package of others) replays the cuts on a
 //! surface of its own, the one of `src/sim/surface.rs` over again, and moves the machine by products of matrices
-//! ([`crate::kinematics::linkage`]). Within an op the motion goes on evenly: how controllers speed up and slow down within
+//! ([`vcutc_machine::kinematics::linkage`]). Within an op the motion goes on evenly: how controllers speed up and slow down within
 //! it is not shown, how long it takes is.
 
 pub mod bodies;
@@ -13,8 +13,6 @@ pub mod timeline;
 pub mod track;
 
 use crate::driver::{Compiled, Finished};
-use crate::kinematics::linkage::Linkage;
-use crate::kinematics::pose::Pose;
 use crate::plan::PlannedJob;
 use crate::reach::solve::{Reached, rig};
 use bodies::{Body, bodies};
@@ -23,6 +21,8 @@ use track::Track;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
 use vcutc_geometry::curve::Point2;
+use vcutc_machine::kinematics::linkage::Linkage;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.
 pub const MOST_OPS: usize = 400_000;

@@ -4,7 +4,7 @@ use crate::Figures;
 use crate::clock::{medians, time};
 use crate::machine::peak_memory;
 use std::path::PathBuf;
-use vcutc::kinematics::batch::{Answers, BranchAnswers};
+use vcutc::machine::kinematics::batch::{Answers, BranchAnswers};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::readback::program_files;
 use vcutc_benches::contour::{self, Axes, Height, Polygons};

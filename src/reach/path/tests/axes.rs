@@ -1,8 +1,8 @@
 //! Moves of all axes against dense sampling.
 
 use super::*;
-use crate::kinematics::samples;
 use crate::reach::path::chain::{Chain, evenly};
+use vcutc_machine::kinematics::samples;
 
 const STOCK: Block = Block {
     low: DVec3::ZERO,

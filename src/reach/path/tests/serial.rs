@@ -1,9 +1,9 @@
 //! Arms without a closed form: against the closed form of arms that have one, and against sampling.
 
 use super::*;
-use crate::kinematics::mounted::Mounted;
-use crate::kinematics::samples;
-use crate::kinematics::serial::SerialArm;
+use vcutc_machine::kinematics::mounted::Mounted;
+use vcutc_machine::kinematics::samples;
+use vcutc_machine::kinematics::serial::SerialArm;
 
 const ONLY: Branch = Branch::Numbered(0);
 

@@ -1,4 +1,4 @@
-// Where the axes are, and where they bring things (src/kinematics/linkage.rs and src/report/playback/track.rs).
+// Where the axes are, and where they bring things (src/machine/kinematics/linkage.rs and src/report/playback/track.rs).
 
 /**
  * The axes at a knot; -1 is the start of the program.

@@ -5,6 +5,7 @@ pub mod catalogue;
 pub mod facts;
 mod five_axis;
 pub mod habits;
+pub mod kinematics;
 pub mod path_limits;
 mod reach;
 mod robot;

@@ -52,8 +52,8 @@ fn length(points: impl Iterator<Item = DVec3>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catalogue;
     use crate::kinematics::Joints;
-    use crate::machine::catalogue;
     use proptest::prelude::*;
 
     proptest! {

@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3, EulerRot};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// KUKA KR 210 R3100 ultra.
-pub(crate) fn kr210() -> Opw {
+pub fn kr210() -> Opw {
     Opw {
         a1: 350.0,
         a2: 41.0,
@@ -26,7 +26,7 @@ pub(crate) fn kr210() -> Opw {
 }
 
 /// ABB IRB 2400-16, whose third axis is driven through a parallelogram.
-pub(crate) fn irb2400() -> Opw {
+pub fn irb2400() -> Opw {
     Opw {
         a1: 100.0,
         a2: -135.0,
@@ -42,7 +42,7 @@ pub(crate) fn irb2400() -> Opw {
 }
 
 /// The KUKA hung up at a slant, with a flange that is turned as well.
-pub(crate) fn mounted() -> Mounted {
+pub fn mounted() -> Mounted {
     Mounted {
         foot_in_root: Pose {
             rotation: DMat3::from_euler(EulerRot::ZYX, 0.3, -1.2, 2.0),
@@ -68,7 +68,7 @@ const UR10E: [(f64, f64, f64); 6] = [
 ];
 
 /// Frames 0 to 6 of the UR10e along its chain.
-pub(crate) fn ur10e_frames(joints: &Joints) -> Vec<Isometry3<f64>> {
+pub fn ur10e_frames(joints: &Joints) -> Vec<Isometry3<f64>> {
     let mut frames = vec![Isometry3::identity()];
     for ((a, d, alpha), theta) in UR10E.iter().zip(joints) {
         let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), *theta);
@@ -80,7 +80,7 @@ pub(crate) fn ur10e_frames(joints: &Joints) -> Vec<Isometry3<f64>> {
 }
 
 /// The UR10e.
-pub(crate) fn ur10e() -> SerialArm {
+pub fn ur10e() -> SerialArm {
     let frames = ur10e_frames(&[0.0; 6]);
     let axes = core::array::from_fn(|i| {
         let frame = pose(&frames[i]);
@@ -93,7 +93,7 @@ pub(crate) fn ur10e() -> SerialArm {
 }
 
 /// A pose by the names of this crate.
-pub(crate) fn pose(isometry: &Isometry3<f64>) -> Pose {
+pub fn pose(isometry: &Isometry3<f64>) -> Pose {
     let columns = isometry.rotation.to_rotation_matrix();
     let column = |i: usize| DVec3::from_slice(columns.matrix().column(i).as_slice());
     Pose {

@@ -174,7 +174,7 @@ impl SerialArm {
     }
 
     /// By how much each joint turns, for any kind of number.
-    pub(crate) fn turns_of<N: Copy>(
+    pub fn turns_of<N: Copy>(
         &self,
         joints: [N; MOST_AXES],
         difference: impl Fn(N, N) -> N,

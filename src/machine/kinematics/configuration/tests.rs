@@ -1,8 +1,8 @@
 //! Configurations of poses worked out by hand.
 
 use super::*;
+use crate::catalogue;
 use crate::kinematics::Mechanism;
-use crate::machine::catalogue;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::ir::AxisValues;
 

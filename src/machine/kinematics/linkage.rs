@@ -142,8 +142,8 @@ fn unit(axis: usize) -> [f64; MOST_AXES] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catalogue;
     use crate::kinematics::samples::{irb2400, kr210, mounted, ur10e};
-    use crate::machine::catalogue;
     use proptest::prelude::*;
 
     fn agrees(mechanism: &Mechanism, axes: &Joints) {

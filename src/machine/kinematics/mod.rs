@@ -17,8 +17,8 @@ pub mod newton;
 pub mod opw;
 pub mod pose;
 pub mod recognise;
-#[cfg(test)]
-pub(crate) mod samples;
+#[cfg(any(test, feature = "samples"))]
+pub mod samples;
 pub mod serial;
 pub mod trig;
 

@@ -153,7 +153,7 @@ impl Direction {
 
 impl Rotary {
     /// What it carries, turned by an angle, seen from the same at zero.
-    pub(crate) fn turned(&self, angle: f64) -> Pose {
+    pub fn turned(&self, angle: f64) -> Pose {
         let rotation = self.about.rotation(angle);
         Pose {
             rotation,
@@ -327,7 +327,7 @@ impl FiveAxis {
     }
 
     /// What turns the blade, from the frame outwards, each with the place of its value among the [`Joints`].
-    pub(crate) fn head(&self) -> impl DoubleEndedIterator<Item = (Rotary, usize)> {
+    pub fn head(&self) -> impl DoubleEndedIterator<Item = (Rotary, usize)> {
         let spindle = self.spindle.map(|sense| {
             let about = match sense {
                 SpindleSense::PlusZ => Direction::PlusZ,
@@ -345,7 +345,7 @@ impl FiveAxis {
     }
 
     /// What turns the work, from the frame to the work, each with the place of its value among the [`Joints`].
-    pub(crate) fn table(&self) -> impl DoubleEndedIterator<Item = (Rotary, usize)> {
+    pub fn table(&self) -> impl DoubleEndedIterator<Item = (Rotary, usize)> {
         let table = match self.arrangement {
             Arrangement::HeadHead(_) => [None, None],
             Arrangement::HeadTable { table, .. } => [Some((table, 4)), None],
@@ -355,7 +355,7 @@ impl FiveAxis {
     }
 
     /// The nose at zero in the machine frame.
-    pub(crate) const fn nose_at_zero(&self) -> Pose {
+    pub const fn nose_at_zero(&self) -> Pose {
         Pose {
             rotation: NOSE,
             position: self.nose,
@@ -363,7 +363,7 @@ impl FiveAxis {
     }
 
     /// The mount at zero in the machine frame.
-    pub(crate) const fn mount_at_zero(&self) -> Pose {
+    pub const fn mount_at_zero(&self) -> Pose {
         Pose {
             rotation: DMat3::IDENTITY,
             position: self.mount,
