@@ -36,7 +36,7 @@ pub mod sim;
 pub mod starter;
 pub mod summary;
 pub mod verdict;
-pub mod wanted;
+pub use vcutc_cancellation as cancellation;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_geometry as geometry;
 pub use vcutc_machine as machine;

@@ -18,11 +18,11 @@ use crate::reach::sweep::{BladePart, Cure, Sweep};
 use crate::reach::trouble::{Count, Failing, Leads, Trouble};
 use crate::reach::way::Obstacle;
 use crate::remedy;
-use crate::wanted::Wanted;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, OrientationId, Program, Site};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 

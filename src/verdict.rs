@@ -19,12 +19,12 @@ use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Release, Repla
 use crate::sim::report::{Report, report};
 use crate::sim::surface::Surface;
 use crate::sim::timing::timing;
-use crate::wanted::Wanted;
 use attempts::{Attempts, Case};
 use chips::Remedy;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;

@@ -10,9 +10,9 @@ use crate::sim::prove::{Bound, replay_on};
 use crate::sim::report::area_under;
 use crate::sim::surface::Surface;
 use crate::sim::timing::total;
-use crate::wanted::Wanted;
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_cancellation::Wanted;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 

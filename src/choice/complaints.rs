@@ -5,7 +5,7 @@ use super::bench::Bench;
 use super::effort::Effort;
 use super::offers;
 use crate::job::RoughVcut;
-use crate::wanted::Wanted;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
 

@@ -37,12 +37,12 @@ use crate::plan::{
     LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
 };
 use crate::sim::surface::Surface;
-use crate::wanted::Wanted;
 use bench::{Bench, Figures};
 use core::cmp::Ordering;
 use rayon::prelude::*;
 use trial::{Finalist, Found, FoundBy};
 use vcutc_backend_api::units::{Area, Duration, Length};
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they

@@ -6,8 +6,8 @@ use super::patience::{HelpBudget, Timer};
 use super::snapshot::Made;
 use crate::driver::Outcome;
 use crate::hints::{Hint, hints};
-use crate::wanted::Wanted;
 use std::time::Duration;
+use vcutc_cancellation::Wanted;
 
 /// Tells what would make a job faster that its machine made slow.
 pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Duration)], console: &Console) {

@@ -6,11 +6,11 @@
 use super::progress::Progress;
 use crate::driver::{self, Outcome, Patience, Request, RequestError};
 use crate::memory::Memory;
-use crate::wanted::{Interest, Wanted};
 use std::cell::RefCell;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::Duration;
+use vcutc_cancellation::{Interest, Wanted};
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, Severity};
 

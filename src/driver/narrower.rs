@@ -11,7 +11,7 @@ use crate::job::{CheckedJob, Objective, Operation};
 use crate::plan::PlannedJob;
 use crate::reach::solve::Changes;
 use crate::verdict;
-use crate::wanted::Wanted;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, has_errors};
 

@@ -13,7 +13,7 @@ use crate::plan::PlannedJob;
 use crate::reach::solve::Unreached;
 use crate::reach_verdict;
 use crate::verdict::{self, Proven};
-use crate::wanted::Wanted;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 

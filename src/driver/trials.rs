@@ -8,8 +8,8 @@ use super::{Ended, Kept, Request, Stage, Unhurried, along_its_routes, target};
 use crate::memory::Memory;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::sema;
-use crate::wanted::Wanted;
 use std::collections::{BTreeMap, BTreeSet};
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, fix, has_errors};
 

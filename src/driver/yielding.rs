@@ -14,9 +14,9 @@ use crate::reach::rig::Rig;
 use crate::reach::solve::{Changes, Unreachable, Unreached};
 use crate::reach::trouble::Trouble;
 use crate::sim::surface::Surface;
-use crate::wanted::Wanted;
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::verify;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 
 /// Most plans that are put to the machine.

@@ -25,10 +25,10 @@ use crate::reach_summary;
 use crate::remedy;
 use crate::remedy::speed::{self, Field};
 use crate::summary::time;
-use crate::wanted::Wanted;
 use change::Change;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::verify;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Fix;
 use vcutc_diagnostics::source::SourceMap;
 

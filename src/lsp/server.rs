@@ -9,7 +9,6 @@ use super::spelling::Spellings;
 use super::text::Encoding;
 use super::uri::path_of;
 use super::wire::{Fault, Incoming, answer, notification, refusal};
-use crate::wanted::Wanted;
 use lsp_types::{
     DidChangeTextDocumentParams, DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams,
     DidOpenTextDocumentParams, InitializeParams, PositionEncodingKind, PublishDiagnosticsParams,
@@ -19,6 +18,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::backend::Backend;
+use vcutc_cancellation::Wanted;
 
 /// How far the conversation is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,11 +22,11 @@ use crate::reach::solve::{
     Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
 };
 use crate::reach::trouble::Trouble;
-use crate::wanted::Wanted;
 use shelf::Shelf;
 use std::sync::Arc;
 use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_cancellation::Wanted;
 use vcutc_machine::Model;
 
 /// Most cuts and ops of all that is kept: some 100 MB.

@@ -3,9 +3,9 @@
 use super::*;
 use crate::driver::{Request, Stage, Typed, Unhurried, compile, compile_again, compile_while, write};
 use crate::registry;
-use crate::wanted::{Needless, Wanted};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::Backend;
+use vcutc_cancellation::{Needless, Wanted};
 use vcutc_diagnostics::source::{LoadError, Loader};
 
 /// A job file, and what it says at each of the places that are edited.

@@ -25,8 +25,8 @@ use crate::remedy::trial::{self, Room};
 use crate::remedy::wording;
 use crate::sema;
 use crate::verdict;
-use crate::wanted::Wanted;
 use vcutc_backend_api::ir::PlacedFrame;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 

@@ -28,13 +28,13 @@ use super::sweep::{self, Sweep};
 use super::trouble::{self, Trouble};
 use super::waypoints::waypoints;
 use super::ways::{OnBranch, Ways};
-use crate::wanted::Wanted;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Action, Axis, AxisValues, Cell, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch};
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
+use vcutc_cancellation::Wanted;
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::{Joints, Mechanism};
 

@@ -10,11 +10,11 @@ use super::legs::{Leg, Poses, Taught};
 use super::path::joints_on;
 use super::rig::Rig;
 use super::solve::best_margin;
-use crate::wanted::Wanted;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OrientationId, Program};
 use vcutc_backend_api::motion::Branch;
+use vcutc_cancellation::Wanted;
 use vcutc_machine::kinematics::serial::SerialArm;
 use vcutc_machine::kinematics::{Joints, Mechanism, Solution, Solutions, newton};
 

@@ -12,11 +12,11 @@ use super::path::{Breach, Clearance, Course, Proof, Refuted, Violation, prove, p
 use super::rig::Rig;
 use super::runs::Station;
 use super::stands::Stands;
-use crate::wanted::{Needless, Wanted};
 use core::f64::consts::TAU;
 use rayon::prelude::*;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId, Program};
 use vcutc_backend_api::motion::Branch;
+use vcutc_cancellation::{Needless, Wanted};
 use vcutc_machine::kinematics::{Joints, Solutions};
 
 /// A program on a machine, ready to be surveyed.

@@ -31,7 +31,7 @@ use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
 use crate::reach::solve::Unreachable;
 use crate::reach::trouble::Trouble;
-use crate::wanted::Wanted;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
 

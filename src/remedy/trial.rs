@@ -12,9 +12,9 @@ use crate::reach::rig::Rig;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve_while};
 use crate::reach::trouble::{Failing, Trouble};
 use crate::verdict;
-use crate::wanted::Wanted;
 use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_machine::Model;
 

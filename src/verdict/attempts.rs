@@ -9,8 +9,8 @@ use crate::job::{CheckedJob, Operation, RoughVcut};
 use crate::plan::PlannedJob;
 use crate::plan::refusal::Offer;
 use crate::sim::prove::Findings;
-use crate::wanted::Wanted;
 use vcutc_backend_api::ir::OperationId;
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 
 /// What it counts as, in cuts, to plan and prove all of a job with more than one operation.

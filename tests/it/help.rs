@@ -1,12 +1,12 @@
 //! Refusals at once, and help that works: what is offered for a job is made in its text, and the text compiled again.
 
 use crate::pipeline::{Files, compile, fixed, numbers, told};
+use vcutc::cancellation::Wanted;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::{self, Outcome, Patience, Request, Stage, Typed};
 use vcutc::memory::Memory;
 use vcutc::registry;
-use vcutc::wanted::Wanted;
 
 const JOB: &str = "job.vcut";
 

@@ -2,9 +2,9 @@
 
 use crate::help::patiently;
 use crate::pipeline::{Files, compile, numbers, told};
+use vcutc::cancellation::Wanted;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::driver::Outcome;
-use vcutc::wanted::Wanted;
 
 const JOB: &str = "job.vcut";
 

@@ -13,18 +13,17 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("air", &[]),
     ("registry", &[]),
     ("posture", &[]),
-    ("wanted", &[]),
     ("align", &[]),
     ("comparison", &["align"]),
     ("numbers", &["plan", "sim"]),
     ("manifest", &["numbers"]),
-    ("reach", &["sim", "wanted"]),
+    ("reach", &["sim"]),
     ("job", &[]),
     ("sema", &["job"]),
     ("sim", &[]),
     ("plan", &["job", "posture", "sim"]),
     ("lower", &["job", "plan", "posture"]),
-    ("choice", &["job", "lower", "plan", "sim", "wanted"]),
+    ("choice", &["job", "lower", "plan", "sim"]),
     ("pace", &["reach", "sim"]),
     (
         "summary",
@@ -33,8 +32,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("checks", &["job", "pace", "reach"]),
     ("reach_summary", &["plan", "reach"]),
     ("picture", &[]),
-    ("remedy", &["job", "lower", "plan", "reach", "verdict", "wanted"]),
-    ("reach_verdict", &["job", "plan", "reach", "remedy", "wanted"]),
+    ("remedy", &["job", "lower", "plan", "reach", "verdict"]),
+    ("reach_verdict", &["job", "plan", "reach", "remedy"]),
     (
         "readback",
         &["align", "job", "plan", "reach", "reach_verdict", "sim", "verdict"],
@@ -42,7 +41,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "placement",
         &[
-            "choice", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "verdict", "wanted",
+            "choice", "driver", "job", "picture", "plan", "reach", "remedy", "sema", "verdict",
         ],
     ),
     (
@@ -56,7 +55,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "reach_summary",
             "remedy",
             "summary",
-            "wanted",
         ],
     ),
     (
@@ -83,8 +81,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "verdict",
         ],
     ),
-    ("verdict", &["choice", "job", "lower", "plan", "sim", "wanted"]),
-    ("memory", &["choice", "job", "plan", "reach", "wanted"]),
+    ("verdict", &["choice", "job", "lower", "plan", "sim"]),
+    ("memory", &["choice", "job", "plan", "reach"]),
     (
         "driver",
         &[
@@ -107,13 +105,9 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "sim",
             "summary",
             "verdict",
-            "wanted",
         ],
     ),
-    (
-        "lsp",
-        &["driver", "hints", "memory", "plan", "sema", "summary", "wanted"],
-    ),
+    ("lsp", &["driver", "hints", "memory", "plan", "sema", "summary"]),
     (
         "cli",
         &[
@@ -138,7 +132,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "report",
             "starter",
             "summary",
-            "wanted",
         ],
     ),
 ];

@@ -12,9 +12,9 @@ use crate::cli::patience::Waiting;
 use crate::cli::progress::{Following, Progress};
 use crate::driver::{self, Outcome, Request, RequestError};
 use crate::memory::Memory;
-use crate::wanted::{Needless, Wanted};
 use std::slice;
 use std::time::Duration;
+use vcutc_cancellation::{Needless, Wanted};
 
 /// A job that is compiled again and again.
 pub(super) struct Watched<'a> {

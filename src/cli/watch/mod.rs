@@ -16,7 +16,6 @@ use super::console::{Console, Failure};
 use super::{Exit, Targets};
 use crate::memory::Memory;
 use crate::report::page::{Content, Further, Served, served_errors, served_page};
-use crate::wanted::Wanted;
 use again::{Came, Means, Seen, Watched};
 use serde::Serialize;
 use server::Server;
@@ -26,6 +25,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::render::{ColorChoice, render};
 
 /// How long after a program could not be written that is tried again.

@@ -2,11 +2,11 @@
 
 use super::stamps::{Asked, Pause, Stamps};
 use crate::cli::console::Failure;
-use crate::wanted::Interest;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
+use vcutc_cancellation::Interest;
 
 /// How long files must stay as they are before they are read.
 const SETTLED: Duration = Duration::from_millis(10);
