@@ -1,12 +1,10 @@
 #![doc = include_str!("../ARCHITECTURE.md")]
 
 pub mod air;
-mod align;
 pub mod checks;
 pub mod choice;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod comparison;
 #[cfg(feature = "krl")]
 pub mod convert;
 pub mod driver;
@@ -38,6 +36,7 @@ pub mod summary;
 pub mod verdict;
 pub use vcutc_cancellation as cancellation;
 pub use vcutc_diagnostics as diagnostics;
+pub use vcutc_diff as diff;
 pub use vcutc_geometry as geometry;
 pub use vcutc_machine as machine;
 pub use vcutc_syntax as syntax;

@@ -1,12 +1,12 @@
 //! What sets a folder apart from the program of a job: as a diff for people, as objects for programs, as annotations.
 
 use super::snapshot::Differences;
-use crate::comparison::text::{Hunk, LineKind, TextChange};
-use crate::comparison::{Change, FileChange};
 use serde::Serialize;
 use vcutc_diagnostics::Severity;
 use vcutc_diagnostics::github::Annotation;
 use vcutc_diagnostics::render::ColorChoice;
+use vcutc_diff::text::{Hunk, LineKind, TextChange};
+use vcutc_diff::{Change, FileChange};
 
 /// Most stale files that are named one by one.
 const MOST_STALE: usize = 8;

@@ -9,13 +9,13 @@ use super::console::{Console, Failure};
 use super::files::{Disk, load_file};
 use super::output::rewrite;
 use super::snapshot::{Differences, Fate};
-use crate::comparison::{FileChange, Sides, compare};
 use serde::Serialize;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Loader, SourceMap, Span, text_from_bytes};
+use vcutc_diff::{FileChange, Sides, compare};
 use vcutc_syntax as syntax;
 use vcutc_syntax::format::format;
 

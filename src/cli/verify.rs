@@ -6,7 +6,6 @@ use super::files::{Disk, load_program};
 use super::meant::Driven;
 use super::progress::Progress;
 use super::{Exit, Targets, compile, snapshot, targets};
-use crate::comparison::family;
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use crate::readback::{Fresh, Reference, Verdict, Written};
 use std::path::Path;
@@ -14,6 +13,7 @@ use std::slice;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
 use vcutc_diagnostics::has_errors;
+use vcutc_diff::family;
 
 /// Compares and tells.
 ///

@@ -8,11 +8,11 @@
 use super::differences::{Scene, poses_before};
 use super::steps::{Step, steps_between};
 use super::told::{Names, Told};
-use crate::align::{Pair, common};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::readback::{Deed, Held, Moment, Says, Target, essence};
 use vcutc_backend_api::script::State;
+use vcutc_diff::align::{Pair, common};
 
 /// What a deed says, equal for equal ones however they are written.
 pub(super) fn meaning(deed: &Deed) -> String {

@@ -3,9 +3,9 @@
 use super::differences::Scene;
 use super::split;
 use super::told::Names;
-use crate::align::{Pair, common};
 use core::ops::Range;
 use std::collections::{BTreeMap, VecDeque};
+use vcutc_diff::align::{Pair, common};
 
 /// What became of a statement. Numbers are places among the statements of the fresh program, and of the given one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

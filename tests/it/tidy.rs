@@ -13,8 +13,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("air", &[]),
     ("registry", &[]),
     ("posture", &[]),
-    ("align", &[]),
-    ("comparison", &["align"]),
     ("numbers", &["plan", "sim"]),
     ("manifest", &["numbers"]),
     ("reach", &["sim"]),
@@ -36,7 +34,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("reach_verdict", &["job", "plan", "reach", "remedy"]),
     (
         "readback",
-        &["align", "job", "plan", "reach", "reach_verdict", "sim", "verdict"],
+        &["job", "plan", "reach", "reach_verdict", "sim", "verdict"],
     ),
     (
         "placement",
@@ -112,7 +110,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "checks",
-            "comparison",
             "convert",
             "driver",
             "hints",

@@ -3,6 +3,7 @@
 //! Unlike `vcutc verify`, which asks what a controller would do, this asks whether a repository holds the very bytes that a
 //! job gives today. Nothing is read or written here: who holds the files hands their bytes over.
 
+pub mod align;
 pub mod family;
 pub mod text;
 

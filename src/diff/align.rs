@@ -14,7 +14,7 @@
 use core::ops::Range;
 
 /// Places of an element in the first sequence and of its partner in the second.
-pub(crate) type Pair = (usize, usize);
+pub type Pair = (usize, usize);
 
 /// Stretches of at most so many combinations of elements are compared exactly.
 const COMPARED_EXACTLY: usize = 1 << 14;
@@ -26,7 +26,7 @@ const ROUNDS: u32 = 12;
 const LOOKAHEAD: usize = 48;
 
 /// Pairs of equal elements, ascending on both sides.
-pub(crate) fn common(first: &[u32], second: &[u32]) -> Vec<Pair> {
+pub fn common(first: &[u32], second: &[u32]) -> Vec<Pair> {
     let most = first.iter().chain(second).copied().max().unwrap_or(0);
     let mut aligner = Aligner {
         first,
