@@ -10,10 +10,10 @@ mod words;
 
 pub use words::CheckFigure;
 
-use crate::job::Machine;
 use crate::pace::{Basis, Kept};
 use crate::reach::solve::{ReachReport, Reached};
 use vcutc_backend_api::ir::Axis;
+use vcutc_job::Machine;
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::opw::Coupling;

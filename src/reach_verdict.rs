@@ -6,7 +6,6 @@ mod size;
 
 pub use size::too_large;
 
-use crate::job::{CheckedJob, Machine, Operation, RoughVcut};
 use crate::plan::PlannedJob;
 use crate::plan::parameters::show;
 use crate::reach::describe::{branch_words, site_words, value_words};
@@ -25,6 +24,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::{CheckedJob, Machine, Operation, RoughVcut};
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.

@@ -5,7 +5,6 @@ pub mod chosen;
 pub mod times;
 
 use crate::checks::Checks;
-use crate::job::{Order, RoughVcut, WhyChosen};
 use crate::pace::Basis;
 use crate::plan::decision::{Decision, Excess, Standing};
 use crate::plan::parameters::show;
@@ -14,6 +13,7 @@ use crate::reach_summary::{self, ReachFigures};
 use crate::sim::report::Report;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_job::{Order, RoughVcut, WhyChosen};
 
 /// Most layers whose cuts are listed one by one.
 const LISTED_LAYERS: usize = 24;

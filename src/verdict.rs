@@ -11,7 +11,6 @@ mod stays;
 pub use stays::{Compile, much_stays};
 
 use crate::choice::{Effort, Latitude, WorksThere};
-use crate::job::{CheckedJob, RoughVcut};
 use crate::lower;
 use crate::plan::parameters::show;
 use crate::plan::{self, PlannedJob, PlannedOperation, PlannedVcut};
@@ -28,6 +27,7 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
+use vcutc_job::{CheckedJob, RoughVcut};
 
 /// A program with its proof, good or bad.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use vcutc::choice;
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::job::CheckedJob;
 use vcutc::plan::{PlannedJob, PlannedOperation};
-use vcutc::sema;
+use vcutc::job::sema;
 use vcutc::sim::prove::{self, Bound, Findings, Replay};
 use vcutc::sim::timing::Times;
 use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};

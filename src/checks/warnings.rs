@@ -2,10 +2,10 @@
 
 use super::words::listed;
 use super::{Check, Checks, Outcome};
-use crate::job::Machine;
 use crate::reach::solve::Reached;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::Machine;
 use vcutc_machine::{FileKind, Origin};
 
 impl Checks {

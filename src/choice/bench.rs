@@ -1,7 +1,6 @@
 //! Ways to cut an operation, written down as programs of their own and measured.
 
 use super::{Contender, Latitude};
-use crate::job::{CheckedJob, Objective, RoughVcut};
 use crate::lower::alone;
 use crate::plan::decision::Standing;
 use crate::plan::{LaidOut, PlannedVcut, Work};
@@ -15,6 +14,7 @@ use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::{CheckedJob, Objective, RoughVcut};
 
 /// What a plan comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,14 +9,14 @@
 
 use super::bench::Bench;
 use super::{Unplanned, within_limits};
-use crate::job::{
-    Auto, CheckedJob, ChosenScallop, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced, WhyChosen,
-};
 use crate::plan::blade_reach::{self, Flanks};
 use crate::plan::removable::{Removable, standoff};
 use crate::plan::{LaidOut, PlannedJob, PlannedOperation};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
+use vcutc_job::{
+    Auto, CheckedJob, ChosenScallop, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced, WhyChosen,
+};
 
 /// What may stay of what is to go before it is worth a word, as a share.
 pub const LITTLE: f64 = 0.1;

@@ -4,10 +4,10 @@ use super::Unplanned;
 use super::bench::Bench;
 use super::effort::Effort;
 use super::offers;
-use crate::job::RoughVcut;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
+use vcutc_job::RoughVcut;
 
 /// Whether the job compiles with these changes of its text, as far as those see who come after planning: the machine of the
 /// job, and its target.

@@ -10,11 +10,11 @@ use super::bench::{Bench, Figures};
 use super::effort::Effort;
 use super::trial::{self, Finalist, Found, FoundBy, TurnedDown};
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, best_finalist, best_on, offers, route, within_limits};
-use crate::job::{Lattice, Objective, RoughVcut, Sourced};
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
 use vcutc_backend_api::units::Length;
+use vcutc_job::{Lattice, Objective, RoughVcut, Sourced};
 
 /// How limits are narrowed.
 struct Narrowing {

@@ -1,13 +1,13 @@
 //! What is considered of what a job leaves open: all of it, or less where the machine does not follow.
 
 use super::route;
-use crate::job::{Auto, Bounds, Machine, Operation, Order, RoughVcut, Sourced};
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use vcutc_backend_api::ir::AxisKind;
 use vcutc_backend_api::units::Angle;
+use vcutc_job::{Auto, Bounds, Machine, Operation, Order, RoughVcut, Sourced};
 
 /// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,
 /// which not every machine can follow.

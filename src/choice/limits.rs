@@ -6,7 +6,6 @@
 //! is refused, with the value that the plan would keep.
 
 use super::bench;
-use crate::job::{CheckedJob, Objective, RoughVcut};
 use crate::plan::PlannedVcut;
 use crate::plan::decision::Excess;
 use crate::plan::parameters::show;
@@ -14,6 +13,7 @@ use crate::plan::refusal::{Offer, Refused};
 use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::{CheckedJob, Objective, RoughVcut};
 
 /// How often limits are tightened for the model.
 pub(super) const MOST_TIGHTENED: u32 = 4;

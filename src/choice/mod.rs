@@ -28,7 +28,6 @@ pub use complaints::{Complaints, WorksThere};
 pub use effort::Effort;
 pub use leeway::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 
-use crate::job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
 use crate::plan::decision::{Candidate, Decision, Excess, Standing};
 use crate::plan::parameters::{Refusal, VcutParameters};
 use crate::plan::refusal::Refused;
@@ -44,6 +43,7 @@ use trial::{Finalist, Found, FoundBy};
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
+use vcutc_job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
 /// are chosen by.

@@ -7,11 +7,11 @@ use super::effort::Effort;
 use super::finest::{as_time, limited};
 use super::trial::{self, TurnedDown};
 use super::{Contender, Unplanned, within_limits};
-use crate::job::{Lattice, RoughVcut};
 use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::refusal::{Ladder, Offer, Refused};
 use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::Diagnostic;
+use vcutc_job::{Lattice, RoughVcut};
 
 /// Longest times that are offered where nothing else holds the layer, as shares of the least time.
 const LONGER: [f64; 3] = [1.5, 2.5, 4.0];

@@ -2,11 +2,11 @@
 
 use super::bench::{self, Bench};
 use super::{Latitude, MOST_CUTS_COMPARED, not_compared};
-use crate::job::{Auto, Order, RoughVcut, Sequence};
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::{LaidOut, PlannedVcut};
 use rayon::prelude::*;
 use vcutc_backend_api::units::Duration;
+use vcutc_job::{Auto, Order, RoughVcut, Sequence};
 
 const ORDERS: [Order; 2] = [Order::Point, Order::Layer];
 

@@ -4,7 +4,6 @@ mod chosen;
 mod finest;
 
 use super::choose;
-use crate::job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 use crate::plan::decision::Standing;
 use crate::plan::route::{Heading, layers};
 use crate::plan::tests::{a_job, all_auto, operation, paper_job};
@@ -16,6 +15,7 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Code;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 
 const ROUTES: [(Sequence, Order); 6] = [
     (Sequence::Rows, Order::Point),
@@ -148,7 +148,7 @@ proptest! {
         asked.residual.value = Auto::Auto;
         asked.order.value = Auto::Auto;
         asked.sequence.value = Auto::Auto;
-        asked.limits.scallop = limit.map(|limit| crate::job::Sourced { value: Length::mm(limit), span: None });
+        asked.limits.scallop = limit.map(|limit| vcutc_job::Sourced { value: Length::mm(limit), span: None });
         let Some((first, _)) = planned_and_proven(&job) else { return Ok(()) };
         give(&mut job, &first);
         let Some((best, proven)) = planned_and_proven(&job) else { return Ok(()) };

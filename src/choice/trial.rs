@@ -23,7 +23,6 @@ pub(super) use met::TurnedDown;
 use super::bench::{Bench, Figures};
 use super::effort::Effort;
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
-use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
@@ -31,6 +30,7 @@ use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_job::{Auto, CheckedJob, Formulas, Lattice, Objective, Residual, RoughVcut};
 
 /// Most plans that are tried, by the number of cuts of the first one: below the first number the second.
 const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 24), (MOST_CUTS_COMPARED, 6)];

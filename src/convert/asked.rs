@@ -1,10 +1,10 @@
 //! What the user says about a conversion: quantities as the language writes them, lengths in mm unless a unit follows.
 
 use super::axes::{Axis, Direction, Sense};
-use crate::sema::units;
 use core::f64::consts::FRAC_PI_2;
 use core::fmt;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
+use vcutc_job::sema::units;
 
 /// The words of the user.
 #[derive(Clone, Copy, Debug, Default)]

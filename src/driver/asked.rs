@@ -1,13 +1,13 @@
 //! What is asked for before anything is planned: the job as it is understood, and its machine in words.
 
 use super::{Request, Unhelped, target};
-use crate::job::CheckedJob;
 use crate::memory::Memory;
-use crate::sema;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::{Backend, BackendIssue};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::CheckedJob;
+use vcutc_job::sema;
 use vcutc_machine::Model;
 
 /// The job alone, understood and not planned; none where it has errors or cannot be read.

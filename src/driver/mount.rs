@@ -9,9 +9,9 @@
 //! - **Radians with the unit of degrees.** `1.5708 deg` is a quarter turn in radians. Measured frames have such an angle to a
 //!   ten-thousandth of a degree once in half a million.
 
-use crate::job::{CheckedJob, Machine};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::{CheckedJob, Machine};
 
 /// From here on the tip lies back along the frame's z axis: the cosine of 135 degrees. A holder bent by a right angle has about 0.
 const BACK: f64 = -core::f64::consts::FRAC_1_SQRT_2;

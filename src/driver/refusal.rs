@@ -8,7 +8,6 @@
 use super::target::{self, Objection};
 use super::trials::Trials;
 use crate::choice::Complaints;
-use crate::job::CheckedJob;
 use crate::plan::PlannedJob;
 use crate::reach::solve::Unreached;
 use crate::reach_verdict;
@@ -16,6 +15,7 @@ use crate::verdict::{self, Proven};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::CheckedJob;
 
 /// Who waits for an outcome, and for how long.
 pub trait Patience {

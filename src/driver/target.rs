@@ -5,7 +5,6 @@ mod speeds;
 pub(super) use speeds::with_help;
 
 use super::{Compiled, Request};
-use crate::job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Fault, MachineMismatch, OptionKind, OptionSpec, OptionValue, Options, Origin,
 };
@@ -17,6 +16,7 @@ use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
 use vcutc_machine::{Model, usual_home};
 
 /// The option that a profile can set too.

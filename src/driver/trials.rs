@@ -7,11 +7,11 @@
 use super::{Ended, Kept, Request, Stage, Unhurried, along_its_routes, target};
 use crate::memory::Memory;
 use crate::plan::{PlannedJob, PlannedOperation};
-use crate::sema;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, fix, has_errors};
+use vcutc_job::sema;
 
 /// Most changes that are compiled for one refusal.
 const MOST_TRIALS: usize = 12;

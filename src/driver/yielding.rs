@@ -5,7 +5,6 @@
 //! proven is bounded by [`MOST_PLANS`], and for jobs of many cuts by [`MOST_CUTS_PUT`].
 
 use crate::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
-use crate::job::{Auto, CheckedJob, Operation, Order, Sequence};
 use crate::lower;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
@@ -18,6 +17,7 @@ use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::{Auto, CheckedJob, Operation, Order, Sequence};
 
 /// Most plans that are put to the machine.
 const MOST_PLANS: usize = 10;

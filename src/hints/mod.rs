@@ -14,7 +14,6 @@ mod change;
 mod tests;
 
 use crate::driver::{self, Compiled, Yielded};
-use crate::job::{CheckedJob, Direction, Machine, Operation};
 use crate::lower;
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
@@ -31,6 +30,7 @@ use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Fix;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::{CheckedJob, Direction, Machine, Operation};
 
 /// Most hints for one job.
 const MOST_HINTS: usize = 3;

@@ -9,11 +9,11 @@ mod postures;
 mod tests;
 mod vcut;
 
-use crate::job::{CheckedJob, Machine};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use builder::Builder;
 use vcutc_backend_api::ir::{Action, Cell, Program, Site, SourceRef, Stock};
 use vcutc_diagnostics::source::{SourceMap, Span};
+use vcutc_job::{CheckedJob, Machine};
 
 /// Writes the plan down as a program.
 #[must_use]

@@ -15,7 +15,6 @@
 
 use super::builder::Builder;
 use super::postures::Postures;
-use crate::job::{Direction, Order};
 use crate::plan::route::{self, Heading, Run};
 use crate::plan::{PlannedCut, PlannedVcut, Way, grid};
 use crate::posture::{Feed, Holder};
@@ -24,6 +23,7 @@ use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, Blade, FeedId, Flank, Operation, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
 };
+use vcutc_job::{Direction, Order};
 
 /// Appends the ops of one operation.
 pub(super) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut Builder) {

@@ -10,13 +10,13 @@ use crate::driver::{self, Outcome, Patience, Request, RequestError, Typed, Unhur
 use crate::hints::{Hint, hints};
 use crate::memory::Memory;
 use crate::plan::PlannedJob;
-use crate::sema::study::{Study, study};
-use crate::sema::{Choices, Part};
 use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Interest, Needless, Wanted};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
+use vcutc_job::sema::study::{Study, study};
+use vcutc_job::sema::{Choices, Part};
 use vcutc_syntax::ast::{Ast, Item};
 
 /// The texts of open documents, by their paths. They stand for the files.
@@ -101,7 +101,7 @@ pub(super) fn part_of(ast: &Ast) -> Part {
         match item {
             Item::Job { .. } => return Part::Job,
             Item::Use { .. } | Item::Let { .. } => defines = true,
-            Item::Block(block) => match crate::sema::vocabulary::standing(block) {
+            Item::Block(block) => match vcutc_job::sema::vocabulary::standing(block) {
                 Some(Part::Job) => return Part::Job,
                 Some(Part::Library) => defines = true,
                 None => {}

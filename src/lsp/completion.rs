@@ -8,9 +8,9 @@ use super::manual::{self, Table};
 use super::paths;
 use super::slots::{Owner, Slot};
 use super::values::{Begun, Place};
-use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::Backend;
+use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
 use vcutc_machine::catalogue;
 
 /// Something that can be written.

@@ -3,8 +3,8 @@
 
 use super::slots::Slot;
 use super::surroundings::Surroundings;
-use crate::sema::vocabulary;
 use core::ops::Range;
+use vcutc_job::sema::vocabulary;
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind, tokens};
 
 /// What is being written.

@@ -3,9 +3,9 @@
 use super::Workspace;
 use super::analysis::{Analysis, OpenTexts, Overlay};
 use super::text::{Encoding, Text};
-use crate::sema::Part;
 use lsp_types::Uri;
 use std::collections::{BTreeMap, BTreeSet};
+use vcutc_job::sema::Part;
 
 /// How the client calls an open document.
 #[derive(Clone, Debug)]

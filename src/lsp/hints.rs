@@ -3,9 +3,9 @@
 use super::analysis::Analysis;
 use super::chosen::{Chosen, chosen};
 use super::sites::{Kind, Site, sites};
-use crate::sema::study::Evaluator;
 use core::ops::Range;
 use vcutc_diagnostics::source::Spanned;
+use vcutc_job::sema::study::Evaluator;
 use vcutc_syntax::ast::Expr;
 
 /// Most hints of an answer. Nobody looks at more at once.
@@ -79,7 +79,7 @@ fn of_value(value: &Spanned<Expr>, site: &Site<'_>, evaluator: &Evaluator<'_>, f
 }
 
 fn is_word(site: &Site<'_>, part: &Spanned<Expr>) -> bool {
-    use crate::sema::vocabulary::Takes;
+    use vcutc_job::sema::vocabulary::Takes;
     let takes_words = matches!(site.place.field.map(|field| field.takes), Some(Takes::Words(_)));
     takes_words && part.span == site.span
 }

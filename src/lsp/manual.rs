@@ -189,7 +189,7 @@ fn without_links(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sema::vocabulary::{self, BlockSpec, Form, Need, Takes};
+    use vcutc_job::sema::vocabulary::{self, BlockSpec, Form, Need, Takes};
 
     fn blocks() -> Vec<(&'static str, &'static BlockSpec)> {
         let tops = ["stock", "blade", "rough", "machine", "cell"];

@@ -3,11 +3,11 @@
 use super::analysis::{Analysis, OpenTexts, Overlay};
 use super::sites::{Kind, Site, Words, sites};
 use super::text::{Encoding, Text};
-use crate::sema::study::{Definition, Meaning};
-use crate::sema::vocabulary::{self, RESERVED};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_diagnostics::Code;
 use vcutc_diagnostics::source::{FileId, Loader, Span};
+use vcutc_job::sema::study::{Definition, Meaning};
+use vcutc_job::sema::vocabulary::{self, RESERVED};
 use vcutc_syntax::lexical::{TokenKind, tokens};
 
 /// A name in a text.

@@ -3,8 +3,8 @@
 //! Every question about a place in a text is answered from this row: what is under the cursor, where a name is used, which
 //! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
 
-use crate::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
 use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
 use vcutc_syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
 
 /// A place and what stands there.
@@ -376,10 +376,10 @@ fn bare_word<'a>(word: &'a str, field: Option<&'static FieldSpec>) -> Kind<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sema::vocabulary::{Form, Need};
-    use crate::sema::{Choices, check};
     use std::collections::{BTreeMap, BTreeSet};
     use vcutc_diagnostics::source::{LoadError, Loader, SourceMap};
+    use vcutc_job::sema::vocabulary::{Form, Need};
+    use vcutc_job::sema::{Choices, check};
 
     /// Files in memory.
     struct Shop(BTreeMap<&'static str, String>);

@@ -2,7 +2,7 @@
 //! dimension, as far as it can be said.
 
 use super::surroundings::Surroundings;
-use crate::sema::vocabulary;
+use vcutc_job::sema::vocabulary;
 
 /// A place for a value.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The tokens around a cursor: which brackets are open, whose they are, and what stands in them already.
 
 use super::context::BlockAround;
-use crate::sema::vocabulary;
+use vcutc_job::sema::vocabulary;
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind};
 
 /// A text as its tokens, comments left out. Tokens are known by their numbers.

@@ -5,11 +5,11 @@ use super::analysis::Analysis;
 use super::hover::hover;
 use super::manual::{self, Table};
 use crate::registry;
-use crate::sema::study::Meaning;
-use crate::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::OptionKind;
 use vcutc_diagnostics::source::{LoadError, Loader};
+use vcutc_job::sema::study::Meaning;
+use vcutc_job::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
 
 /// One text for every path that ends as jobs do, and no other files.
 struct One(String);

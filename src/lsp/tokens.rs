@@ -2,9 +2,9 @@
 
 use super::sites::{Kind, Named, sites};
 use super::text::Text;
-use crate::sema::vocabulary;
 use lsp_types::{SemanticToken, SemanticTokenModifier, SemanticTokenType};
 use std::collections::BTreeMap;
+use vcutc_job::sema::vocabulary;
 use vcutc_syntax::ast::Ast;
 use vcutc_syntax::lexical::{Token, TokenKind, tokens};
 

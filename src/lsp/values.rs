@@ -5,11 +5,11 @@ use super::analysis::Analysis;
 use super::completion::{Offer, Rank, offer, verbatim};
 use super::manual::{self, Table};
 use super::slots::{Owner, Part, Rest, Slot, Within};
-use crate::sema::study::{Definition, Meaning};
-use crate::sema::vocabulary::{self, Dimension, FieldSpec, Inside, Leaving, Signature, Takes};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::{Backend, OptionKind};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
+use vcutc_job::sema::study::{Definition, Meaning};
+use vcutc_job::sema::vocabulary::{self, Dimension, FieldSpec, Inside, Leaving, Signature, Takes};
 use vcutc_machine::{catalogue, usual_home};
 
 /// What is known of the place of a value.

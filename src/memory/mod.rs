@@ -16,7 +16,6 @@ mod shelf;
 mod tests;
 
 use crate::choice::{self, Complaints, Leeway};
-use crate::job::{CheckedJob, Operation};
 use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::solve::{
     Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
@@ -27,6 +26,7 @@ use std::sync::Arc;
 use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_cancellation::Wanted;
+use vcutc_job::{CheckedJob, Operation};
 use vcutc_machine::Model;
 
 /// Most cuts and ops of all that is kept: some 100 MB.

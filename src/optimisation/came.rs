@@ -4,13 +4,13 @@
 //! bounded, in cuts by the formulas; what is beyond that is marked as the formulas' alone.
 
 use crate::choice;
-use crate::job::{CheckedJob, Operation, RoughVcut};
 use crate::plan::PlannedOperation;
 use crate::plan::parameters::VcutParameters;
 use crate::sim::prove::Findings;
 use crate::verdict;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::{CheckedJob, Operation, RoughVcut};
 
 /// What came of a change of the job.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,7 +14,6 @@ pub use came::{Came, Plan};
 pub use trade_off::TradeOff;
 
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
-use crate::job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced};
 use crate::picture::pareto::{self, Curve, Pareto};
 use crate::plan::optimum::{self, Optimum, Problem};
 use crate::plan::parameters::{self, VcutParameters};
@@ -24,6 +23,7 @@ use vcutc_backend_api::ir::{OperationId, Site};
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced};
 
 /// What came of a job's open parameters.
 #[derive(Debug)]

@@ -2,9 +2,9 @@
 
 use super::LATTICES;
 use super::came::Came;
-use crate::job::Lattice;
 use crate::plan::optimum::{self, Optimum, Problem};
 use vcutc_backend_api::units::Length;
+use vcutc_job::Lattice;
 
 /// What limits of the scallop cost.
 #[derive(Clone, Debug, PartialEq)]

@@ -13,7 +13,6 @@ pub use map::Map;
 
 use crate::choice::{self, Latitude, Leeway};
 use crate::driver::{self, Request, Stage, internal, rules_broken};
-use crate::job::{CheckedJob, Machine};
 use crate::plan::PlannedJob;
 use crate::reach::place::Spot;
 use crate::reach::place::score::Judge;
@@ -23,12 +22,13 @@ use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::remedy::trial::{self, Room};
 use crate::remedy::wording;
-use crate::sema;
 use crate::verdict;
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
+use vcutc_job::sema;
+use vcutc_job::{CheckedJob, Machine};
 
 /// Where the work stands best.
 #[derive(Clone, Debug)]

@@ -11,8 +11,8 @@
 //! it passes above. If that tip lies `u` away, the flanks meet at height `(h + c u) / 2`. So everything depends on the
 //! offsets `u` of the older tips, which is what distinguishes the lattices.
 
-use crate::job::Lattice;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_job::Lattice;
 
 /// The flanks of a V in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,11 +4,11 @@ use super::optimum::Bound;
 use super::parameters::{VcutParameters, show};
 use super::refusal::{Ladder, Offer, Refused};
 use super::{MOST_CUTS, MOST_OPERATIONS, grid};
-use crate::job::{Auto, CheckedJob, Residual, RoughVcut, Sourced};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::profile::Profile;
+use vcutc_job::{Auto, CheckedJob, Residual, RoughVcut, Sourced};
 
 pub(super) fn too_many_operations(asked: &RoughVcut, count: usize) -> Diagnostic {
     Diagnostic::new(

@@ -9,10 +9,10 @@ use super::lattice::Layout;
 use super::parameters::{VcutParameters, show};
 use super::route::Heading;
 use super::{MOST_CUTS, PlannedCut, TipOrigin, Way, grid};
-use crate::job::{CheckedJob, Tip, Tips};
 use crate::sim::surface::{Surface, Vee};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
+use vcutc_job::{CheckedJob, Tip, Tips};
 
 /// What is cut of given tips, and how.
 #[derive(Clone, Debug, PartialEq)]

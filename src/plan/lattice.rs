@@ -7,10 +7,10 @@
 
 use super::grid;
 use super::parameters::VcutParameters;
-use crate::job::Lattice;
 use vcutc_backend_api::ir::Stock;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::Lattice;
 
 /// A place across the stock where tips may lie in several layers.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,7 +26,6 @@ pub mod time_model;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use crate::job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
 use crate::sim::surface::Surface;
 use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
 use decision::Decision;
@@ -41,6 +40,7 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
 
 /// A job with every choice made.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,12 +18,12 @@ use super::grid;
 use super::optimum::{self, Bound, Problem};
 use super::refusal::Refused;
 use super::time_model::TimeModel;
-use crate::job::{Auto, CheckedJob, Direction, Lattice, RoughVcut};
 use crate::posture::Holder;
 use grid_forms::{fits, widest_step};
 use search::Chosen;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
+use vcutc_job::{Auto, CheckedJob, Direction, Lattice, RoughVcut};
 
 /// The parameters of one V-cutting operation, all decided.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 //! Nothing is promised of these changes: each is the best guess of a formula. `choice` plans them before any of them is
 //! told, and of every ladder the first one that works is offered.
 
-use crate::job::{Auto, RoughVcut, Sourced};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
+use vcutc_job::{Auto, RoughVcut, Sourced};
 
 /// Why an operation is not planned.
 #[derive(Clone, Debug, PartialEq)]

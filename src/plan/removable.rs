@@ -3,11 +3,11 @@
 //! The job itself keeps the blade off the part by these two, both along the part's normal. So what lies below them is no
 //! fault of a plan, and what lies above them and stays is what the plan did not take.
 
-use crate::job::RoughVcut;
 use vcutc_backend_api::units::{Area, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::RoughVcut;
 
 /// The least that one operation leaves, whatever its plan.
 pub struct Removable {

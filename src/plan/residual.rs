@@ -12,11 +12,11 @@
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
 use super::{PlannedCut, TipOrigin, Way, grid, smallest_gain};
-use crate::job::{Residual, RoughVcut};
 use crate::sim::surface::{Side, Surface, Vee};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::{Residual, RoughVcut};
 
 /// A tip of the lattice that would cut the part.
 #[derive(Clone, Copy)]

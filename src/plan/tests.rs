@@ -1,9 +1,5 @@
 //! Random jobs, planned and proven: no overcut, every kept chip freed, every V complete.
 
-use crate::job::{
-    Auto, Blade, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order,
-    Residual, RoughVcut, Sequence, Sourced,
-};
 use crate::plan::parameters::ScallopBy;
 use crate::sim::prove::Findings;
 use crate::verdict;
@@ -13,6 +9,10 @@ use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::{
+    Auto, Blade, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order,
+    Residual, RoughVcut, Sequence, Sourced,
+};
 
 fn given<T>(value: T) -> Sourced<T> {
     Sourced { value, span: None }

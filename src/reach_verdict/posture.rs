@@ -1,11 +1,11 @@
 //! A posture that the two rotary axes of a five-axis machine cannot hold, in words: by how much the blade plane stays turned,
 //! and which axis is missing.
 
-use crate::job::Machine;
 use crate::plan::parameters::show;
 use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::Machine;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::FiveAxis;
 use vcutc_machine::kinematics::pose::Pose;

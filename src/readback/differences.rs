@@ -5,13 +5,13 @@ use super::split::says_the_same;
 use super::steps::{Parts, Step, Way};
 use super::told::{Told, skeleton};
 use super::wording::{deed_words, kind_words, mismatch_words, op_words, pace_words};
-use crate::job::{CheckedJob, Machine, Operation};
 use vcutc_backend_api::ir::{Action, OpId, Program, Registered};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Deed, FrameRole, Grain, Judge, Mismatch, Moment, Place, Says, essence};
 use vcutc_backend_api::stroke::Pose;
 use vcutc_diagnostics::source::{FileId, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Label};
+use vcutc_job::{CheckedJob, Machine, Operation};
 
 /// So many differences are told one by one.
 const MOST_IN_FULL: usize = 20;

@@ -1,11 +1,11 @@
 //! A home above the first cut.
 
 use super::{Case, Remedy, trial, wording};
-use crate::job::Machine;
 use crate::reach::legs::{Leg, Poses, Taught, legs};
 use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::AxisValues;
+use vcutc_job::Machine;
 
 /// How far above the first pose of the program the blade is at home, in mm.
 const RAISED: [f64; 3] = [100.0, 300.0, 0.0];

@@ -6,7 +6,6 @@
 //! other speeds: this goes on until no axis is too slow, and then the job is tried with its rates.
 
 use super::{Case, Remedy, trial};
-use crate::job::{Operation, RoughVcut};
 use crate::plan::parameters::show;
 use crate::reach::demand::Demand;
 use crate::reach::legs::{Leg, Pace, legs};
@@ -17,6 +16,7 @@ use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
 use vcutc_diagnostics::source::Span;
+use vcutc_job::{Operation, RoughVcut};
 use vcutc_machine::Model;
 
 /// What a lower speed costs.

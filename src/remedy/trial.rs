@@ -1,7 +1,6 @@
 //! Trials: a changed job through the whole pipeline.
 
 use super::{Case, farther_out};
-use crate::job::{CheckedJob, Machine};
 use crate::lower;
 use crate::plan::PlannedJob;
 use crate::reach::demand::{Demand, axis_margin};
@@ -16,6 +15,7 @@ use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
 
 /// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.

@@ -9,8 +9,8 @@ pub mod playback;
 pub mod sheet;
 
 use crate::driver::{Compiled, Outcome};
-use crate::job::CheckedJob;
 use crate::plan::PlannedJob;
+use vcutc_job::CheckedJob;
 
 /// What a report is made from: a job that compiled, with all that came of it.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,6 @@
 use super::prove::{Bound, CutFault, Findings, replay};
 use super::timing::timing;
 use crate::choice::choose;
-use crate::job::{Auto, Operation, Residual};
 use crate::lower::lower;
 use crate::plan::PlannedOperation;
 use crate::plan::tests::{operation, paper_job};
@@ -13,6 +12,7 @@ use vcutc_backend_api::verify::verify;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::{Auto, Operation, Residual};
 
 fn flat(z: f64) -> Vec<Point2> {
     vec![Point2 { x: 0.0, z }, Point2 { x: 85.0, z }]

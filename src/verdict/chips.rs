@@ -2,11 +2,11 @@
 
 use super::attempts::Attempts;
 use crate::choice::WorksThere;
-use crate::job::{Auto, Residual};
 use crate::plan::parameters::{self, Swung, show};
 use crate::plan::refusal::Offer;
 use crate::plan::{PlannedVcut, grid};
 use vcutc_backend_api::units::Length;
+use vcutc_job::{Auto, Residual};
 
 /// A change that mends a job.
 pub(super) enum Remedy {

@@ -6,7 +6,6 @@
 
 use super::attempts::changed;
 use crate::choice::LITTLE;
-use crate::job::{Auto, CheckedJob, RoughVcut, Sourced};
 use crate::plan::parameters::show;
 use crate::plan::refusal::Offer;
 use crate::plan::removable::Removable;
@@ -17,6 +16,7 @@ use vcutc_backend_api::units::{Area, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
+use vcutc_job::{Auto, CheckedJob, RoughVcut, Sourced};
 
 /// What may stay where the job itself says what does, as a share.
 const SAID: f64 = 0.5;

@@ -9,7 +9,7 @@ use vcutc::diagnostics::render::{ColorChoice, render};
 use vcutc::diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc::diagnostics::{Code, Diagnostic, Fix, fix};
 use vcutc::job::CheckedJob;
-use vcutc::sema::{Choices, Typed, check};
+use vcutc::job::sema::{Choices, Typed, check};
 
 /// The files of a folder, with one of them changed.
 struct Folder {

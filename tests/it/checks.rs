@@ -10,12 +10,12 @@ use vcutc::diagnostics::Code;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::{Compiled, Outcome, Typed};
 use vcutc::job::CheckedJob;
+use vcutc::job::sema;
 use vcutc::lower::lower;
 use vcutc::machine::catalogue;
 use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, solve};
 use vcutc::report::page::{Further, page};
 use vcutc::report::sheet::sheet;
-use vcutc::sema;
 use vcutc_backend_api::verify::verify;
 
 const JOB: &str = "job.vcut";

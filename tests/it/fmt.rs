@@ -3,8 +3,8 @@
 use crate::repository::{TextFile, files, root};
 use std::fs;
 use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
-use vcutc::sema;
-use vcutc::sema::Choices;
+use vcutc::job::sema;
+use vcutc::job::sema::Choices;
 use vcutc::syntax::format::format;
 
 /// The files of this repository as they are, or with job files in the layout.

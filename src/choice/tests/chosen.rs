@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::choice::{LITTLE, settled};
-use crate::job::{Formulas, WhyChosen};
 use crate::plan::removable::Removable;
+use vcutc_job::{Formulas, WhyChosen};
 
 fn open(part: fn(f64) -> f64, swing: Option<f64>) -> CheckedJob {
     let corners = (0..=170).map(|half| f64::from(half) / 2.0);

@@ -1,11 +1,11 @@
 //! The least scallop and the least edge in use, held against what the least time comes to under limits on them.
 
 use super::{Open, gentle, hill, planned_and_proven, vcut};
-use crate::job::{CheckedJob, Objective, Sourced};
 use crate::plan::optimum::Bound;
 use crate::plan::tests::operation;
 use crate::sim::prove::Findings;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_job::{CheckedJob, Objective, Sourced};
 
 /// How much more than what the least time shows to be possible may stay, or be used: it is a search.
 const TOLERANCE: f64 = 1.1;

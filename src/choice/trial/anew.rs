@@ -8,13 +8,13 @@
 use super::spread::Spot;
 use super::{AHEAD, Trials, alike};
 use crate::choice::MOST_CUTS_COMPARED;
-use crate::job::{Auto, Lattice, Objective, Order};
 use crate::plan::lattice::{Column, Layout, Parity, Row};
 use crate::plan::parameters::{Swung, VcutParameters};
 use crate::plan::residual::least_gain;
 use vcutc_backend_api::units::Angle;
 use vcutc_geometry::cone;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::{Auto, Lattice, Objective, Order};
 
 /// Most plans, by the number of cuts of the best one, as [`PLANS`](super::PLANS); and most lattices that are looked at for them.
 const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 16), (MOST_CUTS_COMPARED, 2)];

@@ -2,10 +2,10 @@
 
 use super::{AHEAD, MOST_OVERLAP, Trials, thousandths};
 use crate::choice::MOST_CUTS_COMPARED;
-use crate::job::Auto;
 use crate::plan::grid;
 use crate::plan::parameters::{Swung, VcutParameters};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_job::Auto;
 
 /// By which factors swing and layer are changed, the coarse ones first.
 pub(super) const FACTORS: [f64; 3] = [1.3, 1.12, 1.04];

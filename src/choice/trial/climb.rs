@@ -1,9 +1,9 @@
 //! The formulas' parameters under laxer limits on scallop: from the freest down to one that is sound, and up again by halves.
 
 use super::{Trials, limits};
-use crate::job::Sourced;
 use crate::plan::parameters::VcutParameters;
 use vcutc_backend_api::units::Length;
+use vcutc_job::Sourced;
 
 /// Into how many equal ratios the way from the limit to the freest bound is divided.
 const RUNGS: u32 = 5;

@@ -7,10 +7,10 @@
 
 use super::around::FACTORS;
 use super::{Figures, Sound};
-use crate::job::{Auto, Bounds, RoughVcut};
 use crate::plan::decision::{Excess, Standing};
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{Swung, VcutParameters};
+use vcutc_job::{Auto, Bounds, RoughVcut};
 
 /// A plan that broke a limit.
 pub(in crate::choice) struct TurnedDown {

@@ -7,8 +7,8 @@
 use super::ground::Asked;
 use super::number::Number;
 use super::problem::{Extension, Problem, Range};
-use crate::job::{Formulas, Lattice};
 use vcutc_backend_api::units::Length;
+use vcutc_job::{Formulas, Lattice};
 
 /// Shares this close below a jump of the reach count as the jump: the same nanometre in a millimetre that simulation grants.
 const AT_JUMP: f64 = 1e-9;

@@ -35,11 +35,11 @@ pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Refused
 pub use trade::{sensitivities, trade_off};
 
 use super::grid;
-use crate::job::{Lattice, Objective};
 use formulas::Model;
 use ground::{Found, Measure};
 use search::Goal;
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_job::{Lattice, Objective};
 
 /// The least scallop or edge is found to this share of it.
 const FINE: f64 = 1e-10;

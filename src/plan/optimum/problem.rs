@@ -1,7 +1,7 @@
 //! The problem and its answer.
 
-use crate::job::{Formulas, Lattice, Objective};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
+use vcutc_job::{Formulas, Lattice, Objective};
 
 /// A closed range of values; a value that is given is a range of one point.
 #[derive(Clone, Copy, Debug, PartialEq)]

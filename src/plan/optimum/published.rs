@@ -1,8 +1,8 @@
 //! The problem that the paper publishes with its optimum [Cui 2020, Table 1], for whoever holds a solver against it.
 
 use super::problem::{Extension, Problem, Range, Work};
-use crate::job::{Formulas, Lattice, Objective};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Length, Speed};
+use vcutc_job::{Formulas, Lattice, Objective};
 
 /// The block of Table 1, its blade and its speeds, within its limits, on one lattice: least time, how far cuts run out
 /// following from the edge in use [Cui 5].

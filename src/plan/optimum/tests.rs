@@ -4,11 +4,11 @@ use super::formulas::{Keeping, Model, Tooth};
 use super::number::{Interval, Slopes};
 use super::published::table_1;
 use super::{Bound, Extension, Infeasible, Optimum, Problem, Range, Work, sensitivities, solve, trade_off};
-use crate::job::{Formulas, Lattice, Objective};
 use crate::plan::blade_reach::{needed_reach, scallop_bound};
 use crate::plan::time_model::TimeModel;
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
+use vcutc_job::{Formulas, Lattice, Objective};
 
 mod line;
 

@@ -2,8 +2,8 @@
 
 use super::problem::{Bound, Infeasible, Optimum, Problem, Sensitivity};
 use super::solve;
-use crate::job::Objective;
 use vcutc_backend_api::units::Length;
+use vcutc_job::Objective;
 
 /// How tight a trade-off begins, as a share of the scallop that the fastest parameters leave, where nothing else limits it.
 const TIGHTEST: f64 = 0.25;

@@ -1,12 +1,12 @@
 //! What is said of parameters that contradict one another as they are given.
 
 use super::show;
-use crate::job::{Auto, Bounds, Objective, RoughVcut, Sourced};
 use crate::plan::complaints::wider_scallops;
 use crate::plan::refusal::{Ladder, Offer, Refused};
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::{Auto, Bounds, Objective, RoughVcut, Sourced};
 
 pub(super) fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
     let (rake, half_apex) = (asked.rake.value, asked.blade.half_apex.value);

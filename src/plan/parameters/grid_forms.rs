@@ -4,8 +4,8 @@
 use super::super::blade_reach::{self, Flanks};
 use super::super::grid;
 use super::VcutParameters;
-use crate::job::{Auto, Lattice, RoughVcut};
 use vcutc_backend_api::units::Length;
+use vcutc_job::{Auto, Lattice, RoughVcut};
 
 /// Whether a blade reaches what a lattice needs, wherever rounding puts its tips.
 pub(super) fn fits(lattice: Lattice, layer: Length, step: Length, flanks: &Flanks) -> bool {

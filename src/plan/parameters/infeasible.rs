@@ -3,13 +3,13 @@
 
 use super::complaints::check_given;
 use super::show;
-use crate::job::{Auto, RoughVcut, Sourced};
 use crate::plan::complaints::wider_scallops;
 use crate::plan::optimum::{self, Bound, Problem};
 use crate::plan::refusal::{Ladder, Offer, Refused};
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::{Auto, RoughVcut, Sourced};
 
 /// How much more than the nearest value may be needed, as shares of it: bounds that touch leave nothing to round, and plans
 /// come to other values than the model.

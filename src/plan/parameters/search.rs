@@ -5,8 +5,8 @@ use super::super::grid;
 use super::super::optimum::{self, Bound, Extension, Optimum, Problem, Range, Refused, Work};
 use super::grid_forms::{fits, tips_per_step, widest_step};
 use super::{Refusal, edge_overhang, flanks_at};
-use crate::job::{Auto, Bounds, CheckedJob, Formulas, Lattice, Objective, RoughVcut};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_job::{Auto, Bounds, CheckedJob, Formulas, Lattice, Objective, RoughVcut};
 
 /// Swings to choose from where there is no limit: flatter and steeper Vs are no cuts.
 const OPEN_SWINGS: Range<Angle> = Range {

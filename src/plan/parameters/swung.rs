@@ -5,9 +5,9 @@ use super::super::blade_reach;
 use super::grid_forms::{fits, largest_fitting, open_overlaps, tips_per_step, widest_step};
 use super::search::Chosen;
 use super::{Flanks, VcutParameters, complete, edge_overhang, flanks_at, resolve_standoff};
-use crate::job::{Lattice, RoughVcut};
 use core::cell::OnceCell;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_job::{Lattice, RoughVcut};
 
 /// A lattice at a swing, with the edge that the operation may use.
 pub struct Swung<'s> {

@@ -5,8 +5,8 @@ use super::editor::{BLADES, Editor, Memory, RIB, position, uri};
 use serde_json::{Value, json};
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::diagnostics::{Diagnostic, Severity};
-use vcutc::sema::study::study;
-use vcutc::sema::{Choices, Part};
+use vcutc::job::sema::study::study;
+use vcutc::job::sema::{Choices, Part};
 use vcutc::syntax::ast::Item;
 
 /// Numbers that look random and are the same in every run (SplitMix64).

@@ -9,9 +9,9 @@ use super::super::published::table_1;
 use super::super::search::{self, Goal};
 use super::super::{Extension, Problem, Range, Work, solve};
 use super::{Point, some_work};
-use crate::job::{Formulas, Lattice, Objective};
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_job::{Formulas, Lattice, Objective};
 
 /// Problems whose least one coordinate may tell: the paper's formulas with layer and step open.
 fn problem_of_the_paper() -> impl Strategy<Value = Problem> {

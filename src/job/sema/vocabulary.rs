@@ -3,20 +3,20 @@
 //! Everything here is taken from the tables that the checks read by, so that nothing is offered that they refuse.
 
 use super::arguments::Parameter;
-pub(crate) use super::dimension::Dimension;
-pub(crate) use super::eval::walk;
-pub(crate) use super::functions::Signature;
+pub use super::dimension::Dimension;
+pub use super::eval::walk;
+pub use super::functions::Signature;
 use super::heads::{self, Kind};
 use super::profile::{data, drawing};
 pub(crate) use super::range::Range;
 use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
-pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
+pub use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use super::{Part, blade, cell, frame, functions, machine, names, rough_vcut, stock, units};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_syntax::ast::Block;
 
 /// What can stand at the top of a file: its first word, and how all of it looks.
-pub(crate) fn items() -> impl Iterator<Item = (&'static str, &'static str)> {
+pub fn items() -> impl Iterator<Item = (&'static str, &'static str)> {
     const PLAIN: &[(&str, &str)] = &[
         ("job", "job \"NAME\""),
         ("use", "use \"PATH\""),
@@ -26,7 +26,7 @@ pub(crate) fn items() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// Words that can follow the first word of a block's head.
-pub(crate) fn head_words(first: &str) -> Vec<&'static str> {
+pub fn head_words(first: &str) -> Vec<&'static str> {
     match first {
         "rough" => heads::ROUGHINGS.to_vec(),
         "machine" => heads::MACHINES.iter().map(|(word, _)| *word).collect(),
@@ -35,7 +35,7 @@ pub(crate) fn head_words(first: &str) -> Vec<&'static str> {
 }
 
 /// The fields of the block whose head begins with this word.
-pub(crate) fn block(first: &str) -> Option<&'static BlockSpec> {
+pub fn block(first: &str) -> Option<&'static BlockSpec> {
     match first {
         "stock" => Some(&stock::SPEC),
         "blade" => Some(&blade::SPEC),
@@ -47,7 +47,7 @@ pub(crate) fn block(first: &str) -> Option<&'static BlockSpec> {
 }
 
 /// The fields behind a file of a profile: points, airfoils and drawings.
-pub(crate) fn data_file(word: &str) -> Option<&'static BlockSpec> {
+pub fn data_file(word: &str) -> Option<&'static BlockSpec> {
     match word {
         "points" => Some(&data::POINTS),
         "airfoil" => Some(&data::AIRFOIL),
@@ -58,7 +58,7 @@ pub(crate) fn data_file(word: &str) -> Option<&'static BlockSpec> {
 }
 
 /// The pieces of a profile: the first word, and how all of it looks.
-pub(crate) const CURVES: &[(&str, &str)] = &[
+pub const CURVES: &[(&str, &str)] = &[
     ("start", "start (0 mm, 18 mm)"),
     ("line", "line to (10 mm, 10 mm)"),
     ("arc", "arc to (30 mm, 12 mm) radius 20 mm"),
@@ -81,7 +81,7 @@ pub(crate) const CURVES: &[(&str, &str)] = &[
 ];
 
 /// A profile in its short form, for each kind of file: its word, and how all of it looks.
-pub(crate) fn short_forms() -> impl Iterator<Item = (&'static str, String)> {
+pub fn short_forms() -> impl Iterator<Item = (&'static str, String)> {
     CURVES.iter().filter_map(|(word, form)| {
         data_file(word)?;
         let rest = form.strip_prefix(word)?.trim_start();
@@ -94,21 +94,21 @@ pub(crate) fn short_forms() -> impl Iterator<Item = (&'static str, String)> {
 }
 
 /// Words within a piece of a profile.
-pub(crate) const JOINTS_OF_CURVES: &[&str] = &["to", "radius", "center", "through"];
+pub const JOINTS_OF_CURVES: &[&str] = &["to", "radius", "center", "through"];
 
 /// Functions, each with a call of it.
-pub(crate) fn functions() -> impl Iterator<Item = (&'static str, &'static str)> {
+pub fn functions() -> impl Iterator<Item = (&'static str, &'static str)> {
     functions::examples()
 }
 
 /// What a function takes and gives.
-pub(crate) fn signature(function: &str) -> Option<Signature> {
+pub fn signature(function: &str) -> Option<Signature> {
     functions::signature(function)
 }
 
 /// A value within a call that a field of a machine takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Inside {
+pub enum Inside {
     /// A quantity.
     Of(Dimension),
     /// Another call, with an example.
@@ -116,7 +116,7 @@ pub(crate) enum Inside {
 }
 
 /// The values with names of a call that a field of a machine takes, each with a typical value.
-pub(crate) fn labels(call: &str) -> Vec<(&'static str, &'static str)> {
+pub fn labels(call: &str) -> Vec<(&'static str, &'static str)> {
     parameters(call)
         .iter()
         .map(|parameter| (parameter.name, parameter.typical))
@@ -132,7 +132,7 @@ fn parameters(call: &str) -> &'static [Parameter<'static>] {
 }
 
 /// What a value of a call is that a field of a machine takes: by its name, or by its place among those without names.
-pub(crate) fn inside(call: &str, label: Option<&str>, place: usize) -> Option<Inside> {
+pub fn inside(call: &str, label: Option<&str>, place: usize) -> Option<Inside> {
     let of = |range: Range| Some(Inside::Of(range.dimension));
     match (call, label) {
         ("frame", Some("q")) => of(QUATERNION_PART),
@@ -155,10 +155,10 @@ pub(crate) fn inside(call: &str, label: Option<&str>, place: usize) -> Option<In
 }
 
 /// Words with a meaning of their own in values.
-pub(crate) const RESERVED: &[&str] = names::RESERVED;
+pub const RESERVED: &[&str] = names::RESERVED;
 
 /// Whether a text can be a name.
-pub(crate) fn is_name(text: &str) -> bool {
+pub fn is_name(text: &str) -> bool {
     let mut letters = text.chars();
     letters
         .next()
@@ -167,7 +167,7 @@ pub(crate) fn is_name(text: &str) -> bool {
 }
 
 /// The units of a dimension, the usual one first.
-pub(crate) fn units_for(dimension: Dimension) -> Vec<String> {
+pub fn units_for(dimension: Dimension) -> Vec<String> {
     let usual = dimension.unit();
     let rest = units::fitting(dimension)
         .into_iter()
@@ -177,7 +177,7 @@ pub(crate) fn units_for(dimension: Dimension) -> Vec<String> {
 }
 
 /// All simple units, each with what it is and what it comes to: `("in", "a length", "25.4 mm")`.
-pub(crate) fn units() -> impl Iterator<Item = (&'static str, String, String)> {
+pub fn units() -> impl Iterator<Item = (&'static str, String, String)> {
     units::UNITS.iter().map(|unit| {
         let one = super::quantity::Quantity::new(unit.size, unit.dimension);
         (unit.name, unit.dimension.words(), one.text())
@@ -185,18 +185,18 @@ pub(crate) fn units() -> impl Iterator<Item = (&'static str, String, String)> {
 }
 
 /// What a unit as written comes to: `25.4 mm`; none if there is no such unit.
-pub(crate) fn unit_in_words(unit: &str) -> Option<(String, String)> {
+pub fn unit_in_words(unit: &str) -> Option<(String, String)> {
     let one = units::quantity(1.0, unit)?;
     Some((one.dimension.words(), one.text()))
 }
 
 /// What a unit as written is called: `metre per minute`; none if there is no such unit.
-pub(crate) fn unit_spoken(unit: &str) -> Option<String> {
+pub fn unit_spoken(unit: &str) -> Option<String> {
     units::spoken(unit)
 }
 
 /// Where a block may stand: in a job only, or in a library as well; none if its head is not right.
-pub(crate) fn standing(block: &Block) -> Option<Part> {
+pub fn standing(block: &Block) -> Option<Part> {
     Some(match heads::classify(block).ok()? {
         Kind::Stock | Kind::Profile | Kind::Cell | Kind::RoughVcut => Part::Job,
         Kind::Blade(_) | Kind::Machine(_) => Part::Library,
@@ -204,7 +204,7 @@ pub(crate) fn standing(block: &Block) -> Option<Part> {
 }
 
 /// The kind of machine that a word of a head means.
-pub(crate) fn machine_kind(word: &str) -> Option<MachineKind> {
+pub fn machine_kind(word: &str) -> Option<MachineKind> {
     let found = heads::MACHINES.iter().find(|(known, _)| *known == word);
     found.map(|(_, kind)| *kind)
 }

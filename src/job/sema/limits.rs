@@ -8,7 +8,7 @@ use super::read::Reader;
 use super::report::Checked;
 use super::rough_vcut::inner_place;
 use super::session::Session;
-use crate::job::{Bounds, Limits, Sourced};
+use crate::{Bounds, Limits, Sourced};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::Block;

@@ -3,6 +3,7 @@
 //! Every value that a later stage may have to complain about knows where it was written.
 
 mod places;
+pub mod sema;
 
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};

@@ -1,7 +1,7 @@
 //! Tests of the checks as a whole: expressions against an independent evaluator, and jobs that try to be a burden.
 
 use super::{Choices, Typed, check};
-use crate::job::{Auto, CheckedJob, Operation, Sourced};
+use crate::{Auto, CheckedJob, Operation, Sourced};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -23,9 +23,9 @@ pub(crate) enum High {
 
 /// A range of values of one dimension, in its usual unit (mm, deg, mm/s, deg/s, s, kg).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Range {
+pub struct Range {
     /// What the values are.
-    pub(crate) dimension: Dimension,
+    pub dimension: Dimension,
     low: Low,
     high: High,
 }

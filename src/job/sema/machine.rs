@@ -10,7 +10,7 @@ use super::read::{Reader, default, sourced};
 use super::report::Checked;
 use super::session::Session;
 use super::{model, options};
-use crate::job::{Machine, Sourced};
+use crate::{Machine, Sourced};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Load, MachineKind, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::units::{Duration, Mass};

@@ -7,7 +7,7 @@ use super::names::did_you_mean;
 use super::quantity::{Measured, Quantity, number};
 use super::range::Range;
 use super::report::{Checked, Reports};
-use crate::job::{Auto, Sourced};
+use crate::{Auto, Sourced};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};

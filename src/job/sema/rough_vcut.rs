@@ -9,9 +9,7 @@ use super::read::{Reader, default, looks_like, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::tips;
-use crate::job::{
-    Blade, Direction, Formulas, Lattice, Objective, Order, Residual, RoughVcut, Sequence, Sourced,
-};
+use crate::{Blade, Direction, Formulas, Lattice, Objective, Order, Residual, RoughVcut, Sequence, Sourced};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::Spanned;

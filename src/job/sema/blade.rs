@@ -6,7 +6,7 @@ use super::range::{DISTANCE, HALF_APEX, SIZE};
 use super::read::{Reader, words_of};
 use super::report::Checked;
 use super::session::Session;
-use crate::job::Blade;
+use crate::Blade;
 use vcutc_backend_api::ir::Edges;
 use vcutc_diagnostics::source::Spanned;
 use vcutc_syntax::ast::Block;

@@ -184,7 +184,7 @@ impl Scope<'_> {
 }
 
 /// An expression and all that stand in it, from left to right, each before its parts.
-pub(crate) fn walk(expr: &Spanned<Expr>) -> impl Iterator<Item = &Spanned<Expr>> {
+pub fn walk(expr: &Spanned<Expr>) -> impl Iterator<Item = &Spanned<Expr>> {
     // A stack of its own: expressions may be long.
     let mut open = vec![expr];
     core::iter::from_fn(move || {

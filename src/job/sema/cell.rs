@@ -10,7 +10,7 @@ use super::names::{Definition, Thing, did_you_mean};
 use super::read::looks_like;
 use super::report::Checked;
 use super::session::Session;
-use crate::job::Machine;
+use crate::Machine;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};

@@ -11,7 +11,7 @@ use super::quantity::mm;
 use super::read::sourced;
 use super::report::{Checked, Reported, Reports};
 use super::session::Session;
-use crate::job::{Auto, Bounds, Lattice, Limits, Residual, RoughVcut, Sequence, Tip, Tips};
+use crate::{Auto, Bounds, Lattice, Limits, Residual, RoughVcut, Sequence, Tip, Tips};
 use core::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::Arc;

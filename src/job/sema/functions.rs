@@ -25,7 +25,7 @@ struct Function {
 /// What a function takes and gives, for those who help to write a call. The functions find out by themselves; a test holds the
 /// two against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Signature {
+pub enum Signature {
     /// An angle, and gives a pure number.
     OfAngle,
     /// A pure number, and gives an angle.
@@ -128,13 +128,11 @@ const FUNCTIONS: &[Function] = &[
 ];
 
 /// The names of all functions, each with a call of it.
-#[cfg(feature = "lsp")]
 pub(super) fn examples() -> impl Iterator<Item = (&'static str, &'static str)> {
     FUNCTIONS.iter().map(|function| (function.name, function.example))
 }
 
 /// What a function takes and gives.
-#[cfg(feature = "lsp")]
 pub(super) fn signature(name: &str) -> Option<Signature> {
     let known = FUNCTIONS.iter().find(|function| function.name == name)?;
     Some(known.signature)

@@ -8,7 +8,7 @@ use vcutc_syntax::ast::Relation;
 
 /// What kind of entry a field is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
+pub enum Form {
     /// `name = value`.
     Value,
     /// `name { ... }`.
@@ -50,7 +50,7 @@ impl Form {
 
 /// Whether a block must have a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Need {
+pub enum Need {
     /// It must.
     Required,
     /// It has a default, or means nothing when it is not there.
@@ -61,7 +61,7 @@ pub(crate) enum Need {
 /// two against each other.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
-pub(crate) enum Takes {
+pub enum Takes {
     /// Nothing that can be said in advance.
     Anything,
     /// A value of a range.
@@ -80,7 +80,7 @@ pub(crate) enum Takes {
 
 /// Whether a field can be left to the compiler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Leaving {
+pub enum Leaving {
     /// It takes `auto`.
     Open,
     /// It does not.
@@ -89,22 +89,22 @@ pub(crate) enum Leaving {
 
 /// A field that a block can have.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FieldSpec {
+pub struct FieldSpec {
     /// Its name.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// What kind of entry it is.
-    pub(crate) form: Form,
+    pub form: Form,
     /// A typical value; for a block with its braces.
-    pub(crate) typical: &'static str,
+    pub typical: &'static str,
     /// Whether it must be there.
     #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
-    pub(crate) need: Need,
+    pub need: Need,
     /// What its value is.
     #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
-    pub(crate) takes: Takes,
+    pub takes: Takes,
     /// Whether it takes `auto`.
     #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
-    pub(crate) leaving: Leaving,
+    pub leaving: Leaving,
 }
 
 impl FieldSpec {
@@ -146,7 +146,7 @@ impl FieldSpec {
     }
 
     /// The whole field with its typical value.
-    pub(crate) fn sample(&self) -> String {
+    pub fn sample(&self) -> String {
         match self.form {
             Form::Value => format!("{} = {}", self.name, self.typical),
             Form::Block | Form::Points => format!("{} {}", self.name, self.typical),
@@ -182,25 +182,25 @@ pub(crate) const fn bounds(name: &'static str, typical: &'static str) -> FieldSp
 
 /// A kind of block.
 #[derive(Debug)]
-pub(crate) struct BlockSpec {
+pub struct BlockSpec {
     /// What it is called in a sentence, such as `` `rough vcut` ``.
     pub(crate) title: &'static str,
     /// Its fields, in the order in which people write them.
-    pub(crate) fields: &'static [FieldSpec],
+    pub fields: &'static [FieldSpec],
     /// What becomes of inner blocks that are no fields.
-    pub(crate) inner: Inner,
+    pub inner: Inner,
 }
 
 impl BlockSpec {
     /// The field of that name.
-    pub(crate) fn field(&self, name: &str) -> Option<&'static FieldSpec> {
+    pub fn field(&self, name: &str) -> Option<&'static FieldSpec> {
         self.fields.iter().find(|field| field.name == name)
     }
 }
 
 /// What becomes of inner blocks that are no fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Inner {
+pub enum Inner {
     /// They are unknown.
     Refused,
     /// They are options for a target.

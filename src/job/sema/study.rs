@@ -13,7 +13,7 @@ use super::quantity::{Quantity, with_unit};
 use super::report::{Checked, Reports};
 use super::session::Session;
 use super::{Choices, Part, Said, cell, cut_short, options, understand, units};
-use crate::job::CheckedJob;
+use crate::CheckedJob;
 use vcutc_diagnostics::source::{FileId, LoadError, Loader, SourceMap, Spanned};
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_syntax::ast::{Ast, Expr};
@@ -236,8 +236,7 @@ impl Value {
     }
 
     /// Its dimension.
-    #[cfg(feature = "lsp")]
-    pub(crate) const fn dimension(self) -> Dimension {
+    pub const fn dimension(self) -> Dimension {
         self.0.dimension
     }
 

@@ -5,11 +5,11 @@ use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Spee
 
 /// A number with its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Quantity {
+pub struct Quantity {
     /// In mm, rad, s, kg and their products.
-    pub(crate) value: f64,
+    pub value: f64,
     /// What it is.
-    pub(crate) dimension: Dimension,
+    pub dimension: Dimension,
 }
 
 /// No quantity of a job is larger than this in mm, rad, s or kg: a million metres, or thirty years. Products of

@@ -10,7 +10,7 @@ use super::names::Thing;
 use super::overrides::Override;
 use super::report::{Checked, Reported};
 use super::session::Session;
-use crate::job::{GivenOption, GivenValue, Machine, TargetOptions};
+use crate::{GivenOption, GivenValue, Machine, TargetOptions};
 use std::collections::BTreeMap;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::units::Length;

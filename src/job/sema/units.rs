@@ -97,7 +97,7 @@ fn find(name: &str) -> Option<&'static Unit> {
 }
 
 /// So many of a unit, which is a simple one or a quotient such as `mm/s`; none when there is no such unit.
-pub(crate) fn quantity(number: f64, name: &str) -> Option<Quantity> {
+pub fn quantity(number: f64, name: &str) -> Option<Quantity> {
     let Some((above, below)) = split(name) else {
         let unit = find(name)?;
         return Some(Quantity::new(number * unit.size, unit.dimension));
@@ -108,7 +108,6 @@ pub(crate) fn quantity(number: f64, name: &str) -> Option<Quantity> {
 }
 
 /// What a unit is called: `metre per minute`; none when there is no such unit.
-#[cfg(feature = "lsp")]
 pub(super) fn spoken(name: &str) -> Option<String> {
     let Some((above, below)) = split(name) else {
         return Some(find(name)?.spoken.to_owned());
@@ -117,7 +116,6 @@ pub(super) fn spoken(name: &str) -> Option<String> {
 }
 
 /// The units of a dimension: simple ones, and the quotients that people write.
-#[cfg(feature = "lsp")]
 pub(super) fn fitting(dimension: Dimension) -> Vec<String> {
     let simple = UNITS.iter().map(|unit| unit.name);
     let quotients = COMPOUND_ALIASES.iter().map(|(_, unit)| *unit).chain(["rad/s"]);

@@ -41,14 +41,13 @@ mod spec;
 mod stock;
 pub mod study;
 mod tips;
-pub(crate) mod units;
-#[cfg(feature = "lsp")]
-pub(crate) mod vocabulary;
+pub mod units;
+pub mod vocabulary;
 
 #[cfg(test)]
 mod tests;
 
-use crate::job::{Blade, CheckedJob, Machine, Operation};
+use crate::{Blade, CheckedJob, Machine, Operation};
 use eval::Scope;
 use files::{File, Files};
 use gather::Definitions;

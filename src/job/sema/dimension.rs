@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 /// Exponents of the base dimensions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Dimension {
+pub struct Dimension {
     /// Of length.
     pub(crate) length: i8,
     /// Of angle.
@@ -21,11 +21,11 @@ pub(crate) struct Dimension {
 
 impl Dimension {
     /// A pure number.
-    pub(crate) const PURE: Self = Self::new(0, 0, 0, 0);
+    pub const PURE: Self = Self::new(0, 0, 0, 0);
     /// A length.
-    pub(crate) const LENGTH: Self = Self::new(1, 0, 0, 0);
+    pub const LENGTH: Self = Self::new(1, 0, 0, 0);
     /// An angle.
-    pub(crate) const ANGLE: Self = Self::new(0, 1, 0, 0);
+    pub const ANGLE: Self = Self::new(0, 1, 0, 0);
     /// A time.
     pub(crate) const TIME: Self = Self::new(0, 0, 1, 0);
     /// A mass.
@@ -71,7 +71,7 @@ impl Dimension {
     }
 
     /// Of a square root; none when an exponent is odd.
-    pub(crate) fn root(self) -> Option<Self> {
+    pub fn root(self) -> Option<Self> {
         let half = |exponent: i8, two: i8| (exponent % two == 0).then_some(exponent / two);
         self.zip(Self::new(2, 2, 2, 2), half)
     }
