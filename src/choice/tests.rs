@@ -6,7 +6,7 @@ mod finest;
 use super::choose;
 use crate::plan::decision::Standing;
 use crate::plan::route::{Heading, layers};
-use crate::plan::tests::{a_job, all_auto, operation, paper_job};
+use crate::plan::tests::{a_job, all_auto};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::sim::surface::{Side, Surface, Vee};
 use crate::verdict::{self, Proven};
@@ -15,6 +15,7 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Code;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::samples::{operation, paper_job};
 use vcutc_job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
 
 const ROUTES: [(Sequence, Order); 6] = [

@@ -621,9 +621,9 @@ fn motions_broken(faults: &[MotionFault]) -> Vec<(Option<OpId>, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::tests::paper_job;
     use vcutc_backend_api::verify::Rule;
     use vcutc_geometry::curve::Point2;
+    use vcutc_job::samples::paper_job;
 
     #[test]
     fn a_program_that_breaks_a_rule_is_the_compilers_fault() {

@@ -3,6 +3,8 @@
 //! Every value that a later stage may have to complain about knows where it was written.
 
 mod places;
+#[cfg(any(test, feature = "samples"))]
+pub mod samples;
 pub mod sema;
 
 use std::sync::Arc;

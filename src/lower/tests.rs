@@ -2,7 +2,6 @@
 
 use super::lower;
 use crate::choice::choose;
-use crate::plan::tests::{operation, paper_job};
 use crate::plan::{PlannedOperation, PlannedVcut, Way};
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Orientation, Point3};
@@ -11,6 +10,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::verify;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::samples::{operation, paper_job};
 use vcutc_job::{Auto, CheckedJob, Direction, Order};
 
 /// Two hollows with a hill between them that the leaning blade does not pass beside.

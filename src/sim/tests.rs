@@ -5,13 +5,13 @@ use super::timing::timing;
 use crate::choice::choose;
 use crate::lower::lower;
 use crate::plan::PlannedOperation;
-use crate::plan::tests::{operation, paper_job};
 use crate::verdict::prove;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::verify;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::samples::{operation, paper_job};
 use vcutc_job::{Auto, Operation, Residual};
 
 fn flat(z: f64) -> Vec<Point2> {

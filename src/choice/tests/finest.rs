@@ -2,9 +2,9 @@
 
 use super::{Open, gentle, hill, planned_and_proven, vcut};
 use crate::plan::optimum::Bound;
-use crate::plan::tests::operation;
 use crate::sim::prove::Findings;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_job::samples::operation;
 use vcutc_job::{CheckedJob, Objective, Sourced};
 
 /// How much more than what the least time shows to be possible may stay, or be used: it is a search.

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::choice::Latitude;
-use crate::plan::tests::{operation, paper_job};
 use crate::sim::surface::Surface;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::samples::{operation, paper_job};
 use vcutc_job::{Operation, Sourced};
 
 /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
