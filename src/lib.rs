@@ -2,14 +2,12 @@
 
 pub mod air;
 pub mod checks;
-pub mod choice;
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "krl")]
 pub mod convert;
 pub mod driver;
 pub mod hints;
-pub mod lower;
 #[cfg(feature = "lsp")]
 pub mod lsp;
 pub mod manifest;
@@ -19,8 +17,6 @@ pub mod optimisation;
 pub mod pace;
 pub mod picture;
 pub mod placement;
-pub mod plan;
-pub mod posture;
 pub mod reach;
 pub mod reach_summary;
 pub mod reach_verdict;
@@ -28,14 +24,13 @@ pub mod readback;
 pub mod registry;
 pub mod remedy;
 pub mod report;
-pub mod sim;
 pub mod starter;
 pub mod summary;
-pub mod verdict;
 pub use vcutc_cancellation as cancellation;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_diff as diff;
 pub use vcutc_geometry as geometry;
 pub use vcutc_job as job;
 pub use vcutc_machine as machine;
+pub use vcutc_process as process;
 pub use vcutc_syntax as syntax;

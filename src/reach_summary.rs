@@ -1,12 +1,12 @@
 //! What a program asks of its machine, for people and for programs: the [`ReachFigures`], their lines and their table.
 
-use crate::plan::parameters::show;
 use crate::reach::demand::{Extreme, axis_margin};
 use crate::reach::describe::{branch_words, kuka_status, site_words};
 use crate::reach::solve::Reached;
 use serde::{Serialize, Serializer};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker, Program};
 use vcutc_backend_api::motion::{Branch, Stretch};
+use vcutc_process::plan::parameters::show;
 
 /// What a program asks of its machine.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -6,8 +6,6 @@ mod size;
 
 pub use size::too_large;
 
-use crate::plan::PlannedJob;
-use crate::plan::parameters::show;
 use crate::reach::describe::{branch_words, site_words, value_words};
 use crate::reach::legs::{Leg, Pace, Stroke, legs};
 use crate::reach::path::{Singularity, Violation};
@@ -25,6 +23,8 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{CheckedJob, Machine, Operation, RoughVcut};
+use vcutc_process::plan::PlannedJob;
+use vcutc_process::plan::parameters::show;
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.

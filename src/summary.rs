@@ -6,14 +6,14 @@ pub mod times;
 
 use crate::checks::Checks;
 use crate::pace::Basis;
-use crate::plan::decision::{Decision, Excess, Standing};
-use crate::plan::parameters::show;
-use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use crate::reach_summary::{self, ReachFigures};
-use crate::sim::report::Report;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::{Order, RoughVcut, WhyChosen};
+use vcutc_process::plan::decision::{Decision, Excess, Standing};
+use vcutc_process::plan::parameters::show;
+use vcutc_process::plan::{PlannedJob, PlannedOperation, PlannedVcut};
+use vcutc_process::sim::report::Report;
 
 /// Most layers whose cuts are listed one by one.
 const LISTED_LAYERS: usize = 24;

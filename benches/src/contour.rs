@@ -15,8 +15,8 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{IntOverlayOptions, Overlay};
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
-use vcutc::plan::{PlannedJob, PlannedOperation};
-use vcutc::sim::prove::Replay;
+use vcutc::process::plan::{PlannedJob, PlannedOperation};
+use vcutc::process::sim::prove::Replay;
 
 /// How high triangles are.
 #[derive(Clone, Copy, Debug)]

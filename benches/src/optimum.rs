@@ -4,8 +4,8 @@
 //! constraints. They answer from where they start; whether that is the best there is they do not say.
 
 use vcutc::job::{Formulas, Lattice, Objective};
-use vcutc::plan::optimum::Problem;
-use vcutc::plan::optimum::published::table_1;
+use vcutc::process::plan::optimum::Problem;
+use vcutc::process::plan::optimum::published::table_1;
 use vcutc_backend_api::units::Duration;
 
 /// All lattices.

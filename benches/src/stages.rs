@@ -3,13 +3,13 @@
 //! The jobs here are right, so whatever goes wrong is a fault of the compiler or of the benchmark: it ends the run. None
 //! of them is inlined, so that profilers show them by their names.
 
-use vcutc::choice;
+use vcutc::process::choice;
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::job::CheckedJob;
-use vcutc::plan::{PlannedJob, PlannedOperation};
+use vcutc::process::plan::{PlannedJob, PlannedOperation};
 use vcutc::job::sema;
-use vcutc::sim::prove::{self, Bound, Findings, Replay};
-use vcutc::sim::timing::Times;
+use vcutc::process::sim::prove::{self, Bound, Findings, Replay};
+use vcutc::process::sim::timing::Times;
 use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
 use vcutc::syntax::{self, ast::Ast};
 use vcutc::{lower, sim};

@@ -5,9 +5,9 @@ use super::milling::{Milling, Move, Written};
 use super::plunges::{Plunge, Start};
 use super::raster::Pass;
 use super::runs::{Kind, Run, Stretch};
-use crate::plan::parameters::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_process::plan::parameters::show;
 
 /// At the program as a whole: at its first motion, or where its text begins.
 fn at_the_program(milling: &Milling) -> Span {

@@ -5,9 +5,9 @@ use super::asked::{Asked, FeedUnit};
 use super::complaints;
 use super::milling::{Milling, Written};
 use super::raster::Raster;
-use crate::plan::parameters::show;
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 use vcutc_diagnostics::Diagnostic;
+use vcutc_process::plan::parameters::show;
 
 /// The fastest that a controller moves a tool, in m/s: the limit of `$VEL.CP` [KSS 8.3, system variables].
 const FASTEST: f64 = 3.0;

@@ -4,9 +4,9 @@ use super::milling::Milling;
 use super::plunges::Plunge;
 use super::raster::{Pass, Raster};
 use super::write::Numbered;
-use crate::plan::parameters::show;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_process::plan::parameters::show;
 
 /// All warnings about a program.
 pub(super) fn warnings(milling: &Milling, raster: &Raster, sources: &SourceMap) -> Vec<Diagnostic> {

@@ -35,9 +35,6 @@ mod read;
 mod runs;
 pub mod write;
 
-use crate::plan::blade_reach::Flanks;
-use crate::plan::grid;
-use crate::plan::parameters::show;
 use asked::Asked;
 use axes::Axes;
 use core::fmt;
@@ -51,6 +48,9 @@ use vcutc_backend_api::readback::ProgramFile;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 use vcutc_diagnostics::{Diagnostic, Label};
+use vcutc_process::plan::blade_reach::Flanks;
+use vcutc_process::plan::grid;
+use vcutc_process::plan::parameters::show;
 use write::{Blade, JobText, Material, Part, ProfileFile};
 
 /// Half the apex angle of the blade of [Cui 2020], table 1, for a blade of which nothing is said.

@@ -6,11 +6,11 @@ use super::axes::{Axis, Direction, Sense};
 use super::feeds::feeds;
 use super::milling::Milling;
 use super::settled;
-use crate::plan::grid;
-use crate::plan::parameters::show;
 use core::fmt;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::Diagnostic;
+use vcutc_process::plan::grid;
+use vcutc_process::plan::parameters::show;
 
 /// A program that is no raster as it is read, and what may make it one.
 pub(super) struct Unsettled {

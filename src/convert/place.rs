@@ -13,7 +13,7 @@ use super::offers::{Choice, Offer, Unsettled};
 use super::raster::SAME;
 use super::runs::{Run, runs};
 
-use crate::plan::parameters::show;
+use vcutc_process::plan::parameters::show;
 
 /// A blank in the axes of a job.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,9 +7,9 @@
 
 use super::place::Blank;
 use super::raster::{Pass, SAME};
-use crate::sim::surface::{Surface, Vee};
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::Point2;
+use vcutc_process::sim::surface::{Surface, Vee};
 
 /// A motion that ends, or begins, below the top of the blank, in its axes from its corner.
 #[derive(Clone, Copy, Debug, PartialEq)]

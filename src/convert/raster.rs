@@ -11,10 +11,10 @@ use super::milling::{Milling, Way, Written};
 use super::place::Blank;
 use super::plunges::{self, Plunge, Start};
 use super::runs::{Course, Kind, Run, Stretch, courses};
-use crate::plan::grid;
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
+use vcutc_process::plan::grid;
 
 /// Coordinates this close, in mm, are the same: programs are printed with two or three decimals.
 pub(super) const SAME: f64 = 0.01;

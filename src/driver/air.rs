@@ -4,11 +4,9 @@
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
 use crate::air::{least_gap, least_lift, lifted};
 use crate::checks::{Carried, Checks};
-use crate::plan::parameters::show;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use crate::reach_summary;
 use crate::reach_verdict;
-use crate::sim::timing::times;
 use crate::summary::air::{AirFigures, Mover, summary};
 use crate::summary::times::figures as time_figures;
 use vcutc_backend_api::ir::{Head, Program, Purpose};
@@ -18,6 +16,8 @@ use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::sema::units;
 use vcutc_job::{CheckedJob, Operation};
+use vcutc_process::plan::parameters::show;
+use vcutc_process::sim::timing::times;
 
 /// Nothing in a cell is higher, in mm.
 const HIGHEST: f64 = 10_000.0;

@@ -6,14 +6,14 @@
 
 use super::yielding::Yielding;
 use super::{Compiled, Ended, Kept, Stage, axis_moves, compiled, reaching};
-use crate::choice::{self, Leeway};
-use crate::plan::PlannedJob;
 use crate::reach::solve::Changes;
-use crate::verdict;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_job::{CheckedJob, Objective, Operation};
+use vcutc_process::choice::{self, Leeway};
+use vcutc_process::plan::PlannedJob;
+use vcutc_process::verdict;
 
 /// A plan that the machine follows along a slower route, perhaps.
 pub(super) struct Slower {

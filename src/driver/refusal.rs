@@ -7,15 +7,15 @@
 
 use super::target::{self, Objection};
 use super::trials::Trials;
-use crate::choice::Complaints;
-use crate::plan::PlannedJob;
 use crate::reach::solve::Unreached;
 use crate::reach_verdict;
-use crate::verdict::{self, Proven};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::CheckedJob;
+use vcutc_process::choice::Complaints;
+use vcutc_process::plan::PlannedJob;
+use vcutc_process::verdict::{self, Proven};
 
 /// Who waits for an outcome, and for how long.
 pub trait Patience {

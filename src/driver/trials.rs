@@ -6,12 +6,12 @@
 
 use super::{Ended, Kept, Request, Stage, Unhurried, along_its_routes, target};
 use crate::memory::Memory;
-use crate::plan::{PlannedJob, PlannedOperation};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, fix, has_errors};
 use vcutc_job::sema;
+use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// Most changes that are compiled for one refusal.
 const MOST_TRIALS: usize = 12;

@@ -4,20 +4,20 @@
 //! few telling motions say much sooner ([`Strokes`]): those that they rule out are not planned. How many plans are
 //! proven is bounded by [`MOST_PLANS`], and for jobs of many cuts by [`MOST_CUTS_PUT`].
 
-use crate::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
-use crate::lower;
-use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
 use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
 use crate::reach::solve::{Changes, Unreachable, Unreached};
 use crate::reach::trouble::Trouble;
-use crate::sim::surface::Surface;
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{Auto, CheckedJob, Operation, Order, Sequence};
+use vcutc_process::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
+use vcutc_process::lower;
+use vcutc_process::plan::{PlannedJob, PlannedOperation};
+use vcutc_process::sim::surface::Surface;
 
 /// Most plans that are put to the machine.
 const MOST_PLANS: usize = 10;

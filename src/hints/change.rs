@@ -1,11 +1,11 @@
 //! Changes of a job that a hint may speak of: what they do to the checked job, and what to write where.
 
-use crate::plan::parameters::show;
 use crate::remedy::speed::Field;
 use crate::remedy::{self, Elsewhere, wording};
 use vcutc_diagnostics::Edit;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{CheckedJob, Direction, Operation, RoughVcut};
+use vcutc_process::plan::parameters::show;
 
 /// A change of a job.
 #[derive(Clone, Debug, PartialEq)]

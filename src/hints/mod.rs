@@ -14,8 +14,6 @@ mod change;
 mod tests;
 
 use crate::driver::{self, Compiled, Yielded};
-use crate::lower;
-use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
 use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
@@ -31,6 +29,8 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Fix;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{CheckedJob, Direction, Machine, Operation};
+use vcutc_process::lower;
+use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// Most hints for one job.
 const MOST_HINTS: usize = 3;

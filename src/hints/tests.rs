@@ -1,11 +1,11 @@
 //! Hints are tried: applied, a job takes the time that they state.
 
 use super::*;
-use crate::choice::choose;
 use crate::driver::{Outcome, Request, Typed, compile};
 use crate::reach::solve::Unreached;
 use crate::remedy::trial;
 use vcutc_diagnostics::source::{LoadError, Loader};
+use vcutc_process::choice::choose;
 
 /// Few cuts, with a `reorient` that no axis of the head follows.
 const JOB: &str = r#"job "tip"

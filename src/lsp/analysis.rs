@@ -9,7 +9,6 @@ use super::text::Text;
 use crate::driver::{self, Outcome, Patience, Request, RequestError, Typed, Unhurried};
 use crate::hints::{Hint, hints};
 use crate::memory::Memory;
-use crate::plan::PlannedJob;
 use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Interest, Needless, Wanted};
@@ -17,6 +16,7 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
 use vcutc_job::sema::study::{Study, study};
 use vcutc_job::sema::{Choices, Part};
+use vcutc_process::plan::PlannedJob;
 use vcutc_syntax::ast::{Ast, Item};
 
 /// The texts of open documents, by their paths. They stand for the files.

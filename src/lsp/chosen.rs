@@ -2,8 +2,8 @@
 
 use super::analysis::Analysis;
 use super::sites::Site;
-use crate::plan::{PlannedOperation, PlannedVcut};
 use crate::summary::compared;
+use vcutc_process::plan::{PlannedOperation, PlannedVcut};
 
 /// What came of a field that was left open.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -15,8 +15,6 @@ mod shelf;
 #[cfg(test)]
 mod tests;
 
-use crate::choice::{self, Complaints, Leeway};
-use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::solve::{
     Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
 };
@@ -28,6 +26,8 @@ use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_cancellation::Wanted;
 use vcutc_job::{CheckedJob, Operation};
 use vcutc_machine::Model;
+use vcutc_process::choice::{self, Complaints, Leeway};
+use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// Most cuts and ops of all that is kept: some 100 MB.
 const ROOM: usize = 400_000;

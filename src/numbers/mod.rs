@@ -5,11 +5,11 @@
 
 pub mod baseline;
 
-use crate::plan::{PlannedJob, PlannedOperation};
-use crate::sim::report::Report;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 use vcutc_backend_api::units::Duration;
+use vcutc_process::plan::{PlannedJob, PlannedOperation};
+use vcutc_process::sim::report::Report;
 
 /// Figures of a program. The names carry their units; `docs/ci.md` explains each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

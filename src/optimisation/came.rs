@@ -3,14 +3,14 @@
 //! A plan of few cuts takes a fraction of a second, one of thousands takes many. So what may be planned for one answer is
 //! bounded, in cuts by the formulas; what is beyond that is marked as the formulas' alone.
 
-use crate::choice;
-use crate::plan::PlannedOperation;
-use crate::plan::parameters::VcutParameters;
-use crate::sim::prove::Findings;
-use crate::verdict;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{CheckedJob, Operation, RoughVcut};
+use vcutc_process::choice;
+use vcutc_process::plan::PlannedOperation;
+use vcutc_process::plan::parameters::VcutParameters;
+use vcutc_process::sim::prove::Findings;
+use vcutc_process::verdict;
 
 /// What came of a change of the job.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! `vcutc optimize`: what the open parameters of a job come out as, what else there would be, and what it would cost.
 //!
 //! The job is compiled as ever, so that what is told of the chosen parameters was planned, proven and timed. Beside it the
-//! problem of each operation ([`crate::plan::optimum`]) is solved again: on every lattice, by the paper's formulas and by the
+//! problem of each operation ([`vcutc_process::plan::optimum`]) is solved again: on every lattice, by the paper's formulas and by the
 //! exact ones, with each binding bound relaxed, and for a row of limits of the scallop. Those answers are the model's alone.
 
 mod bounds;
@@ -15,15 +15,15 @@ pub use trade_off::TradeOff;
 
 use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
 use crate::picture::pareto::{self, Curve, Pareto};
-use crate::plan::optimum::{self, Optimum, Problem};
-use crate::plan::parameters::{self, VcutParameters};
-use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use came::{Room, came};
 use vcutc_backend_api::ir::{OperationId, Site};
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced};
+use vcutc_process::plan::optimum::{self, Optimum, Problem};
+use vcutc_process::plan::parameters::{self, VcutParameters};
+use vcutc_process::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 
 /// What came of a job's open parameters.
 #[derive(Debug)]

@@ -4,13 +4,13 @@ use super::bounds::{Relaxed, name, value};
 use super::{
     Came, Faster, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Planned, Role, Row,
 };
-use crate::plan::optimum::{Bound, Infeasible, Optimum, Problem};
-use crate::plan::parameters::VcutParameters;
-use crate::plan::parameters::show;
 use serde::Serialize;
 use std::fmt::Write;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::Objective;
+use vcutc_process::plan::optimum::{Bound, Infeasible, Optimum, Problem};
+use vcutc_process::plan::parameters::VcutParameters;
+use vcutc_process::plan::parameters::show;
 
 /// An objective in words.
 #[must_use]

@@ -2,9 +2,9 @@
 
 use super::LATTICES;
 use super::came::Came;
-use crate::plan::optimum::{self, Optimum, Problem};
 use vcutc_backend_api::units::Length;
 use vcutc_job::Lattice;
+use vcutc_process::plan::optimum::{self, Optimum, Problem};
 
 /// What limits of the scallop cost.
 #[derive(Clone, Debug, PartialEq)]

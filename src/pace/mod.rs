@@ -28,7 +28,6 @@ use crate::reach::legs::{Leg, Poses, Stroke, Taught, legs, numbered};
 use crate::reach::path::{Course, Followed};
 use crate::reach::rig::Rig;
 use crate::reach::solve::rig;
-use crate::sim::timing::op_times;
 use chebyshev::Weights;
 use profile::Bounds;
 use rayon::prelude::*;
@@ -40,6 +39,7 @@ use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Joints;
 use vcutc_machine::path_limits::PathLimits;
+use vcutc_process::sim::timing::op_times;
 
 /// What of a machine the times of a program keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

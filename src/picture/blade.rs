@@ -312,9 +312,9 @@ fn label(svg: &mut Svg, [x, y]: [f64; 2], anchor: Anchor, words: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::posture::{Feed, Holder};
     use vcutc_backend_api::ir::{Edges, Flank};
     use vcutc_backend_api::units::Angle;
+    use vcutc_process::posture::{Feed, Holder};
 
     /// The axes as the program holds the blade, by quaternions.
     #[test]

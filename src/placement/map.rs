@@ -1,11 +1,11 @@
 //! Margins over x and y, at one height and one turn of the work.
 
 use crate::picture::heat_map::{HeatMap, draw};
-use crate::plan::parameters::show;
 use crate::reach::place::Spot;
 use crate::reach::place::score::Judge;
 use crate::reach::place::search::{Bounds, evenly, judge};
 use vcutc_backend_api::geometry::Frame;
+use vcutc_process::plan::parameters::show;
 
 /// Margins by the taught poses, over the bounds of x and y.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,9 +11,7 @@ pub mod report;
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
-use crate::choice::{self, Latitude, Leeway};
 use crate::driver::{self, Request, Stage, internal, rules_broken};
-use crate::plan::PlannedJob;
 use crate::reach::place::Spot;
 use crate::reach::place::score::Judge;
 use crate::reach::place::search::{Bounds, Criteria, Placed, search};
@@ -22,13 +20,15 @@ use crate::reach::place::taught::TaughtPoses;
 use crate::reach::rig::Rig;
 use crate::remedy::trial::{self, Room};
 use crate::remedy::wording;
-use crate::verdict;
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 use vcutc_job::sema;
 use vcutc_job::{CheckedJob, Machine};
+use vcutc_process::choice::{self, Latitude, Leeway};
+use vcutc_process::plan::PlannedJob;
+use vcutc_process::verdict;
 
 /// Where the work stands best.
 #[derive(Clone, Debug)]

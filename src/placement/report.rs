@@ -1,7 +1,6 @@
 //! What came of placing, for people and for programs.
 
 use super::{Best, Placement, Standing};
-use crate::plan::parameters::show;
 use crate::reach::place::Spot;
 use crate::reach::place::search::Bounds;
 use crate::remedy::trial::Room;
@@ -9,6 +8,7 @@ use crate::remedy::wording::frame_text;
 use serde::Serialize;
 use std::fmt::Write;
 use vcutc_backend_api::ir::PlacedFrame;
+use vcutc_process::plan::parameters::show;
 
 /// Most places that did not pass which are told of.
 const MOST_REFUSED: usize = 3;

@@ -1,12 +1,12 @@
 //! A length that carries the blade so far out of the stock that no machine follows: its unit is the likelier cause than the place of
 //! the work.
 
-use crate::plan::parameters::show;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::Op;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{Auto, CheckedJob, Operation, RoughVcut};
+use vcutc_process::plan::parameters::show;
 
 /// How far out of the stock a tip is carried by lengths that are meant, at most, in mm.
 const MEANT: f64 = 1000.0;

@@ -1,7 +1,6 @@
 //! A posture that the two rotary axes of a five-axis machine cannot hold, in words: by how much the blade plane stays turned,
 //! and which axis is missing.
 
-use crate::plan::parameters::show;
 use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -9,6 +8,7 @@ use vcutc_job::Machine;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::FiveAxis;
 use vcutc_machine::kinematics::pose::Pose;
+use vcutc_process::plan::parameters::show;
 
 /// What is told of a pose of the blade in the work that rotary axes without limits do not reach. None for other machines, and
 /// for poses that they do. `place` says which pose it is, such as `layer 7, cut 12`.

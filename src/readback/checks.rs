@@ -7,15 +7,8 @@
 use super::differences::{Scene, asked, place_in};
 use super::rebuild::{Obstacle, Rebuilt};
 use super::wording::op_words;
-use crate::plan::PlannedJob;
-use crate::plan::parameters::show;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
 use crate::reach_verdict;
-use crate::sim::prove::{CutFault, Finding};
-use crate::sim::report::report;
-use crate::sim::slit::{Entry, deepest, edge};
-use crate::sim::timing::timing;
-use crate::verdict;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site};
@@ -26,6 +19,13 @@ use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_machine::Model;
+use vcutc_process::plan::PlannedJob;
+use vcutc_process::plan::parameters::show;
+use vcutc_process::sim::prove::{CutFault, Finding};
+use vcutc_process::sim::report::report;
+use vcutc_process::sim::slit::{Entry, deepest, edge};
+use vcutc_process::sim::timing::timing;
+use vcutc_process::verdict;
 
 /// What is needed to prove a program that was read.
 #[derive(Clone, Copy)]
@@ -259,7 +259,7 @@ impl Read<'_> {
         Some(and_more(diagnostic, count - 1))
     }
 
-    fn entry(&self, bounds: &[crate::sim::prove::Bound<'_>], cut: &CutAt) -> Option<Entry> {
+    fn entry(&self, bounds: &[vcutc_process::sim::prove::Bound<'_>], cut: &CutAt) -> Option<Entry> {
         let program = self.program();
         // A cut that belongs to nothing is held against the first operation's bound.
         let operation = cut

@@ -4,10 +4,10 @@
 //! only, and some of what a program says was never judged.
 
 use super::rebuild::Rebuilt;
-use crate::plan::parameters::show;
 use vcutc_backend_api::ir::{Action, Op, Program, Purpose};
 use vcutc_backend_api::readback::Grain;
 use vcutc_backend_api::script::speeds;
+use vcutc_process::plan::parameters::show;
 
 /// Most kinds of changed speeds that are named.
 const MOST_NAMED: usize = 3;

@@ -4,7 +4,6 @@
 //! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
 
 use super::{Case, Remedy, trial, wording};
-use crate::plan::parameters::show;
 use crate::reach::place::score::{Effort, Judge};
 use crate::reach::place::search::ask_all;
 use crate::reach::place::strokes::Strokes;
@@ -16,6 +15,7 @@ use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::Machine;
+use vcutc_process::plan::parameters::show;
 
 /// How far the base is moved along a direction, in mm.
 const DISTANCES: [f64; 14] = [

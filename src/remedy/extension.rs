@@ -1,11 +1,11 @@
 //! Extensions that the turns of a five-axis machine need.
 
-use crate::plan::{PlannedJob, PlannedOperation, grid};
 use crate::reach::solve::Unreached;
 use crate::reach::sweep::Cure;
 use crate::reach::trouble::Trouble;
 use vcutc_backend_api::units::Length;
 use vcutc_job::{Auto, CheckedJob, Operation};
+use vcutc_process::plan::{PlannedJob, PlannedOperation, grid};
 
 /// The job with the extension that the turns of its machine need, and `run_out` besides. None where something else is in the
 /// way, or the job states the extension itself.

@@ -26,7 +26,6 @@ pub mod wording;
 pub use base::Elsewhere;
 pub use extension::farther_out;
 
-use crate::plan::{PlannedJob, PlannedOperation};
 use crate::reach::path::Violation;
 use crate::reach::solve::Unreachable;
 use crate::reach::trouble::Trouble;
@@ -34,6 +33,7 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{CheckedJob, Direction, Machine, RoughVcut};
+use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// A change that was tried and makes the job compile.
 #[derive(Clone, Debug, PartialEq, Eq)]

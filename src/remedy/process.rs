@@ -1,14 +1,14 @@
 //! Cuts that ask less of the arm: in another direction or order, or with a smaller swing.
 
 use super::{Case, Remedy, trial};
-use crate::plan::PlannedOperation;
-use crate::plan::parameters::show;
 use crate::reach::sweep::{Cure, Sweep};
 use crate::reach::trouble::Trouble;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{Auto, CheckedJob, Direction, Operation, Order, RoughVcut};
+use vcutc_process::plan::PlannedOperation;
+use vcutc_process::plan::parameters::show;
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];

@@ -6,7 +6,6 @@
 //! other speeds: this goes on until no axis is too slow, and then the job is tried with its rates.
 
 use super::{Case, Remedy, trial};
-use crate::plan::parameters::show;
 use crate::reach::demand::Demand;
 use crate::reach::legs::{Leg, Pace, legs};
 use crate::reach::path::Violation;
@@ -18,6 +17,7 @@ use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{Operation, RoughVcut};
 use vcutc_machine::Model;
+use vcutc_process::plan::parameters::show;
 
 /// What a lower speed costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

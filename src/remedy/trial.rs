@@ -1,8 +1,6 @@
 //! Trials: a changed job through the whole pipeline.
 
 use super::{Case, farther_out};
-use crate::lower;
-use crate::plan::PlannedJob;
 use crate::reach::demand::{Demand, axis_margin};
 use crate::reach::describe::{site_words, value_words};
 use crate::reach::path::Violation;
@@ -10,13 +8,15 @@ use crate::reach::place::strokes::Strokes;
 use crate::reach::rig::Rig;
 use crate::reach::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve_while};
 use crate::reach::trouble::{Failing, Trouble};
-use crate::verdict;
 use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
+use vcutc_process::lower;
+use vcutc_process::plan::PlannedJob;
+use vcutc_process::verdict;
 
 /// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.
 const MOST_EXTENSIONS: usize = 3;

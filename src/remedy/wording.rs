@@ -2,11 +2,11 @@
 //!
 //! What is offered has been tried in exactly the form in which it is offered, so values are rounded first and tried then.
 
-use crate::plan::parameters::show;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MachineKind, PlacedFrame};
 use vcutc_backend_api::units::Angle;
 use vcutc_machine::Model;
+use vcutc_process::plan::parameters::show;
 
 /// A frame with the decimals that [`frame_text`] writes: lengths and angles to thousandths of mm and deg.
 #[must_use]

@@ -1,11 +1,11 @@
 //! What has to be put right before a program runs, as names and values: the same on the page and on the set-up sheet.
 
 use super::Material;
-use crate::plan::PlannedOperation;
-use crate::plan::parameters::show;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Ready, Registered};
 use vcutc_job::{Blade, CheckedJob, Machine, RoughVcut};
+use vcutc_process::plan::PlannedOperation;
+use vcutc_process::plan::parameters::show;
 
 /// A name and a value, as plain text.
 pub(super) type Fact = (&'static str, String);

@@ -9,8 +9,8 @@ pub mod playback;
 pub mod sheet;
 
 use crate::driver::{Compiled, Outcome};
-use crate::plan::PlannedJob;
 use vcutc_job::CheckedJob;
+use vcutc_process::plan::PlannedJob;
 
 /// What a report is made from: a job that compiled, with all that came of it.
 #[derive(Clone, Copy, Debug)]

@@ -16,11 +16,11 @@ pub use time::time;
 use super::Material;
 use crate::picture::thin::Thinned;
 use crate::picture::{Prefix, contour, correlation, deviation, lattice};
-use crate::plan::parameters::show;
-use crate::plan::{PlannedOperation, PlannedVcut, TipOrigin};
-use crate::sim::contour::{SAMPLES, Sampled, sampled};
-use crate::verdict;
 use vcutc_geometry::curve::Point2;
+use vcutc_process::plan::parameters::show;
+use vcutc_process::plan::{PlannedOperation, PlannedVcut, TipOrigin};
+use vcutc_process::sim::contour::{SAMPLES, Sampled, sampled};
+use vcutc_process::verdict;
 
 /// The lattice: tips by origin, flanks, layers (`picture::lattice`).
 #[must_use]

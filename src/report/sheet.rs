@@ -12,10 +12,10 @@ use super::page::policy::{Requests, policy};
 use crate::checks::{Checks, ReadBack};
 use crate::driver::Outcome;
 use crate::picture::{Prefix, setup};
-use crate::plan::{PlannedOperation, PlannedVcut};
 use crate::summary::time;
 use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::Duration;
+use vcutc_process::plan::{PlannedOperation, PlannedVcut};
 
 const STYLE: &str = include_str!("assets/sheet.css");
 /// Most layers that have a row each; more than that are folded into one.

@@ -3,10 +3,10 @@
 use super::{IN_HAND, row, time, times};
 use crate::air::{TIP_SPEED, TURNING_RATE};
 use crate::pace::Basis;
-use crate::plan::parameters::show;
 use crate::reach_summary::{self, ReachFigures};
-use crate::sim::report::Report;
 use vcutc_backend_api::units::Length;
+use vcutc_process::plan::parameters::show;
+use vcutc_process::sim::report::Report;
 
 /// An air cut.
 #[derive(Clone, Debug, PartialEq)]

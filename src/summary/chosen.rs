@@ -1,9 +1,9 @@
 //! What was chosen and what was given, as numbers: the parameters of every operation for other programs.
 
-use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use serde::Serialize;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_job::{Auto, RoughVcut, Sourced};
+use vcutc_process::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 
 /// The parameters of one operation.
 #[derive(Clone, Debug, PartialEq, Serialize)]

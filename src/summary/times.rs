@@ -2,9 +2,9 @@
 
 use super::time;
 use crate::pace::{Basis, Kept};
-use crate::sim::report::Report;
-use crate::sim::timing::{LayerTime, Timing};
 use serde::Serialize;
+use vcutc_process::sim::report::Report;
+use vcutc_process::sim::timing::{LayerTime, Timing};
 
 /// Where the time of a program goes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -3,7 +3,7 @@
 use crate::pipeline::{Files, compile};
 use vcutc::driver::Compiled;
 use vcutc::job::Order;
-use vcutc::plan::PlannedOperation;
+use vcutc::process::plan::PlannedOperation;
 
 /// A job of an arched part whose best lattice an earlier search missed: its even and odd rows end at different places.
 fn arched(lattice: &str, layer: &str, step: &str) -> String {

@@ -3,7 +3,7 @@
 use crate::pipeline::{Files, compile, numbers, told};
 use crate::repository::read;
 use glam::{DMat3, DVec3};
-use vcutc::plan::PlannedOperation;
+use vcutc::process::plan::PlannedOperation;
 use vcutc::reach::solve::rig;
 use vcutc::reach::trajectory::{Spacing, trajectory};
 use vcutc_backend_api::ir::Action;

@@ -14,7 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use vcutc::driver::Outcome;
 use vcutc::job::{Auto, Operation};
-use vcutc::plan::{PlannedOperation, TipOrigin, Way};
+use vcutc::process::plan::{PlannedOperation, TipOrigin, Way};
 use vcutc::registry;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::exchange::Exchange;

@@ -8,9 +8,9 @@ use crate::published::{ARC, LEAD_DEG};
 use crate::repository::{read, root};
 use vcutc::driver::Outcome;
 use vcutc::job::{Formulas, Lattice};
-use vcutc::plan::optimum::published::table_1;
-use vcutc::plan::optimum::{Optimum, Problem, Range, solve};
-use vcutc::plan::{PlannedOperation, blade_reach};
+use vcutc::process::plan::optimum::published::table_1;
+use vcutc::process::plan::optimum::{Optimum, Problem, Range, solve};
+use vcutc::process::plan::{PlannedOperation, blade_reach};
 use vcutc_backend_api::units::{Angle, Length};
 
 const PAGE: &str = "docs/optimum.md";

@@ -10,8 +10,8 @@ use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
 use vcutc::picture::thin::Thinned;
 use vcutc::picture::{PAGE_WIDTH, PHONE_WIDTH, Prefix, contour, joints, lattice};
+use vcutc::process::verdict;
 use vcutc::report::{Material, pictures};
-use vcutc::verdict;
 
 /// The pictures of `docs/pictures.md`: example, what is drawn.
 const SHOWN: [(&str, &str); 6] = [

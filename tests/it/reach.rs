@@ -3,12 +3,12 @@
 
 use crate::pipeline::{Files, compile, emit, told};
 use crate::repository::root;
-use vcutc::choice;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::Outcome;
 use vcutc::job::CheckedJob;
-use vcutc::lower::lower;
 use vcutc::machine::kinematics::Joints;
+use vcutc::process::choice;
+use vcutc::process::lower::lower;
 use vcutc::reach::demand::Demand;
 use vcutc::reach::legs::{Leg, Poses, legs};
 use vcutc::reach::path::prove;

@@ -4,8 +4,8 @@ use crate::pipeline::{Files, compile};
 use proptest::prelude::*;
 use vcutc::driver::Outcome;
 use vcutc::job::Lattice;
-use vcutc::plan::parameters::VcutParameters;
-use vcutc::plan::{PlannedOperation, blade_reach};
+use vcutc::process::plan::parameters::VcutParameters;
+use vcutc::process::plan::{PlannedOperation, blade_reach};
 
 const WIDTH: f64 = 120.0;
 const LATTICES: [&str; 3] = ["orthogonal", "interlaced", "free"];

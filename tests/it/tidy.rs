@@ -12,49 +12,25 @@ const MOST_LINES: usize = 700;
 const MAY_USE: &[(&str, &[&str])] = &[
     ("air", &[]),
     ("registry", &[]),
-    ("posture", &[]),
-    ("numbers", &["plan", "sim"]),
+    ("numbers", &[]),
     ("manifest", &["numbers"]),
-    ("reach", &["sim"]),
-    ("sim", &[]),
-    ("plan", &["posture", "sim"]),
-    ("lower", &["plan", "posture"]),
-    ("choice", &["lower", "plan", "sim"]),
-    ("pace", &["reach", "sim"]),
-    (
-        "summary",
-        &["air", "checks", "pace", "plan", "reach_summary", "sim"],
-    ),
+    ("reach", &[]),
+    ("pace", &["reach"]),
+    ("summary", &["air", "checks", "pace", "reach_summary"]),
     ("checks", &["pace", "reach"]),
-    ("reach_summary", &["plan", "reach"]),
+    ("reach_summary", &["reach"]),
     ("picture", &[]),
-    ("remedy", &["lower", "plan", "reach", "verdict"]),
-    ("reach_verdict", &["plan", "reach", "remedy"]),
-    ("readback", &["plan", "reach", "reach_verdict", "sim", "verdict"]),
-    (
-        "placement",
-        &[
-            "choice", "driver", "picture", "plan", "reach", "remedy", "verdict",
-        ],
-    ),
+    ("remedy", &["reach"]),
+    ("reach_verdict", &["reach", "remedy"]),
+    ("readback", &["reach", "reach_verdict"]),
+    ("placement", &["driver", "picture", "reach", "remedy"]),
     (
         "hints",
-        &[
-            "driver",
-            "lower",
-            "plan",
-            "reach",
-            "reach_summary",
-            "remedy",
-            "summary",
-        ],
+        &["driver", "reach", "reach_summary", "remedy", "summary"],
     ),
-    (
-        "optimisation",
-        &["choice", "driver", "picture", "plan", "sim", "summary", "verdict"],
-    ),
+    ("optimisation", &["driver", "picture", "summary"]),
     ("starter", &["driver", "memory", "reach", "remedy"]),
-    ("convert", &["plan", "sim"]),
+    ("convert", &[]),
     (
         "report",
         &[
@@ -62,39 +38,30 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "driver",
             "hints",
             "picture",
-            "plan",
             "reach",
             "reach_summary",
-            "sim",
             "summary",
-            "verdict",
         ],
     ),
-    ("verdict", &["choice", "lower", "plan", "sim"]),
-    ("memory", &["choice", "plan", "reach"]),
+    ("memory", &["reach"]),
     (
         "driver",
         &[
             "air",
             "checks",
-            "choice",
-            "lower",
             "memory",
             "numbers",
             "pace",
-            "plan",
             "reach",
             "reach_summary",
             "reach_verdict",
             "readback",
             "registry",
             "remedy",
-            "sim",
             "summary",
-            "verdict",
         ],
     ),
-    ("lsp", &["driver", "hints", "memory", "plan", "summary"]),
+    ("lsp", &["driver", "hints", "memory", "summary"]),
     (
         "cli",
         &[
@@ -109,7 +76,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "picture",
             "optimisation",
             "placement",
-            "plan",
             "reach",
             "reach_summary",
             "readback",
@@ -126,7 +92,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diagnostics/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
-    ("rayon::", &["src/choice/", "src/pace/", "src/reach/"]),
+    ("rayon::", &["src/process/choice/", "src/pace/", "src/reach/"]),
     (
         "hmac_sha256::",
         &["src/syntax/fingerprint.rs", "src/report/digest.rs"],
@@ -137,7 +103,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
         &[
             "src/machine/kinematics/",
             "src/machine/",
-            "src/posture.rs",
+            "src/process/posture.rs",
             "src/reach/",
         ],
     ),
@@ -376,7 +342,7 @@ fn links_between_documents_lead_somewhere() {
     assert_none(&breaches);
 }
 
-/// Comments say `docs/process.md`, documents `src/plan/grid.rs`: what stands so in backquotes is a file or a folder.
+/// Comments say `docs/process.md`, documents `src/process/plan/grid.rs`: what stands so in backquotes is a file or a folder.
 #[test]
 fn files_that_are_cited_exist() {
     let mut breaches = Vec::new();
@@ -429,7 +395,7 @@ fn documents() -> Vec<TextFile> {
     files("", ".md")
 }
 
-/// `src/plan/grid.rs` belongs to `plan`; `src/lib.rs` and `src/main.rs` to none.
+/// `src/process/plan/grid.rs` belongs to `plan`; `src/lib.rs` and `src/main.rs` to none.
 fn module(path: &str) -> Option<&str> {
     let inside = path.strip_prefix("src/")?;
     let module = inside.split('/').next()?.trim_end_matches(".rs");

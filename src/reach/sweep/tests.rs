@@ -1,12 +1,12 @@
 //! Tests of the sweep check against dense samples of the blade, turned by products of rotations of another package.
 
 use super::*;
-use crate::sim::surface::Vee;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use proptest::prelude::*;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
 use vcutc_machine::kinematics::pose::Pose;
+use vcutc_process::sim::surface::Vee;
 
 /// What turns the blade and the work, outermost first, and the work on its mount.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@ use super::figure::{Ids, Zoom, figure};
 use super::html::{Column, table};
 use super::{Section, Subject};
 use crate::report::pictures;
-use crate::sim::report::Report;
+use vcutc_process::sim::report::Report;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {

@@ -3,12 +3,12 @@
 use super::figure::{Ids, Zoom, figure};
 use super::html::{Column, paragraph, percent, table};
 use super::{Section, Subject};
-use crate::plan::PlannedOperation;
 use crate::report::pictures;
-use crate::sim::report::Report;
-use crate::sim::timing::Timing;
 use crate::summary::time;
 use vcutc_backend_api::units::Duration;
+use vcutc_process::plan::PlannedOperation;
+use vcutc_process::sim::report::Report;
+use vcutc_process::sim::timing::Timing;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {

@@ -1,10 +1,10 @@
 //! The blade of a job as it is held: for people who clamp it.
 
 use crate::picture::{Prefix, blade};
-use crate::plan::PlannedOperation;
-use crate::plan::parameters::show;
 use crate::report::Material;
 use vcutc_backend_api::ir::Edges;
+use vcutc_process::plan::PlannedOperation;
+use vcutc_process::plan::parameters::show;
 
 /// The blade of the first operation with the axes of its frame (`picture::blade`); none for a job that plans nothing.
 #[must_use]

@@ -12,13 +12,13 @@ use crate::reach::solve::rig;
 use crate::reach::trajectory::{Sample, Spacing, trajectory};
 use crate::reach_summary::{AxisFigure, margin_words};
 use crate::report::Material;
-use crate::sim::timing::Kind;
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
 use vcutc_machine::kinematics::Joints;
+use vcutc_process::sim::timing::Kind;
 
 /// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.
 #[must_use]

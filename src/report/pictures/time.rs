@@ -2,8 +2,8 @@
 
 use crate::picture::{Prefix, times};
 use crate::report::Material;
-use crate::sim::timing::{Kind, LayerTime, Timing};
 use crate::summary;
+use vcutc_process::sim::timing::{Kind, LayerTime, Timing};
 
 /// What a kind is called in pictures.
 pub(super) const fn name(kind: Kind) -> &'static str {

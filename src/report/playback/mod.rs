@@ -2,7 +2,7 @@
 //!
 //! What is shown is taken from the finished program, not from the plan: poses op by op ([`timeline`]), times, and the axes
 //! that were proven ([`track`]). The viewer (`src/report/assets/player`, WebGL 2, no package of others) replays the cuts on a
-//! surface of its own, the one of `src/sim/surface.rs` over again, and moves the machine by products of matrices
+//! surface of its own, the one of `src/process/sim/surface.rs` over again, and moves the machine by products of matrices
 //! ([`vcutc_machine::kinematics::linkage`]). Within an op the motion goes on evenly: how controllers speed up and slow down within
 //! it is not shown, how long it takes is.
 
@@ -13,7 +13,6 @@ pub mod timeline;
 pub mod track;
 
 use crate::driver::{Compiled, Finished};
-use crate::plan::PlannedJob;
 use crate::reach::solve::{Reached, rig};
 use bodies::{Body, bodies};
 use timeline::Timeline;
@@ -23,6 +22,7 @@ use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
+use vcutc_process::plan::PlannedJob;
 
 /// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.
 pub const MOST_OPS: usize = 400_000;

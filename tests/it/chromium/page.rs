@@ -8,7 +8,7 @@ use crate::repository::root;
 use serde_json::json;
 use std::path::PathBuf;
 use tempfile::TempDir;
-use vcutc::verdict;
+use vcutc::process::verdict;
 
 /// The report of an example, in a folder of its own.
 fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {

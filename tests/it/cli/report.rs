@@ -8,7 +8,7 @@ use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
-use vcutc::plan::PlannedOperation;
+use vcutc::process::plan::PlannedOperation;
 
 /// What a hostile author would call things.
 pub(crate) const HOSTILE: &str =

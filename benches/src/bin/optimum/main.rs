@@ -5,8 +5,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 use vcutc::job::{Formulas, Lattice, Objective};
-use vcutc::plan::optimum::published::table_1;
-use vcutc::plan::optimum::{Problem, solve};
+use vcutc::process::plan::optimum::published::table_1;
+use vcutc::process::plan::optimum::{Problem, solve};
 use vcutc_benches::optimum::{LATTICES, STARTS, cobyla, conflict, is_least, slsqp, within_600_s};
 
 /// How closely the peers are asked to come to the least time.

@@ -1,4 +1,4 @@
-// The machined surface by its exact corners: src/sim/surface.rs over again, so that what is seen is what was proven.
+// The machined surface by its exact corners: src/process/sim/surface.rs over again, so that what is seen is what was proven.
 
 /** Heights this close are equal, in mm, as in the proof. */
 const TOUCH = 1e-6;

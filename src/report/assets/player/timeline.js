@@ -30,7 +30,7 @@ class Timeline {
     }
   }
 
-  /** Pairs the flanks of every V: with the second one its chip comes free, as src/sim/prove.rs has it. */
+  /** Pairs the flanks of every V: with the second one its chip comes free, as src/process/sim/prove.rs has it. */
   findChips() {
     const { ops, kinds, cuts } = this.program;
     /** @type {Kerf[]} first flanks in order */

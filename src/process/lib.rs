@@ -1,0 +1,8 @@
+//! The V-cuts of a job: planned, chosen, lowered to motions, and proven
+
+pub mod choice;
+pub mod lower;
+pub mod plan;
+pub mod posture;
+pub mod sim;
+pub mod verdict;
