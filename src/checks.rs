@@ -10,13 +10,13 @@ mod words;
 
 pub use words::CheckFigure;
 
-use crate::pace::{Basis, Kept};
-use crate::reach::solve::{ReachReport, Reached};
 use vcutc_backend_api::ir::Axis;
 use vcutc_job::Machine;
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::opw::Coupling;
+use vcutc_motion::pace::{Basis, Kept};
+use vcutc_motion::solve::{ReachReport, Reached};
 
 /// Something that is worth knowing of a program before it runs.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,11 +5,11 @@ pub mod chosen;
 pub mod times;
 
 use crate::checks::Checks;
-use crate::pace::Basis;
-use crate::reach_summary::{self, ReachFigures};
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::{Order, RoughVcut, WhyChosen};
+use vcutc_motion::pace::Basis;
+use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_process::plan::decision::{Decision, Excess, Standing};
 use vcutc_process::plan::parameters::show;
 use vcutc_process::plan::{PlannedJob, PlannedOperation, PlannedVcut};

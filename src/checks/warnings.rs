@@ -2,11 +2,11 @@
 
 use super::words::listed;
 use super::{Check, Checks, Outcome};
-use crate::reach::solve::Reached;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::Machine;
 use vcutc_machine::{FileKind, Origin};
+use vcutc_motion::solve::Reached;
 
 impl Checks {
     /// The warnings of a job on its machine: all that keeps it from counting as proven. What no job has checked, such as

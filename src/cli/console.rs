@@ -14,7 +14,6 @@ use super::snapshot::Differences;
 use crate::checks::{CheckFigure, Checks};
 use crate::hints::Hint;
 use crate::numbers::Numbers;
-use crate::reach_summary::{self, ReachFigures};
 use crate::summary::chosen::OperationFigures;
 use crate::summary::times::{self, TimeFigures};
 use crate::summary::verdict;
@@ -25,6 +24,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, Severity, github, has_errors, json, render};
+use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 
 /// Version of the JSON objects this module writes.
 const SCHEMA: u32 = 1;

@@ -5,11 +5,11 @@
 //! empty where it serves none; `motion`, its kind; `done`, how much of it is done, from 0 to 1; then each axis under its
 //! name and unit, as the controller counts it. The axes at the program's start are those of home.
 
-use crate::reach::solve::{Reached, rig};
-use crate::reach::trajectory::{Sample, Spacing, trajectory};
 use std::io::{self, Write};
 use vcutc_backend_api::ir::{Axis, AxisKind, Op, Site};
 use vcutc_job::CheckedJob;
+use vcutc_motion::solve::{Reached, rig};
+use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
 
 /// Writes the rows, one after the other.
 pub(super) fn write(job: &CheckedJob, reached: &Reached, out: &mut dyn Write) -> io::Result<()> {

@@ -4,9 +4,6 @@
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
 use crate::air::{least_gap, least_lift, lifted};
 use crate::checks::{Carried, Checks};
-use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
-use crate::reach_summary;
-use crate::reach_verdict;
 use crate::summary::air::{AirFigures, Mover, summary};
 use crate::summary::times::figures as time_figures;
 use vcutc_backend_api::ir::{Head, Program, Purpose};
@@ -16,6 +13,9 @@ use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::sema::units;
 use vcutc_job::{CheckedJob, Operation};
+use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
+use vcutc_motion::summary as reach_summary;
+use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::plan::parameters::show;
 use vcutc_process::sim::timing::times;
 

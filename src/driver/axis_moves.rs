@@ -4,10 +4,10 @@
 //! posture each time. A few are what a large part may need; where they are many, another place of the work is mostly better, and
 //! whoever writes the job has to know.
 
-use crate::reach::solve::Reached;
 use vcutc_backend_api::ir::Action;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::CheckedJob;
+use vcutc_motion::solve::Reached;
 
 /// So few are told in the summary only.
 const FEW: usize = 10;

@@ -6,11 +6,11 @@
 
 use super::yielding::Yielding;
 use super::{Compiled, Ended, Kept, Stage, axis_moves, compiled, reaching};
-use crate::reach::solve::Changes;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_job::{CheckedJob, Objective, Operation};
+use vcutc_motion::solve::Changes;
 use vcutc_process::choice::{self, Leeway};
 use vcutc_process::plan::PlannedJob;
 use vcutc_process::verdict;

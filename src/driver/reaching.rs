@@ -2,11 +2,11 @@
 //! the job allows its blade, and cuts that run out as far as those turns need.
 
 use super::{Finished, Kept, Stage};
-use crate::reach::reorient::slowed;
-use crate::reach::solve::{Changes, Unreached};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_job::{CheckedJob, Operation};
+use vcutc_motion::reorient::slowed;
+use vcutc_motion::solve::{Changes, Unreached};
 use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// Finds how the job's machine carries out its program; a job without a machine has nothing to find.

@@ -7,12 +7,12 @@
 
 use super::target::{self, Objection};
 use super::trials::Trials;
-use crate::reach::solve::Unreached;
-use crate::reach_verdict;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::CheckedJob;
+use vcutc_motion::solve::Unreached;
+use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::choice::Complaints;
 use vcutc_process::plan::PlannedJob;
 use vcutc_process::verdict::{self, Proven};
@@ -159,7 +159,7 @@ impl NotCarriedOut {
     fn in_words(
         &self,
         job: &CheckedJob,
-        of_machine: impl FnOnce(&crate::reach::solve::Unreachable) -> Vec<Diagnostic>,
+        of_machine: impl FnOnce(&vcutc_motion::solve::Unreachable) -> Vec<Diagnostic>,
     ) -> Vec<Diagnostic> {
         let mut words = match &self.unreached {
             Unreached::Unreachable(unreachable) => of_machine(unreachable),

@@ -4,16 +4,16 @@
 //! few telling motions say much sooner ([`Strokes`]): those that they rule out are not planned. How many plans are
 //! proven is bounded by [`MOST_PLANS`], and for jobs of many cuts by [`MOST_CUTS_PUT`].
 
-use crate::reach::path::Violation;
-use crate::reach::place::strokes::Strokes;
-use crate::reach::rig::Rig;
-use crate::reach::solve::{Changes, Unreachable, Unreached};
-use crate::reach::trouble::Trouble;
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{Auto, CheckedJob, Operation, Order, Sequence};
+use vcutc_motion::path::Violation;
+use vcutc_motion::place::strokes::Strokes;
+use vcutc_motion::rig::Rig;
+use vcutc_motion::solve::{Changes, Unreachable, Unreached};
+use vcutc_motion::trouble::Trouble;
 use vcutc_process::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 use vcutc_process::lower;
 use vcutc_process::plan::{PlannedJob, PlannedOperation};

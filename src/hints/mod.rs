@@ -14,13 +14,6 @@ mod change;
 mod tests;
 
 use crate::driver::{self, Compiled, Yielded};
-use crate::reach::path::Violation;
-use crate::reach::place::strokes::Strokes;
-use crate::reach::rig::Rig;
-use crate::reach::trouble::{Failing, Trouble};
-use crate::reach_summary;
-use crate::remedy;
-use crate::remedy::speed::{self, Field};
 use crate::summary::time;
 use change::Change;
 use vcutc_backend_api::units::Duration;
@@ -29,6 +22,13 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Fix;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{CheckedJob, Direction, Machine, Operation};
+use vcutc_motion::path::Violation;
+use vcutc_motion::place::strokes::Strokes;
+use vcutc_motion::remedy;
+use vcutc_motion::remedy::speed::{self, Field};
+use vcutc_motion::rig::Rig;
+use vcutc_motion::summary as reach_summary;
+use vcutc_motion::trouble::{Failing, Trouble};
 use vcutc_process::lower;
 use vcutc_process::plan::{PlannedJob, PlannedOperation};
 

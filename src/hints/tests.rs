@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::driver::{Outcome, Request, Typed, compile};
-use crate::reach::solve::Unreached;
-use crate::remedy::trial;
 use vcutc_diagnostics::source::{LoadError, Loader};
+use vcutc_motion::remedy::trial;
+use vcutc_motion::solve::Unreached;
 use vcutc_process::choice::choose;
 
 /// Few cuts, with a `reorient` that no axis of the head follows.

@@ -15,10 +15,6 @@ mod shelf;
 #[cfg(test)]
 mod tests;
 
-use crate::reach::solve::{
-    Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
-};
-use crate::reach::trouble::Trouble;
 use shelf::Shelf;
 use std::sync::Arc;
 use vcutc_backend_api::ir::Program;
@@ -26,6 +22,10 @@ use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_cancellation::Wanted;
 use vcutc_job::{CheckedJob, Operation};
 use vcutc_machine::Model;
+use vcutc_motion::solve::{
+    Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
+};
+use vcutc_motion::trouble::Trouble;
 use vcutc_process::choice::{self, Complaints, Leeway};
 use vcutc_process::plan::{PlannedJob, PlannedOperation};
 

@@ -1,7 +1,7 @@
 //! `vcutc place`: the base frame that leaves the machine the most room, from a job's text.
 //!
 //! The job is planned and proven as for a compilation, for the cuts do not depend on where the work stands. Then
-//! [`crate::reach::place`] looks for places by the taught poses, and the best of them are put to the whole proof, one by one,
+//! [`vcutc_motion::place`] looks for places by the taught poses, and the best of them are put to the whole proof, one by one,
 //! until one passes. The job itself is not changed: what people get is the frame to paste.
 
 mod bounds;
@@ -12,20 +12,20 @@ pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
 use crate::driver::{self, Request, Stage, internal, rules_broken};
-use crate::reach::place::Spot;
-use crate::reach::place::score::Judge;
-use crate::reach::place::search::{Bounds, Criteria, Placed, search};
-use crate::reach::place::strokes::Strokes;
-use crate::reach::place::taught::TaughtPoses;
-use crate::reach::rig::Rig;
-use crate::remedy::trial::{self, Room};
-use crate::remedy::wording;
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 use vcutc_job::sema;
 use vcutc_job::{CheckedJob, Machine};
+use vcutc_motion::place::Spot;
+use vcutc_motion::place::score::Judge;
+use vcutc_motion::place::search::{Bounds, Criteria, Placed, search};
+use vcutc_motion::place::strokes::Strokes;
+use vcutc_motion::place::taught::TaughtPoses;
+use vcutc_motion::remedy::trial::{self, Room};
+use vcutc_motion::remedy::wording;
+use vcutc_motion::rig::Rig;
 use vcutc_process::choice::{self, Latitude, Leeway};
 use vcutc_process::plan::PlannedJob;
 use vcutc_process::verdict;

@@ -1,13 +1,13 @@
 //! What came of placing, for people and for programs.
 
 use super::{Best, Placement, Standing};
-use crate::reach::place::Spot;
-use crate::reach::place::search::Bounds;
-use crate::remedy::trial::Room;
-use crate::remedy::wording::frame_text;
 use serde::Serialize;
 use std::fmt::Write;
 use vcutc_backend_api::ir::PlacedFrame;
+use vcutc_motion::place::Spot;
+use vcutc_motion::place::search::Bounds;
+use vcutc_motion::remedy::trial::Room;
+use vcutc_motion::remedy::wording::frame_text;
 use vcutc_process::plan::parameters::show;
 
 /// Most places that did not pass which are told of.

@@ -7,8 +7,6 @@
 use super::differences::{Scene, asked, place_in};
 use super::rebuild::{Obstacle, Rebuilt};
 use super::wording::op_words;
-use crate::reach::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
-use crate::reach_verdict;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site};
@@ -19,6 +17,8 @@ use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_machine::Model;
+use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
+use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::plan::PlannedJob;
 use vcutc_process::plan::parameters::show;
 use vcutc_process::sim::prove::{CutFault, Finding};

@@ -22,7 +22,6 @@ mod written;
 
 pub use written::{Astray, Written};
 
-use crate::reach::solve::{Reached, rig};
 use absent::{absent, not_given};
 use checks::{Bench, left_out};
 use closing::{OtherSpeed, other_speeds};
@@ -36,6 +35,7 @@ use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{FileId, SourceMap};
 use vcutc_job::CheckedJob;
+use vcutc_motion::solve::{Reached, rig};
 use vcutc_process::plan::PlannedJob;
 
 /// A job's program as it is written now, and who can read it.

@@ -7,7 +7,6 @@
 use super::differences::{Scene, poses_before};
 use super::split::says_the_same;
 use super::steps::Step;
-use crate::reach::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, AxisKind, AxisValues, Cell, FeedId, Flank, Op, OpId, OrientationId, Program, RateId, Ready, Site,
@@ -20,6 +19,7 @@ use vcutc_backend_api::script::speeds;
 use vcutc_backend_api::stroke::Pose;
 use vcutc_backend_api::swivel::Apart;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
+use vcutc_motion::rig::Rig;
 
 /// A program as it was read.
 pub(super) struct Rebuilt {

@@ -1,9 +1,9 @@
 //! Ops and what differs from them, in words with numbers.
 
-use crate::reach::describe::{site_words, value_words};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Cell, Flank, OpId, Program, Site, Switch};
 use vcutc_backend_api::readback::{Deed, DepartureKind, FrameRole, Mismatch, Pace, Says, Stance};
+use vcutc_motion::describe::{site_words, value_words};
 use vcutc_process::plan::parameters::show;
 
 /// An op in the words of the job: `the left flank of layer 1, cut 2`.

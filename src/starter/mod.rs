@@ -10,12 +10,6 @@ mod text;
 
 use crate::driver::{self, Request, Typed, Unhelped};
 use crate::memory::Memory;
-use crate::reach::legs::{Leg, Poses, Taught, legs};
-use crate::reach::place::score::Judge;
-use crate::reach::place::strokes::Strokes;
-use crate::reach::place::taught::TaughtPoses;
-use crate::reach::rig::Rig;
-use crate::remedy::wording;
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::{Frame, Point3};
@@ -23,6 +17,12 @@ use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
 use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_machine::Model;
+use vcutc_motion::legs::{Leg, Poses, Taught, legs};
+use vcutc_motion::place::score::Judge;
+use vcutc_motion::place::strokes::Strokes;
+use vcutc_motion::place::taught::TaughtPoses;
+use vcutc_motion::remedy::wording;
+use vcutc_motion::rig::Rig;
 use vcutc_syntax::format;
 
 /// Rates of turning the blade that are tried, in deg/s, the usual one first.

@@ -2,11 +2,11 @@
 
 use super::Setup;
 use super::places::BLOCK;
-use crate::remedy::wording;
 use core::fmt::Write;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker, PlacedFrame};
 use vcutc_machine::Model;
+use vcutc_motion::remedy::wording;
 
 /// A job that is planned and proven, but has no machine.
 pub(super) fn without_machine(name: &str) -> String {

@@ -2,9 +2,9 @@
 
 use super::{IN_HAND, row, time, times};
 use crate::air::{TIP_SPEED, TURNING_RATE};
-use crate::pace::Basis;
-use crate::reach_summary::{self, ReachFigures};
 use vcutc_backend_api::units::Length;
+use vcutc_motion::pace::Basis;
+use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_process::plan::parameters::show;
 use vcutc_process::sim::report::Report;
 

@@ -1,8 +1,8 @@
 //! Where the time of a program goes, for people and for programs: the [`TimeFigures`], their lines and their table.
 
 use super::time;
-use crate::pace::{Basis, Kept};
 use serde::Serialize;
+use vcutc_motion::pace::{Basis, Kept};
 use vcutc_process::sim::report::Report;
 use vcutc_process::sim::timing::{LayerTime, Timing};
 

@@ -3,9 +3,9 @@
 use crate::pipeline::{Files, compile, numbers, told};
 use crate::repository::read;
 use glam::{DMat3, DVec3};
+use vcutc::motion::solve::rig;
+use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::process::plan::PlannedOperation;
-use vcutc::reach::solve::rig;
-use vcutc::reach::trajectory::{Spacing, trajectory};
 use vcutc_backend_api::ir::Action;
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::Stroke;

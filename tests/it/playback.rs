@@ -8,8 +8,8 @@ use crate::shop::{compiling, folder};
 use serde_json::Value;
 use std::convert::Infallible;
 use vcutc::driver::Outcome;
-use vcutc::reach::solve::rig;
-use vcutc::reach::trajectory::{Spacing, trajectory};
+use vcutc::motion::solve::rig;
+use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::report::playback::section;
 
 use vcutc::report::playback::track::{Knot, TURN_ERROR, WAY_ERROR, between};

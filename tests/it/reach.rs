@@ -7,13 +7,13 @@ use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::Outcome;
 use vcutc::job::CheckedJob;
 use vcutc::machine::kinematics::Joints;
+use vcutc::motion::demand::Demand;
+use vcutc::motion::legs::{Leg, Poses, legs};
+use vcutc::motion::path::prove;
+use vcutc::motion::rig::Rig;
+use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, rig, solve};
 use vcutc::process::choice;
 use vcutc::process::lower::lower;
-use vcutc::reach::demand::Demand;
-use vcutc::reach::legs::{Leg, Poses, legs};
-use vcutc::reach::path::prove;
-use vcutc::reach::rig::Rig;
-use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, Reached, rig, solve};
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
@@ -234,10 +234,10 @@ fn sampled_axes_join_and_stay_within_what_is_told() {
     let cell = program.cell.clone().unwrap();
     let rig = rig(&job.machine.as_ref().unwrap().model, &cell);
     let mut last: Option<Joints> = None;
-    let taken = vcutc::reach::trajectory::trajectory(
+    let taken = vcutc::motion::trajectory::trajectory(
         &reached.program,
         &rig,
-        &vcutc::reach::trajectory::Spacing::CLOSE,
+        &vcutc::motion::trajectory::Spacing::CLOSE,
         |sample| {
             for (index, axis) in cell.axes.iter().enumerate() {
                 let value = sample.joints[index];

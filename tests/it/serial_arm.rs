@@ -5,9 +5,9 @@ use vcutc::checks::Standing;
 use vcutc::diagnostics::{Code, fix};
 use vcutc::driver::Outcome;
 use vcutc::machine::kinematics::Mechanism;
-use vcutc::reach::legs::{Leg, Poses, legs};
-use vcutc::reach::rig::Rig;
-use vcutc::reach::solve::{Reached, rig};
+use vcutc::motion::legs::{Leg, Poses, legs};
+use vcutc::motion::rig::Rig;
+use vcutc::motion::solve::{Reached, rig};
 
 const JOB: &str = "job.vcut";
 
@@ -102,10 +102,10 @@ fn the_axes_bring_the_blade_where_the_program_has_it() {
     // One stretch on one branch, whose axes never jump.
     assert_eq!(reached.report.stretches.len(), 1);
     let mut last = None;
-    let jumps = vcutc::reach::trajectory::trajectory(
+    let jumps = vcutc::motion::trajectory::trajectory(
         &reached.program,
         &rig,
-        &vcutc::reach::trajectory::Spacing::CLOSE,
+        &vcutc::motion::trajectory::Spacing::CLOSE,
         |sample| {
             let from = last.replace(sample.joints).unwrap_or(sample.joints);
             let most = from

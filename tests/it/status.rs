@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use vcutc::machine::kinematics::{Mechanism, Solution};
 use vcutc::machine::{Model, catalogue};
-use vcutc::reach::rig::Rig;
+use vcutc::motion::rig::Rig;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};

@@ -3,9 +3,9 @@
 use super::Subject;
 use super::html::{escaped, unbroken};
 use crate::checks::{Checks, Standing};
-use crate::reach_summary::margin_words;
 use crate::summary::{self, time};
 use vcutc_diagnostics::render::{ColorChoice, render};
+use vcutc_motion::summary::margin_words;
 
 /// The header: job, machine, verdict, warnings.
 pub(super) fn header(subject: Subject<'_>) -> String {

@@ -7,10 +7,6 @@
 use super::time::name;
 use crate::picture::thin::Thinned;
 use crate::picture::{Prefix, joints};
-use crate::reach::demand::axis_margin;
-use crate::reach::solve::rig;
-use crate::reach::trajectory::{Sample, Spacing, trajectory};
-use crate::reach_summary::{AxisFigure, margin_words};
 use crate::report::Material;
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
@@ -18,6 +14,10 @@ use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
 use vcutc_machine::kinematics::Joints;
+use vcutc_motion::demand::axis_margin;
+use vcutc_motion::solve::rig;
+use vcutc_motion::summary::{AxisFigure, margin_words};
+use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
 use vcutc_process::sim::timing::Kind;
 
 /// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.

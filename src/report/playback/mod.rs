@@ -13,7 +13,6 @@ pub mod timeline;
 pub mod track;
 
 use crate::driver::{Compiled, Finished};
-use crate::reach::solve::{Reached, rig};
 use bodies::{Body, bodies};
 use timeline::Timeline;
 use track::Track;
@@ -22,6 +21,7 @@ use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
+use vcutc_motion::solve::{Reached, rig};
 use vcutc_process::plan::PlannedJob;
 
 /// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.

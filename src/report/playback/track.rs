@@ -9,12 +9,12 @@
 //! Values are kept in 16 bits over the range that the axis uses, which the errors take into account.
 
 use super::timeline::place;
-use crate::reach::rig::Rig;
-use crate::reach::trajectory::{Motion, Spacing, motions};
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_machine::kinematics::Joints;
+use vcutc_motion::rig::Rig;
+use vcutc_motion::trajectory::{Motion, Spacing, motions};
 
 /// Largest error of a rotary axis, in rad: 0.05 deg.
 pub const TURN_ERROR: f64 = core::f64::consts::PI / 3600.0;

@@ -9,8 +9,8 @@ use std::time::Instant;
 use vcutc::machine::kinematics::Joints;
 use vcutc::machine::kinematics::pose::Pose;
 use vcutc::machine::{Model, catalogue};
-use vcutc::reach::path::{Clearance, Course, Proof, prove};
-use vcutc::reach::rig::Rig;
+use vcutc::motion::path::{Clearance, Course, Proof, prove};
+use vcutc::motion::rig::Rig;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::motion::Branch;
 

@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 use vcutc::job::CheckedJob;
-use vcutc::reach::solve::{Changes, LEAST_CLEARANCE, solve};
+use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, solve};
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_benches::stages;
 

@@ -1,7 +1,7 @@
 //! A posture that the two rotary axes of a five-axis machine cannot hold, in words: by how much the blade plane stays turned,
 //! and which axis is missing.
 
-use crate::reach::rig::Rig;
+use crate::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::Machine;

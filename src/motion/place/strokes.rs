@@ -5,11 +5,11 @@
 //! proven there: those between the same two ways to hold the blade, at the same speed, with their ends farthest out.
 
 use super::taught::outermost;
-use crate::reach::legs::{Leg, Pace, Poses, Stroke, legs};
-use crate::reach::path::{Course, prove};
-use crate::reach::rig::Rig;
-use crate::reach::solve::LEAST_CLEARANCE;
-use crate::reach::survey::middles;
+use crate::legs::{Leg, Pace, Poses, Stroke, legs};
+use crate::path::{Course, prove};
+use crate::rig::Rig;
+use crate::solve::LEAST_CLEARANCE;
+use crate::survey::middles;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, OrientationId, Program};

@@ -1,8 +1,8 @@
 //! What a program asks of its machine, for people and for programs: the [`ReachFigures`], their lines and their table.
 
-use crate::reach::demand::{Extreme, axis_margin};
-use crate::reach::describe::{branch_words, kuka_status, site_words};
-use crate::reach::solve::Reached;
+use crate::demand::{Extreme, axis_margin};
+use crate::describe::{branch_words, kuka_status, site_words};
+use crate::solve::Reached;
 use serde::{Serialize, Serializer};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker, Program};
 use vcutc_backend_api::motion::{Branch, Stretch};
@@ -15,7 +15,7 @@ pub struct ReachFigures {
     pub branches: Vec<BranchFigure>,
     /// How many travels through the air became moves of all axes, because no branch carries the program without.
     pub changes: usize,
-    /// The smallest share that anything has left; see `src/reach/demand.rs`.
+    /// The smallest share that anything has left; see `src/motion/demand.rs`.
     #[serde(serialize_with = "rounded")]
     pub margin: f64,
     /// What has the smallest share: an axis or a kind of singular pose.

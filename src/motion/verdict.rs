@@ -6,15 +6,15 @@ mod size;
 
 pub use size::too_large;
 
-use crate::reach::describe::{branch_words, site_words, value_words};
-use crate::reach::legs::{Leg, Pace, Stroke, legs};
-use crate::reach::path::{Singularity, Violation};
-use crate::reach::rig::Rig;
-use crate::reach::solve::{LEAST_CLEARANCE, Unreachable};
-use crate::reach::sweep::{BladePart, Cure, Sweep};
-use crate::reach::trouble::{Count, Failing, Leads, Trouble};
-use crate::reach::way::Obstacle;
+use crate::describe::{branch_words, site_words, value_words};
+use crate::legs::{Leg, Pace, Stroke, legs};
+use crate::path::{Singularity, Violation};
 use crate::remedy;
+use crate::rig::Rig;
+use crate::solve::{LEAST_CLEARANCE, Unreachable};
+use crate::sweep::{BladePart, Cure, Sweep};
+use crate::trouble::{Count, Failing, Leads, Trouble};
+use crate::way::Obstacle;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, OrientationId, Program, Site};
 use vcutc_backend_api::motion::Branch;

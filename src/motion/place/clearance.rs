@@ -1,6 +1,6 @@
 //! How far a machine stands from its singular poses at given axis values.
 
-use crate::reach::path::Clearance;
+use crate::path::Clearance;
 use core::f64::consts::PI;
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
 use vcutc_machine::kinematics::{Joints, Mechanism};

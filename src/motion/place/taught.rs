@@ -1,6 +1,6 @@
 //! The poses that a program teaches, and the few of them that tell whether the machine reaches them all.
 
-use crate::reach::legs::{Leg, Taught, legs};
+use crate::legs::{Leg, Taught, legs};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Frame, Point3};

@@ -4,7 +4,7 @@ use super::arm::{Carrying, LANES};
 use super::bounds::Stretch;
 use super::march::about;
 use super::{Breach, Course, Machine, Singularity, Violation, Way};
-use crate::reach::rig::Rig;
+use crate::rig::Rig;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
 use vcutc_machine::kinematics::Joints;

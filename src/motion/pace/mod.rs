@@ -24,10 +24,10 @@ mod smooth;
 mod tests;
 mod track;
 
-use crate::reach::legs::{Leg, Poses, Stroke, Taught, legs, numbered};
-use crate::reach::path::{Course, Followed};
-use crate::reach::rig::Rig;
-use crate::reach::solve::rig;
+use crate::legs::{Leg, Poses, Stroke, Taught, legs, numbered};
+use crate::path::{Course, Followed};
+use crate::rig::Rig;
+use crate::solve::rig;
 use chebyshev::Weights;
 use profile::Bounds;
 use rayon::prelude::*;

@@ -8,8 +8,8 @@
 //! turns meanwhile changes nothing, for then it went farther still.
 
 use super::{Course, Machine, Way};
-use crate::reach::demand::{axis_margin, turn_to_middle};
-use crate::reach::rig::Rig;
+use crate::demand::{axis_margin, turn_to_middle};
+use crate::rig::Rig;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
 use vcutc_machine::kinematics::{Joints, Mechanism};

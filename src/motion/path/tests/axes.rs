@@ -1,7 +1,7 @@
 //! Moves of all axes against dense sampling.
 
 use super::*;
-use crate::reach::path::chain::{Chain, evenly};
+use crate::path::chain::{Chain, evenly};
 use vcutc_machine::kinematics::samples;
 
 const STOCK: Block = Block {

@@ -4,12 +4,12 @@
 //! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
 
 use super::{Case, Remedy, trial, wording};
-use crate::reach::place::score::{Effort, Judge};
-use crate::reach::place::search::ask_all;
-use crate::reach::place::strokes::Strokes;
-use crate::reach::place::taught::TaughtPoses;
-use crate::reach::rig::Rig;
-use crate::reach::trouble::Trouble;
+use crate::place::score::{Effort, Judge};
+use crate::place::search::ask_all;
+use crate::place::strokes::Strokes;
+use crate::place::taught::TaughtPoses;
+use crate::rig::Rig;
+use crate::trouble::Trouble;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;

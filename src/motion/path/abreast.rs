@@ -10,7 +10,7 @@ use super::course::Turning;
 use super::interval::Interval;
 use super::march::{Effort, March};
 use super::{Breach, Clearance, Course, Machine, Proof, Violation, Way};
-use crate::reach::rig::Rig;
+use crate::rig::Rig;
 use vcutc_backend_api::motion::Branch;
 use vcutc_machine::kinematics::Joints;
 

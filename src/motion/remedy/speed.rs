@@ -6,10 +6,10 @@
 //! other speeds: this goes on until no axis is too slow, and then the job is tried with its rates.
 
 use super::{Case, Remedy, trial};
-use crate::reach::demand::Demand;
-use crate::reach::legs::{Leg, Pace, legs};
-use crate::reach::path::Violation;
-use crate::reach::trouble::Trouble;
+use crate::demand::Demand;
+use crate::legs::{Leg, Pace, legs};
+use crate::path::Violation;
+use crate::trouble::Trouble;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};

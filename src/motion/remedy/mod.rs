@@ -26,9 +26,9 @@ pub mod wording;
 pub use base::Elsewhere;
 pub use extension::farther_out;
 
-use crate::reach::path::Violation;
-use crate::reach::solve::Unreachable;
-use crate::reach::trouble::Trouble;
+use crate::path::Violation;
+use crate::solve::Unreachable;
+use crate::trouble::Trouble;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;

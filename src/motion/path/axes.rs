@@ -9,7 +9,7 @@ use super::bounds::limits;
 use super::chain::{Chain, Point, evenly, moved};
 use super::interval::Interval;
 use super::march::{Tried, march};
-use crate::reach::rig::Rig;
+use crate::rig::Rig;
 use glam::DVec3;
 use vcutc_machine::kinematics::Joints;
 

@@ -1,8 +1,8 @@
 //! Extensions that the turns of a five-axis machine need.
 
-use crate::reach::solve::Unreached;
-use crate::reach::sweep::Cure;
-use crate::reach::trouble::Trouble;
+use crate::solve::Unreached;
+use crate::sweep::Cure;
+use crate::trouble::Trouble;
 use vcutc_backend_api::units::Length;
 use vcutc_job::{Auto, CheckedJob, Operation};
 use vcutc_process::plan::{PlannedJob, PlannedOperation, grid};

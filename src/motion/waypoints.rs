@@ -105,8 +105,8 @@ fn steps(rig: &Rig<'_>, course: &Course, branch: Branch, ends: [&Joints; 2]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reach::path::prove;
-    use crate::reach::solve::LEAST_CLEARANCE;
+    use crate::path::prove;
+    use crate::solve::LEAST_CLEARANCE;
     use proptest::prelude::*;
     use vcutc_backend_api::geometry::{Orientation, Point3};
     use vcutc_backend_api::motion::{Elbow, Shoulder, Wrist};

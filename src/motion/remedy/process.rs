@@ -1,8 +1,8 @@
 //! Cuts that ask less of the arm: in another direction or order, or with a smaller swing.
 
 use super::{Case, Remedy, trial};
-use crate::reach::sweep::{Cure, Sweep};
-use crate::reach::trouble::Trouble;
+use crate::sweep::{Cure, Sweep};
+use crate::trouble::Trouble;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::Span;

@@ -1,8 +1,8 @@
 //! A home above the first cut.
 
 use super::{Case, Remedy, trial, wording};
-use crate::reach::legs::{Leg, Poses, Taught, legs};
-use crate::reach::rig::Rig;
+use crate::legs::{Leg, Poses, Taught, legs};
+use crate::rig::Rig;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_job::Machine;

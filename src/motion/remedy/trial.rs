@@ -1,13 +1,13 @@
 //! Trials: a changed job through the whole pipeline.
 
 use super::{Case, farther_out};
-use crate::reach::demand::{Demand, axis_margin};
-use crate::reach::describe::{site_words, value_words};
-use crate::reach::path::Violation;
-use crate::reach::place::strokes::Strokes;
-use crate::reach::rig::Rig;
-use crate::reach::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve_while};
-use crate::reach::trouble::{Failing, Trouble};
+use crate::demand::{Demand, axis_margin};
+use crate::describe::{site_words, value_words};
+use crate::path::Violation;
+use crate::place::strokes::Strokes;
+use crate::rig::Rig;
+use crate::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve_while};
+use crate::trouble::{Failing, Trouble};
 use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
