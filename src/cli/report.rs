@@ -15,12 +15,12 @@ use super::{Exit, Targets, targets};
 use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use crate::hints::Hint;
 use crate::memory::Memory;
-use crate::readback::Written;
 use crate::report::page::{Further, page};
 use crate::report::sheet::sheet;
 use std::path::Path;
 use std::slice;
 use vcutc_diagnostics::has_errors;
+use vcutc_readback::Written;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {

@@ -4,7 +4,6 @@ use super::files::load_program;
 use super::output::{Destination, Output, Placed};
 use crate::checks::ReadBack;
 use crate::driver::{self, EmitFailure, Outcome};
-use crate::readback::Written;
 use std::fs;
 use std::path::Path;
 use vcutc_backend_api::backend::Backend;
@@ -12,6 +11,7 @@ use vcutc_backend_api::bundle::Sink;
 use vcutc_diagnostics::source::LoadError;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_diff::{Change, FileChange, Sides, compare, family};
+use vcutc_readback::Written;
 
 /// What is done with a program that is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

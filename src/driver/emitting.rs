@@ -1,11 +1,11 @@
 //! From a compiled job to the files of its program, each read back before anybody gets it.
 
 use super::{Outcome, target};
-use crate::readback::{Astray, Written};
 use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
 use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::CheckedJob;
+use vcutc_readback::{Astray, Written};
 
 /// Writes the program of an outcome with a backend. An outcome without a program writes nothing.
 ///

@@ -17,7 +17,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("summary", &["air", "checks"]),
     ("checks", &[]),
     ("picture", &[]),
-    ("readback", &[]),
     ("placement", &["driver", "picture"]),
     ("hints", &["driver", "summary"]),
     ("optimisation", &["driver", "picture", "summary"]),
@@ -27,9 +26,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("memory", &[]),
     (
         "driver",
-        &[
-            "air", "checks", "memory", "numbers", "readback", "registry", "summary",
-        ],
+        &["air", "checks", "memory", "numbers", "registry", "summary"],
     ),
     ("lsp", &["driver", "hints", "memory", "summary"]),
     (
@@ -46,7 +43,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "picture",
             "optimisation",
             "placement",
-            "readback",
             "registry",
             "report",
             "starter",
