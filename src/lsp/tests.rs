@@ -4,12 +4,12 @@
 use super::analysis::Analysis;
 use super::hover::hover;
 use super::manual::{self, Table};
-use crate::registry;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::OptionKind;
 use vcutc_diagnostics::source::{LoadError, Loader};
 use vcutc_job::sema::study::Meaning;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
+use vcutc_registry as registry;
 
 /// One text for every path that ends as jobs do, and no other files.
 struct One(String);

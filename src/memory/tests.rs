@@ -2,11 +2,11 @@
 
 use super::*;
 use crate::driver::{Request, Stage, Typed, Unhurried, compile, compile_again, compile_while, write};
-use crate::registry;
 use proptest::prelude::*;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Needless, Wanted};
 use vcutc_diagnostics::source::{LoadError, Loader};
+use vcutc_registry as registry;
 
 /// A job file, and what it says at each of the places that are edited.
 struct Text([usize; PLACES.len()]);

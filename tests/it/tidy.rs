@@ -11,7 +11,6 @@ const MOST_LINES: usize = 700;
 /// Which module of the root package may use which others; Cargo says it of rooms.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("air", &[]),
-    ("registry", &[]),
     ("numbers", &[]),
     ("manifest", &["numbers"]),
     ("summary", &["air", "checks"]),
@@ -24,10 +23,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("convert", &[]),
     ("report", &["checks", "driver", "hints", "picture", "summary"]),
     ("memory", &[]),
-    (
-        "driver",
-        &["air", "checks", "memory", "numbers", "registry", "summary"],
-    ),
+    ("driver", &["air", "checks", "memory", "numbers", "summary"]),
     ("lsp", &["driver", "hints", "memory", "summary"]),
     (
         "cli",
@@ -43,7 +39,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "picture",
             "optimisation",
             "placement",
-            "registry",
             "report",
             "starter",
             "summary",
