@@ -11,12 +11,12 @@ use crate::convert::write::{ProfileFile, ProfileForm};
 use crate::convert::{self, Conversion, Refused};
 use crate::driver::{Outcome, Request};
 use crate::memory::Memory;
-use crate::picture::Prefix;
 use crate::report::{Material, pictures};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::readback::{ProgramFile, decoded};
 use vcutc_diagnostics::has_errors;
 use vcutc_diagnostics::source::{Entry, LoadError, Loader};
+use vcutc_picture::Prefix;
 
 /// Converts one program.
 pub(super) fn convert(args: &ConvertArgs, targets: &Targets, console: &Console) -> Exit {

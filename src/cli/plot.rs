@@ -10,11 +10,11 @@ use super::progress::Progress;
 use super::{Exit, Targets};
 use crate::driver::{Outcome, RequestError};
 use crate::memory::Memory;
-use crate::picture::Prefix;
 use crate::report::{Material, pictures};
 use clap::ValueEnum;
 use std::path::Path;
 use vcutc_backend_api::bundle::Sink;
+use vcutc_picture::Prefix;
 
 /// Where pictures go.
 enum To<'a> {

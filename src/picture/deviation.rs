@@ -213,7 +213,7 @@ fn mark(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Prefix;
+    use crate::Prefix;
 
     /// Where words of a picture stand that hold a text.
     fn line_of(picture: &str, words: &str) -> f64 {

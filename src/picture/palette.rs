@@ -48,7 +48,7 @@ const PARTNERS: [(&str, &str); 32] = [
 ];
 
 /// Rules of style for pictures below `within`, for a page on a dark ground.
-pub(crate) fn dark(within: &str) -> String {
+pub fn dark(within: &str) -> String {
     let rule = |(light, dark): (&str, &str)| {
         format!(
             "{within} [fill=\"{light}\"] {{ fill: {dark}; }}\n{within} [stroke=\"{light}\"] {{ stroke: {dark}; }}\n"

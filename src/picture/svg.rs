@@ -178,7 +178,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// A text as it stands between tags and within double quotes, of XML and of HTML.
-pub(crate) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

@@ -25,12 +25,12 @@ use super::{Material, playback};
 use crate::checks::ReadBack;
 use crate::driver::Outcome;
 use crate::hints::Hint;
-use crate::picture::dark;
 use html::escaped;
 pub use live::Served;
 use policy::Requests;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_picture::dark;
 
 /// What a page is made from.
 #[derive(Clone, Copy)]

@@ -14,9 +14,9 @@ pub use paths::paths;
 pub use time::time;
 
 use super::Material;
-use crate::picture::thin::Thinned;
-use crate::picture::{Prefix, contour, correlation, deviation, lattice};
 use vcutc_geometry::curve::Point2;
+use vcutc_picture::thin::Thinned;
+use vcutc_picture::{Prefix, contour, correlation, deviation, lattice};
 use vcutc_process::plan::parameters::show;
 use vcutc_process::plan::{PlannedOperation, PlannedVcut, TipOrigin};
 use vcutc_process::sim::contour::{SAMPLES, Sampled, sampled};

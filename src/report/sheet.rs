@@ -11,10 +11,10 @@ use super::page::html::escaped;
 use super::page::policy::{Requests, policy};
 use crate::checks::{Checks, ReadBack};
 use crate::driver::Outcome;
-use crate::picture::{Prefix, setup};
 use crate::summary::time;
 use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::Duration;
+use vcutc_picture::{Prefix, setup};
 use vcutc_process::plan::{PlannedOperation, PlannedVcut};
 
 const STYLE: &str = include_str!("assets/sheet.css");

@@ -4,7 +4,7 @@
 //! style shows the one that fits.
 
 use super::html::{escaped, unbroken};
-use crate::picture::Prefix;
+use vcutc_picture::Prefix;
 
 /// Whether a picture can be enlarged.
 #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! The little of HTML that the page needs: texts that cannot break out, and tables.
 
-pub(in crate::report) use crate::picture::escaped;
+pub(in crate::report) use vcutc_picture::escaped;
 
 /// A column of a table.
 #[derive(Clone, Copy)]

@@ -4,9 +4,9 @@
 use super::figure::{Zoom, framed};
 use super::html::{escaped, terms};
 use super::{Section, Subject};
-use crate::picture::{Prefix, setup};
 use crate::report::digest::hexadecimal;
 use crate::report::facts::{self, Fact};
+use vcutc_picture::{Prefix, setup};
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {

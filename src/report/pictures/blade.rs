@@ -1,8 +1,8 @@
 //! The blade of a job as it is held: for people who clamp it.
 
-use crate::picture::{Prefix, blade};
 use crate::report::Material;
 use vcutc_backend_api::ir::Edges;
+use vcutc_picture::{Prefix, blade};
 use vcutc_process::plan::PlannedOperation;
 use vcutc_process::plan::parameters::show;
 

@@ -5,8 +5,6 @@
 //! slowing down.
 
 use super::time::name;
-use crate::picture::thin::Thinned;
-use crate::picture::{Prefix, joints};
 use crate::report::Material;
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
@@ -18,6 +16,8 @@ use vcutc_motion::demand::axis_margin;
 use vcutc_motion::solve::rig;
 use vcutc_motion::summary::{AxisFigure, margin_words};
 use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
+use vcutc_picture::thin::Thinned;
+use vcutc_picture::{Prefix, joints};
 use vcutc_process::sim::timing::Kind;
 
 /// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.

@@ -1,10 +1,10 @@
 //! The path of a milling program beside that of the V-cuts made of it (`picture::paths`).
 
 use super::{Machined, machined};
-use crate::picture::{Prefix, paths};
 use crate::report::Material;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, OrientationId, Program};
+use vcutc_picture::{Prefix, paths};
 
 /// Both paths, that of the milling program in the axes of the job.
 #[must_use]

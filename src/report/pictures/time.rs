@@ -1,8 +1,8 @@
 //! What the time is spent on.
 
-use crate::picture::{Prefix, times};
 use crate::report::Material;
 use crate::summary;
+use vcutc_picture::{Prefix, times};
 use vcutc_process::sim::timing::{Kind, LayerTime, Timing};
 
 /// What a kind is called in pictures.

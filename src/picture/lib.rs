@@ -27,9 +27,9 @@ pub mod thin;
 pub mod times;
 mod trace;
 
-pub(crate) use palette::dark;
+pub use palette::dark;
 pub use sheet::{PAGE_WIDTH, PHONE_WIDTH};
-pub(crate) use svg::escaped;
+pub use svg::escaped;
 
 /// What the ids within a picture begin with, and where it is shown. Pictures that stand in one page need different ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
