@@ -1,26 +1,18 @@
 #![doc = include_str!("../ARCHITECTURE.md")]
 
-pub mod air;
-pub mod checks;
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "krl")]
 pub mod convert;
-pub mod driver;
-pub mod hints;
 #[cfg(feature = "lsp")]
 pub mod lsp;
-pub mod manifest;
-pub mod memory;
-pub mod numbers;
 pub mod optimisation;
 pub mod placement;
 pub mod report;
-pub mod starter;
-pub mod summary;
 pub use vcutc_cancellation as cancellation;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_diff as diff;
+pub use vcutc_driver as driver;
 pub use vcutc_geometry as geometry;
 pub use vcutc_job as job;
 pub use vcutc_machine as machine;

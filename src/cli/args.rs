@@ -16,12 +16,12 @@ use super::Targets;
 use super::console::Warnings;
 use super::files::Disk;
 use super::patience::{HelpBudget, help_budget};
-use crate::driver::{Request, Typed};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use examples::{EXAMPLES, FIRST_EXAMPLES};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Severity};
+use vcutc_driver::{Request, Typed};
 
 /// The version of the package, with the commit where a release was built from one (`build.rs`).
 const VERSION: &str = env!("VCUTC_VERSION");

@@ -6,12 +6,12 @@ use super::args::BuildArgs;
 use super::console::{Console, Failure};
 use super::files::load_file;
 use super::output::one_file;
-use crate::manifest::{Manifest, Tolerance};
-use crate::numbers::Numbers;
-use crate::numbers::baseline::{self, Name, Record, Worse, worse};
 use std::path::Path;
 use vcutc_diagnostics::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_bytes};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_driver::manifest::{Manifest, Tolerance};
+use vcutc_driver::numbers::Numbers;
+use vcutc_driver::numbers::baseline::{self, Name, Record, Worse, worse};
 
 /// Keeps a baseline.
 pub(super) struct Keeper {

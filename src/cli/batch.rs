@@ -10,12 +10,6 @@ use super::files::Disk;
 use super::output::{Destination, Placed};
 use super::snapshot::{self, Complete, Fate, Made, NotReady};
 use super::{Exit, Targets, compile, targets};
-use crate::checks::Checks;
-use crate::driver::{self, Request, RequestError, Typed};
-use crate::numbers::Numbers;
-use crate::numbers::baseline::{Name, Record};
-use crate::summary::chosen::OperationFigures;
-use crate::summary::times::TimeFigures;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -27,6 +21,12 @@ use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
+use vcutc_driver::checks::Checks;
+use vcutc_driver::numbers::Numbers;
+use vcutc_driver::numbers::baseline::{Name, Record};
+use vcutc_driver::summary::chosen::OperationFigures;
+use vcutc_driver::summary::times::TimeFigures;
+use vcutc_driver::{self as driver, Request, RequestError, Typed};
 
 /// One program to make.
 pub(super) struct Unit {

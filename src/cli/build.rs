@@ -8,9 +8,6 @@ use super::files::{Disk, load_file};
 use super::meant::Driven;
 use super::snapshot::Fate;
 use super::{Exit, Targets, targets};
-use crate::manifest::pattern::Pattern;
-use crate::manifest::{self, Entry, FILE_NAME, Manifest, Placed};
-use crate::numbers::baseline::Name;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,6 +15,9 @@ use vcutc_backend_api::backend::Backend;
 use vcutc_diagnostics::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_bytes};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_driver::manifest::pattern::Pattern;
+use vcutc_driver::manifest::{self, Entry, FILE_NAME, Manifest, Placed};
+use vcutc_driver::numbers::baseline::Name;
 
 /// Most names that are looked at for one pattern. A pattern that begins high up in a disk would never end.
 const MOST_NAMES: usize = 100_000;

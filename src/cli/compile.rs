@@ -13,14 +13,14 @@ use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::targets;
 use super::{Exit, Targets};
-use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage, Typed};
-use crate::memory::Memory;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::AIR_ENDING;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::has_errors;
+use vcutc_driver::memory::Memory;
+use vcutc_driver::{self as driver, Compiled, Outcome, Request, RequestError, Stage, Typed};
 
 /// What is made of a job.
 pub(super) enum Product {

@@ -11,12 +11,6 @@ use super::output::Placed;
 use super::patience::HelpBudget;
 use super::progress::Following;
 use super::snapshot::Differences;
-use crate::checks::{CheckFigure, Checks};
-use crate::hints::Hint;
-use crate::numbers::Numbers;
-use crate::summary::chosen::OperationFigures;
-use crate::summary::times::{self, TimeFigures};
-use crate::summary::verdict;
 use anstream::AutoStream;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
@@ -24,6 +18,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, Severity, github, has_errors, json, render};
+use vcutc_driver::checks::{CheckFigure, Checks};
+use vcutc_driver::hints::Hint;
+use vcutc_driver::numbers::Numbers;
+use vcutc_driver::summary::chosen::OperationFigures;
+use vcutc_driver::summary::times::{self, TimeFigures};
+use vcutc_driver::summary::verdict;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 
 /// Version of the JSON objects this module writes.

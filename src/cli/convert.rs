@@ -9,13 +9,13 @@ use super::output::one_file;
 use super::{Exit, Targets};
 use crate::convert::write::{ProfileFile, ProfileForm};
 use crate::convert::{self, Conversion, Refused};
-use crate::driver::{Outcome, Request};
-use crate::memory::Memory;
 use crate::report::{Material, pictures};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::readback::{ProgramFile, decoded};
 use vcutc_diagnostics::has_errors;
 use vcutc_diagnostics::source::{Entry, LoadError, Loader};
+use vcutc_driver::memory::Memory;
+use vcutc_driver::{Outcome, Request};
 use vcutc_picture::Prefix;
 
 /// Converts one program.

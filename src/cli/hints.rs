@@ -4,10 +4,10 @@
 use super::console::Console;
 use super::patience::{HelpBudget, Timer};
 use super::snapshot::Made;
-use crate::driver::Outcome;
-use crate::hints::{Hint, hints};
 use std::time::Duration;
 use vcutc_cancellation::Wanted;
+use vcutc_driver::Outcome;
+use vcutc_driver::hints::{Hint, hints};
 
 /// Tells what would make a job faster that its machine made slow.
 pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Duration)], console: &Console) {

@@ -6,11 +6,11 @@ use super::files::Disk;
 use super::output::one_file;
 use super::progress::Progress;
 use super::{Exit, Targets, machines};
-use crate::driver::Stage;
-use crate::starter::{self, Asked, Refusal};
 use std::fs;
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::ir::{MachineKind, Maker};
+use vcutc_driver::Stage;
+use vcutc_driver::starter::{self, Asked, Refusal};
 use vcutc_machine::{Model, Origin};
 
 /// The name of a job that is given none.

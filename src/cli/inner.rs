@@ -6,10 +6,10 @@
 use super::args::InnerForm;
 use super::files::stem;
 use super::joints;
-use crate::driver::Outcome;
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
+use vcutc_driver::Outcome;
 use vcutc_process::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.

@@ -10,7 +10,6 @@ use super::files::{list_folder, load_file, with_forward_slashes};
 use super::patience::{HelpBudget, Waiting};
 use crate::lsp::wire::{self, Broken, Fault, Incoming};
 use crate::lsp::{Done, Ending, Server, Task, Workspace};
-use crate::memory::Memory;
 use serde_json::Value;
 use std::collections::VecDeque;
 use std::io::{self, BufReader, Write};
@@ -21,6 +20,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 use vcutc_backend_api::backend::Backend;
 use vcutc_diagnostics::source::{Entry, LoadError, Loader};
+use vcutc_driver::memory::Memory;
 
 /// How long nothing must have been told, such as a change of a text, before a job is planned. Questions are no reason to wait.
 const PAUSE: Duration = Duration::from_millis(250);

@@ -4,10 +4,10 @@ use super::Targets;
 use super::args::Overrides;
 use super::console::Failure;
 use super::files::Disk;
-use crate::driver::{self, Request, Typed};
 use vcutc_backend_api::backend::Origin;
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 use vcutc_diagnostics::suggest::nearest;
+use vcutc_driver::{self as driver, Request, Typed};
 
 /// What is known of the machine of the jobs on a command line.
 pub(super) enum Driven<'a> {

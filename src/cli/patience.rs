@@ -4,8 +4,6 @@
 //! told, so the time decides which help lines appear, and nothing else.
 
 use super::progress::Progress;
-use crate::driver::{self, Outcome, Patience, Request, RequestError};
-use crate::memory::Memory;
 use std::cell::RefCell;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
@@ -13,6 +11,8 @@ use std::time::Duration;
 use vcutc_cancellation::{Interest, Wanted};
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, Severity};
+use vcutc_driver::memory::Memory;
+use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError};
 
 /// How long help is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

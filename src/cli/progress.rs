@@ -4,12 +4,12 @@
 //! [`PATIENCE`], with the time that has passed. Where standard error is not a terminal, `--verbose` prints a line for every
 //! stage that takes longer than [`LONG`]. Both are drawn by a thread of its own; the pipeline only says which stage begins.
 
-use crate::driver::Stage;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, Write};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+use vcutc_driver::Stage;
 
 /// How long a run may take before a progress line appears.
 const PATIENCE: Duration = Duration::from_secs(1);

@@ -12,14 +12,14 @@ use super::patience;
 use super::progress::Progress;
 use super::snapshot::read_back;
 use super::{Exit, Targets, targets};
-use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
-use crate::hints::Hint;
-use crate::memory::Memory;
 use crate::report::page::{Further, page};
 use crate::report::sheet::sheet;
 use std::path::Path;
 use std::slice;
 use vcutc_diagnostics::has_errors;
+use vcutc_driver::hints::Hint;
+use vcutc_driver::memory::Memory;
+use vcutc_driver::{self as driver, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use vcutc_readback::Written;
 
 /// Reports one job.

@@ -2,8 +2,6 @@
 
 use super::files::load_program;
 use super::output::{Destination, Output, Placed};
-use crate::checks::ReadBack;
-use crate::driver::{self, EmitFailure, Outcome};
 use std::fs;
 use std::path::Path;
 use vcutc_backend_api::backend::Backend;
@@ -11,6 +9,8 @@ use vcutc_backend_api::bundle::Sink;
 use vcutc_diagnostics::source::LoadError;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_diff::{Change, FileChange, Sides, compare, family};
+use vcutc_driver::checks::ReadBack;
+use vcutc_driver::{self as driver, EmitFailure, Outcome};
 use vcutc_readback::Written;
 
 /// What is done with a program that is complete.

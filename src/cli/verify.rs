@@ -6,13 +6,13 @@ use super::files::{Disk, load_program};
 use super::meant::Driven;
 use super::progress::Progress;
 use super::{Exit, Targets, compile, snapshot, targets};
-use crate::driver::{self, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use std::path::Path;
 use std::slice;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::readback::{ProgramFile, Reader, decoded};
 use vcutc_diagnostics::has_errors;
 use vcutc_diff::family;
+use vcutc_driver::{self as driver, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use vcutc_readback::{Fresh, Reference, Verdict, Written};
 
 /// Compares and tells.

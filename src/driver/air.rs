@@ -2,7 +2,7 @@
 //! that takes its place.
 
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
-use crate::air::{least_gap, least_lift, lifted};
+use crate::air_cut::{least_gap, least_lift, lifted};
 use crate::checks::{Carried, Checks};
 use crate::summary::air::{AirFigures, Mover, summary};
 use crate::summary::times::figures as time_figures;

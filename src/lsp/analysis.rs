@@ -6,14 +6,14 @@
 //! the analysis it belongs to is no longer there.
 
 use super::text::Text;
-use crate::driver::{self, Outcome, Patience, Request, RequestError, Typed, Unhurried};
-use crate::hints::{Hint, hints};
-use crate::memory::Memory;
 use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Interest, Needless, Wanted};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
+use vcutc_driver::hints::{Hint, hints};
+use vcutc_driver::memory::Memory;
+use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Typed, Unhurried};
 use vcutc_job::sema::study::{Study, study};
 use vcutc_job::sema::{Choices, Part};
 use vcutc_process::plan::PlannedJob;

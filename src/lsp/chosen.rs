@@ -2,7 +2,7 @@
 
 use super::analysis::Analysis;
 use super::sites::Site;
-use crate::summary::compared;
+use vcutc_driver::summary::compared;
 use vcutc_process::plan::{PlannedOperation, PlannedVcut};
 
 /// What came of a field that was left open.

@@ -2,7 +2,6 @@
 
 use super::text::{Encoding, Text};
 use super::uri::uri_of;
-use crate::hints::Hint;
 use lsp_types::{
     DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Range, TextEdit,
 };
@@ -10,6 +9,7 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, Fix, Label, Severity};
+use vcutc_driver::hints::Hint;
 
 /// The texts of a source map with their lines, each worked out once.
 pub(super) struct Lines<'a> {

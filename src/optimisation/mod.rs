@@ -13,12 +13,12 @@ pub use bounds::Relaxed;
 pub use came::{Came, Plan};
 pub use trade_off::TradeOff;
 
-use crate::driver::{self, Compiled, Outcome, Request, RequestError, Stage};
 use came::{Room, came};
 use vcutc_backend_api::ir::{OperationId, Site};
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_driver::{self as driver, Compiled, Outcome, Request, RequestError, Stage};
 use vcutc_job::{Auto, CheckedJob, Formulas, Lattice, Objective, Operation, RoughVcut, Sourced};
 use vcutc_picture::pareto::{self, Curve, Pareto};
 use vcutc_process::plan::optimum::{self, Optimum, Problem};

@@ -229,9 +229,9 @@ fn percent(share: f64) -> String {
 /// As elsewhere: `2 min 05.4 s`; savings may be below zero.
 fn seconds(time: Duration) -> String {
     if time < Duration::s(-0.05) {
-        format!("-{}", crate::summary::time(Duration::ZERO - time))
+        format!("-{}", vcutc_driver::summary::time(Duration::ZERO - time))
     } else {
-        crate::summary::time(time.max(Duration::ZERO))
+        vcutc_driver::summary::time(time.max(Duration::ZERO))
     }
 }
 

@@ -11,11 +11,11 @@ pub mod report;
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 
-use crate::driver::{self, Request, Stage, internal, rules_broken};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
+use vcutc_driver::{self as driver, Request, Stage, internal, rules_broken};
 use vcutc_job::sema;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_motion::place::Spot;

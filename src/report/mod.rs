@@ -8,7 +8,7 @@ pub mod pictures;
 pub mod playback;
 pub mod sheet;
 
-use crate::driver::{Compiled, Outcome};
+use vcutc_driver::{Compiled, Outcome};
 use vcutc_job::CheckedJob;
 use vcutc_process::plan::PlannedJob;
 

@@ -22,14 +22,14 @@ mod times;
 mod top;
 
 use super::{Material, playback};
-use crate::checks::ReadBack;
-use crate::driver::Outcome;
-use crate::hints::Hint;
 use html::escaped;
 pub use live::Served;
 use policy::Requests;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_driver::Outcome;
+use vcutc_driver::checks::ReadBack;
+use vcutc_driver::hints::Hint;
 use vcutc_picture::dark;
 
 /// What a page is made from.

@@ -9,11 +9,11 @@ use super::digest::hexadecimal;
 use super::facts;
 use super::page::html::escaped;
 use super::page::policy::{Requests, policy};
-use crate::checks::{Checks, ReadBack};
-use crate::driver::Outcome;
-use crate::summary::time;
 use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::Duration;
+use vcutc_driver::Outcome;
+use vcutc_driver::checks::{Checks, ReadBack};
+use vcutc_driver::summary::time;
 use vcutc_picture::{Prefix, setup};
 use vcutc_process::plan::{PlannedOperation, PlannedVcut};
 

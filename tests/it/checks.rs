@@ -4,9 +4,9 @@
 use crate::pipeline::{Files, compile, told};
 use crate::repository::{read, root};
 use std::collections::BTreeSet;
-use vcutc::checks::{Check, Outcome as Came};
 use vcutc::diagnostics::Code;
 use vcutc::diagnostics::source::SourceMap;
+use vcutc::driver::checks::{Check, Outcome as Came};
 use vcutc::driver::{Compiled, Outcome, Typed};
 use vcutc::job::CheckedJob;
 use vcutc::job::sema;

@@ -81,7 +81,7 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     ),
     (
         Code::Internal,
-        "src/driver/mod.rs",
+        "src/driver/lib.rs",
         "a_program_that_breaks_a_rule_is_the_compilers_fault",
         "a job that shows a fault of the compiler would be mended",
     ),

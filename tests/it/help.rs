@@ -4,8 +4,8 @@ use crate::pipeline::{Files, compile, fixed, numbers, told};
 use vcutc::cancellation::Wanted;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::diagnostics::source::SourceMap;
+use vcutc::driver::memory::Memory;
 use vcutc::driver::{self, Outcome, Patience, Request, Stage, Typed};
-use vcutc::memory::Memory;
 use vcutc::registry;
 
 const JOB: &str = "job.vcut";

@@ -1,9 +1,9 @@
 //! Jobs on an arm without a closed form: a UR10e from its URDF through the whole compiler.
 
 use crate::pipeline::{Files, compile, told};
-use vcutc::checks::Standing;
 use vcutc::diagnostics::{Code, fix};
 use vcutc::driver::Outcome;
+use vcutc::driver::checks::Standing;
 use vcutc::machine::kinematics::Mechanism;
 use vcutc::motion::legs::{Leg, Poses, legs};
 use vcutc::motion::rig::Rig;

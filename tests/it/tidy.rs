@@ -10,38 +10,12 @@ const MOST_LINES: usize = 700;
 
 /// Which module of the root package may use which others; Cargo says it of rooms.
 const MAY_USE: &[(&str, &[&str])] = &[
-    ("air", &[]),
-    ("numbers", &[]),
-    ("manifest", &["numbers"]),
-    ("summary", &["air", "checks"]),
-    ("checks", &[]),
-    ("placement", &["driver"]),
-    ("hints", &["driver", "summary"]),
-    ("optimisation", &["driver", "summary"]),
-    ("starter", &["driver", "memory"]),
+    ("placement", &[]),
+    ("optimisation", &[]),
     ("convert", &[]),
-    ("report", &["checks", "driver", "hints", "summary"]),
-    ("memory", &[]),
-    ("driver", &["air", "checks", "memory", "numbers", "summary"]),
-    ("lsp", &["driver", "hints", "memory", "summary"]),
-    (
-        "cli",
-        &[
-            "checks",
-            "convert",
-            "driver",
-            "hints",
-            "lsp",
-            "manifest",
-            "memory",
-            "numbers",
-            "optimisation",
-            "placement",
-            "report",
-            "starter",
-            "summary",
-        ],
-    ),
+    ("report", &[]),
+    ("lsp", &[]),
+    ("cli", &["convert", "lsp", "optimisation", "placement", "report"]),
 ];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.

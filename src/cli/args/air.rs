@@ -1,8 +1,8 @@
 //! The argument for air cuts.
 
-use crate::driver::air_cut_height;
 use clap::Args;
 use vcutc_backend_api::units::Length;
+use vcutc_driver::air_cut_height;
 
 /// What a program is for.
 #[derive(Debug, Args)]

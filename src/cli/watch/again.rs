@@ -10,11 +10,11 @@ use crate::cli::files::Disk;
 use crate::cli::meant::{Driven, pointless_output};
 use crate::cli::patience::Waiting;
 use crate::cli::progress::{Following, Progress};
-use crate::driver::{self, Outcome, Request, RequestError};
-use crate::memory::Memory;
 use std::slice;
 use std::time::Duration;
 use vcutc_cancellation::{Needless, Wanted};
+use vcutc_driver::memory::Memory;
+use vcutc_driver::{self as driver, Outcome, Request, RequestError};
 
 /// A job that is compiled again and again.
 pub(super) struct Watched<'a> {

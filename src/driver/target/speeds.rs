@@ -4,7 +4,7 @@
 //! which the job's speed is off there; another motion may need twice that.
 
 use super::Objection;
-use crate::driver::trials::Trials;
+use crate::trials::Trials;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_diagnostics::Diagnostic;
@@ -105,7 +105,7 @@ fn rounded(value: f64, from: f64) -> f64 {
 }
 
 /// An objection with the first speed that the target takes and the machine follows.
-pub(in crate::driver) fn with_help(objection: &Objection, trials: &mut Trials<'_>) -> Diagnostic {
+pub(crate) fn with_help(objection: &Objection, trials: &mut Trials<'_>) -> Diagnostic {
     let told = objection.told.clone();
     let Some(off) = &objection.off else { return told };
     let candidates = off.speeds.iter().flat_map(|stated| {

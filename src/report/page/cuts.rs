@@ -4,12 +4,12 @@
 
 use super::html::{Column, escaped, table, unbroken};
 use crate::report::Material;
-use crate::summary::time;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, Program, Site};
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
+use vcutc_driver::summary::time;
 
 /// Most cuts that have a row each.
 const MOST_CUTS: usize = 2000;

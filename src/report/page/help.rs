@@ -3,7 +3,7 @@
 use super::Subject;
 use super::html::{escaped, unbroken};
 use super::source::Listing;
-use crate::hints::Hint;
+use vcutc_driver::hints::Hint;
 
 /// The block; nothing where nothing was found, or nothing was looked for.
 pub(super) fn block(subject: Subject<'_>, listing: &Listing<'_>) -> String {

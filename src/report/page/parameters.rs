@@ -4,11 +4,11 @@
 use super::html::{Column, escaped, table, unbroken};
 use super::source::Listing;
 use super::{Section, Subject};
-use crate::summary;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Load, Ready, Registered};
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::source::Span;
+use vcutc_driver::summary;
 use vcutc_job::{Auto, Bounds, Formulas, Machine, Objective, Operation, RoughVcut, Sourced};
 use vcutc_process::plan::parameters::show;
 use vcutc_process::plan::{PlannedOperation, PlannedVcut};

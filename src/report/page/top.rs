@@ -2,9 +2,9 @@
 
 use super::Subject;
 use super::html::{escaped, unbroken};
-use crate::checks::{Checks, Standing};
-use crate::summary::{self, time};
 use vcutc_diagnostics::render::{ColorChoice, render};
+use vcutc_driver::checks::{Checks, Standing};
+use vcutc_driver::summary::{self, time};
 use vcutc_motion::summary::margin_words;
 
 /// The header: job, machine, verdict, warnings.

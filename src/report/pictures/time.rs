@@ -1,7 +1,7 @@
 //! What the time is spent on.
 
 use crate::report::Material;
-use crate::summary;
+use vcutc_driver::summary;
 use vcutc_picture::{Prefix, times};
 use vcutc_process::sim::timing::{Kind, LayerTime, Timing};
 

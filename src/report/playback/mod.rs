@@ -12,12 +12,12 @@ mod packing;
 pub mod timeline;
 pub mod track;
 
-use crate::driver::{Compiled, Finished};
 use bodies::{Body, bodies};
 use timeline::Timeline;
 use track::Track;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
+use vcutc_driver::{Compiled, Finished};
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;

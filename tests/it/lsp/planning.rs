@@ -5,8 +5,8 @@ use crate::repository::read;
 use serde_json::{Value, json};
 use vcutc::diagnostics::source::{LoadError, Loader};
 use vcutc::driver::Unhurried;
+use vcutc::driver::memory::Memory;
 use vcutc::lsp::Task;
-use vcutc::memory::Memory;
 use vcutc::registry;
 
 const PATH: &str = "/shop/rib.vcut";

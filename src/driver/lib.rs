@@ -4,14 +4,22 @@
 //! caller's [`Sink`](vcutc_backend_api::bundle::Sink).
 
 mod air;
+pub mod air_cut;
 mod asked;
 mod axis_moves;
+pub mod checks;
 mod emitting;
+pub mod hints;
 mod home;
+pub mod manifest;
+pub mod memory;
 mod mount;
 mod narrower;
+pub mod numbers;
 mod reaching;
 mod refusal;
+pub mod starter;
+pub mod summary;
 mod target;
 mod trials;
 mod yielding;
@@ -593,7 +601,7 @@ fn paced(job: &CheckedJob, program: &Finished) -> Paced {
 }
 
 /// A program that breaks a rule of its own form is the compiler's fault, whatever the job says.
-pub(crate) fn internal(job: &CheckedJob, faults: &[(Option<OpId>, String)]) -> Diagnostic {
+pub fn internal(job: &CheckedJob, faults: &[(Option<OpId>, String)]) -> Diagnostic {
     let mut diagnostic = Diagnostic::new(
         Code::Internal,
         "the program made from this job breaks a rule, which is a fault of the compiler",
@@ -608,7 +616,7 @@ pub(crate) fn internal(job: &CheckedJob, faults: &[(Option<OpId>, String)]) -> D
 }
 
 /// Broken rules of a program, as [`internal`] takes them.
-pub(crate) fn rules_broken(faults: &[Fault]) -> Vec<(Option<OpId>, String)> {
+pub fn rules_broken(faults: &[Fault]) -> Vec<(Option<OpId>, String)> {
     let words = |fault: &Fault| (fault.op, fault.rule.to_string());
     faults.iter().map(words).collect()
 }

@@ -1,7 +1,7 @@
 //! Hints are tried: applied, a job takes the time that they state.
 
 use super::*;
-use crate::driver::{Outcome, Request, Typed, compile};
+use crate::{Outcome, Request, Typed, compile};
 use vcutc_diagnostics::source::{LoadError, Loader};
 use vcutc_motion::remedy::trial;
 use vcutc_motion::solve::Unreached;
@@ -29,7 +29,7 @@ machine m = five_axis "gantry.toml" {
 }
 "#;
 
-const GANTRY: &str = include_str!("../../examples/shop/gantry.toml");
+const GANTRY: &str = include_str!("../../../examples/shop/gantry.toml");
 
 struct One<'t>(&'t str);
 

@@ -1,7 +1,7 @@
 //! The figures of an air cut for people: what was proven of it, and what was not.
 
 use super::{IN_HAND, row, time, times};
-use crate::air::{TIP_SPEED, TURNING_RATE};
+use crate::air_cut::{TIP_SPEED, TURNING_RATE};
 use vcutc_backend_api::units::Length;
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};

@@ -8,8 +8,8 @@
 mod places;
 mod text;
 
-use crate::driver::{self, Request, Typed, Unhelped};
 use crate::memory::Memory;
+use crate::{self as driver, Request, Typed, Unhelped};
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::{Frame, Point3};

@@ -1,7 +1,7 @@
 //! Compiling with a memory against compiling afresh, over random edits of a job: outcome and files must be the same to the byte.
 
 use super::*;
-use crate::driver::{Request, Stage, Typed, Unhurried, compile, compile_again, compile_while, write};
+use crate::{Request, Stage, Typed, Unhurried, compile, compile_again, compile_while, write};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Needless, Wanted};
@@ -99,7 +99,7 @@ fn request<'a>(text: &'a Text, targets: &'a [&'static dyn Backend]) -> Request<'
 }
 
 /// All that comes of a job, and its files, as text.
-fn all_of(outcome: &crate::driver::Outcome) -> (String, String) {
+fn all_of(outcome: &crate::Outcome) -> (String, String) {
     let files = registry::backends()
         .iter()
         .map(|backend| write(outcome, *backend))

@@ -13,8 +13,8 @@ mod change;
 #[cfg(test)]
 mod tests;
 
-use crate::driver::{self, Compiled, Yielded};
 use crate::summary::time;
+use crate::{self as driver, Compiled, Yielded};
 use change::Change;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::verify;
