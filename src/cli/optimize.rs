@@ -6,9 +6,9 @@ use super::files::Disk;
 use super::output::{Destination, Output, Placed};
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::optimisation::{self, Optimisation, Refusal, report};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::bundle::Sink;
+use vcutc_study::optimisation::{self, Optimisation, Refusal, report};
 
 /// Optimises one job.
 pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console) -> Exit {

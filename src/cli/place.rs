@@ -6,8 +6,8 @@ use super::files::Disk;
 use super::output::one_file;
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::placement::{self, Asked, Placement, Refusal, report};
 use std::path::Path;
+use vcutc_study::placement::{self, Asked, Placement, Refusal, report};
 
 /// Places one job.
 pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> Exit {

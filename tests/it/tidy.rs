@@ -10,12 +10,10 @@ const MOST_LINES: usize = 700;
 
 /// Which module of the root package may use which others; Cargo says it of rooms.
 const MAY_USE: &[(&str, &[&str])] = &[
-    ("placement", &[]),
-    ("optimisation", &[]),
     ("convert", &[]),
     ("report", &[]),
     ("lsp", &[]),
-    ("cli", &["convert", "lsp", "optimisation", "placement", "report"]),
+    ("cli", &["convert", "lsp", "report"]),
 ];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.

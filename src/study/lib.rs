@@ -1,0 +1,4 @@
+//! Studies of a job: its trade-offs, and where the work should be
+
+pub mod optimisation;
+pub mod placement;
