@@ -6,7 +6,6 @@ pub mod cli;
 pub mod convert;
 #[cfg(feature = "lsp")]
 pub mod lsp;
-pub mod report;
 pub use vcutc_cancellation as cancellation;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_diff as diff;
@@ -19,5 +18,6 @@ pub use vcutc_picture as picture;
 pub use vcutc_process as process;
 pub use vcutc_readback as readback;
 pub use vcutc_registry as registry;
+pub use vcutc_report as report;
 pub use vcutc_study as study;
 pub use vcutc_syntax as syntax;

@@ -9,7 +9,6 @@ use super::output::one_file;
 use super::{Exit, Targets};
 use crate::convert::write::{ProfileFile, ProfileForm};
 use crate::convert::{self, Conversion, Refused};
-use crate::report::{Material, pictures};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::readback::{ProgramFile, decoded};
 use vcutc_diagnostics::has_errors;
@@ -17,6 +16,7 @@ use vcutc_diagnostics::source::{Entry, LoadError, Loader};
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{Outcome, Request};
 use vcutc_picture::Prefix;
+use vcutc_report::{Material, pictures};
 
 /// Converts one program.
 pub(super) fn convert(args: &ConvertArgs, targets: &Targets, console: &Console) -> Exit {

@@ -8,13 +8,13 @@ use super::output::{Destination, Output, Placed, one_file};
 use super::patience;
 use super::progress::Progress;
 use super::{Exit, Targets};
-use crate::report::{Material, pictures};
 use clap::ValueEnum;
 use std::path::Path;
 use vcutc_backend_api::bundle::Sink;
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{Outcome, RequestError};
 use vcutc_picture::Prefix;
+use vcutc_report::{Material, pictures};
 
 /// Where pictures go.
 enum To<'a> {

@@ -12,8 +12,6 @@ use super::patience;
 use super::progress::Progress;
 use super::snapshot::read_back;
 use super::{Exit, Targets, targets};
-use crate::report::page::{Further, page};
-use crate::report::sheet::sheet;
 use std::path::Path;
 use std::slice;
 use vcutc_diagnostics::has_errors;
@@ -21,6 +19,8 @@ use vcutc_driver::hints::Hint;
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{self as driver, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use vcutc_readback::Written;
+use vcutc_report::page::{Further, page};
+use vcutc_report::sheet::sheet;
 
 /// Reports one job.
 pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) -> Exit {

@@ -9,12 +9,7 @@ use vcutc::diagnostics::Code;
 const MOST_LINES: usize = 700;
 
 /// Which module of the root package may use which others; Cargo says it of rooms.
-const MAY_USE: &[(&str, &[&str])] = &[
-    ("convert", &[]),
-    ("report", &[]),
-    ("lsp", &[]),
-    ("cli", &["convert", "lsp", "report"]),
-];
+const MAY_USE: &[(&str, &[&str])] = &[("convert", &[]), ("lsp", &[]), ("cli", &["convert", "lsp"])];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
 const ONLY_IN: &[(&str, &[&str])] = &[

@@ -14,7 +14,6 @@ mod stamps;
 use super::args::WatchArgs;
 use super::console::{Console, Failure};
 use super::{Exit, Targets};
-use crate::report::page::{Content, Further, Served, served_errors, served_page};
 use again::{Came, Means, Seen, Watched};
 use serde::Serialize;
 use server::Server;
@@ -27,6 +26,7 @@ use std::time::{Duration, Instant};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::render::{ColorChoice, render};
 use vcutc_driver::memory::Memory;
+use vcutc_report::page::{Content, Further, Served, served_errors, served_page};
 
 /// How long after a program could not be written that is tried again.
 const FIRST_RETRY: Duration = Duration::from_secs(1);

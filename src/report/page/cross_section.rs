@@ -2,7 +2,7 @@
 
 use super::figure::{Ids, Zoom, figure};
 use super::{Section, Subject, cuts};
-use crate::report::pictures;
+use crate::pictures;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {

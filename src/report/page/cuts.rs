@@ -3,7 +3,7 @@
 //! A page has room for so many rows only: of a program with more cuts each layer has one.
 
 use super::html::{Column, escaped, table, unbroken};
-use crate::report::Material;
+use crate::Material;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, Program, Site};
 use vcutc_backend_api::motion::pose_after;

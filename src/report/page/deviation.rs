@@ -3,7 +3,7 @@
 use super::figure::{Ids, Zoom, figure};
 use super::html::{Column, table};
 use super::{Section, Subject};
-use crate::report::pictures;
+use crate::pictures;
 use vcutc_process::sim::report::Report;
 
 /// The section.

@@ -1,6 +1,6 @@
 //! The little of HTML that the page needs: texts that cannot break out, and tables.
 
-pub(in crate::report) use vcutc_picture::escaped;
+pub(crate) use vcutc_picture::escaped;
 
 /// A column of a table.
 #[derive(Clone, Copy)]
@@ -78,7 +78,7 @@ pub(super) fn paragraph(text: &str) -> String {
 }
 
 /// A text as HTML in which no line ends between a number and its unit.
-pub(in crate::report) fn unbroken(text: &str) -> String {
+pub(crate) fn unbroken(text: &str) -> String {
     const UNITS: [&str; 11] = [
         "%", "mm", "mm\u{b2}", "mm/s", "deg", "deg/s", "s", "min", "h", "kg", "ms",
     ];

@@ -3,7 +3,7 @@
 use super::figure::{Zoom, framed};
 use super::html::{Column, escaped, near, table, terms};
 use super::{Section, Subject};
-use crate::report::pictures;
+use crate::pictures;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use vcutc_picture::Prefix;
 use vcutc_process::plan::parameters::show;

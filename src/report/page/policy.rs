@@ -2,12 +2,12 @@
 //!
 //! Styles are not restricted: without images and fonts a style has nothing to ask for.
 
-use crate::report::base64::base64;
-use crate::report::digest::sha256;
+use crate::base64::base64;
+use crate::digest::sha256;
 
 /// What a page may ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::report) enum Requests {
+pub(crate) enum Requests {
     /// Nothing: it is complete in itself.
     None,
     /// The server that it came from, for changes.
@@ -16,7 +16,7 @@ pub(in crate::report) enum Requests {
 
 /// The policy, as the content of a `meta` element, for a page with these scripts. A script is what stands between its tags, to
 /// the byte.
-pub(in crate::report) fn policy(scripts: &[&str], requests: Requests) -> String {
+pub(crate) fn policy(scripts: &[&str], requests: Requests) -> String {
     let hashes: Vec<String> = scripts
         .iter()
         .map(|script| format!("'sha256-{}'", base64(&sha256(script.as_bytes()))))

@@ -4,8 +4,8 @@
 use super::figure::{Zoom, framed};
 use super::html::{escaped, terms};
 use super::{Section, Subject};
-use crate::report::digest::hexadecimal;
-use crate::report::facts::{self, Fact};
+use crate::digest::hexadecimal;
+use crate::facts::{self, Fact};
 use vcutc_picture::{Prefix, setup};
 
 /// The section.

@@ -3,7 +3,7 @@
 use super::figure::{Ids, Zoom, figure};
 use super::html::{Column, paragraph, percent, table};
 use super::{Section, Subject};
-use crate::report::pictures;
+use crate::pictures;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary::time;
 use vcutc_process::plan::PlannedOperation;

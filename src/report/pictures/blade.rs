@@ -1,6 +1,6 @@
 //! The blade of a job as it is held: for people who clamp it.
 
-use crate::report::Material;
+use crate::Material;
 use vcutc_backend_api::ir::Edges;
 use vcutc_picture::{Prefix, blade};
 use vcutc_process::plan::PlannedOperation;

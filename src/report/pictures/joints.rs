@@ -5,7 +5,7 @@
 //! slowing down.
 
 use super::time::name;
-use crate::report::Material;
+use crate::Material;
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
 use vcutc_backend_api::motion::pose_after;

@@ -1,7 +1,7 @@
 //! The path of a milling program beside that of the V-cuts made of it (`picture::paths`).
 
 use super::{Machined, machined};
-use crate::report::Material;
+use crate::Material;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, OrientationId, Program};
 use vcutc_picture::{Prefix, paths};

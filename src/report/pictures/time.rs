@@ -1,6 +1,6 @@
 //! What the time is spent on.
 
-use crate::report::Material;
+use crate::Material;
 use vcutc_driver::summary;
 use vcutc_picture::{Prefix, times};
 use vcutc_process::sim::timing::{Kind, LayerTime, Timing};

@@ -1,6 +1,6 @@
 //! Columns of numbers as text: little-endian bytes in base64 (RFC 4648).
 
-use crate::report::base64::base64;
+use crate::base64::base64;
 
 /// A number that a column can hold.
 pub(super) trait Packed {
