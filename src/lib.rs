@@ -2,16 +2,16 @@
 
 #[cfg(feature = "cli")]
 pub mod cli;
-#[cfg(feature = "krl")]
-pub mod convert;
-#[cfg(feature = "lsp")]
-pub mod lsp;
 pub use vcutc_cancellation as cancellation;
+#[cfg(feature = "krl")]
+pub use vcutc_convert as convert;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_diff as diff;
 pub use vcutc_driver as driver;
 pub use vcutc_geometry as geometry;
 pub use vcutc_job as job;
+#[cfg(feature = "lsp")]
+pub use vcutc_lsp as lsp;
 pub use vcutc_machine as machine;
 pub use vcutc_motion as motion;
 pub use vcutc_picture as picture;

@@ -8,8 +8,6 @@ use super::Targets;
 use super::console::{Console, Failure};
 use super::files::{list_folder, load_file, with_forward_slashes};
 use super::patience::{HelpBudget, Waiting};
-use crate::lsp::wire::{self, Broken, Fault, Incoming};
-use crate::lsp::{Done, Ending, Server, Task, Workspace};
 use serde_json::Value;
 use std::collections::VecDeque;
 use std::io::{self, BufReader, Write};
@@ -21,6 +19,8 @@ use std::time::{Duration, Instant};
 use vcutc_backend_api::backend::Backend;
 use vcutc_diagnostics::source::{Entry, LoadError, Loader};
 use vcutc_driver::memory::Memory;
+use vcutc_lsp::wire::{self, Broken, Fault, Incoming};
+use vcutc_lsp::{Done, Ending, Server, Task, Workspace};
 
 /// How long nothing must have been told, such as a change of a text, before a job is planned. Questions are no reason to wait.
 const PAUSE: Duration = Duration::from_millis(250);

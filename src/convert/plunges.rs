@@ -95,7 +95,7 @@ pub(super) fn sorted(plunges: &[Plunge], passes: &[Pass], blank: Blank, slope: f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::convert::milling::Way;
+    use crate::milling::Way;
     use proptest::prelude::*;
     use vcutc_diagnostics::source::SourceMap;
 

@@ -8,9 +8,6 @@ use vcutc::diagnostics::Code;
 /// Longest source file. Beyond it a file is about more than one subject.
 const MOST_LINES: usize = 700;
 
-/// Which module of the root package may use which others; Cargo says it of rooms.
-const MAY_USE: &[(&str, &[&str])] = &[("convert", &[]), ("lsp", &[]), ("cli", &["convert", "lsp"])];
-
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
 const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diagnostics/render.rs"]),
@@ -61,29 +58,6 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("std::thread", &["src/cli/"]),
     ("std::time", &["src/cli/"]),
 ];
-
-#[test]
-fn imports_follow_the_flow() {
-    let mut breaches = Vec::new();
-    for file in files("src", ".rs") {
-        let Some(module) = module(&file.path) else {
-            continue;
-        };
-        let allowed = MAY_USE
-            .iter()
-            .find(|(name, _)| *name == module)
-            .unwrap_or_else(|| panic!("{}: a module the rules do not know", file.path))
-            .1;
-        for (number, line) in file.code() {
-            for used in modules_used(line) {
-                if used != module && !allowed.contains(&used) {
-                    breaches.push(format!("{}:{number}: {module} uses {used}", file.path));
-                }
-            }
-        }
-    }
-    assert_none(&breaches);
-}
 
 #[test]
 fn packages_stay_where_they_belong() {
@@ -320,29 +294,6 @@ fn sources() -> Vec<TextFile> {
 /// All documents of the workspace.
 fn documents() -> Vec<TextFile> {
     files("", ".md")
-}
-
-/// `src/process/plan/grid.rs` belongs to `plan`; `src/lib.rs` and `src/main.rs` to none.
-fn module(path: &str) -> Option<&str> {
-    let inside = path.strip_prefix("src/")?;
-    let module = inside.split('/').next()?.trim_end_matches(".rs");
-    let is_room = root().join("src").join(module).join("Cargo.toml").is_file();
-    (!is_room && !matches!(module, "lib" | "main")).then_some(module)
-}
-
-/// The modules that a line names as `crate::module`.
-fn modules_used(line: &str) -> impl Iterator<Item = &str> {
-    line.match_indices("crate::").filter_map(|(at, found)| {
-        let rest = &line[at + found.len()..];
-        let end = rest
-            .find(|c: char| !(c.is_alphanumeric() || c == '_'))
-            .unwrap_or(rest.len());
-        let begins_word = line[..at]
-            .chars()
-            .next_back()
-            .is_none_or(|c| !(c.is_alphanumeric() || c == '_' || c == '$'));
-        begins_word.then_some(&rest[..end])
-    })
 }
 
 /// Whether a line names a path such as `std::fs`, and not one that merely ends or begins alike.

@@ -1,8 +1,8 @@
 //! The arguments of `vcutc convert`.
 
 use super::TargetOptions;
-use crate::convert::asked::Words;
 use clap::Args;
+use vcutc_convert::asked::Words;
 
 /// What `vcutc convert` takes. Lengths are in mm unless a unit follows; everything else carries its unit.
 #[derive(Debug, Args)]

@@ -18,7 +18,6 @@ struct Function {
     /// A call of it.
     example: &'static str,
     /// What it takes and gives.
-    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
     signature: Signature,
 }
 

@@ -60,7 +60,6 @@ pub enum Need {
 /// What the value of a field is. The blocks' own checks read it; this is for those who help to write it, and tests hold the
 /// two against each other.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
 pub enum Takes {
     /// Nothing that can be said in advance.
     Anything,
@@ -97,13 +96,10 @@ pub struct FieldSpec {
     /// A typical value; for a block with its braces.
     pub typical: &'static str,
     /// Whether it must be there.
-    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
     pub need: Need,
     /// What its value is.
-    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
     pub takes: Takes,
     /// Whether it takes `auto`.
-    #[cfg_attr(not(feature = "lsp"), allow(dead_code, reason = "for editors"))]
     pub leaving: Leaving,
 }
 

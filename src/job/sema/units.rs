@@ -8,7 +8,6 @@ use core::f64::consts::PI;
 pub(super) struct Unit {
     pub(super) name: &'static str,
     /// What it is called.
-    #[cfg_attr(not(feature = "lsp"), expect(dead_code, reason = "only editors say it"))]
     pub(super) spoken: &'static str,
     /// One of it in mm, rad, s, kg.
     pub(super) size: f64,

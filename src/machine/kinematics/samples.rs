@@ -1,4 +1,5 @@
 //! Arms for tests, by published numbers.
+#![allow(clippy::expect_used, reason = "tests fail by panics")]
 
 use super::Joints;
 use super::mounted::Mounted;

@@ -5,14 +5,13 @@ use crate::sim::prove::Findings;
 use crate::verdict;
 use proptest::prelude::*;
 use vcutc_backend_api::ir::{Edges, Stock};
-use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
-use vcutc_diagnostics::source::{SourceMap, Span};
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::samples::{given, operation, paper_job};
 use vcutc_job::{
-    Auto, Blade, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Operation, Order,
-    Residual, RoughVcut, Sequence, Sourced,
+    Auto, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Order, Residual, RoughVcut,
 };
 
 fn a_profile() -> impl Strategy<Value = Vec<Point2>> {
