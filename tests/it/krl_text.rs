@@ -1,9 +1,9 @@
 //! Programs read back from their text, by the reader that the target's own tests use: written from the manuals, not from
 //! the writer.
 
-#[path = "../../backends/krl/tests/support/expected.rs"]
+#[path = "../../backends/krl/tests/it/support/expected.rs"]
 pub(crate) mod expected;
-#[path = "../../backends/krl/tests/support/reader.rs"]
+#[path = "../../backends/krl/tests/it/support/reader.rs"]
 pub(crate) mod reader;
 
 use expected::{Rounding, compare, poses_agree, steps};

@@ -6,7 +6,6 @@
     reason = "a test that meets the unexpected should stop"
 )]
 
-#[path = "../support/mod.rs"]
 mod support;
 
 mod dialect;
