@@ -3,10 +3,40 @@
 //! A rule reports all breaches in one run, each with file and line.
 
 use crate::repository::{TextFile, files, read, root};
+use std::collections::{BTreeMap, BTreeSet};
 use vcutc::diagnostics::Code;
 
 /// Longest source file. Beyond it a file is about more than one subject.
 const MOST_LINES: usize = 700;
+
+/// Modules of a room that import each other in circles, until they are untied. What is untied leaves this list.
+const KNOTS: &[(&str, &[&str])] = &[
+    (
+        "src/convert",
+        &[
+            "complaints",
+            "feeds",
+            "offers",
+            "place",
+            "plunges",
+            "raster",
+            "runs",
+        ],
+    ),
+    ("src/convert", &["frames", "motions", "read"]),
+    ("src/lsp", &["completion", "paths", "values"]),
+    ("src/lsp", &["context", "slots", "surroundings"]),
+    ("src/lsp", &["requests", "server"]),
+    ("src/machine", &["five_axis", "robot", "sheet"]),
+    ("src/motion", &["demand", "five_axis_path", "path"]),
+    (
+        "src/motion",
+        &["solve", "stands", "survey", "trouble", "way", "ways"],
+    ),
+    ("src/picture", &["sheet", "svg"]),
+    ("src/readback", &["differences", "split", "steps"]),
+    ("src/syntax", &["builder", "expression", "mistakes", "slips"]),
+];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
 const ONLY_IN: &[(&str, &[&str])] = &[
@@ -58,6 +88,27 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("std::thread", &["src/cli/"]),
     ("std::time", &["src/cli/"]),
 ];
+
+#[test]
+fn modules_of_a_room_import_in_one_direction() {
+    let mut found = Vec::new();
+    for manifest in files("src", "Cargo.toml") {
+        let room = manifest.path.trim_end_matches("/Cargo.toml");
+        for knot in knots(&imports(room)) {
+            found.push(format!("{room}: {}", knot.join(", ")));
+        }
+    }
+    found.sort();
+    let mut known: Vec<String> = KNOTS
+        .iter()
+        .map(|(room, knot)| format!("{room}: {}", knot.join(", ")))
+        .collect();
+    known.sort();
+    assert_eq!(
+        found, known,
+        "circles that are there, and circles that are listed"
+    );
+}
 
 #[test]
 fn packages_stay_where_they_belong() {
@@ -294,6 +345,84 @@ fn sources() -> Vec<TextFile> {
 /// All documents of the workspace.
 fn documents() -> Vec<TextFile> {
     files("", ".md")
+}
+
+/// The modules of a room, and those that each of them names.
+fn imports(room: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let mut imports: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for file in files(room, ".rs") {
+        let inside = file.path.trim_start_matches(room).trim_start_matches('/');
+        let parts: Vec<&str> = inside.split('/').collect();
+        let module = parts[0].trim_end_matches(".rs");
+        // `super` leads to the room from a module's own file, and from deeper ones as often as they are deep.
+        let depth = parts.len() - usize::from(parts.len() > 1 && inside.ends_with("/mod.rs"));
+        let code: Vec<&str> = file.code().map(|(_, line)| line).collect();
+        let code = code.join("\n");
+        let used = imports.entry(module.to_owned()).or_default();
+        for root in ["crate::".to_owned(), "super::".repeat(depth)] {
+            for (at, found) in code.match_indices(&root) {
+                let is_whole = !code[..at].ends_with(|c: char| c.is_alphanumeric() || "_$:".contains(c));
+                if is_whole {
+                    used.extend(first_names(&code[at + found.len()..]));
+                }
+            }
+        }
+    }
+    let modules: BTreeSet<String> = imports.keys().cloned().collect();
+    for (module, used) in &mut imports {
+        used.retain(|name| name != module && modules.contains(name));
+    }
+    imports
+}
+
+/// The names that a path goes on with: one, or several in braces.
+fn first_names(rest: &str) -> Vec<String> {
+    let name = |text: &str| {
+        let is_word = |c: &char| c.is_alphanumeric() || *c == '_';
+        text.trim_start().chars().take_while(is_word).collect::<String>()
+    };
+    let Some(group) = rest.strip_prefix('{') else {
+        return vec![name(rest)];
+    };
+    let mut depth = 1;
+    let mut names = vec![name(group)];
+    for (at, c) in group.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 1 => names.push(name(&group[at + 1..])),
+            _ => {}
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    names
+}
+
+/// Sets of modules each of which leads to all others of its set.
+fn knots(imports: &BTreeMap<String, BTreeSet<String>>) -> BTreeSet<Vec<String>> {
+    let reached = |from: &String| {
+        let mut reached = BTreeSet::new();
+        let mut open: Vec<&String> = imports[from].iter().collect();
+        while let Some(module) = open.pop() {
+            if reached.insert(module.clone()) {
+                open.extend(&imports[module]);
+            }
+        }
+        reached
+    };
+    let all: BTreeMap<&String, BTreeSet<String>> =
+        imports.keys().map(|module| (module, reached(module))).collect();
+    let circle = |module: &String| -> Vec<String> {
+        let others = all[module].iter().filter(|other| all[*other].contains(module));
+        others.cloned().collect()
+    };
+    imports
+        .keys()
+        .map(circle)
+        .filter(|circle| circle.len() > 1)
+        .collect()
 }
 
 /// Whether a line names a path such as `std::fs`, and not one that merely ends or begins alike.
