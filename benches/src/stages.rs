@@ -3,16 +3,16 @@
 //! The jobs here are right, so whatever goes wrong is a fault of the compiler or of the benchmark: it ends the run. None
 //! of them is inlined, so that profilers show them by their names.
 
-use vcutc::process::choice;
+use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::job::CheckedJob;
-use vcutc::process::plan::{PlannedJob, PlannedOperation};
 use vcutc::job::sema;
+use vcutc::process::choice;
+use vcutc::process::plan::{PlannedJob, PlannedOperation};
 use vcutc::process::sim::prove::{self, Bound, Findings, Replay};
 use vcutc::process::sim::timing::Times;
-use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
+use vcutc::process::{lower, sim};
 use vcutc::syntax::{self, ast::Ast};
-use vcutc::{lower, sim};
 use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::motion::ReachableProgram;
