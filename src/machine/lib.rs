@@ -3,12 +3,10 @@
 
 pub mod catalogue;
 pub mod facts;
-mod five_axis;
 pub mod habits;
 pub mod kinematics;
 pub mod path_limits;
 mod reach;
-mod robot;
 pub mod sheet;
 pub mod urdf;
 mod usual_home;

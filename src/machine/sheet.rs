@@ -4,9 +4,13 @@
 //! numbers come from and how far to trust them ([`Facts`]). `docs/machines.md` has the form. One form is read for robots
 //! and one for five-axis machines; the key `kind` says which.
 
-use super::facts::{self, Facts, FkCheck, Sources};
+mod five_axis;
+mod robot;
+mod types;
+
+use super::Model;
+use super::facts::{self, Facts, FkCheck};
 use super::path_limits::{self, PathLimits};
-use super::{Model, five_axis, robot};
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 use vcutc_diagnostics::document::flaw::Flaw;
@@ -135,28 +139,6 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
         path,
         facts,
     })
-}
-
-/// How sheets of one kind of machine are read.
-#[derive(Clone, Copy)]
-pub(super) struct Form {
-    /// Keys of the sheet as a whole, besides those that all sheets have.
-    pub(super) keys: &'static [&'static str],
-    /// Reads what is particular to the kind.
-    pub(super) read: fn(&Table<'_>, Maker, &mut Vec<Flaw>) -> Option<Body>,
-}
-
-/// What is particular to one kind of machine.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Body {
-    /// Its axes.
-    pub(super) axes: Vec<Axis>,
-    /// How they move the flange; none when a flaw has been found in it.
-    pub(super) mechanism: Option<Mechanism>,
-    /// Where the numbers come from.
-    pub(super) sources: Vec<Sources>,
-    /// For [`Facts::remarks`].
-    pub(super) remarks: Vec<String>,
 }
 
 /// Who makes the controller of a manufacturer's machines.

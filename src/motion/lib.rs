@@ -4,9 +4,9 @@
 //! flange in the machine's root. Every motion of a program is a [`path::Course`] of the blade; [`path`] proves that the
 //! axes follow it.
 
+pub mod axis_range;
 pub mod demand;
 pub mod describe;
-pub mod five_axis_path;
 pub mod ladder;
 pub mod legs;
 pub mod pace;

@@ -52,7 +52,7 @@
 //!
 //! Arms without a closed form are proven by way of their Jacobian; [`mod@serial`] has the theorem. Of their distance from
 //! singular poses nothing is measured: a proof says that they meet none, and the least clearance asked for is not checked. Five-axis machines are
-//! interpolated in another way and have a check of their own, [`five_axis_path`].
+//! interpolated in another way and have a check of their own, [`five_axis`].
 //!
 //! # What is assumed
 //!
@@ -72,6 +72,7 @@ mod axes;
 mod bounds;
 mod chain;
 mod course;
+pub mod five_axis;
 mod interval;
 mod march;
 mod number;
@@ -85,7 +86,6 @@ pub use axes::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
 pub use refuted::{Refuted, refuted};
 pub use worst::{Look, worst};
 
-use super::five_axis_path;
 use super::rig::Rig;
 use abreast::Underway;
 use arm::{ArmBranch, Carrying};
@@ -213,8 +213,7 @@ pub fn prove_all(
 ) -> Vec<Result<Proof, Breach>> {
     // Its controller interpolates in another way.
     if let Mechanism::FiveAxis(machine) = rig.mechanism {
-        let one =
-            |(course, start): &(Course, Joints)| five_axis_path::prove(machine, rig, course, branch, start);
+        let one = |(course, start): &(Course, Joints)| five_axis::prove(machine, rig, course, branch, start);
         return courses.iter().map(one).collect();
     }
     let begun = courses
@@ -276,7 +275,7 @@ impl<'r> Followed<'r> {
                 rig,
                 course,
                 ends,
-            } => Some(five_axis_path::joints_between(machine, rig, course, *ends, place)),
+            } => Some(five_axis::joints_between(machine, rig, course, *ends, place)),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Turns of five-axis machines at the rate that the job asks for.
 //!
 //! The rate of an op is that of the shortest turn between its postures. Rotary axes that go each at a constant rate turn the blade
-//! on a longer way ([`super::five_axis_path`]), so in the time of the shortest turn it is turned faster than the job allows: a few
+//! on a longer way ([`super::path::five_axis`]), so in the time of the shortest turn it is turned faster than the job allows: a few
 //! per cent on a head that swings and rakes, by half on one whose C axis carries the blade round a cone. Here such ops get the rate
 //! with which the blade never turns faster than it should ([`vcutc_machine::kinematics::five_axis::FiveAxis::fastest_turn`]).
 

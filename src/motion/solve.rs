@@ -16,7 +16,8 @@
 //!
 //! Nothing depends on how many threads prove: proofs are joined in the order of the ops.
 
-use super::demand::{Demand, axis_margin, turn_to_middle};
+use super::axis_range::{axis_margin, turn_to_middle};
+use super::demand::Demand;
 use super::ladder::{Stuck, climb};
 use super::legs::{Leg, Taught, legs};
 use super::path::{Clearance, Proof};

@@ -1,6 +1,7 @@
 //! What a program asks of its machine, for people and for programs: the [`ReachFigures`], their lines and their table.
 
-use crate::demand::{Extreme, axis_margin};
+use crate::axis_range::axis_margin;
+use crate::demand::Extreme;
 use crate::describe::{branch_words, kuka_status, site_words};
 use crate::solve::Reached;
 use serde::{Serialize, Serializer};

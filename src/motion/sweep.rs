@@ -1,7 +1,7 @@
 //! What the blade sweeps where a five-axis machine turns it, held against what is left of the stock.
 //!
 //! A robot turns the blade about one fixed axis, and the extension of the cuts is planned for that. Rotary axes that go each at a
-//! constant rate ([`super::five_axis_path`]) turn it on another way: a C axis carries a tilted blade round a cone, and in the
+//! constant rate ([`super::path::five_axis`]) turn it on another way: a C axis carries a tilted blade round a cone, and in the
 //! middle of the turn it may lie farther over the work than at both ends. So every motion that changes how the blade is held is
 //! looked at with the axes that carry it out.
 //!

@@ -1,6 +1,7 @@
 //! The ways to stand through a program's runs, as the rungs of a [`Ladder`].
 
-use super::demand::{Demand, turn_to_middle, turns};
+use super::axis_range::{turn_to_middle, turns};
+use super::demand::Demand;
 use super::ladder::{Cost, Ladder};
 use super::path::Proof;
 use super::runs::{Station, StationKind};

@@ -5,7 +5,8 @@
 //! on edge, and beside it, dashed, as the swing leans it for the two flanks. `docs/process.md` has the formulas.
 
 use super::Setting;
-use super::sheet::{BLUE, GREEN, HALO, INK, PHONE_WIDTH, VERMILION, WIDTH};
+use super::palette::{BLUE, GREEN, INK, VERMILION};
+use super::sheet::{HALO, PHONE_WIDTH, WIDTH};
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 

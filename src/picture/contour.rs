@@ -1,8 +1,9 @@
 //! What the cuts leave: the part, the machined contour above it, the chips that were taken out, and the highest scallop.
 
 use super::lattice::{EDGE, PART, SHADES, Surface, is_many, shades, surfaces};
+use super::palette::{INK, ORANGE};
 use super::section::{BELOW, Section};
-use super::sheet::{self, Entry, HALO, INK, ORANGE};
+use super::sheet::{self, Entry, HALO};
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 

@@ -1,7 +1,8 @@
 //! How two contours correlate when one is shifted against the other, as in figure 15 of [Cui 2020].
 
+use super::palette::{BLUE, VERMILION};
 use super::plot::{BELOW, Plot};
-use super::sheet::{self, BLUE, Entry, Room, VERMILION};
+use super::sheet::{self, Entry, Room};
 use super::svg::{Anchor, number};
 
 pub use super::sheet::Heading;

@@ -1,8 +1,9 @@
 //! How far the machined contour stands off the part, along the whole profile.
 
 use super::band::{Band, MANY};
+use super::palette::{BLUE, GREEN, VERMILION};
 use super::plot::{BELOW, Plot};
-use super::sheet::{self, BLUE, Entry, GREEN, Room, Swatch, VERMILION};
+use super::sheet::{self, Entry, Room, Swatch};
 use super::svg::{Along, Anchor, Svg, number};
 use super::thin::Thinned;
 

@@ -2,10 +2,11 @@
 //! its rate.
 
 use super::band::{Band, MANY};
+use super::palette::{BLUE, INK, VERMILION};
 use super::plot::Plot;
 use super::scale::Scale;
 use super::section::most_ticks;
-use super::sheet::{self, BLUE, Entry, INK, Room, VERMILION};
+use super::sheet::{self, Entry, Room};
 use super::svg::{Along, Anchor, Svg, number};
 use super::times::KINDS;
 use super::trace::Trace;

@@ -1,8 +1,9 @@
 //! The lattice: where the tips of all cuts lie, how they came to be there, and the flanks that rise from them.
 
 use super::band::MANY;
+use super::palette::{BLUE, GREEN, INK, PURPLE, VERMILION};
 use super::section::{BELOW, Section};
-use super::sheet::{self, BLUE, Entry, GREEN, INK, PURPLE, Swatch, VERMILION};
+use super::sheet::{self, Entry, Swatch};
 use super::svg::{Anchor, Svg};
 use super::trace::Trace;
 use std::collections::BTreeSet;

@@ -3,6 +3,21 @@
 //! A picture says its colours itself, so that it is the same in any viewer. A page that follows the setting of its reader has
 //! rules for each of them, which are stronger than what a picture says.
 
+/// The colour of letters and axes.
+pub(super) const INK: &str = "#2b2a27";
+/// Blue.
+pub(super) const BLUE: &str = "#0072b2";
+/// Vermilion.
+pub(super) const VERMILION: &str = "#d55e00";
+/// Green.
+pub(super) const GREEN: &str = "#009e73";
+/// Orange.
+pub(super) const ORANGE: &str = "#e69f00";
+/// Sky blue.
+pub(super) const SKY: &str = "#56b4e9";
+/// Purple.
+pub(super) const PURPLE: &str = "#cc79a7";
+
 /// Colours on a light ground, and on a dark one: what is light becomes dark, what stands out stands out.
 const PARTNERS: [(&str, &str); 32] = [
     // Ground, letters, plots, grid.

@@ -5,8 +5,9 @@
 
 pub use super::sheet::Heading;
 
+use super::palette::{BLUE, INK, VERMILION};
 use super::section::most_ticks;
-use super::sheet::{self, BLUE, Entry, INK, LEFT, RIGHT, Room, TOP, VERMILION, WIDTH};
+use super::sheet::{self, Entry, LEFT, RIGHT, Room, TOP, WIDTH};
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 

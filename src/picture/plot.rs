@@ -1,9 +1,10 @@
 //! A plot of curves over a value: its frame, axes and grid.
 
 use super::band::Band;
+use super::palette::INK;
 use super::scale::Scale;
 use super::section::most_ticks;
-use super::sheet::{INK, Room};
+use super::sheet::Room;
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 

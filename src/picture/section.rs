@@ -3,8 +3,9 @@
 //! It is drawn to scale: the angle of a V on paper is that of the blade. A flat stock gets a wider sheet; only one that would be no
 //! more than a line, over forty times as wide as it is high, is drawn higher by a round factor, which is said below the axis.
 
+use super::palette::INK;
 use super::scale::{Scale, round_step};
-use super::sheet::{INK, MARGIN, PAGE_WIDTH, Room};
+use super::sheet::{MARGIN, PAGE_WIDTH, Room};
 use super::svg::{Along, Anchor, Svg, number};
 use super::thin::Thinned;
 use super::trace::Trace;

@@ -1,7 +1,8 @@
 //! Sketches for who sets a machine up: where the work's zero is on the stock, and how the axes of the blade lie.
 
 use super::Prefix;
-use super::sheet::{HALO, INK};
+use super::palette::INK;
+use super::sheet::HALO;
 use super::svg::{Anchor, Svg, number};
 use super::trace::Trace;
 

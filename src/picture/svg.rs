@@ -1,7 +1,7 @@
 //! The little of SVG that pictures here need.
 
+use super::palette::INK;
 use super::scale::Scale;
-use super::sheet::INK;
 use super::{Prefix, Setting};
 use core::fmt::Write;
 

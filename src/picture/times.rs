@@ -1,9 +1,10 @@
 //! What time is spent on: a bar for each kind of motion, and one for each layer, divided by kind.
 
 use super::Setting;
+use super::palette::{BLUE, GREEN, INK, ORANGE, PURPLE, SKY};
 use super::scale::Scale;
 use super::section::most_ticks;
-use super::sheet::{self, BLUE, Entry, GREEN, INK, ORANGE, PURPLE, Room, SKY};
+use super::sheet::{self, Entry, Room};
 use super::svg::{Anchor, Svg, number};
 
 pub use super::sheet::Heading;

@@ -27,13 +27,10 @@ const KNOTS: &[(&str, &[&str])] = &[
     ("src/lsp", &["completion", "paths", "values"]),
     ("src/lsp", &["context", "slots", "surroundings"]),
     ("src/lsp", &["requests", "server"]),
-    ("src/machine", &["five_axis", "robot", "sheet"]),
-    ("src/motion", &["demand", "five_axis_path", "path"]),
     (
         "src/motion",
         &["solve", "stands", "survey", "trouble", "way", "ways"],
     ),
-    ("src/picture", &["sheet", "svg"]),
     ("src/readback", &["differences", "split", "steps"]),
     ("src/syntax", &["builder", "expression", "mistakes", "slips"]),
 ];

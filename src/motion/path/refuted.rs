@@ -8,7 +8,7 @@
 //! turns meanwhile changes nothing, for then it went farther still.
 
 use super::{Course, Machine, Way};
-use crate::demand::{axis_margin, turn_to_middle};
+use crate::axis_range::{axis_margin, turn_to_middle};
 use crate::rig::Rig;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;

@@ -6,7 +6,8 @@
 //! branch that misses fewest stands for the base, so that a search can tell better from worse out there too.
 
 use super::clearance::clearance;
-use crate::demand::{FULL, axis_margin};
+use crate::axis_range::axis_margin;
+use crate::demand::FULL;
 use crate::path::Clearance;
 use core::cmp::Ordering;
 use vcutc_backend_api::ir::{Axis, AxisKind};

@@ -4,7 +4,7 @@ use super::clearance::clearance;
 use super::score::{Judge, Score, singular_share};
 use super::search::{Bounds, Criteria, search};
 use super::{Spot, score};
-use crate::demand::axis_margin;
+use crate::axis_range::axis_margin;
 use core::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;

@@ -1,7 +1,8 @@
 //! Trials: a changed job through the whole pipeline.
 
 use super::{Case, farther_out};
-use crate::demand::{Demand, axis_margin};
+use crate::axis_range::axis_margin;
+use crate::demand::Demand;
 use crate::describe::{site_words, value_words};
 use crate::path::Violation;
 use crate::place::strokes::Strokes;

@@ -12,7 +12,7 @@ use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
 use vcutc_machine::kinematics::Joints;
-use vcutc_motion::demand::axis_margin;
+use vcutc_motion::axis_range::axis_margin;
 use vcutc_motion::solve::rig;
 use vcutc_motion::summary::{AxisFigure, margin_words};
 use vcutc_motion::trajectory::{Sample, Spacing, trajectory};

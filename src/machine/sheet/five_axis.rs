@@ -22,8 +22,8 @@
 //!
 //! All positions are seen from the machine frame with all axes at zero, see [`FiveAxis`].
 
-use super::facts::Sources;
-use super::sheet::{Body, Form};
+use super::types::{Body, Form};
+use crate::facts::Sources;
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense, Unfit};
 use core::ops::Range;

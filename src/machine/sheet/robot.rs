@@ -2,8 +2,8 @@
 //!
 //! Angles are the controller's own. Lengths follow Brandstötter, Angerer, Hofbaur 2014 as in [`Opw`].
 
-use super::facts::Sources;
-use super::sheet::{Body, Form};
+use super::types::{Body, Form};
+use crate::facts::Sources;
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};

@@ -30,8 +30,8 @@
 //! between two places that were looked at is thus never missed; a motion that keeps less than about [`FINEST`] from a limit
 //! may be refused, when its bounds do not become fine enough.
 
-use super::path::{Breach, Clearance, Course, Proof, Violation};
-use super::rig::Rig;
+use super::{Breach, Clearance, Course, Proof, Violation};
+use crate::rig::Rig;
 use glam::DVec3;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;

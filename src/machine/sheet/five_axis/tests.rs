@@ -203,7 +203,7 @@ fn every_axis_has_a_table_with_its_range() {
 
 #[test]
 fn the_sheet_of_the_manual_is_a_machine() {
-    let manual = include_str!("../../../docs/machines_five_axis.md");
+    let manual = include_str!("../../../../docs/machines_five_axis.md");
     let (_, rest) = manual.split_once("```toml\n").unwrap();
     let (text, _) = rest.split_once("```").unwrap();
     let sheet = parse(text).unwrap();

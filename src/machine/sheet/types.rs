@@ -1,0 +1,29 @@
+//! What the forms of sheets share: one is for robots, one for five-axis machines.
+
+use crate::facts::Sources;
+use crate::kinematics::Mechanism;
+use vcutc_backend_api::ir::{Axis, Maker};
+use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::document::table::Table;
+
+/// How sheets of one kind of machine are read.
+#[derive(Clone, Copy)]
+pub(super) struct Form {
+    /// Keys of the sheet as a whole, besides those that all sheets have.
+    pub(super) keys: &'static [&'static str],
+    /// Reads what is particular to the kind.
+    pub(super) read: fn(&Table<'_>, Maker, &mut Vec<Flaw>) -> Option<Body>,
+}
+
+/// What is particular to one kind of machine.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Body {
+    /// Its axes.
+    pub(super) axes: Vec<Axis>,
+    /// How they move the flange; none when a flaw has been found in it.
+    pub(super) mechanism: Option<Mechanism>,
+    /// Where the numbers come from.
+    pub(super) sources: Vec<Sources>,
+    /// For [`Facts::remarks`](crate::facts::Facts::remarks).
+    pub(super) remarks: Vec<String>,
+}
