@@ -4,8 +4,8 @@
 //! The same proofs as for a fresh program are run on the one that was rebuilt from the statements. Those of chips and reach
 //! need a program that keeps the rules; that no cut enters the part is looked at in any case.
 
-use super::differences::{Scene, asked, place_in};
 use super::rebuild::{Obstacle, Rebuilt};
+use super::scene::{Scene, asked, place_in};
 use super::wording::op_words;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;

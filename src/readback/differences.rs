@@ -1,36 +1,24 @@
 //! The steps between two programs as diagnostics: at their places in the given program, with the place in the job that
 //! asks for something else.
 
-use super::split::says_the_same;
-use super::steps::{Parts, Step, Way};
+use super::meaning::says_the_same;
+use super::scene::{Scene, asked, place_in, poses_before};
+use super::steps::Step;
 use super::told::{Told, skeleton};
+use super::way::{Parts, Way};
 use super::wording::{deed_words, kind_words, mismatch_words, op_words, pace_words};
-use vcutc_backend_api::ir::{Action, OpId, Program, Registered};
-use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::readback::{Deed, FrameRole, Grain, Judge, Mismatch, Moment, Place, Says, essence};
+use vcutc_backend_api::ir::{Action, OpId, Registered};
+use vcutc_backend_api::readback::{Deed, FrameRole, Mismatch, Moment, Says, essence};
 use vcutc_backend_api::stroke::Pose;
-use vcutc_diagnostics::source::{FileId, Span};
+use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic, Label};
-use vcutc_job::{CheckedJob, Machine, Operation};
+use vcutc_job::{Machine, Operation};
 
 /// So many differences are told one by one.
 const MOST_IN_FULL: usize = 20;
 
 /// Most characters of a statement that a message repeats.
 const LONGEST_QUOTE: usize = 120;
-
-/// Two programs, and the job that one of them was made from.
-pub(super) struct Scene<'s> {
-    pub(super) job: &'s CheckedJob,
-    pub(super) judge: Judge<'s>,
-    pub(super) grain: Grain,
-    pub(super) fresh: &'s Told<'s>,
-    /// For every fresh statement the op that it says.
-    pub(super) owners: &'s [Option<OpId>],
-    pub(super) given: &'s Told<'s>,
-    /// The files of the given program among the sources.
-    pub(super) sources: &'s [FileId],
-}
 
 /// What differs.
 pub(super) struct Differences {
@@ -72,17 +60,6 @@ pub(super) fn differences(scene: &Scene<'_>, way: &Way) -> Differences {
         diagnostics: teller.diagnostics,
         counts: teller.counts,
     }
-}
-
-/// The pose in front of every op.
-pub(super) fn poses_before(program: &Program) -> Vec<Option<Pose>> {
-    let mut at = None;
-    let before = program.ops.iter().map(|op| {
-        let before = at;
-        at = pose_after(at, &op.action);
-        before
-    });
-    before.collect()
 }
 
 struct Teller<'s> {
@@ -643,37 +620,6 @@ const SAME_MASS: f64 = 1e-6;
 
 /// What a job's field is to a setting.
 const OWN_VALUE: &str = "the job's own value";
-
-/// Where a statement of a given program stands; behind the last one where there is none of that number.
-pub(super) fn place_in(given: &Told<'_>, sources: &[FileId], index: usize) -> Option<Span> {
-    let span = |place: Place| {
-        let file = *sources.get(place.file as usize)?;
-        Some(Span {
-            file,
-            start: place.start,
-            end: place.end,
-        })
-    };
-    match given.statements.get(index) {
-        Some(statement) => span(statement.place),
-        None => match given.statements.last() {
-            Some(statement) => span(statement.place).map(Span::after),
-            None => sources.first().map(|&file| Span::of_bytes(file, 0..0)),
-        },
-    }
-}
-
-/// Where in the job an op is asked for: its operation, or the job as a whole.
-pub(super) fn asked(job: &CheckedJob, program: &Program, op: Option<OpId>) -> Span {
-    let op = op.and_then(|op| program.ops.get(op.0 as usize));
-    let operation = op
-        .and_then(|op| op.site.operation())
-        .and_then(|operation| job.operations.get(usize::from(operation.0)));
-    match operation {
-        Some(Operation::RoughVcut(vcut)) => vcut.head_span,
-        None => job.name_span,
-    }
-}
 
 /// A statement as messages repeat it: on one line, and not too long.
 fn quote(text: &str) -> String {

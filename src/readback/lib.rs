@@ -13,10 +13,13 @@ mod absent;
 mod checks;
 mod closing;
 mod differences;
+mod meaning;
 mod rebuild;
+mod scene;
 mod split;
 mod steps;
 mod told;
+mod way;
 mod wording;
 mod written;
 
@@ -25,9 +28,10 @@ pub use written::{Astray, Written};
 use absent::{absent, not_given};
 use checks::{Bench, left_out};
 use closing::{OtherSpeed, other_speeds};
-use differences::{Scene, differences};
+use differences::differences;
 use rebuild::rebuild;
-use steps::{Step, way};
+use scene::Scene;
+use steps::Step;
 use told::Told;
 use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
@@ -37,6 +41,7 @@ use vcutc_diagnostics::source::{FileId, SourceMap};
 use vcutc_job::CheckedJob;
 use vcutc_motion::solve::{Reached, rig};
 use vcutc_process::plan::PlannedJob;
+use way::way;
 
 /// A job's program as it is written now, and who can read it.
 #[derive(Clone, Copy)]

@@ -4,8 +4,8 @@
 //! of op that they act like: a straight move along y through the stock with the blade held still is a cut, one that only
 //! turns the blade is a turn, any other goes through the air, and must prove that it does.
 
-use super::differences::{Scene, poses_before};
-use super::split::says_the_same;
+use super::meaning::says_the_same;
+use super::scene::{Scene, poses_before};
 use super::steps::Step;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{

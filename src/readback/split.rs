@@ -5,42 +5,15 @@
 //! (RAPID's quaternions begin anew with either sign). Deeds are therefore paired by what they say, and what belongs to a
 //! part's head or end alone is left aside: it says nothing new.
 
-use super::differences::{Scene, poses_before};
+use super::meaning::meaning;
+use super::scene::{Scene, poses_before};
 use super::steps::{Step, steps_between};
 use super::told::{Names, Told};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::OpId;
-use vcutc_backend_api::readback::{Deed, Held, Moment, Says, Target, essence};
+use vcutc_backend_api::readback::{Deed, Moment, Says, essence};
 use vcutc_backend_api::script::State;
 use vcutc_diff::align::{Pair, common};
-
-/// What a deed says, equal for equal ones however they are written.
-pub(super) fn meaning(deed: &Deed) -> String {
-    match deed {
-        Deed::AxesToPose(target) => format!("to {}", target_meaning(target)),
-        Deed::Straight { to, pace, end } => format!("straight {} {pace:?} {end:?}", target_meaning(to)),
-        Deed::Axes(_) | Deed::Switch { .. } | Deed::AwaitInput(_) | Deed::Wait(_) => format!("{deed:?}"),
-    }
-}
-
-fn target_meaning(target: &Target) -> String {
-    match target.held {
-        Held::Orientation(orientation, stance) => {
-            // A quaternion and its opposite are the same turn; adding 0 takes the sign off zeros.
-            let matrix = orientation.matrix().map(|row| row.map(|entry| entry + 0.0));
-            format!("{:?} {matrix:?} {stance:?}", target.tip)
-        }
-        Held::Rotary(_) => format!("{target:?}"),
-    }
-}
-
-/// Whether two statements do the same.
-pub(super) fn says_the_same(should: &Says, is: &Says) -> bool {
-    match (should, is) {
-        (Says::Deed(should), Says::Deed(is)) => should == is || meaning(should) == meaning(is),
-        (_, _) => should == is,
-    }
-}
 
 /// Whether parts begin elsewhere, judged by what texts of the two programs have in common.
 pub(super) fn is_split_otherwise(scene: &Scene<'_>, pairs: &[Pair]) -> bool {

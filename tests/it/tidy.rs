@@ -31,7 +31,6 @@ const KNOTS: &[(&str, &[&str])] = &[
         "src/motion",
         &["solve", "stands", "survey", "trouble", "way", "ways"],
     ),
-    ("src/readback", &["differences", "split", "steps"]),
     ("src/syntax", &["builder", "expression", "mistakes", "slips"]),
 ];
 
