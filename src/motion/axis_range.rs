@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 use vcutc_backend_api::ir::{Axis, AxisKind};
+use vcutc_machine::kinematics::Joints;
 
 /// An axis' distance to the nearer limit over half of its range.
 #[must_use]
@@ -49,3 +50,12 @@ pub(super) fn turn_to_middle(axis: &Axis, low: f64, high: f64) -> f64 {
 
 /// Most turns of one axis that are told apart; catalogues have none with more than five.
 const MOST_TURNS: u32 = 16;
+
+/// The margin at axis values, each axis on its best turn: the one nearest to the middle of its range.
+pub(super) fn best_margin(axes: &[Axis], joints: &Joints) -> f64 {
+    let margins = axes.iter().zip(joints).map(|(axis, &value)| {
+        let by = turn_to_middle(axis, value, value);
+        axis_margin(axis, value + by, value + by)
+    });
+    margins.fold(f64::INFINITY, f64::min)
+}

@@ -16,7 +16,7 @@
 //!
 //! Nothing depends on how many threads prove: proofs are joined in the order of the ops.
 
-use super::axis_range::{axis_margin, turn_to_middle};
+use super::axis_range::{best_margin, turn_to_middle};
 use super::demand::Demand;
 use super::ladder::{Stuck, climb};
 use super::legs::{Leg, Taught, legs};
@@ -307,15 +307,6 @@ fn screen(survey: &Survey<'_>) -> Vec<Bound> {
 
 /// Poses that are screened at once.
 const SCREENED: usize = 1024;
-
-/// The margin at axis values, each axis on its best turn: the one nearest to the middle of its range.
-pub(super) fn best_margin(axes: &[Axis], joints: &Joints) -> f64 {
-    let margins = axes.iter().zip(joints).map(|(axis, &value)| {
-        let by = turn_to_middle(axis, value, value);
-        axis_margin(axis, value + by, value + by)
-    });
-    margins.fold(f64::INFINITY, f64::min)
-}
 
 /// The branch that carries the whole program with the largest margin.
 fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Option<Solved> {

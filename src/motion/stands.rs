@@ -6,10 +6,10 @@
 //!
 //! Nothing is proven here: [`super::path`] proves every stroke, beginning with what stands here.
 
+use super::axis_range::best_margin;
 use super::legs::{Leg, Poses, Taught};
 use super::path::joints_on;
 use super::rig::Rig;
-use super::solve::best_margin;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OrientationId, Program};

@@ -4,46 +4,15 @@
 //! what is missing in it. So the functions here return `None` for what has been reported already.
 
 use super::ast::{ArcBy, Ast, Block, Curve, Entry, HeadPart, Item, Point, Relation};
-use super::expression::unquoted;
+use super::bad::Bad;
 use super::grammar::{Mismatch, Rule};
-use super::mistakes::{self, Bad};
+use super::mistakes;
+use super::place::{Place, unquoted};
 use super::reports::Reports;
 use pest::iterators::{Pair, Pairs};
 use std::ops::Range;
-use vcutc_diagnostics::source::{FileId, Span, Spanned};
+use vcutc_diagnostics::source::{FileId, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
-
-/// Where the text at hand stands.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    file: FileId,
-    /// Bytes of the file before the text.
-    offset: usize,
-    /// Bytes of the text. Brackets that were put behind it to balance it are taken to stand at its end.
-    length: usize,
-}
-
-impl Place {
-    pub(super) fn span(self, range: Range<usize>) -> Span {
-        let offset = |at: usize| at.min(self.length).saturating_add(self.offset);
-        Span::of_bytes(self.file, offset(range.start)..offset(range.end))
-    }
-
-    pub(super) fn span_of(self, pair: &Pair<'_, Rule>) -> Span {
-        let span = pair.as_span();
-        self.span(span.start()..span.end())
-    }
-
-    /// A pair's characters.
-    pub(super) fn spanned(self, pair: &Pair<'_, Rule>) -> Spanned<String> {
-        Spanned::new(pair.as_str().to_owned(), self.span_of(pair))
-    }
-
-    /// What a text in quotes says.
-    fn text(self, pair: &Pair<'_, Rule>) -> Spanned<String> {
-        Spanned::new(unquoted(pair.as_str()), self.span_of(pair))
-    }
-}
 
 /// Makes a piece of a profile of a path and options.
 type OfAFile = fn(Spanned<String>, Vec<Entry>) -> Curve;

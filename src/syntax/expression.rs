@@ -3,6 +3,7 @@
 use super::ast::{Argument, Expr, Operator};
 use super::builder::Builder;
 use super::grammar::Rule;
+use super::place::unquoted;
 use pest::iterators::Pair;
 use pest::pratt_parser::{Assoc, ConstPrattParser, Op};
 use vcutc_diagnostics::source::Spanned;
@@ -159,20 +160,4 @@ const fn operator(rule: Rule) -> Option<Operator> {
         Rule::power => Some(Operator::Power),
         _ => None,
     }
-}
-
-/// What a text in quotes says: without its quotes, and without the backslash of an escape.
-pub(super) fn unquoted(text: &str) -> String {
-    let inner = text.strip_prefix('"').unwrap_or(text);
-    let inner = inner.strip_suffix('"').unwrap_or(inner);
-    let mut said = String::with_capacity(inner.len());
-    let mut characters = inner.chars();
-    while let Some(c) = characters.next() {
-        if c == '\\' {
-            said.extend(characters.next());
-        } else {
-            said.push(c);
-        }
-    }
-    said
 }

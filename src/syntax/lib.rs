@@ -11,6 +11,7 @@
 //! Time and memory are linear in the length of the text, and recursion is bounded by the depth that `brackets` allows.
 
 pub mod ast;
+mod bad;
 mod brackets;
 mod builder;
 mod expression;
@@ -19,6 +20,7 @@ pub mod format;
 mod grammar;
 pub mod lexical;
 mod mistakes;
+mod place;
 mod reports;
 mod slips;
 #[cfg(test)]

@@ -3,52 +3,13 @@
 //! A statement that the grammar took up as bad is read once more on its own. How far that goes is where the mistake
 //! is, and what the grammar could have gone on with there is what the message asks for, in the language's own words.
 
-use super::builder::Place;
+use super::bad::{Bad, Fault, shown};
 use super::grammar::{Mismatch, Rule, read};
 use super::lexical::{Bracket, Token, TokenKind, tokens};
 use super::slips;
-use std::ops::Range;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
-
-/// A statement that cannot be read.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bad<'t> {
-    /// Where the whole text stands.
-    pub(super) place: Place,
-    /// The whole text as written.
-    pub(super) text: &'t str,
-    /// The statement, with brackets balanced.
-    pub(super) mended: &'t str,
-    /// Where it begins in the text.
-    pub(super) start: usize,
-    /// Where the statement before it ended in the text.
-    pub(super) previous_end: usize,
-}
-
-impl Bad<'_> {
-    /// A stretch of the statement as a place in the file.
-    pub(super) fn span(&self, range: Range<usize>) -> Span {
-        self.place
-            .span(self.start.saturating_add(range.start)..self.start.saturating_add(range.end))
-    }
-
-    /// A stretch of the statement as written.
-    pub(super) fn slice(&self, range: Range<usize>) -> &str {
-        self.mended.get(range).unwrap_or_default()
-    }
-
-    /// A token as written.
-    pub(super) fn token(&self, token: Token) -> &str {
-        self.slice(token.start..token.end)
-    }
-
-    /// The tokens without comments.
-    fn tokens(&self) -> impl Iterator<Item = Token> {
-        tokens(self.mended).filter(|token| token.kind != TokenKind::Comment)
-    }
-}
 
 /// What is wrong with a statement that should follow `rule`.
 pub(super) fn explain(bad: &Bad<'_>, rule: Rule) -> Diagnostic {
@@ -253,39 +214,6 @@ fn lost_mark(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {
     }
 }
 
-/// A mistake within a statement.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fault<'r> {
-    /// The last token that is right.
-    pub(super) before: Option<Token>,
-    /// The first that is not, if the statement does not end too soon.
-    pub(super) found: Option<Token>,
-    /// The one after it.
-    pub(super) next: Option<Token>,
-    /// What could stand there instead.
-    pub(super) expected: &'r [Rule],
-}
-
-impl Fault<'_> {
-    /// Whether this could stand there.
-    pub(super) fn expects(&self, rule: Rule) -> bool {
-        self.expected.contains(&rule)
-    }
-
-    /// Whether a value could stand there.
-    pub(super) fn expects_value(&self) -> bool {
-        [
-            Rule::expression,
-            Rule::number,
-            Rule::negate,
-            Rule::argument,
-            Rule::group,
-        ]
-        .into_iter()
-        .any(|rule| self.expects(rule))
-    }
-}
-
 /// The message for a mistake that is none of the usual slips.
 fn plain(bad: &Bad<'_>, fault: &Fault<'_>) -> Diagnostic {
     let wanted = wanted(fault);
@@ -372,23 +300,4 @@ fn context(bad: &Bad<'_>, before: Token) -> String {
     } else {
         words
     }
-}
-
-/// A piece of text in a form that fits a message.
-pub(super) fn shown(text: &str) -> String {
-    const LONGEST: usize = 40;
-    let mut characters = text.chars();
-    let mut shown: String = characters
-        .by_ref()
-        .take(LONGEST)
-        .flat_map(|c| match c {
-            // Quotes are fine within backticks.
-            '"' | '\'' | '\\' => vec![c],
-            _ => c.escape_debug().collect(),
-        })
-        .collect();
-    if characters.next().is_some() {
-        shown.push_str("...");
-    }
-    shown
 }

@@ -1,8 +1,8 @@
 //! The usual slips: what hands used to other languages and other keyboards write, and how it is written here.
 
+use super::bad::{Bad, Fault, shown};
 use super::grammar::Rule;
 use super::lexical::{Token, TokenKind};
-use super::mistakes::{Bad, Fault, shown};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, Fix};
 
 /// The message for a usual slip, if the mistake is one.

@@ -27,11 +27,6 @@ const KNOTS: &[(&str, &[&str])] = &[
     ("src/lsp", &["completion", "paths", "values"]),
     ("src/lsp", &["context", "slots", "surroundings"]),
     ("src/lsp", &["requests", "server"]),
-    (
-        "src/motion",
-        &["solve", "stands", "survey", "trouble", "way", "ways"],
-    ),
-    ("src/syntax", &["builder", "expression", "mistakes", "slips"]),
 ];
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
