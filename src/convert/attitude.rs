@@ -6,8 +6,8 @@
 use super::axes::{Axis, Direction, Sense};
 use super::complaints;
 use super::milling::{Milling, Move};
-use super::raster::SAME;
 use super::runs::{Kind, stretches};
+use super::types::SAME;
 use super::{Axes, Blank};
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_diagnostics::Diagnostic;

@@ -2,9 +2,8 @@
 
 use super::axes::{Axes, Axis, Direction};
 use super::milling::{Milling, Move, Written};
-use super::plunges::{Plunge, Start};
-use super::raster::Pass;
 use super::runs::{Kind, Run, Stretch};
+use super::types::{Pass, Plunge, SAME, Start};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_process::plan::parameters::show;
@@ -247,7 +246,7 @@ pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
     let headline = match stretch.kind {
         Kind::Across => "this motion cuts across the passes",
         Kind::Curve => "this motion cuts on an arc, and V-cuts are straight",
-        Kind::Oblique if (z1 - z0).abs() > super::raster::SAME => "this motion cuts along a slope",
+        Kind::Oblique if (z1 - z0).abs() > SAME => "this motion cuts along a slope",
         Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright | Kind::Landing => {
             "this motion cuts obliquely to the passes"
         }

@@ -1,8 +1,8 @@
 //! What a conversion does not carry over, and what may be missing: warnings, with every line of it.
 
 use super::milling::Milling;
-use super::plunges::Plunge;
-use super::raster::{Pass, Raster};
+use super::raster::Raster;
+use super::types::{Pass, Plunge};
 use super::write::Numbered;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic};

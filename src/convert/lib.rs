@@ -33,6 +33,7 @@ pub mod plunges;
 pub mod raster;
 mod read;
 mod runs;
+pub mod types;
 pub mod write;
 
 use asked::Asked;
@@ -40,10 +41,10 @@ use axes::Axes;
 use core::fmt;
 use milling::Milling;
 use offers::{Choice, Offer, Unsettled};
-use place::Blank;
-use raster::{Raster, SAME};
+use raster::Raster;
 use read::Files;
 use serde::Serialize;
+use types::{Blank, Pass, SAME};
 use vcutc_backend_api::readback::ProgramFile;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::{FileId, SourceMap, Span};
@@ -317,7 +318,7 @@ fn check(
         let lower = place::lower(axes, blank, -lowest.z, asked);
         return Err(Unsettled::from(complaints::below_the_blank(lowest)).offering(lower));
     }
-    let ends_within = |pass: &&raster::Pass| pass.y[0] > SAME || pass.y[1] < blank.depth - SAME;
+    let ends_within = |pass: &&Pass| pass.y[0] > SAME || pass.y[1] < blank.depth - SAME;
     match raster.passes.iter().find(ends_within) {
         Some(pass) => Err(complaints::too_short_pass(pass, blank.depth).into()),
         None => Ok(()),

@@ -4,7 +4,7 @@
 //! between two of them is nowhere steeper than a flank, for else one would lie in the V of the other; so no V enters what is
 //! below such a polyline.
 
-use super::raster::Pass;
+use super::types::Pass;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_process::plan::blade_reach::Flanks;

@@ -10,31 +10,11 @@ use super::axes::{Axes, Axis, Direction, Sense};
 use super::complaints;
 use super::milling::{Milling, Way};
 use super::offers::{Choice, Offer, Unsettled};
-use super::raster::SAME;
 use super::runs::{Run, runs};
+use super::types::Blank;
+use super::types::SAME;
 
 use vcutc_process::plan::parameters::show;
-
-/// A blank in the axes of a job.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Blank {
-    /// Across the cuts, in mm.
-    pub width: f64,
-    /// Along them.
-    pub depth: f64,
-    /// Up.
-    pub height: f64,
-    /// Its lowest corner, in the axes of the job, seen from the program's origin.
-    pub corner: [f64; 3],
-}
-
-impl Blank {
-    /// A point as seen from the corner.
-    pub(super) fn seen_from_corner(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let [x0, y0, z0] = self.corner;
-        [x - x0, y - y0, z - z0]
-    }
-}
 
 /// How much longer the way along one axis must be than along the other for it to be the axis of the cuts.
 const CLEARLY: f64 = 2.0;

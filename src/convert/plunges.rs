@@ -5,41 +5,10 @@
 //! is listed. Where none does, the job would leave standing what the program cuts, and the motion is refused. What has been cut
 //! is measured on the surface that the V-cuts leave, the one by which they are planned.
 
-use super::place::Blank;
-use super::raster::{Pass, SAME};
-use vcutc_diagnostics::source::Span;
+use super::types::Plunge;
+use super::types::{Blank, Pass, SAME};
 use vcutc_geometry::curve::Point2;
 use vcutc_process::sim::surface::{Surface, Vee};
-
-/// A motion that ends, or begins, below the top of the blank, in its axes from its corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plunge {
-    /// Where it is said.
-    pub place: Span,
-    /// From where it leads.
-    pub start: Start,
-    /// Its lowest place, in mm.
-    pub low: [f64; 3],
-    /// How many passes come before it.
-    pub before: usize,
-}
-
-impl Plunge {
-    /// Whether it cuts nothing that another in the same place has not cut just before, as the way back up.
-    pub(super) fn follows(&self, last: &Self) -> bool {
-        let ([x, y, z], [x0, y0, z0]) = (self.low, last.low);
-        (x - x0).abs() <= SAME && (y - y0).abs() <= SAME && z >= z0 - SAME
-    }
-}
-
-/// From where a plunge leads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Start {
-    /// From above its lowest place, or from there upwards.
-    Above,
-    /// Nobody knows.
-    Unknown,
-}
 
 /// Plunges into uncut material.
 pub(super) struct Sorted {
@@ -96,8 +65,10 @@ pub(super) fn sorted(plunges: &[Plunge], passes: &[Pass], blank: Blank, slope: f
 mod tests {
     use super::*;
     use crate::milling::Way;
+    use crate::types::Start;
     use proptest::prelude::*;
     use vcutc_diagnostics::source::SourceMap;
+    use vcutc_diagnostics::source::Span;
 
     const BLANK: Blank = Blank {
         width: 80.0,

@@ -8,35 +8,13 @@
 use super::axes::Axes;
 use super::complaints;
 use super::milling::{Milling, Way, Written};
-use super::place::Blank;
-use super::plunges::{self, Plunge, Start};
+use super::plunges;
 use super::runs::{Course, Kind, Run, Stretch, courses};
+use super::types::{Blank, Plunge, Start};
+use super::types::{Pass, SAME};
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::Diagnostic;
-use vcutc_diagnostics::source::Span;
 use vcutc_process::plan::grid;
-
-/// Coordinates this close, in mm, are the same: programs are printed with two or three decimals.
-pub(super) const SAME: f64 = 0.01;
-
-/// A pass of the milling tool, in the axes of the job, from the blank's corner, in mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pass {
-    /// Where it runs across the blank; on a grid of a micrometre.
-    pub x: f64,
-    /// How high; on that grid.
-    pub z: f64,
-    /// From the least y to the greatest.
-    pub y: [f64; 2],
-    /// Where it is said: its first motion and its last.
-    pub places: [Span; 2],
-    /// The speed that holds for it.
-    pub speed: Option<Written>,
-    /// Another one that holds for a part of it.
-    pub second_speed: Option<Written>,
-    /// Whether a motion of all axes is taken for a part of it.
-    pub way: Way,
-}
 
 /// What a milling program does to a blank.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -6,7 +6,7 @@
 use super::arc::CircularArc;
 use super::axes::Axes;
 use super::milling::{Milling, Move, Way, Written};
-use super::place::Blank;
+use super::types::Blank;
 use vcutc_diagnostics::source::Span;
 
 /// A motion to a known point, in the axes of the job.

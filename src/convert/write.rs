@@ -2,8 +2,8 @@
 
 use super::feeds::Feeds;
 use super::milling::Milling;
-use super::place::Blank;
-use super::raster::{Pass, Raster};
+use super::raster::Raster;
+use super::types::{Blank, Pass};
 use core::ops::Range;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::{FileId, SourceMap, Span};

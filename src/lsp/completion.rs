@@ -2,44 +2,18 @@
 //! machines of the catalogue, files beside the job.
 
 use super::analysis::Analysis;
-use super::context::{BlockAround, Context, Wanted, context};
+use super::context::{Context, Wanted, context};
 use super::hover::explained;
 use super::manual::{self, Table};
+use super::offer::{Offer, Rank, offer, verbatim};
 use super::paths;
 use super::slots::{Owner, Slot};
+use super::surroundings::BlockAround;
 use super::values::{Begun, Place};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::Backend;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
 use vcutc_machine::catalogue;
-
-/// Something that can be written.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Offer {
-    /// What it is called in the list.
-    pub(super) label: String,
-    /// What kind of thing it is.
-    pub(super) kind: CompletionItemKind,
-    /// What is written. `$1` and `${1:...}` are places to go on at, as in the protocol's snippets.
-    pub(super) snippet: String,
-    /// A few words beside the label.
-    pub(super) detail: String,
-    /// Markdown.
-    pub(super) documentation: Option<String>,
-    /// Which offers come first.
-    pub(super) rank: Rank,
-}
-
-/// Which offers come first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Rank {
-    /// What must be there.
-    Needed,
-    /// What fits best.
-    Fitting,
-    /// Everything else.
-    Possible,
-}
 
 /// What is offered, and the bytes that it replaces.
 #[derive(Debug, PartialEq)]
@@ -84,22 +58,6 @@ pub(super) fn completion(
     Offers {
         replaces: context.word.clone(),
         offers,
-    }
-}
-
-/// A text in which `$`, `}` and `\` mean themselves.
-pub(super) fn verbatim(text: &str) -> String {
-    text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
-}
-
-pub(super) fn offer(label: &str, kind: CompletionItemKind, rank: Rank) -> Offer {
-    Offer {
-        label: label.to_owned(),
-        kind,
-        snippet: verbatim(label),
-        detail: String::new(),
-        documentation: None,
-        rank,
     }
 }
 

@@ -2,7 +2,7 @@
 //! whole tree.
 
 use super::slots::Slot;
-use super::surroundings::Surroundings;
+use super::surroundings::{BlockAround, Surroundings};
 use core::ops::Range;
 use vcutc_job::sema::vocabulary;
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind, tokens};
@@ -16,22 +16,6 @@ pub(super) struct Context {
     pub(super) blocks: Vec<BlockAround>,
     /// What belongs there.
     pub(super) wanted: Wanted,
-}
-
-/// A block around the cursor. The brackets of a profile in its short form count as two: `profile`, and in that the file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct BlockAround {
-    /// The words of its head.
-    pub(super) head: Vec<String>,
-    /// What stands in it already, on both sides of the cursor: the first words of its entries.
-    pub(super) entries: Vec<String>,
-}
-
-impl BlockAround {
-    /// The first word of the head, of inner blocks the last one before the brace.
-    pub(super) fn name(&self) -> &str {
-        self.head.first().map_or("", String::as_str)
-    }
 }
 
 /// What belongs at the cursor.

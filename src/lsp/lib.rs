@@ -26,6 +26,7 @@ mod hints;
 mod hover;
 mod manual;
 mod names;
+mod offer;
 mod paths;
 mod requests;
 mod server;

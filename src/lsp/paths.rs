@@ -1,6 +1,6 @@
 //! The files that a text in quotes may name: those of a fitting ending in the folder that is written so far, and its folders.
 
-use super::completion::{Offer, Rank, offer};
+use super::offer::{Offer, Rank, offer};
 use lsp_types::CompletionItemKind;
 use vcutc_diagnostics::source::{Entry, Loader, join_path};
 

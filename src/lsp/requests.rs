@@ -2,7 +2,7 @@
 
 use super::Workspace;
 use super::analysis::Analysis;
-use super::completion::{Offer, completion};
+use super::completion::completion;
 use super::diagnostics::{Lines, edits_of, hint_in_protocol, in_protocol, workspace_edit};
 use super::folding::folds;
 use super::formatting::formatting;
@@ -11,6 +11,7 @@ use super::hover::hover;
 use super::names::{
     changes_meaning, definition_at, file_meant, name_at, occurrences, places, refused, sites_at,
 };
+use super::offer::Offer;
 use super::paths::Folder;
 use super::server::{Insertion, Server, Telling, parsed};
 use super::sites::{Kind, Path};

@@ -1,8 +1,23 @@
 //! The tokens around a cursor: which brackets are open, whose they are, and what stands in them already.
 
-use super::context::BlockAround;
 use vcutc_job::sema::vocabulary;
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind};
+
+/// A block around the cursor. The brackets of a profile in its short form count as two: `profile`, and in that the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct BlockAround {
+    /// The words of its head.
+    pub(super) head: Vec<String>,
+    /// What stands in it already, on both sides of the cursor: the first words of its entries.
+    pub(super) entries: Vec<String>,
+}
+
+impl BlockAround {
+    /// The first word of the head, of inner blocks the last one before the brace.
+    pub(super) fn name(&self) -> &str {
+        self.head.first().map_or("", String::as_str)
+    }
+}
 
 /// A text as its tokens, comments left out. Tokens are known by their numbers.
 pub(super) struct Surroundings<'t> {

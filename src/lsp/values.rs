@@ -2,8 +2,8 @@
 //! said: of a factor it cannot.
 
 use super::analysis::Analysis;
-use super::completion::{Offer, Rank, offer, verbatim};
 use super::manual::{self, Table};
+use super::offer::{Offer, Rank, offer, verbatim};
 use super::slots::{Owner, Part, Rest, Slot, Within};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::{Backend, OptionKind};
