@@ -1,14 +1,17 @@
 //! From the text of a KRL program to its motions.
 //!
 //! Statements, routines and named positions are those of the KRL crate. Routines are followed from call to call; where a
-//! motion leads is for [`super::motions`]. Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and their
+//! motion leads is for [`motions`]. Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and their
 //! like) are not followed: with a motion inside they are refused. So are calls of routines that no file given holds, for
 //! their motions would be missing.
 
+mod frames;
+mod motions;
+
 use super::complaints;
-use super::frames::Frames;
 use super::milling::{Milling, Written};
-use super::motions::Tool;
+use frames::Frames;
+use motions::Tool;
 use vcutc_backend_api::readback::{ProgramFile, essence};
 use vcutc_backend_krl::read::index::{FileKind, Index, stem};
 use vcutc_backend_krl::read::syntax::{
@@ -447,7 +450,5 @@ const MOTIONLESS: [&str; 10] = [
 
 /// Variables that set up motions, and those that inline forms of the pendant leave behind.
 fn is_setting(variable: &Variable<'_>) -> bool {
-    super::frames::SETUP
-        .iter()
-        .any(|name| is_same_name(variable.name, name))
+    frames::SETUP.iter().any(|name| is_same_name(variable.name, name))
 }

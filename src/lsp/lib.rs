@@ -28,7 +28,6 @@ mod manual;
 mod names;
 mod offer;
 mod paths;
-mod requests;
 mod server;
 mod sites;
 mod slots;

@@ -1,10 +1,11 @@
 //! The server as a machine of states: from a message to messages.
 
+mod requests;
+
 use super::Workspace;
 use super::analysis::{Analysis, Done, Finding, Planning, Task};
 use super::diagnostics::{Lines, hint_in_protocol, in_protocol};
 use super::documents::{Called, Documents, Language};
-use super::requests;
 use super::spelling::Spellings;
 use super::text::Encoding;
 use super::uri::path_of;

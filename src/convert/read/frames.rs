@@ -4,9 +4,9 @@
 //! whether the frames of a motion are those of the first straight one. They may be set as `$TOOL` and `$BASE`, by number with
 //! `BAS`, or by the point's data (`FDAT`) of the pendant's inline forms; the same number in another way is the same frame.
 
-use super::complaints;
-use super::milling::Way;
-use super::read::Reader;
+use super::Reader;
+use crate::complaints;
+use crate::milling::Way;
 use std::collections::BTreeMap;
 use vcutc_backend_api::readback::essence;
 use vcutc_backend_krl::read::syntax::{
@@ -17,7 +17,7 @@ use vcutc_diagnostics::source::Span;
 
 /// Variables that set up motions, and those that inline forms of the pendant leave behind.
 #[rustfmt::skip]
-pub(super) const SETUP: [&str; 27] = [
+pub(crate) const SETUP: [&str; 27] = [
     "$VEL", "$ACC", "$APO", "$ORI_TYPE", "$CIRC_TYPE", "$ADVANCE", "$TOOL", "$BASE", "$LOAD", "$IPO_MODE", "$ACT_TOOL",
     "$ACT_BASE", "$VEL_AXIS", "$ACC_AXIS", "$BWDSTART", "$H_POS", "$JERK", "$GEAR_JERK", "PDAT_ACT", "LDAT_ACT", "FDAT_ACT",
     "TOOL_DATA", "BASE_DATA", "LOAD_DATA", "$SPL_VEL_MODE", "$SPL_ORI_JOINT_AUTO", "$COLLMON_TOL_PRO",
@@ -39,7 +39,7 @@ type Said = BTreeMap<String, String>;
 
 /// The frames of a program, as far as it has been carried out.
 #[derive(Default)]
-pub(super) struct Frames {
+pub(crate) struct Frames {
     said: Said,
     /// Where something of it changed last.
     changed: Option<Span>,
@@ -51,7 +51,7 @@ pub(super) struct Frames {
 
 impl Frames {
     /// Keeps the data of a point.
-    pub(super) fn declare(&mut self, asker: Asker<'_>, declaration: &Declaration<'_>) {
+    pub(crate) fn declare(&mut self, asker: Asker<'_>, declaration: &Declaration<'_>) {
         if let (true, Some(Value::Structure(fields))) =
             (is_same_name(declaration.kind, "FDAT"), &declaration.value)
         {
@@ -128,7 +128,7 @@ fn put(said: &mut Said, what: &str, part: &str, value: String) {
 
 impl Reader<'_, '_> {
     /// Takes what sets a frame by a word; other words set none.
-    pub(super) fn frame(&mut self, word: &str, value: &str, place: Span) {
+    pub(crate) fn frame(&mut self, word: &str, value: &str, place: Span) {
         if let Some(what) = set_by(word) {
             let mut said = self.frames.said.clone();
             put(&mut said, what, "", compared(value));
@@ -137,7 +137,7 @@ impl Reader<'_, '_> {
     }
 
     /// Takes an assignment, if it sets a frame.
-    pub(super) fn framed(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>, place: Span) {
+    pub(crate) fn framed(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>, place: Span) {
         let mut said = self.frames.said.clone();
         if is_same_name(to.name, "FDAT_ACT") {
             let point = match value {
@@ -191,7 +191,7 @@ impl Reader<'_, '_> {
 
     /// Whether a motion, with what holds for it alone, has the frames of the first straight one. A straight motion that has not
     /// is told, once for every change.
-    pub(super) fn frames_of(&mut self, asker: Asker<'_>, tail: &Tail<'_>, way: Way, place: Span) -> Framing {
+    pub(crate) fn frames_of(&mut self, asker: Asker<'_>, tail: &Tail<'_>, way: Way, place: Span) -> Framing {
         let own = tail.with.iter().any(|setting| set_by(setting.to.name).is_some());
         if !own && self.frames.first.as_ref() == Some(&self.frames.said) {
             return Framing::Same;
@@ -236,7 +236,7 @@ impl Reader<'_, '_> {
 
 /// Whether a motion is told in the frames of the first straight one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Framing {
+pub(crate) enum Framing {
     /// It is, or there is none so far.
     Same,
     /// It is not: where it ends is not known in those.

@@ -1,25 +1,25 @@
 //! The requests of a running conversation, and their answers in the protocol's terms.
 
-use super::Workspace;
-use super::analysis::Analysis;
-use super::completion::completion;
-use super::diagnostics::{Lines, edits_of, hint_in_protocol, in_protocol, workspace_edit};
-use super::folding::folds;
-use super::formatting::formatting;
-use super::hints::hints;
-use super::hover::hover;
-use super::names::{
+use super::{Insertion, Server, Telling, parsed};
+use crate::Workspace;
+use crate::analysis::Analysis;
+use crate::completion::completion;
+use crate::diagnostics::{Lines, edits_of, hint_in_protocol, in_protocol, workspace_edit};
+use crate::folding::folds;
+use crate::formatting::formatting;
+use crate::hints::hints;
+use crate::hover::hover;
+use crate::names::{
     changes_meaning, definition_at, file_meant, name_at, occurrences, places, refused, sites_at,
 };
-use super::offer::Offer;
-use super::paths::Folder;
-use super::server::{Insertion, Server, Telling, parsed};
-use super::sites::{Kind, Path};
-use super::symbols::{defined as defined_in, symbols};
-use super::text::Text;
-use super::tokens::{legend, modifiers, semantic_tokens};
-use super::uri::{path_of, uri_of};
-use super::wire::{Fault, notification};
+use crate::offer::Offer;
+use crate::paths::Folder;
+use crate::sites::{Kind, Path};
+use crate::symbols::{defined as defined_in, symbols};
+use crate::text::Text;
+use crate::tokens::{legend, modifiers, semantic_tokens};
+use crate::uri::{path_of, uri_of};
+use crate::wire::{Fault, notification};
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
     DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation,

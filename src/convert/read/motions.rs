@@ -4,12 +4,12 @@
 //! those of relative motions are, where the one before is. Axes outside of the arm carry the work or the arm itself: while they
 //! stand still they are none of a job's business, and when they move the positions mean something else.
 
-use super::arc::CircularArc;
-use super::asked::LONGEST;
-use super::complaints;
 use super::frames::Framing;
-use super::milling::{Move, Way, Written};
-use super::read::{Reader, Told};
+use super::{Reader, Told};
+use crate::arc::CircularArc;
+use crate::asked::LONGEST;
+use crate::complaints;
+use crate::milling::{Move, Way, Written};
 use vcutc_backend_api::geometry::{Orientation, Zyx};
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_krl::read::syntax::{
@@ -21,7 +21,7 @@ use vcutc_diagnostics::source::Span;
 
 /// Where the tool is, as far as the program has said it.
 #[derive(Debug, Default)]
-pub(super) struct Tool {
+pub(crate) struct Tool {
     /// What targets have said so far of the tool and of external axes.
     last: Coordinates,
     /// Where external axes are while it is led to points, and which motion said so first.
@@ -53,7 +53,7 @@ enum Telling {
 
 impl Tool {
     /// External axes that were said, with where they stand while the tool is led to points.
-    pub(super) fn external(&self) -> Vec<(&'static str, f64)> {
+    pub(crate) fn external(&self) -> Vec<(&'static str, f64)> {
         let held = self.held.as_ref();
         let stands = |(name, axis): (&'static str, Component)| Some((name, held?.0.get(axis)?));
         EXTERNAL.into_iter().filter_map(stands).collect()
@@ -125,7 +125,7 @@ fn orientation([a, b, c]: [f64; 3]) -> Orientation {
 
 impl Reader<'_, '_> {
     /// A motion to a point.
-    pub(super) fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>, place: Span) {
+    pub(crate) fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>, place: Span) {
         if self.depends(place) {
             return;
         }
@@ -158,7 +158,7 @@ impl Reader<'_, '_> {
     }
 
     /// A motion on an arc.
-    pub(super) fn arc(&mut self, asker: Asker<'_>, arc: &Arc<'_>, place: Span) {
+    pub(crate) fn arc(&mut self, asker: Asker<'_>, arc: &Arc<'_>, place: Span) {
         if self.depends(place) {
             return;
         }
