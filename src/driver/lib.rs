@@ -448,8 +448,12 @@ fn along_its_routes<'j>(
 ) -> Ended<'j> {
     let mut yielding = Yielding::new(job, kept.wanted);
     match first_followed(job, sources, &mut yielding, kept, progress) {
-        Ended::Compiled(plan, told, compiled) => {
-            let slower = narrower::Slower { plan, told, compiled };
+        Ended::Compiled(plan, warnings, compiled) => {
+            let slower = narrower::Slower {
+                plan,
+                warnings,
+                compiled,
+            };
             narrower::or_with_a_narrower_swing(slower, job, sources, yielding, kept, progress)
         }
         ended @ (Ended::Refused(_) | Ended::Overtaken) => ended,

@@ -20,7 +20,7 @@ pub(super) struct Slower {
     /// The plan.
     pub(super) plan: Box<PlannedJob>,
     /// Its warnings.
-    pub(super) told: Vec<Diagnostic>,
+    pub(super) warnings: Vec<Diagnostic>,
     /// What came of it.
     pub(super) compiled: Box<Compiled>,
 }
@@ -53,14 +53,14 @@ pub(super) fn or_with_a_narrower_swing<'j>(
         return Ended::Overtaken;
     }
     best.compiled.yielded = yielding.into_first();
-    Ended::Compiled(best.plan, best.told, best.compiled)
+    Ended::Compiled(best.plan, best.warnings, best.compiled)
 }
 
 /// What came of a narrower swing.
 enum Tried {
     /// It is faster.
     Faster(Box<Slower>),
-    /// It is not, or there is no such plan.
+    /// It takes as long or longer, or there is no such plan.
     Slower,
     /// The machine does not follow it.
     NotFollowed,
@@ -83,23 +83,23 @@ fn faster(
     let Ok(proven) = verdict::prove(&plan, sources) else {
         return Tried::Slower;
     };
-    let mut told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never(), &mut |_| false);
+    let mut warnings = verdict::diagnose_while(job, &plan, &proven, &Wanted::never(), &mut |_| false);
     let time = than.compiled.report.times.all.total();
-    if has_errors(&told) || proven.report.times.all.total() >= time {
+    if has_errors(&warnings) || proven.report.times.all.total() >= time {
         return Tried::Slower;
     }
     let Ok(program) = reaching::reach(job, proven.program, Changes::InTheAir, kept, progress) else {
         return Tried::NotFollowed;
     };
     let reached = program.reached();
-    told.extend(reached.and_then(|reached| axis_moves::many(job, reached)));
+    warnings.extend(reached.and_then(|reached| axis_moves::many(job, reached)));
     let compiled = compiled(job, program, &plan, proven.report, sources);
     if compiled.report.times.all.total() >= time {
         return Tried::Slower;
     }
     Tried::Faster(Box::new(Slower {
         plan: Box::new(plan),
-        told,
+        warnings,
         compiled: Box::new(compiled),
     }))
 }

@@ -34,11 +34,15 @@ pub(super) fn balance(file: FileId, text: &str) -> Balanced {
     } else {
         Scan::run(file, text, Trust::Indentation)
     };
-    settle(file, scan.finish())
+    let balanced = scan.finish();
+    if balanced.text == text {
+        return balanced;
+    }
+    settle(file, balanced)
 }
 
-/// Goes through a mended text until nothing more is mended. What was taken out can make neighbours of a number and a quote, which
-/// are inches then, or of a value and a bracket. Such a place has been reported already.
+/// Repeats the mending until the text no longer changes. Where something was taken out, a number and a quote may have become
+/// neighbours, which then read as inches, or a value and a bracket. Such a place has been reported already.
 fn settle(file: FileId, mut balanced: Balanced) -> Balanced {
     for _ in 0..MOST_ROUNDS {
         let again = Scan::run(file, &balanced.text, Trust::Brackets).finish();
@@ -54,7 +58,8 @@ fn settle(file: FileId, mut balanced: Balanced) -> Balanced {
     balanced
 }
 
-/// How often a mended text is gone through. Two rounds are rare; a text that needs more than these holds nothing that can be read.
+/// Most repetitions of the mending, which bounds the work on hostile texts. After the last one all brackets and quotes are taken
+/// out.
 const MOST_ROUNDS: usize = 8;
 
 /// Inches in mm, exact to a nanometre (1 in = 25.4 mm, international yard and pound agreement, 1959).
