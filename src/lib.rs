@@ -19,5 +19,6 @@ pub use vcutc_process as process;
 pub use vcutc_readback as readback;
 pub use vcutc_registry as registry;
 pub use vcutc_report as report;
+pub use vcutc_simulation as simulation;
 pub use vcutc_study as study;
 pub use vcutc_syntax as syntax;

@@ -16,7 +16,7 @@ use i_overlay::core::overlay::{IntOverlayOptions, Overlay};
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 use vcutc::process::plan::{PlannedJob, PlannedOperation};
-use vcutc::process::sim::prove::Replay;
+use vcutc::simulation::prove::Replay;
 
 /// How high triangles are.
 #[derive(Clone, Copy, Debug)]

@@ -4,9 +4,9 @@ use super::axes::{Axes, Axis, Direction};
 use super::milling::{Milling, Move, Written};
 use super::runs::{Kind, Run, Stretch};
 use super::types::{Pass, Plunge, SAME, Start};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_process::plan::parameters::show;
 
 /// At the program as a whole: at its first motion, or where its text begins.
 fn at_the_program(milling: &Milling) -> Span {

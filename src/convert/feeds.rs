@@ -7,7 +7,7 @@ use super::milling::{Milling, Written};
 use super::raster::Raster;
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 use vcutc_diagnostics::Diagnostic;
-use vcutc_process::plan::parameters::show;
+use vcutc_diagnostics::number::show;
 
 /// The fastest that a controller moves a tool, in m/s: the limit of `$VEL.CP` [KSS 8.3, system variables].
 const FASTEST: f64 = 3.0;

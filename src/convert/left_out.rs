@@ -4,9 +4,9 @@ use super::milling::Milling;
 use super::raster::Raster;
 use super::types::{Pass, Plunge};
 use super::write::Numbered;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_process::plan::parameters::show;
 
 /// All warnings about a program.
 pub(super) fn warnings(milling: &Milling, raster: &Raster, sources: &SourceMap) -> Vec<Diagnostic> {

@@ -9,8 +9,8 @@ use super::settled;
 use core::fmt;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::Diagnostic;
-use vcutc_process::plan::grid;
-use vcutc_process::plan::parameters::show;
+use vcutc_diagnostics::number::show;
+use vcutc_geometry::grid;
 
 /// A program that is no raster as it is read, and what may make it one.
 pub(super) struct Unsettled {

@@ -14,7 +14,7 @@ use super::runs::{Run, runs};
 use super::types::Blank;
 use super::types::SAME;
 
-use vcutc_process::plan::parameters::show;
+use vcutc_diagnostics::number::show;
 
 /// How much longer the way along one axis must be than along the other for it to be the axis of the cuts.
 const CLEARLY: f64 = 2.0;

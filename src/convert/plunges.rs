@@ -8,7 +8,7 @@
 use super::types::Plunge;
 use super::types::{Blank, Pass, SAME};
 use vcutc_geometry::curve::Point2;
-use vcutc_process::sim::surface::{Surface, Vee};
+use vcutc_simulation::surface::{Surface, Vee};
 
 /// Plunges into uncut material.
 pub(super) struct Sorted {

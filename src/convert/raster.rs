@@ -14,7 +14,7 @@ use super::types::{Blank, Plunge, Start};
 use super::types::{Pass, SAME};
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::Diagnostic;
-use vcutc_process::plan::grid;
+use vcutc_geometry::grid;
 
 /// What a milling program does to a blank.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -9,6 +9,7 @@ pub mod document;
 pub mod fix;
 pub mod github;
 pub mod json;
+pub mod number;
 pub mod position;
 pub mod render;
 pub mod source;

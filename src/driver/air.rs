@@ -10,14 +10,14 @@ use vcutc_backend_api::ir::{Head, Program, Purpose};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::sema::units;
 use vcutc_job::{CheckedJob, Operation};
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use vcutc_motion::summary as reach_summary;
 use vcutc_motion::verdict as reach_verdict;
-use vcutc_process::plan::parameters::show;
-use vcutc_process::sim::timing::times;
+use vcutc_simulation::timing::times;
 
 /// Nothing in a cell is higher, in mm.
 const HIGHEST: f64 = 10_000.0;

@@ -9,7 +9,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 use vcutc_backend_api::units::Duration;
 use vcutc_process::plan::{PlannedJob, PlannedOperation};
-use vcutc_process::sim::report::Report;
+use vcutc_simulation::report::Report;
 
 /// Figures of a program. The names carry their units; `docs/ci.md` explains each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

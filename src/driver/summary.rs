@@ -7,13 +7,13 @@ pub mod times;
 use crate::checks::Checks;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_job::{Order, RoughVcut, WhyChosen};
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_process::plan::decision::{Decision, Excess, Standing};
-use vcutc_process::plan::parameters::show;
 use vcutc_process::plan::{PlannedJob, PlannedOperation, PlannedVcut};
-use vcutc_process::sim::report::Report;
+use vcutc_simulation::report::Report;
 
 /// Most layers whose cuts are listed one by one.
 const LISTED_LAYERS: usize = 24;

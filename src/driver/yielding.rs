@@ -17,7 +17,7 @@ use vcutc_motion::trouble::Trouble;
 use vcutc_process::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 use vcutc_process::lower;
 use vcutc_process::plan::{PlannedJob, PlannedOperation};
-use vcutc_process::sim::surface::Surface;
+use vcutc_simulation::surface::Surface;
 
 /// Most plans that are put to the machine.
 const MOST_PLANS: usize = 10;

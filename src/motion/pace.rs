@@ -39,7 +39,7 @@ use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Joints;
 use vcutc_machine::path_limits::PathLimits;
-use vcutc_process::sim::timing::op_times;
+use vcutc_simulation::timing::op_times;
 
 /// What of a machine the times of a program keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

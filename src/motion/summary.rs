@@ -7,7 +7,7 @@ use crate::solve::Reached;
 use serde::{Serialize, Serializer};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker, Program};
 use vcutc_backend_api::motion::{Branch, Stretch};
-use vcutc_process::plan::parameters::show;
+use vcutc_diagnostics::number::show;
 
 /// What a program asks of its machine.
 #[derive(Clone, Debug, PartialEq, Serialize)]

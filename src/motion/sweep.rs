@@ -25,8 +25,8 @@ use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::Joints;
-use vcutc_process::sim::prove;
-use vcutc_process::sim::surface::Surface;
+use vcutc_simulation::prove;
+use vcutc_simulation::surface::Surface;
 
 /// How far (mm) the blade may be in the work and count as touching it: planned extensions let an edge come up to it.
 pub const GRAZE: f64 = 0.01;

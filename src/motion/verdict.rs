@@ -20,11 +20,11 @@ use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, Orientati
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
 use vcutc_cancellation::Wanted;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{CheckedJob, Machine, Operation, RoughVcut};
 use vcutc_process::plan::PlannedJob;
-use vcutc_process::plan::parameters::show;
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.

@@ -35,7 +35,6 @@ use crate::plan::residual::Strategies;
 use crate::plan::{
     LaidOut, MOST_CUTS, PARAMETERS, PlannedJob, PlannedOperation, lay_out, parameters, refuse_operations,
 };
-use crate::sim::surface::Surface;
 use bench::{Bench, Figures};
 use core::cmp::Ordering;
 use rayon::prelude::*;
@@ -44,6 +43,7 @@ use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_job::{Auto, CheckedJob, Lattice, Objective, Operation, Residual, RoughVcut};
+use vcutc_simulation::surface::Surface;
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
 /// are chosen by.

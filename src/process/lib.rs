@@ -4,5 +4,6 @@ pub mod choice;
 pub mod lower;
 pub mod plan;
 pub mod posture;
-pub mod sim;
+#[cfg(test)]
+mod replayed;
 pub mod verdict;

@@ -5,7 +5,7 @@
 //! tip can be cut depends on what has been cut before. [`route`] puts the cuts in order. Nothing is promised: the cuts are
 //! proven later, from the program. Which of several plans is taken where the job leaves the choice open, `choice` says.
 //!
-//! Tips lie on a grid of a micrometre ([`grid`]), so that a program printed with three decimals says exactly what was
+//! Tips lie on a grid of a micrometre ([`vcutc_geometry::grid`]), so that a program printed with three decimals says exactly what was
 //! planned and proven.
 
 pub mod blade_reach;
@@ -13,7 +13,6 @@ mod complaints;
 pub mod decision;
 pub mod floor;
 pub mod given;
-pub mod grid;
 pub mod lattice;
 pub mod optimum;
 pub mod parameters;
@@ -26,7 +25,6 @@ pub mod time_model;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use crate::sim::surface::Surface;
 use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
 use decision::Decision;
 use given::Course;
@@ -41,6 +39,7 @@ use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
+use vcutc_simulation::surface::Surface;
 
 /// A job with every choice made.
 #[derive(Clone, Debug, PartialEq)]

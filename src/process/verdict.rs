@@ -12,22 +12,22 @@ pub use stays::{Compile, much_stays};
 
 use crate::choice::{Effort, Latitude, WorksThere};
 use crate::lower;
-use crate::plan::parameters::show;
 use crate::plan::{self, PlannedJob, PlannedOperation, PlannedVcut};
-use crate::sim::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
-use crate::sim::report::{Report, report};
-use crate::sim::surface::Surface;
-use crate::sim::timing::timing;
 use attempts::{Attempts, Case};
 use chips::Remedy;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{CheckedJob, RoughVcut};
+use vcutc_simulation::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
+use vcutc_simulation::report::{Report, report};
+use vcutc_simulation::surface::Surface;
+use vcutc_simulation::timing::timing;
 
 /// A program with its proof, good or bad.
 #[derive(Debug)]

@@ -14,18 +14,18 @@ use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Deed, Judge, Mismatch, Moment, Reader, Says};
 use vcutc_backend_api::stroke::Pose;
 use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_machine::Model;
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
 use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::plan::PlannedJob;
-use vcutc_process::plan::parameters::show;
-use vcutc_process::sim::prove::{CutFault, Finding};
-use vcutc_process::sim::report::report;
-use vcutc_process::sim::slit::{Entry, deepest, edge};
-use vcutc_process::sim::timing::timing;
 use vcutc_process::verdict;
+use vcutc_simulation::prove::{CutFault, Finding};
+use vcutc_simulation::report::report;
+use vcutc_simulation::slit::{Entry, deepest, edge};
+use vcutc_simulation::timing::timing;
 
 /// What is needed to prove a program that was read.
 #[derive(Clone, Copy)]
@@ -259,7 +259,7 @@ impl Read<'_> {
         Some(and_more(diagnostic, count - 1))
     }
 
-    fn entry(&self, bounds: &[vcutc_process::sim::prove::Bound<'_>], cut: &CutAt) -> Option<Entry> {
+    fn entry(&self, bounds: &[vcutc_simulation::prove::Bound<'_>], cut: &CutAt) -> Option<Entry> {
         let program = self.program();
         // A cut that belongs to nothing is held against the first operation's bound.
         let operation = cut

@@ -7,7 +7,7 @@ use super::rebuild::Rebuilt;
 use vcutc_backend_api::ir::{Action, Op, Program, Purpose};
 use vcutc_backend_api::readback::Grain;
 use vcutc_backend_api::script::speeds;
-use vcutc_process::plan::parameters::show;
+use vcutc_diagnostics::number::show;
 
 /// Most kinds of changed speeds that are named.
 const MOST_NAMED: usize = 3;

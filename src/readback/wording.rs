@@ -3,8 +3,8 @@
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Cell, Flank, OpId, Program, Site, Switch};
 use vcutc_backend_api::readback::{Deed, DepartureKind, FrameRole, Mismatch, Pace, Says, Stance};
+use vcutc_diagnostics::number::show;
 use vcutc_motion::describe::{site_words, value_words};
-use vcutc_process::plan::parameters::show;
 
 /// An op in the words of the job: `the left flank of layer 1, cut 2`.
 pub(super) fn op_words(program: &Program, op: OpId) -> String {

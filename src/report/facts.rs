@@ -3,9 +3,9 @@
 use super::Material;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Ready, Registered};
+use vcutc_diagnostics::number::show;
 use vcutc_job::{Blade, CheckedJob, Machine, RoughVcut};
 use vcutc_process::plan::PlannedOperation;
-use vcutc_process::plan::parameters::show;
 
 /// A name and a value, as plain text.
 pub(super) type Fact = (&'static str, String);

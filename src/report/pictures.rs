@@ -14,13 +14,13 @@ pub use paths::paths;
 pub use time::time;
 
 use super::Material;
+use vcutc_diagnostics::number::show;
 use vcutc_geometry::curve::Point2;
 use vcutc_picture::thin::Thinned;
 use vcutc_picture::{Prefix, contour, correlation, deviation, lattice};
-use vcutc_process::plan::parameters::show;
 use vcutc_process::plan::{PlannedOperation, PlannedVcut, TipOrigin};
-use vcutc_process::sim::contour::{SAMPLES, Sampled, sampled};
 use vcutc_process::verdict;
+use vcutc_simulation::contour::{SAMPLES, Sampled, sampled};
 
 /// The lattice: tips by origin, flanks, layers (`picture::lattice`).
 #[must_use]

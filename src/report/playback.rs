@@ -2,7 +2,7 @@
 //!
 //! What is shown is taken from the finished program, not from the plan: poses op by op ([`timeline`]), times, and the axes
 //! that were proven ([`track`]). The viewer (`src/report/assets/player`, WebGL 2, no package of others) replays the cuts on a
-//! surface of its own, the one of `src/process/sim/surface.rs` over again, and moves the machine by products of matrices
+//! surface of its own, the one of `src/simulation/surface.rs` over again, and moves the machine by products of matrices
 //! ([`vcutc_machine::kinematics::linkage`]). Within an op the motion goes on evenly: how controllers speed up and slow down within
 //! it is not shown, how long it takes is.
 

@@ -3,7 +3,7 @@
 use crate::pipeline::{Files, compile};
 use crate::repository::read;
 use vcutc::driver::{Compiled, Finished};
-use vcutc::process::sim::timing::op_times;
+use vcutc::simulation::timing::op_times;
 use vcutc_backend_api::units::Duration;
 
 /// The cut block on a KUKA whose sheet has these lines more: some below `[limits]`, some at its end. The swing is given, so that

@@ -8,7 +8,7 @@ use crate::pipeline::{Files, compile, told};
 use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
 use vcutc::process::plan::{PlannedOperation, PlannedVcut};
-use vcutc::process::sim::surface::{Surface, Vee};
+use vcutc::simulation::surface::{Surface, Vee};
 
 /// Rake less half the apex angle of the blade of Cui et al.: what the leading edge makes with the feed.
 pub(crate) const LEAD_DEG: f64 = 60.0 - 7.13;

@@ -199,7 +199,7 @@ fn a_program_that_has_nothing_to_do_with_the_job_comes_to_an_end() {
 /// The cuts of programs that are as planned enter nothing: what is looked at cut by cut agrees with the proof of whole Vs.
 #[test]
 fn no_slit_of_a_proven_program_enters_the_part() {
-    use vcutc::process::sim::slit::{deepest, edge};
+    use vcutc::simulation::slit::{deepest, edge};
     use vcutc_backend_api::ir::Action;
     use vcutc_backend_api::motion::pose_after;
     for job in ["block_cui.vcut", "spoiler_naca2412.vcut", "wavy_panel.vcut"] {

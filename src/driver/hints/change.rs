@@ -1,11 +1,11 @@
 //! Changes of a job that a hint may speak of: what they do to the checked job, and what to write where.
 
 use vcutc_diagnostics::Edit;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{CheckedJob, Direction, Operation, RoughVcut};
 use vcutc_motion::remedy::speed::Field;
 use vcutc_motion::remedy::{self, Elsewhere, wording};
-use vcutc_process::plan::parameters::show;
 
 /// A change of a job.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,10 +3,10 @@
 use super::{IN_HAND, row, time, times};
 use crate::air_cut::{TIP_SPEED, TURNING_RATE};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::show;
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
-use vcutc_process::plan::parameters::show;
-use vcutc_process::sim::report::Report;
+use vcutc_simulation::report::Report;
 
 /// An air cut.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,8 @@
 use super::time;
 use serde::Serialize;
 use vcutc_motion::pace::{Basis, Kept};
-use vcutc_process::sim::report::Report;
-use vcutc_process::sim::timing::{LayerTime, Timing};
+use vcutc_simulation::report::Report;
+use vcutc_simulation::timing::{LayerTime, Timing};
 
 /// Where the time of a program goes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -8,9 +8,9 @@ use crate::trials::Trials;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{CheckedJob, Operation, RoughVcut};
-use vcutc_process::plan::parameters::show;
 
 /// How far beyond the factor of the first motion is looked.
 const FARTHER: [f64; 3] = [1.0, 2.0, 4.0];

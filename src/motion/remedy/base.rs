@@ -13,9 +13,9 @@ use crate::trouble::Trouble;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::Machine;
-use vcutc_process::plan::parameters::show;
 
 /// How far the base is moved along a direction, in mm.
 const DISTANCES: [f64; 14] = [

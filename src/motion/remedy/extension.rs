@@ -4,8 +4,9 @@ use crate::solve::Unreached;
 use crate::sweep::Cure;
 use crate::trouble::Trouble;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, CheckedJob, Operation};
-use vcutc_process::plan::{PlannedJob, PlannedOperation, grid};
+use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// The job with the extension that the turns of its machine need, and `run_out` besides. None where something else is in the
 /// way, or the job states the extension itself.

@@ -5,10 +5,10 @@ use crate::sweep::{Cure, Sweep};
 use crate::trouble::Trouble;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{Auto, CheckedJob, Direction, Operation, Order, RoughVcut};
 use vcutc_process::plan::PlannedOperation;
-use vcutc_process::plan::parameters::show;
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];

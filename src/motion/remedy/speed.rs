@@ -14,10 +14,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::{Operation, RoughVcut};
 use vcutc_machine::Model;
-use vcutc_process::plan::parameters::show;
 
 /// What a lower speed costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

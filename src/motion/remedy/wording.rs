@@ -5,8 +5,8 @@
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MachineKind, PlacedFrame};
 use vcutc_backend_api::units::Angle;
+use vcutc_diagnostics::number::show;
 use vcutc_machine::Model;
-use vcutc_process::plan::parameters::show;
 
 /// A frame with the decimals that [`frame_text`] writes: lengths and angles to thousandths of mm and deg.
 #[must_use]

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
 use vcutc_machine::kinematics::pose::Pose;
-use vcutc_process::sim::surface::Vee;
+use vcutc_simulation::surface::Vee;
 
 /// What turns the blade and the work, outermost first, and the work on its mount.
 #[derive(Clone, Copy, Debug)]

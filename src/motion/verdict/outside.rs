@@ -3,10 +3,10 @@
 
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::Op;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{Auto, CheckedJob, Operation, RoughVcut};
-use vcutc_process::plan::parameters::show;
 
 /// How far out of the stock a tip is carried by lengths that are meant, at most, in mm.
 const MEANT: f64 = 1000.0;

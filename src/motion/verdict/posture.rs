@@ -3,12 +3,12 @@
 
 use crate::rig::Rig;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::Machine;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::FiveAxis;
 use vcutc_machine::kinematics::pose::Pose;
-use vcutc_process::plan::parameters::show;
 
 /// What is told of a pose of the blade in the work that rotary axes without limits do not reach. None for other machines, and
 /// for poses that they do. `place` says which pose it is, such as `layer 7, cut 12`.

@@ -4,11 +4,11 @@
 //! one side of the stock to the other, and the deepest place of the part is cut from the stock's top down: the tip comes to
 //! within the length of an edge of all these places, or they stay as they are.
 
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{CheckedJob, Operation};
 use vcutc_machine::kinematics::pose::Pose;
-use vcutc_process::plan::parameters::show;
 
 /// Why the job's machine cannot cut work of that size. None says nothing.
 #[must_use]

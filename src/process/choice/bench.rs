@@ -4,17 +4,17 @@ use super::{Contender, Latitude};
 use crate::lower::alone;
 use crate::plan::decision::Standing;
 use crate::plan::{LaidOut, PlannedVcut, Work};
-use crate::sim::contour::farthest;
-use crate::sim::prove::{Bound, replay_on};
-use crate::sim::report::area_under;
-use crate::sim::surface::Surface;
-use crate::sim::timing::total;
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::{CheckedJob, Objective, RoughVcut};
+use vcutc_simulation::contour::farthest;
+use vcutc_simulation::prove::{Bound, replay_on};
+use vcutc_simulation::report::area_under;
+use vcutc_simulation::surface::Surface;
+use vcutc_simulation::timing::total;
 
 /// What a plan comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,10 +3,10 @@
 use super::route;
 use crate::plan::decision::{Candidate, Decision, Standing};
 use crate::plan::optimum::Bound;
-use crate::plan::parameters::show;
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use vcutc_backend_api::ir::AxisKind;
 use vcutc_backend_api::units::Angle;
+use vcutc_diagnostics::number::show;
 use vcutc_job::{Auto, Bounds, Machine, Operation, Order, RoughVcut, Sourced};
 
 /// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,

@@ -8,9 +8,9 @@
 use super::bench;
 use crate::plan::PlannedVcut;
 use crate::plan::decision::Excess;
-use crate::plan::parameters::show;
 use crate::plan::refusal::{Offer, Refused};
 use vcutc_backend_api::units::Duration;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{CheckedJob, Objective, RoughVcut};

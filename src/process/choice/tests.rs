@@ -8,7 +8,6 @@ use crate::plan::decision::Standing;
 use crate::plan::route::{Heading, layers};
 use crate::plan::tests::{a_job, all_auto};
 use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
-use crate::sim::surface::{Side, Surface, Vee};
 use crate::verdict::{self, Proven};
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -17,6 +16,7 @@ use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::samples::{operation, paper_job};
 use vcutc_job::{Auto, CheckedJob, Lattice, Order, Residual, Sequence, Sourced};
+use vcutc_simulation::surface::{Side, Surface, Vee};
 
 const ROUTES: [(Sequence, Order); 6] = [
     (Sequence::Rows, Order::Point),

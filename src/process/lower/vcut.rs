@@ -16,13 +16,14 @@
 use super::builder::Builder;
 use super::postures::Postures;
 use crate::plan::route::{self, Heading, Run};
-use crate::plan::{PlannedCut, PlannedVcut, Way, grid};
+use crate::plan::{PlannedCut, PlannedVcut, Way};
 use crate::posture::{Feed, Holder};
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, Blade, FeedId, Flank, Operation, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
 };
+use vcutc_geometry::grid;
 use vcutc_job::{Direction, Order};
 
 /// Appends the ops of one operation.

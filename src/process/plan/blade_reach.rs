@@ -157,9 +157,9 @@ pub fn largest_layer_for_scallop_at_step(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::surface::{Side, Surface, Vee};
     use proptest::prelude::*;
     use vcutc_geometry::curve::Point2;
+    use vcutc_simulation::surface::{Side, Surface, Vee};
 
     /// Simulates layers of a lattice wide enough that the sides do not matter, and measures the reach in the middle.
     fn simulated(lattice: Lattice, layer: f64, step: f64, slope: f64) -> f64 {

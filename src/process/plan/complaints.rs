@@ -1,12 +1,14 @@
 //! What the planner has to say when there is no plan.
 
 use super::optimum::Bound;
-use super::parameters::{VcutParameters, show};
+use super::parameters::VcutParameters;
 use super::refusal::{Ladder, Offer, Refused};
-use super::{MOST_CUTS, MOST_OPERATIONS, grid};
+use super::{MOST_CUTS, MOST_OPERATIONS};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::grid;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::{Auto, CheckedJob, Residual, RoughVcut, Sourced};
 

@@ -8,12 +8,12 @@
 use super::Work;
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
-use crate::sim::surface::{Surface, Vee};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::CheckedJob;
+use vcutc_simulation::surface::{Surface, Vee};
 
 /// Most corners that are held against the part: of longer contours every second one, or every third, and so on.
 const MOST_CORNERS: usize = 4000;

@@ -6,13 +6,15 @@
 //! proof.
 
 use super::lattice::Layout;
-use super::parameters::{VcutParameters, show};
+use super::parameters::VcutParameters;
 use super::route::Heading;
-use super::{MOST_CUTS, PlannedCut, TipOrigin, Way, grid};
-use crate::sim::surface::{Surface, Vee};
+use super::{MOST_CUTS, PlannedCut, TipOrigin, Way};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::grid;
 use vcutc_job::{CheckedJob, Tip, Tips};
+use vcutc_simulation::surface::{Surface, Vee};
 
 /// What is cut of given tips, and how.
 #[derive(Clone, Debug, PartialEq)]

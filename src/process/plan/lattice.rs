@@ -5,10 +5,10 @@
 //! left at either side and edge cuts need no more reach than others. Free layers choose their own tips: each stretch in
 //! which the V clears the part gets a tip on the part at each of its ends and evenly spaced ones between [Cui fig. 4].
 
-use super::grid;
 use super::parameters::VcutParameters;
 use vcutc_backend_api::ir::Stock;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::grid;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::Lattice;
 

@@ -34,11 +34,11 @@ pub use conflict::{conflicting, nearest};
 pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Refused, Sensitivity, Work};
 pub use trade::{sensitivities, trade_off};
 
-use super::grid;
 use formulas::Model;
 use ground::{Found, Measure};
 use search::Goal;
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_geometry::grid;
 use vcutc_job::{Lattice, Objective};
 
 /// The least scallop or edge is found to this share of it.

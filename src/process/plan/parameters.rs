@@ -14,7 +14,6 @@ pub use grid_forms::largest_layers;
 pub use swung::Swung;
 
 use super::blade_reach::{self, Flanks};
-use super::grid;
 use super::optimum::{self, Bound, Problem};
 use super::refusal::Refused;
 use super::time_model::TimeModel;
@@ -23,6 +22,8 @@ use grid_forms::{fits, widest_step};
 use search::Chosen;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::number::show;
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, CheckedJob, Direction, Lattice, RoughVcut};
 
 /// The parameters of one V-cutting operation, all decided.
@@ -502,17 +503,5 @@ fn resolve_extension(
             diagnostics.push(complaints::extension_too_short(asked, extension, on_grid(edge)));
             None
         }
-    }
-}
-
-/// A number for people: up to three decimals, without trailing zeros.
-#[must_use]
-pub fn show(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".to_owned()
-    } else {
-        text.to_owned()
     }
 }

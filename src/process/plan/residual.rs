@@ -11,12 +11,13 @@
 
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
-use super::{PlannedCut, TipOrigin, Way, grid, smallest_gain};
-use crate::sim::surface::{Side, Surface, Vee};
+use super::{PlannedCut, TipOrigin, Way, smallest_gain};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::grid;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::{Residual, RoughVcut};
+use vcutc_simulation::surface::{Side, Surface, Vee};
 
 /// A tip of the lattice that would cut the part.
 #[derive(Clone, Copy)]

@@ -12,11 +12,11 @@ pub mod precedence;
 
 use super::parameters::VcutParameters;
 use super::{PlannedCut, Way};
-use crate::sim::surface::{Surface, Vee};
 use core::ops::Range;
 use std::collections::BTreeSet;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{Order, Sequence};
+use vcutc_simulation::surface::{Surface, Vee};
 
 /// Cuts of one layer that are made one after the other.
 #[derive(Clone, Debug, PartialEq, Eq)]

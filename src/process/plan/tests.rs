@@ -1,7 +1,6 @@
 //! Random jobs, planned and proven: no overcut, every kept chip freed, every V complete.
 
 use crate::plan::parameters::ScallopBy;
-use crate::sim::prove::Findings;
 use crate::verdict;
 use proptest::prelude::*;
 use vcutc_backend_api::ir::{Edges, Stock};
@@ -13,6 +12,7 @@ use vcutc_job::samples::{given, operation, paper_job};
 use vcutc_job::{
     Auto, Bounds, CheckedJob, Direction, Formulas, Lattice, Limits, Objective, Order, Residual, RoughVcut,
 };
+use vcutc_simulation::prove::Findings;
 
 fn a_profile() -> impl Strategy<Value = Vec<Point2>> {
     // Corners at random distances and heights: hills, hollows, steps up to nearly vertical.

@@ -7,11 +7,11 @@ use super::{Proven, prove, scallop_excess};
 use crate::choice::{self, Effort, Latitude, Leeway};
 use crate::plan::PlannedJob;
 use crate::plan::refusal::Offer;
-use crate::sim::prove::Findings;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::{CheckedJob, Operation, RoughVcut};
+use vcutc_simulation::prove::Findings;
 
 /// What it counts as, in cuts, to plan and prove all of a job with more than one operation.
 const WHOLE_JOB: usize = 20_000;

@@ -2,10 +2,12 @@
 
 use super::attempts::Attempts;
 use crate::choice::WorksThere;
-use crate::plan::parameters::{self, Swung, show};
+use crate::plan::PlannedVcut;
+use crate::plan::parameters::{self, Swung};
 use crate::plan::refusal::Offer;
-use crate::plan::{PlannedVcut, grid};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::show;
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, Residual};
 
 /// A change that mends a job.

@@ -2,13 +2,13 @@
 
 use super::attempts::{Case, attempt};
 use super::{UsableEdge, place};
-use crate::plan::grid;
-use crate::plan::parameters::show;
-use crate::sim::prove::Finding;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, RoughVcut, Tips};
+use vcutc_simulation::prove::Finding;
 
 /// What to change so that all chips come free.
 enum Remedy {

@@ -3,13 +3,14 @@
 use super::attempts::{Attempts, Case};
 use super::{point, scallop_excess};
 use crate::choice::Effort;
-use crate::plan::parameters::show;
-use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut, grid};
-use crate::sim::report::Report;
+use crate::plan::{PlannedJob, PlannedOperation, PlannedVcut};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, Residual, RoughVcut};
+use vcutc_simulation::report::Report;
 
 /// Most limits that are tried before giving up, and how much wider each is than the one before.
 const MOST_LIMITS: usize = 8;

@@ -6,17 +6,17 @@
 
 use super::attempts::changed;
 use crate::choice::LITTLE;
-use crate::plan::parameters::show;
 use crate::plan::refusal::Offer;
 use crate::plan::removable::Removable;
 use crate::plan::{PlannedJob, PlannedOperation};
-use crate::sim::report::Report;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::{Area, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{Auto, CheckedJob, RoughVcut, Sourced};
+use vcutc_simulation::report::Report;
 
 /// What may stay where the job itself says what does, as a share.
 const SAID: f64 = 0.5;

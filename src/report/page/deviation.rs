@@ -4,7 +4,7 @@ use super::figure::{Ids, Zoom, figure};
 use super::html::{Column, table};
 use super::{Section, Subject};
 use crate::pictures;
-use vcutc_process::sim::report::Report;
+use vcutc_simulation::report::Report;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {

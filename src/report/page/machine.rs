@@ -4,9 +4,9 @@ use super::figure::{Zoom, framed};
 use super::html::{Column, escaped, near, table, terms};
 use super::{Section, Subject};
 use crate::pictures;
+use vcutc_diagnostics::number::show;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use vcutc_picture::Prefix;
-use vcutc_process::plan::parameters::show;
 
 /// An axis with less than this share of half its range left, or of its rate, is marked, as in the picture.
 const SCARCE: f64 = 0.05;

@@ -7,10 +7,10 @@ use super::{Section, Subject};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Load, Ready, Registered};
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_driver::summary;
 use vcutc_job::{Auto, Bounds, Formulas, Machine, Objective, Operation, RoughVcut, Sourced};
-use vcutc_process::plan::parameters::show;
 use vcutc_process::plan::{PlannedOperation, PlannedVcut};
 
 /// A parameter.

@@ -7,8 +7,8 @@ use crate::pictures;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary::time;
 use vcutc_process::plan::PlannedOperation;
-use vcutc_process::sim::report::Report;
-use vcutc_process::sim::timing::Timing;
+use vcutc_simulation::report::Report;
+use vcutc_simulation::timing::Timing;
 
 /// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {

@@ -2,9 +2,9 @@
 
 use crate::Material;
 use vcutc_backend_api::ir::Edges;
+use vcutc_diagnostics::number::show;
 use vcutc_picture::{Prefix, blade};
 use vcutc_process::plan::PlannedOperation;
-use vcutc_process::plan::parameters::show;
 
 /// The blade of the first operation with the axes of its frame (`picture::blade`); none for a job that plans nothing.
 #[must_use]

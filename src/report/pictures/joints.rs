@@ -18,7 +18,7 @@ use vcutc_motion::summary::{AxisFigure, margin_words};
 use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
 use vcutc_picture::thin::Thinned;
 use vcutc_picture::{Prefix, joints};
-use vcutc_process::sim::timing::Kind;
+use vcutc_simulation::timing::Kind;
 
 /// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.
 #[must_use]

@@ -3,7 +3,7 @@
 use crate::Material;
 use vcutc_driver::summary;
 use vcutc_picture::{Prefix, times};
-use vcutc_process::sim::timing::{Kind, LayerTime, Timing};
+use vcutc_simulation::timing::{Kind, LayerTime, Timing};
 
 /// What a kind is called in pictures.
 pub(super) const fn name(kind: Kind) -> &'static str {

@@ -1,11 +1,11 @@
 //! Bounds that bind: where the job says them, and what relaxing them by a hundredth would buy.
 
 use vcutc_backend_api::units::{Angle, Duration};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::position::position;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_job::{Auto, RoughVcut, Sourced};
 use vcutc_process::plan::optimum::{Bound, Optimum, Problem, Sensitivity, sensitivities};
-use vcutc_process::plan::parameters::show;
 
 /// A bound that binds, and what relaxing it would buy.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,8 +9,8 @@ use vcutc_job::{CheckedJob, Operation, RoughVcut};
 use vcutc_process::choice;
 use vcutc_process::plan::PlannedOperation;
 use vcutc_process::plan::parameters::VcutParameters;
-use vcutc_process::sim::prove::Findings;
 use vcutc_process::verdict;
+use vcutc_simulation::prove::Findings;
 
 /// What came of a change of the job.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,10 +7,10 @@ use super::{
 use serde::Serialize;
 use std::fmt::Write;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_job::Objective;
 use vcutc_process::plan::optimum::{Bound, Infeasible, Optimum, Problem};
 use vcutc_process::plan::parameters::VcutParameters;
-use vcutc_process::plan::parameters::show;
 
 /// An objective in words.
 #[must_use]

@@ -1,11 +1,11 @@
 //! Margins over x and y, at one height and one turn of the work.
 
 use vcutc_backend_api::geometry::Frame;
+use vcutc_diagnostics::number::show;
 use vcutc_motion::place::Spot;
 use vcutc_motion::place::score::Judge;
 use vcutc_motion::place::search::{Bounds, evenly, judge};
 use vcutc_picture::heat_map::{HeatMap, draw};
-use vcutc_process::plan::parameters::show;
 
 /// Margins by the taught poses, over the bounds of x and y.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,10 @@
 
 use super::{Open, gentle, hill, planned_and_proven, vcut};
 use crate::plan::optimum::Bound;
-use crate::sim::prove::Findings;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::samples::operation;
 use vcutc_job::{CheckedJob, Objective, Sourced};
+use vcutc_simulation::prove::Findings;
 
 /// How much more than what the least time shows to be possible may stay, or be used: it is a search.
 const TOLERANCE: f64 = 1.1;

@@ -2,9 +2,9 @@
 
 use super::{AHEAD, MOST_OVERLAP, Trials, thousandths};
 use crate::choice::MOST_CUTS_COMPARED;
-use crate::plan::grid;
 use crate::plan::parameters::{Swung, VcutParameters};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::grid;
 use vcutc_job::Auto;
 
 /// By which factors swing and layer are changed, the coarse ones first.

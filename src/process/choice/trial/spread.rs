@@ -11,11 +11,11 @@ use super::around::{FACTORS, MOVES};
 use super::{AHEAD, MOST_OVERLAP, Trials, thousandths};
 use crate::choice::MOST_CUTS_COMPARED;
 use crate::plan::decision::Standing;
-use crate::plan::grid;
 use crate::plan::parameters::{Swung, VcutParameters};
 use crate::plan::residual::least_gain;
 use core::cmp::Ordering;
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, Lattice};
 
 /// Most plans of the spread, by the number of cuts of the first one: below the first number the second.

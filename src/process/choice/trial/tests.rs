@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::choice::Latitude;
-use crate::sim::surface::Surface;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::samples::{operation, paper_job};
 use vcutc_job::{Operation, Sourced};
+use vcutc_simulation::surface::Surface;
 
 /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
 const MOST: usize = 48 + 72 + 72 + 48 + 10;

@@ -1,9 +1,9 @@
 //! What is said of parameters that contradict one another as they are given.
 
-use super::show;
 use crate::plan::complaints::wider_scallops;
 use crate::plan::refusal::{Ladder, Offer, Refused};
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{Auto, Bounds, Objective, RoughVcut, Sourced};

@@ -2,9 +2,9 @@
 //! what they need when tips are rounded to the grid.
 
 use super::super::blade_reach::{self, Flanks};
-use super::super::grid;
 use super::VcutParameters;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, Lattice, RoughVcut};
 
 /// Whether a blade reaches what a lattice needs, wherever rounding puts its tips.

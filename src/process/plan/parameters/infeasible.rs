@@ -2,11 +2,11 @@
 //! values that keep them by the model, for those who plan them before they are offered.
 
 use super::complaints::check_given;
-use super::show;
 use crate::plan::complaints::wider_scallops;
 use crate::plan::optimum::{self, Bound, Problem};
 use crate::plan::refusal::{Ladder, Offer, Refused};
 use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{Auto, RoughVcut, Sourced};

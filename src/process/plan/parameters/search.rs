@@ -1,11 +1,11 @@
 //! The open parameters by optimisation: the problem that a job poses, and its optimum on the grid.
 
 use super::super::blade_reach;
-use super::super::grid;
 use super::super::optimum::{self, Bound, Extension, Optimum, Problem, Range, Refused, Work};
 use super::grid_forms::{fits, tips_per_step, widest_step};
 use super::{Refusal, edge_overhang, flanks_at};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, Bounds, CheckedJob, Formulas, Lattice, Objective, RoughVcut};
 
 /// Swings to choose from where there is no limit: flatter and steeper Vs are no cuts.

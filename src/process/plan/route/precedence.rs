@@ -10,10 +10,10 @@
 //! all tips that show.
 
 use super::{TOUCH, Terrain, micrometres};
-use crate::sim::surface::{Side, Surface, Vee};
 use core::ops::Range;
 use std::collections::BTreeMap;
 use vcutc_geometry::curve::Point2;
+use vcutc_simulation::surface::{Side, Surface, Vee};
 
 /// How many stretches each one still waits for.
 pub struct Waiting {

@@ -1,7 +1,5 @@
 //! Proof, times and figures of small programs against what can be worked out by hand.
 
-use super::prove::{Bound, CutFault, Findings, replay};
-use super::timing::timing;
 use crate::choice::choose;
 use crate::lower::lower;
 use crate::plan::PlannedOperation;
@@ -13,6 +11,8 @@ use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::samples::{operation, paper_job};
 use vcutc_job::{Auto, Operation, Residual};
+use vcutc_simulation::prove::{Bound, CutFault, Findings, replay};
+use vcutc_simulation::timing::timing;
 
 fn flat(z: f64) -> Vec<Point2> {
     vec![Point2 { x: 0.0, z }, Point2 { x: 85.0, z }]

@@ -80,7 +80,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
 }
 
 /// Area of the cross-section under a surface, in mm2.
-pub(crate) fn area_under(corners: &[Point2]) -> f64 {
+pub fn area_under(corners: &[Point2]) -> f64 {
     let strip = |(a, b): (&Point2, &Point2)| (b.x - a.x) * (a.z + b.z) / 2.0;
     corners.iter().zip(corners.iter().skip(1)).map(strip).sum()
 }

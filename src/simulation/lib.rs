@@ -11,6 +11,4 @@ pub mod prove;
 pub mod report;
 pub mod slit;
 pub mod surface;
-#[cfg(test)]
-mod tests;
 pub mod timing;
