@@ -22,3 +22,5 @@ pub use vcutc_report as report;
 pub use vcutc_simulation as simulation;
 pub use vcutc_study as study;
 pub use vcutc_syntax as syntax;
+pub use vcutc_vcut as vcut;
+pub use vcutc_vcut_optimize as vcut_optimize;

@@ -15,7 +15,8 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{IntOverlayOptions, Overlay};
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
-use vcutc::process::plan::{PlannedJob, PlannedOperation};
+use vcutc::job::PlannedJob;
+use vcutc::vcut::plan::{PlannedVcut};
 use vcutc::simulation::prove::Replay;
 
 /// How high triangles are.

@@ -3,9 +3,9 @@
 //! The peers get the problem as the paper prints it, in layer, step and swing, with the bounds on reach, scallop and overlap as
 //! constraints. They answer from where they start; whether that is the best there is they do not say.
 
-use vcutc::job::{Formulas, Lattice, Objective};
-use vcutc::process::plan::optimum::Problem;
-use vcutc::process::plan::optimum::published::table_1;
+use vcutc::vcut::asked::{Formulas, Lattice, Objective};
+use vcutc::vcut::plan::optimum::Problem;
+use vcutc::vcut::plan::optimum::published::table_1;
 use vcutc_backend_api::units::Duration;
 
 /// All lattices.

@@ -7,8 +7,9 @@ use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::job::CheckedJob;
 use vcutc::job::sema;
-use vcutc::process::choice;
-use vcutc::process::plan::{PlannedJob, PlannedOperation};
+use vcutc::vcut::choice;
+use vcutc::job::PlannedJob;
+use vcutc::vcut::plan::{PlannedVcut};
 use vcutc::simulation::prove::{self, Bound, Findings, Replay};
 use vcutc::simulation::timing::Times;
 use vcutc::process::{lower, sim};
@@ -76,7 +77,7 @@ pub fn check(text: &str) -> (SourceMap, CheckedJob) {
     let checked = sema::check(
         PATH,
         &OneText(text),
-        sema::Choices::default(),
+        sema::Choices { operations: vcutc::registry::OPERATIONS, ..sema::Choices::default() },
         &mut sources,
         &mut diagnostics,
     );
@@ -94,6 +95,7 @@ pub fn compile(text: &str) -> Outcome {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        operations: vcutc::registry::OPERATIONS,
         targets: &[],
     };
     let outcome = driver::compile(request, &mut |_| {}).expect("the text is there");

@@ -8,6 +8,10 @@
 //!
 //! The compiler reads no clock. Who gives a search a limited time drops the interest when that time is over.
 
+mod effort;
+
+pub use effort::Effort;
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -22,6 +22,7 @@ use examples::{EXAMPLES, FIRST_EXAMPLES};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Severity};
 use vcutc_driver::{Request, Typed};
+use vcutc_registry::OPERATIONS;
 
 /// The version of the package, with the commit where a release was built from one (`build.rs`).
 const VERSION: &str = env!("VCUTC_VERSION");
@@ -584,6 +585,7 @@ impl Overrides {
             overrides: &self.set,
             machine: self.machine.as_deref(),
             options: Typed::default(),
+            operations: OPERATIONS,
             targets,
         }
     }

@@ -27,6 +27,7 @@ use vcutc_driver::numbers::baseline::{Name, Record};
 use vcutc_driver::summary::chosen::OperationFigures;
 use vcutc_driver::summary::times::TimeFigures;
 use vcutc_driver::{self as driver, Request, RequestError, Typed};
+use vcutc_registry::OPERATIONS;
 
 /// One program to make.
 pub(super) struct Unit {
@@ -189,6 +190,7 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
             given: &unit.options,
             beside: &unit.beside,
         },
+        operations: OPERATIONS,
         targets,
     };
     let mut outcome = match driver::compile(request, &mut |_| {}) {

@@ -16,6 +16,7 @@ use vcutc_diagnostics::source::{Entry, LoadError, Loader};
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{Outcome, Request};
 use vcutc_picture::Prefix;
+use vcutc_registry::OPERATIONS;
 use vcutc_report::{Material, pictures};
 
 /// Converts one program.
@@ -115,6 +116,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         overrides: &[],
         machine: None,
         options: product.typed(),
+        operations: OPERATIONS,
         targets,
     };
     let mut amend = |outcome: &mut Outcome| {

@@ -12,6 +12,7 @@ use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_driver::Stage;
 use vcutc_driver::starter::{self, Asked, Refusal};
 use vcutc_machine::{Model, Origin};
+use vcutc_registry::OPERATIONS;
 
 /// The name of a job that is given none.
 const NAME: &str = "first";
@@ -45,6 +46,7 @@ pub(super) fn init(args: &InitArgs, targets: &Targets, console: &Console) -> Exi
         path: disk.job(),
         model: model.as_ref(),
         loader: &disk,
+        operations: OPERATIONS,
         targets,
     });
     progress.finish();

@@ -10,7 +10,7 @@ use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
 use vcutc_driver::Outcome;
-use vcutc_process::plan::{PlannedJob, PlannedOperation, PlannedVcut, TipOrigin};
+use vcutc_job::{PlannedJob, PlannedOperation};
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
 ///
@@ -94,24 +94,16 @@ fn write_json(value: &impl serde::Serialize, out: &mut dyn Write) -> io::Result<
 fn write_plan(plan: &PlannedJob, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "operation,layer,cut,x_mm,z_mm,swing_deg,tip")?;
     for (number, operation) in (1_u32..).zip(&plan.operations) {
-        match operation {
-            PlannedOperation::RoughVcut(vcut) => write_vcut(number, vcut, out)?,
-        }
+        write_operation(number, &**operation, out)?;
     }
     Ok(())
 }
 
-fn write_vcut(number: u32, vcut: &PlannedVcut, out: &mut dyn Write) -> io::Result<()> {
-    let swing = vcut.parameters.swing.to_deg();
-    for layer in vcut.cuts.chunk_by(|a, b| a.layer == b.layer) {
+fn write_operation(number: u32, planned: &dyn PlannedOperation, out: &mut dyn Write) -> io::Result<()> {
+    let swing = planned.swing().to_deg();
+    for layer in planned.tips().chunk_by(|a, b| a.layer == b.layer) {
         for (cut, planned) in (1_u32..).zip(layer) {
-            let origin = match planned.origin {
-                TipOrigin::Lattice => "lattice",
-                TipOrigin::Given => "given",
-                TipOrigin::Lifted => "lifted",
-                TipOrigin::Shifted => "shifted",
-                TipOrigin::Relieved => "relieved",
-            };
+            let origin = planned.origin.word();
             let (layer, x, z) = (planned.layer, planned.tip.x, planned.tip.z);
             writeln!(out, "{number},{layer},{cut},{x:.3},{z:.3},{swing:.3},{origin}")?;
         }

@@ -21,6 +21,7 @@ use vcutc_diagnostics::source::{Entry, LoadError, Loader};
 use vcutc_driver::memory::Memory;
 use vcutc_lsp::wire::{self, Broken, Fault, Incoming};
 use vcutc_lsp::{Done, Ending, Server, Task, Workspace};
+use vcutc_registry::OPERATIONS;
 
 /// How long nothing must have been told, such as a change of a text, before a job is planned. Questions are no reason to wait.
 const PAUSE: Duration = Duration::from_millis(250);
@@ -50,7 +51,7 @@ pub(super) fn serve(targets: &Targets, console: &Console) -> ExitCode {
     let tasks = planner(targets.to_vec(), sender.clone());
     thread::spawn(move || read_all(&sender));
     let mut conversation = Conversation {
-        server: Server::new(targets),
+        server: Server::new(OPERATIONS, targets),
         waiting: VecDeque::new(),
         tasks,
         planner: Planner::Idle,

@@ -49,7 +49,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 use vcutc_diagnostics::{Diagnostic, Label};
 use vcutc_geometry::grid;
-use vcutc_process::plan::blade_reach::Flanks;
+use vcutc_vcut::plan::blade_reach::Flanks;
 use write::{Blade, JobText, Material, Part, ProfileFile};
 
 /// Half the apex angle of the blade of [Cui 2020], table 1, for a blade of which nothing is said.

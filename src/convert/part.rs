@@ -8,8 +8,8 @@ use super::types::Pass;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
-use vcutc_process::plan::blade_reach::Flanks;
 use vcutc_simulation::surface::{Side, Surface, Vee};
+use vcutc_vcut::plan::blade_reach::Flanks;
 
 /// How much the polyline is lowered below what it may be, in mm: its points are rounded to the grid, and with them its slopes.
 const ROUNDING: f64 = 2.0 * grid::SPACING;

@@ -12,8 +12,8 @@ use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::CheckedJob;
 use vcutc_job::sema::units;
-use vcutc_job::{CheckedJob, Operation};
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
 use vcutc_motion::summary as reach_summary;
 use vcutc_motion::verdict as reach_verdict;
@@ -98,7 +98,7 @@ fn air_cut(
 /// The widest clearance that the job keeps from its stock.
 fn clearance(job: &CheckedJob) -> Length {
     let operations = job.operations.iter();
-    let all = operations.map(|Operation::RoughVcut(asked)| asked.clearance.value);
+    let all = operations.map(|operation| operation.setup().clearance.value);
     all.fold(Length::ZERO, Length::max)
 }
 

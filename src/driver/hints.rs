@@ -21,16 +21,17 @@ use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Fix;
 use vcutc_diagnostics::source::SourceMap;
-use vcutc_job::{CheckedJob, Direction, Machine, Operation};
+use vcutc_job::PlannedJob;
+use vcutc_job::setup::SpeedField as Field;
+use vcutc_job::{CheckedJob, Direction, Machine};
 use vcutc_motion::path::Violation;
 use vcutc_motion::place::strokes::Strokes;
 use vcutc_motion::remedy;
-use vcutc_motion::remedy::speed::{self, Field};
+use vcutc_motion::remedy::speed;
 use vcutc_motion::rig::Rig;
 use vcutc_motion::summary as reach_summary;
 use vcutc_motion::trouble::{Failing, Trouble};
 use vcutc_process::lower;
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// Most hints for one job.
 const MOST_HINTS: usize = 3;
@@ -166,9 +167,10 @@ impl Search<'_> {
     /// Other directions in which the telling motions of the refused plan are followed.
     fn otherwise(&mut self) {
         for direction in [Direction::Forward, Direction::Backward, Direction::Alternate] {
-            let is_given = |Operation::RoughVcut(asked): &Operation| asked.direction.value == direction;
             let change = Change::Direction(direction);
-            if !self.job.operations.iter().all(is_given) && self.is_promising(&self.yielded.plan, &change) {
+            let mut setups = self.job.operations.iter().map(|operation| operation.setup());
+            let is_given = setups.all(|setup| setup.direction.value == direction);
+            if !is_given && self.is_promising(&self.yielded.plan, &change) {
                 self.try_out(change);
             }
         }
@@ -198,8 +200,8 @@ impl Search<'_> {
             Violation::OutOfReach | Violation::Limit { .. } | Violation::Singular(_) => return None,
         }
         let field = speed::pacing(self.yielded.unreachable.program.program(), failing.op)?;
-        let asked = |Operation::RoughVcut(asked): &Operation| field.value(asked);
-        let asked = self.job.operations.iter().map(asked).reduce(f64::max)?;
+        let setups = self.job.operations.iter().map(|operation| operation.setup());
+        let asked = setups.map(|setup| field.value(setup)).reduce(f64::max)?;
         Some((field, asked))
     }
 
@@ -226,12 +228,13 @@ impl Search<'_> {
     fn is_promising(&self, plan: &PlannedJob, change: &Change) -> bool {
         let mut plan = plan.clone();
         let operations = plan.operations.iter_mut().zip(&self.job.operations);
-        for (PlannedOperation::RoughVcut(planned), Operation::RoughVcut(asked)) in operations {
+        for (planned, asked) in operations {
+            let setup = planned.asked_mut().setup_mut();
             // The plan may be that of a job with lower speeds.
-            for field in [Field::Cut, Field::Travel, Field::Reorient] {
-                field.set(&mut planned.asked, field.value(asked));
+            for field in Field::ALL {
+                field.set(setup, field.value(asked.setup()));
             }
-            change.apply_to(&mut planned.asked);
+            change.apply_to(setup);
         }
         let Ok(program) = verify(lower::lower(&plan, &SourceMap::default())) else {
             return false;
@@ -276,7 +279,7 @@ impl Search<'_> {
             .as_ref()
             .map_or_else(String::new, |margin| format!(", {margin}"));
         let saves = format!("saves {:.0} % ({}{margin})", saved * 100.0, time(tried.time));
-        let written = change.written(self.job);
+        let written = change.written();
         match change {
             Change::Speed { .. } | Change::Direction(_) => format!("`{written}` {saves}"),
             Change::Base(elsewhere) => format!("{}, which {saves}: `{written}`", elsewhere.how),

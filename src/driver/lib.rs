@@ -48,14 +48,15 @@ use vcutc_cancellation::{Needless, Wanted};
 use vcutc_diagnostics::source::{Loader, SourceMap};
 use vcutc_diagnostics::{Code, Diagnostic, Severity, has_errors};
 use vcutc_job::CheckedJob;
+use vcutc_job::PlannedJob;
+use vcutc_job::operation::Operations;
 use vcutc_job::sema;
 use vcutc_motion::pace::{self, Paced};
 use vcutc_motion::remedy;
 use vcutc_motion::solve::Reached;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_motion::verdict as reach_verdict;
-use vcutc_process::choice;
-use vcutc_process::plan::PlannedJob;
+use vcutc_process::plan;
 use vcutc_process::verdict;
 use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::times;
@@ -76,6 +77,8 @@ pub struct Request<'a> {
     pub machine: Option<&'a str>,
     /// Options of a target, over those of the job.
     pub options: Typed<'a>,
+    /// The operations of the language.
+    pub operations: Operations,
     /// Targets whose options the machine may hold.
     pub targets: &'a [&'static dyn Backend],
 }
@@ -86,6 +89,7 @@ impl<'a> Request<'a> {
             overrides: self.overrides,
             machine: self.machine,
             options: self.options,
+            operations: self.operations,
         }
     }
 }
@@ -427,14 +431,14 @@ fn with_limits_that_are_kept(
         Refused::Unplanned(_) => at_once.iter().all(|one| one.code == Code::LimitsConflict),
         Refused::Broken(..) | Refused::Unsound(..) | Refused::Unreached(_) | Refused::ByTarget(_) => false,
     };
-    let free = choice::unlimited(job).filter(|free| is_of_limits && free.machine.is_some())?;
+    let free = plan::without_plan_limits(job).filter(|free| is_of_limits && free.machine.is_some())?;
     let mut kept = Kept {
         memory: &mut Memory::none(),
         wanted,
         patience: &mut Unhurried,
     };
     match along_its_routes(&free, sources, &mut kept, &mut |_| ()) {
-        Ended::Compiled(plan, ..) => Some(choice::broken_limits(job, &plan)).filter(|told| !told.is_empty()),
+        Ended::Compiled(plan, ..) => Some(verdict::broken_limits(job, &plan)).filter(|told| !told.is_empty()),
         Ended::Refused(_) | Ended::Overtaken => None,
     }
 }
@@ -478,11 +482,11 @@ fn first_followed<'j>(
         let plan = match refused.take() {
             None => kept
                 .memory
-                .choose(job, yielding.leeway(), wanted)
+                .choose(job, yielding.space(), wanted)
                 .map_err(Refused::Unplanned),
             Some(before) => {
                 let within = settled.as_ref().unwrap_or(job);
-                match kept.memory.choose(within, yielding.leeway(), wanted) {
+                match kept.memory.choose(within, yielding.space(), wanted) {
                     Ok(plan) => {
                         refused = Some(before);
                         Ok(reaching::as_asked(plan, job))
@@ -499,7 +503,7 @@ fn first_followed<'j>(
             Ok(plan) => plan,
             Err(why) => return Ended::Refused(why),
         };
-        settled = settled.or_else(|| choice::settled(job, &plan));
+        settled = settled.or_else(|| plan::settled(job, &plan));
         progress(Stage::Proving);
         let proven = match verdict::prove(&plan, sources) {
             Ok(proven) => proven,
@@ -540,10 +544,10 @@ fn first_followed<'j>(
                     continue;
                 }
                 let is_usual = yielding.is_usual();
-                let swing = yielding.leeway().swing;
+                let swing = yielding.space().swing;
                 let goes_on = yielding.narrow(&plan, &why);
                 // What little is left depends on the swing: with another one the limit is chosen anew.
-                if yielding.leeway().swing != swing {
+                if yielding.space().swing != swing {
                     settled = None;
                 }
                 let this = Box::new(NotCarriedOut {
@@ -635,7 +639,7 @@ mod tests {
     use super::*;
     use vcutc_backend_api::verify::Rule;
     use vcutc_geometry::curve::Point2;
-    use vcutc_job::samples::paper_job;
+    use vcutc_vcut::samples::paper_job;
 
     #[test]
     fn a_program_that_breaks_a_rule_is_the_compilers_fault() {

@@ -5,7 +5,7 @@
 //! with all that they were asked, but for the places in the text: a plan is for the same cuts wherever its job is written.
 //!
 //! A stale answer cannot be used. Questions are compared by value; only what is left out of them on purpose could mislead,
-//! and that is little: of a job the places and the options of targets, which `choice` does not read and which the plan is
+//! and that is little: of a job the places and the options of targets, which the planner does not read and which the plan is
 //! given anew, and of a program the places that its operations come from. A motion that was kept is besides held against its
 //! program once more before anybody gets the two ([`again`]).
 //!
@@ -20,14 +20,15 @@ use std::sync::Arc;
 use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_cancellation::Wanted;
-use vcutc_job::{CheckedJob, Operation};
+use vcutc_job::CheckedJob;
+use vcutc_job::PlannedJob;
+use vcutc_job::search::SearchSpace;
 use vcutc_machine::Model;
 use vcutc_motion::solve::{
     Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
 };
 use vcutc_motion::trouble::Trouble;
-use vcutc_process::choice::{self, Complaints, Leeway};
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
+use vcutc_process::plan::{self, Refusal};
 
 /// Most cuts and ops of all that is kept: some 100 MB.
 const ROOM: usize = 400_000;
@@ -37,7 +38,7 @@ const ROOM: usize = 400_000;
 struct Open {
     /// Without its places and targets.
     job: CheckedJob,
-    leeway: Leeway,
+    space: SearchSpace,
 }
 
 /// What a machine was asked.
@@ -76,18 +77,18 @@ impl Memory {
         }
     }
 
-    /// As [`choice::choose_while`]. What was cut short is not kept.
+    /// As [`plan::plan_while`]. What was cut short is not kept.
     ///
     /// # Errors
-    /// As for [`choice::choose_while`].
+    /// As for [`plan::plan_while`].
     pub(crate) fn choose<'j>(
         &mut self,
         job: &'j CheckedJob,
-        leeway: Leeway,
+        space: SearchSpace,
         wanted: &Wanted,
-    ) -> Result<PlannedJob, Complaints<'j>> {
+    ) -> Result<PlannedJob, Refusal<'j>> {
         if !self.plans.takes(0) {
-            return choice::choose_while(job, leeway, wanted);
+            return plan::plan_while(job, space, wanted);
         }
         let mut without_places = job.without_places();
         if let Some(machine) = &mut without_places.machine {
@@ -95,13 +96,13 @@ impl Memory {
         }
         let open = Open {
             job: without_places,
-            leeway,
+            space,
         };
         if let Some(plan) = self.plans.find(&open) {
             return Ok(of(job, plan.clone()));
         }
-        // Complaints know their places, and are few: they are found anew.
-        let plan = choice::choose_while(job, leeway, wanted)?;
+        // Refusals know their places, and are few: they are found anew.
+        let plan = plan::plan_while(job, space, wanted)?;
         if !wanted.is_needless() && is_of(job, &plan) {
             self.plans.keep(open, plan.clone(), size(&plan));
         }
@@ -156,8 +157,7 @@ impl Memory {
 fn of(job: &CheckedJob, mut plan: PlannedJob) -> PlannedJob {
     plan.machine.clone_from(&job.machine);
     for (planned, operation) in plan.operations.iter_mut().zip(&job.operations) {
-        let (PlannedOperation::RoughVcut(vcut), Operation::RoughVcut(asked)) = (planned, operation);
-        vcut.asked.clone_from(asked);
+        planned.set_asked(&**operation);
     }
     plan
 }
@@ -169,14 +169,14 @@ fn is_of(job: &CheckedJob, plan: &PlannedJob) -> bool {
         && plan.operations.len() == job.operations.len()
         && operations
             .into_iter()
-            .all(|(PlannedOperation::RoughVcut(vcut), Operation::RoughVcut(asked))| vcut.asked == *asked)
+            .all(|(planned, operation)| planned.asked() == &**operation)
 }
 
 /// How much room a plan takes, in cuts.
 fn size(plan: &PlannedJob) -> usize {
     let operations = plan.operations.iter();
     operations
-        .map(|PlannedOperation::RoughVcut(vcut)| 1 + vcut.cuts.len() + vcut.bound.points().len())
+        .map(|planned| 1 + planned.cuts() + planned.bound().part.points().len())
         .sum()
 }
 

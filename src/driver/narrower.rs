@@ -9,10 +9,12 @@ use super::{Compiled, Ended, Kept, Stage, axis_moves, compiled, reaching};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, has_errors};
-use vcutc_job::{CheckedJob, Objective, Operation};
+use vcutc_job::CheckedJob;
+use vcutc_job::PlannedJob;
+use vcutc_job::operation::Aim;
+use vcutc_job::search::SearchSpace;
 use vcutc_motion::solve::Changes;
-use vcutc_process::choice::{self, Leeway};
-use vcutc_process::plan::PlannedJob;
+use vcutc_process::plan;
 use vcutc_process::verdict;
 
 /// A plan that the machine follows along a slower route, perhaps.
@@ -34,12 +36,15 @@ pub(super) fn or_with_a_narrower_swing<'j>(
     kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Ended<'j> {
-    let is_for_time = |Operation::RoughVcut(asked): &Operation| asked.objective.value == Objective::Time;
-    if job.operations.iter().all(is_for_time) {
+    if job
+        .operations
+        .iter()
+        .all(|operation| operation.aim() == Aim::Time)
+    {
         // Limits that the compiler chose are kept: what leaves more on the part is not faster.
-        let within = choice::settled(job, &best.plan).unwrap_or_else(|| job.clone());
-        while let Some(leeway) = yielding.narrow_for_a_faster_route() {
-            match faster(&best, (job, &within), leeway, sources, kept, progress) {
+        let within = plan::settled(job, &best.plan).unwrap_or_else(|| job.clone());
+        while let Some(space) = yielding.narrow_for_a_faster_route() {
+            match faster(&best, (job, &within), space, sources, kept, progress) {
                 Tried::Faster(found) => {
                     best = *found;
                     break;
@@ -69,13 +74,13 @@ enum Tried {
 fn faster(
     than: &Slower,
     (job, within): (&CheckedJob, &CheckedJob),
-    leeway: Leeway,
+    space: SearchSpace,
     sources: &SourceMap,
     kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Tried {
     progress(Stage::Planning);
-    let Ok(plan) = kept.memory.choose(within, leeway, kept.wanted) else {
+    let Ok(plan) = kept.memory.choose(within, space, kept.wanted) else {
         return Tried::Slower;
     };
     let plan = reaching::as_asked(plan, job);

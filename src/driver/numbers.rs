@@ -7,8 +7,7 @@ pub mod baseline;
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
-use vcutc_backend_api::units::Duration;
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
+use vcutc_job::PlannedJob;
 use vcutc_simulation::report::Report;
 
 /// Figures of a program. The names carry their units; `docs/ci.md` explains each.
@@ -47,16 +46,11 @@ impl Numbers {
     /// The figures of a program that was proven.
     #[must_use]
     pub fn of(plan: &PlannedJob, report: &Report) -> Self {
-        let estimate: Duration = plan
-            .operations
-            .iter()
-            .map(|PlannedOperation::RoughVcut(vcut)| vcut.estimate)
-            .sum();
         Self {
             cuts: report.cuts(),
             layers: report.layers.len(),
             time_s: thousandths(report.times.all.total().to_s()),
-            estimate_s: thousandths(estimate.to_s()),
+            estimate_s: thousandths(plan.estimate().to_s()),
             scallop_mm: thousandths(report.scallop.height.to_mm()),
             mean_scallop_mm: thousandths(report.mean_scallop.to_mm()),
             longest_edge_mm: thousandths(report.longest_edge.to_mm()),

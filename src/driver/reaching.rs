@@ -4,10 +4,10 @@
 use super::{Finished, Kept, Stage};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
-use vcutc_job::{CheckedJob, Operation};
+use vcutc_job::CheckedJob;
+use vcutc_job::PlannedJob;
 use vcutc_motion::reorient::slowed;
 use vcutc_motion::solve::{Changes, Unreached};
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// Finds how the job's machine carries out its program; a job without a machine has nothing to find.
 pub(super) fn reach(
@@ -38,8 +38,7 @@ pub(super) fn reach(
 /// A plan whose extensions are still the compiler's choice where the job leaves them open, though the turns have decided them.
 pub(super) fn as_asked(mut plan: PlannedJob, job: &CheckedJob) -> PlannedJob {
     for (planned, operation) in plan.operations.iter_mut().zip(&job.operations) {
-        let (PlannedOperation::RoughVcut(vcut), Operation::RoughVcut(asked)) = (planned, operation);
-        vcut.asked.extension = asked.extension;
+        planned.asked_mut().setup_mut().extension = operation.setup().extension;
     }
     plan
 }

@@ -11,10 +11,10 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::CheckedJob;
+use vcutc_job::PlannedJob;
 use vcutc_motion::solve::Unreached;
 use vcutc_motion::verdict as reach_verdict;
-use vcutc_process::choice::Complaints;
-use vcutc_process::plan::PlannedJob;
+use vcutc_process::plan;
 use vcutc_process::verdict::{self, Proven};
 
 /// Who waits for an outcome, and for how long.
@@ -69,7 +69,7 @@ impl Patience for Unhelped {
 /// Why a job is not compiled.
 pub(super) enum Refused<'j> {
     /// There is no plan.
-    Unplanned(Complaints<'j>),
+    Unplanned(plan::Refusal<'j>),
     /// The plan's program breaks a rule, which is a fault of the compiler.
     Broken(Box<PlannedJob>, Box<Diagnostic>),
     /// The cuts are not sound.

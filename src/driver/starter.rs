@@ -16,6 +16,7 @@ use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
 use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc_diagnostics::{Diagnostic, has_errors};
+use vcutc_job::operation::Operations;
 use vcutc_machine::Model;
 use vcutc_motion::legs::{Leg, Poses, Taught, legs};
 use vcutc_motion::place::score::Judge;
@@ -46,6 +47,8 @@ pub struct Asked<'a> {
     pub model: Option<&'a Model>,
     /// Where the files of machines come from.
     pub loader: &'a dyn Loader,
+    /// The operations of the language.
+    pub operations: Operations,
     /// The targets whose options the machine may hold.
     pub targets: &'a [&'static dyn Backend],
 }
@@ -174,6 +177,7 @@ fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagn
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        operations: asked.operations,
         targets: asked.targets,
     };
     match driver::compile_patiently(request, &mut Memory::none(), &mut Unhelped, &mut |_| {}) {

@@ -16,7 +16,7 @@ use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::{CheckedJob, GivenOption, GivenValue, Machine, Operation, TargetOptions};
+use vcutc_job::{CheckedJob, GivenOption, GivenValue, Machine, TargetOptions};
 use vcutc_machine::{Model, usual_home};
 
 /// The option that a profile can set too.
@@ -555,7 +555,7 @@ fn machine_span(machine: Option<&Machine>, what: &str) -> Option<Span> {
 /// Where the speed of an op stands.
 fn speed_span(job: &CheckedJob, program: &Program, op: OpId, what: &str) -> Option<Span> {
     let op = program.ops.get(op.0 as usize)?;
-    let Operation::RoughVcut(asked) = job.operations.get(usize::from(op.site.operation()?.0))?;
+    let asked = job.operations.get(usize::from(op.site.operation()?.0))?.setup();
     match (what, op.action) {
         ("tip speed", Action::Cut { .. }) => asked.cut_feed.span,
         ("tip speed", Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. }) => {
@@ -570,5 +570,5 @@ fn speed_span(job: &CheckedJob, program: &Program, op: OpId, what: &str) -> Opti
 fn place_of(job: &CheckedJob, program: &Program, op: OpId) -> Span {
     let operation = program.ops.get(op.0 as usize).and_then(|op| op.site.operation());
     let asked = operation.and_then(|id| job.operations.get(usize::from(id.0)));
-    asked.map_or(job.name_span, |Operation::RoughVcut(vcut)| vcut.head_span)
+    asked.map_or(job.name_span, |asked| asked.setup().head_span)
 }

@@ -10,8 +10,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, fix, has_errors};
+use vcutc_job::PlannedJob;
 use vcutc_job::sema;
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
 
 /// Most changes that are compiled for one refusal.
 const MOST_TRIALS: usize = 12;
@@ -128,20 +128,13 @@ impl<'t> Trials<'t> {
             }
             Ended::Overtaken => return None,
         };
-        self.cuts += plan.as_ref().map_or(0, cuts);
+        self.cuts += plan.as_ref().map_or(0, PlannedJob::cuts);
         Some(left)
     }
 }
 
 fn named(diagnostic: &Diagnostic) -> (Code, String) {
     (diagnostic.code, diagnostic.message.clone())
-}
-
-fn cuts(plan: &PlannedJob) -> usize {
-    let operations = plan.operations.iter();
-    operations
-        .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len())
-        .sum()
 }
 
 /// The texts that come of a change, by the paths of their files.

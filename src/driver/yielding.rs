@@ -8,16 +8,16 @@ use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
-use vcutc_job::{Auto, CheckedJob, Operation, Order, Sequence};
+use vcutc_job::PlannedJob;
+use vcutc_job::operation::Swing;
+use vcutc_job::search::{Lack, Narrowed, RouteSet, SearchSpace};
+use vcutc_job::{CheckedJob, Order};
 use vcutc_motion::path::Violation;
 use vcutc_motion::place::strokes::Strokes;
 use vcutc_motion::rig::Rig;
 use vcutc_motion::solve::{Changes, Unreachable, Unreached};
 use vcutc_motion::trouble::Trouble;
-use vcutc_process::choice::{Lack, Latitude, Leeway, Narrowed, is_swing_open};
 use vcutc_process::lower;
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
-use vcutc_simulation::surface::Surface;
 
 /// Most plans that are put to the machine.
 const MOST_PLANS: usize = 10;
@@ -49,7 +49,7 @@ pub struct Yielded {
 /// What was tried for a job, and what is tried next.
 pub(super) struct Yielding<'j> {
     job: &'j CheckedJob,
-    leeway: Leeway,
+    space: SearchSpace,
     plans: usize,
     /// The cuts of all plans so far.
     cuts: usize,
@@ -74,7 +74,7 @@ impl<'j> Yielding<'j> {
     pub(super) const fn new(job: &'j CheckedJob, wanted: &'j Wanted) -> Self {
         Self {
             job,
-            leeway: Leeway::along(Latitude::Full),
+            space: SearchSpace::along(RouteSet::Full),
             plans: 0,
             cuts: 0,
             ended: Ended::ByItself,
@@ -90,13 +90,13 @@ impl<'j> Yielding<'j> {
     }
 
     /// What is considered now.
-    pub(super) const fn leeway(&self) -> Leeway {
-        self.leeway
+    pub(super) const fn space(&self) -> SearchSpace {
+        self.space
     }
 
     /// Goes on to a narrower swing with which the machine may follow the first plan's route, where a slower route came out.
     /// None where no swing is open, the first plan is not one of routes, or enough was tried.
-    pub(super) fn narrow_for_a_faster_route(&mut self) -> Option<Leeway> {
+    pub(super) fn narrow_for_a_faster_route(&mut self) -> Option<SearchSpace> {
         let first = self.first.as_ref()?;
         let is_tried = self.for_a_faster_route >= MOST_FOR_A_FASTER_ROUTE || self.cuts >= MOST_CUTS_PUT;
         if is_tried || self.wanted.is_needless() {
@@ -107,30 +107,30 @@ impl<'j> Yielding<'j> {
             Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => return None,
         };
         let is_begin = self.for_a_faster_route == 0;
-        if is_begin && (self.leeway.routes == Latitude::Full || self.leeway.swing.is_some()) {
+        if is_begin && (self.space.routes == RouteSet::Full || self.space.swing.is_some()) {
             return None;
         }
-        let PlannedOperation::RoughVcut(vcut) = first.plan.operations.first()?;
-        let leeway = self.narrower_swing(&first.plan, lack, &[vcut.order])?;
+        let order = first.plan.operations.first()?.order();
+        let space = self.narrower_swing(&first.plan, lack, &[order])?;
         self.for_a_faster_route += 1;
-        self.leeway = leeway;
-        Some(leeway)
+        self.space = space;
+        Some(space)
     }
 
     /// Whether what the machine refuses now is what the job is told of: beyond it, the compiler helped itself.
     pub(super) const fn is_usual(&self) -> bool {
-        self.leeway.swing.is_none()
-            && match self.leeway.routes {
-                Latitude::Full | Latitude::ByPoint | Latitude::RowsByPoint => true,
-                Latitude::ByLayer | Latitude::RowsByLayer => false,
+        self.space.swing.is_none()
+            && match self.space.routes {
+                RouteSet::Full | RouteSet::ByPoint | RouteSet::RowsByPoint => true,
+                RouteSet::ByLayer | RouteSet::RowsByLayer => false,
             }
     }
 
     /// How hard the machine is tried: less where routes come next whose refusal is the one that is told.
     pub(super) fn changes(&self, plan: &PlannedJob) -> Changes {
-        match self.leeway.routes.narrower_than(plan) {
-            Some(Latitude::Full | Latitude::ByPoint | Latitude::RowsByPoint) => Changes::InTheAirOrElse,
-            Some(Latitude::ByLayer | Latitude::RowsByLayer) | None => Changes::InTheAir,
+        match self.space.routes.narrower_than(plan) {
+            Some(RouteSet::Full | RouteSet::ByPoint | RouteSet::RowsByPoint) => Changes::InTheAirOrElse,
+            Some(RouteSet::ByLayer | RouteSet::RowsByLayer) | None => Changes::InTheAir,
         }
     }
 
@@ -154,10 +154,7 @@ impl<'j> Yielding<'j> {
                 unreachable: (**unreachable).clone(),
             }));
         }
-        let operations = plan.operations.iter();
-        self.cuts += operations
-            .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len())
-            .sum::<usize>();
+        self.cuts += plan.cuts();
         let is_enough = self.plans >= LEAST_PLANS && self.cuts >= MOST_CUTS_PUT;
         if self.plans >= MOST_PLANS || is_enough || self.wanted.is_needless() {
             self.ended = Ended::AtTheBound;
@@ -169,35 +166,36 @@ impl<'j> Yielding<'j> {
             }
             Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => None,
         });
-        self.leeway = next.unwrap_or(self.leeway);
+        self.space = next.unwrap_or(self.space);
         next.is_some()
     }
 
     /// Fewer routes, but for those whose telling motions are not followed.
-    fn other_routes(&self, plan: &PlannedJob) -> Option<Leeway> {
-        let has_open_swing = self.job.operations.iter().any(is_swing_open);
-        let mut next = self.leeway.routes.narrower_than(plan);
+    fn other_routes(&self, plan: &PlannedJob) -> Option<SearchSpace> {
+        let has_open_swing = self
+            .job
+            .operations
+            .iter()
+            .any(|operation| operation.swing() == Swing::Open);
+        let mut next = self.space.routes.narrower_than(plan);
         while let Some(routes) = next {
             let is_checked = has_open_swing
                 || match routes {
-                    Latitude::Full | Latitude::ByPoint | Latitude::RowsByPoint => false,
-                    Latitude::ByLayer | Latitude::RowsByLayer => true,
+                    RouteSet::Full | RouteSet::ByPoint | RouteSet::RowsByPoint => false,
+                    RouteSet::ByLayer | RouteSet::RowsByLayer => true,
                 };
             if !is_checked || self.is_followed(plan, routes.order(), None) {
                 break;
             }
             next = routes.narrower_than(plan);
         }
-        next.map(|routes| Leeway {
-            routes,
-            ..self.leeway
-        })
+        next.map(|routes| SearchSpace { routes, ..self.space })
     }
 
     /// The widest of some narrower swings whose telling motions are followed in one of these orders.
-    fn narrower_swing(&self, plan: &PlannedJob, lack: Lack, orders: &[Order]) -> Option<Leeway> {
+    fn narrower_swing(&self, plan: &PlannedJob, lack: Lack, orders: &[Order]) -> Option<SearchSpace> {
         let open = widest_open(plan)?;
-        let now = self.leeway.swing.map_or(open, |swing| swing.widest.min(open));
+        let now = self.space.swing.map_or(open, |swing| swing.widest.min(open));
         let least = self.least_swing();
         let mut swing = now;
         loop {
@@ -210,22 +208,20 @@ impl<'j> Yielding<'j> {
                 break;
             }
         }
-        Some(Leeway {
-            routes: Latitude::Full,
+        Some(SearchSpace {
+            routes: RouteSet::Full,
             swing: Some(Narrowed {
                 widest: swing,
-                refused: self.leeway.swing.map_or(now, |swing| swing.refused),
-                lack: self.leeway.swing.map_or(lack, |swing| swing.lack),
+                refused: self.space.swing.map_or(now, |swing| swing.refused),
+                lack: self.space.swing.map_or(lack, |swing| swing.lack),
             }),
         })
     }
 
     /// The narrowest swing that all open ones may be held to.
     fn least_swing(&self) -> Angle {
-        let limits = self.job.operations.iter().filter_map(|operation| {
-            let Operation::RoughVcut(asked) = operation;
-            asked.limits.swing.least.map(|least| least.value)
-        });
+        let operations = self.job.operations.iter();
+        let limits = operations.filter_map(|operation| operation.narrowest_swing());
         limits.fold(
             NARROWEST,
             |least, limit| if limit > least { limit } else { least },
@@ -239,16 +235,8 @@ impl<'j> Yielding<'j> {
             return true;
         };
         let mut changed = plan.clone();
-        let untouched = Surface::untouched(plan.stock);
-        for operation in &mut changed.operations {
-            let PlannedOperation::RoughVcut(vcut) = operation;
-            if let (Auto::Auto, Some(swing)) = (vcut.asked.swing.value, swing)
-                && swing < vcut.parameters.swing
-            {
-                vcut.parameters.swing = swing;
-            }
-            let order = vcut.asked.order.value.or(order.unwrap_or(vcut.order));
-            *vcut = vcut.clone().along(order, Sequence::Rows, &untouched, plan.stock);
+        for planned in &mut changed.operations {
+            *planned = planned.in_rows(order, swing, plan.stock);
         }
         let Ok(program) = verify(lower::lower(&changed, &SourceMap::default())) else {
             return true;
@@ -260,10 +248,11 @@ impl<'j> Yielding<'j> {
 
 /// The widest of the swings that the job leaves open.
 fn widest_open(plan: &PlannedJob) -> Option<Angle> {
-    let swings = plan.operations.iter().filter_map(|operation| {
-        let PlannedOperation::RoughVcut(vcut) = operation;
-        (vcut.asked.swing.value == Auto::Auto).then_some(vcut.parameters.swing)
-    });
+    let open = plan
+        .operations
+        .iter()
+        .filter(|planned| planned.asked().swing() == Swing::Open);
+    let swings = open.map(|planned| planned.swing());
     swings.reduce(|one, other| if other > one { other } else { one })
 }
 

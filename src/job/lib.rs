@@ -1,18 +1,25 @@
 //! The checked job: what a job means, with all names, units and files resolved, and `auto` still open.
 //!
-//! Every value that a later stage may have to complain about knows where it was written.
+//! Every value that a later stage may have to complain about knows where it was written. What an operation is, at every
+//! stage, [`operation`] says; the operations themselves lie in `src/operations`.
 
+pub mod description;
+pub mod operation;
 mod places;
-#[cfg(any(test, feature = "samples"))]
-pub mod samples;
+pub mod planned;
+pub mod search;
 pub mod sema;
+pub mod setup;
+
+pub use operation::Operation;
+pub use planned::{PlannedJob, PlannedOperation};
+pub use setup::Setup;
 
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
-use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
+use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_diagnostics::source::{Span, Spanned};
-use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_machine::Model;
 
@@ -60,7 +67,7 @@ pub struct CheckedJob {
     /// Where the profile stands.
     pub profile_span: Span,
     /// What to do, in order; at least one.
-    pub operations: Vec<Operation>,
+    pub operations: Vec<Box<dyn Operation>>,
     /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.
     pub machine: Option<Machine>,
 }
@@ -72,13 +79,6 @@ impl CheckedJob {
         let width = self.stock.width.to_mm();
         Area::mm2(width * self.stock.height.to_mm()) - self.profile.area_below(0.0, width)
     }
-}
-
-/// One operation.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Operation {
-    /// `rough vcut { ... }`.
-    RoughVcut(RoughVcut),
 }
 
 /// A straight blade.
@@ -96,119 +96,6 @@ pub struct Blade {
     pub thickness: Sourced<Length>,
     /// Which sides cut.
     pub edges: Edges,
-}
-
-/// V-shaped roughing. Ranges given here are checked.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RoughVcut {
-    /// Where its head (`rough vcut`) stands: the place for complaints about the operation as a whole.
-    pub head_span: Span,
-    /// The blade.
-    pub blade: Blade,
-    /// Where the tips run, in the order in which they are cut; none for a lattice. Where they are given, `lattice`, `layer`
-    /// and `step` are what they come nearest to, `residual` and `sequence` have no say, and the swing is given.
-    pub tips: Option<Arc<Tips>>,
-    /// How tips are laid out.
-    pub lattice: Sourced<Auto<Lattice>>,
-    /// Angle between tool axis and feed; above 0 to 90 degrees.
-    pub rake: Sourced<Angle>,
-    /// Half the opening angle of the V; above 0 and below 90 degrees.
-    pub swing: Sourced<Auto<Angle>>,
-    /// Layer spacing; positive.
-    pub layer: Sourced<Auto<Length>>,
-    /// Spacing of tips within a layer; positive.
-    pub step: Sourced<Auto<Length>>,
-    /// Overlap of neighbouring cuts when the step is left open; 0 to below 1.
-    pub overlap: Sourced<Auto<f64>>,
-    /// What the open parameters are to make least. Default `time`.
-    pub objective: Sourced<Objective>,
-    /// By which formulas they are chosen. Default `exact`.
-    pub formulas: Sourced<Formulas>,
-    /// Bounds.
-    pub limits: Limits,
-    /// Material that must stay on the part, measured along its normal; zero or more. Default 0.
-    pub allowance: Sourced<Length>,
-    /// What becomes of tips that would cut the part.
-    pub residual: Sourced<Auto<Residual>>,
-    /// Order of the flanks.
-    pub order: Sourced<Auto<Order>>,
-    /// Order of the Vs.
-    pub sequence: Sourced<Auto<Sequence>>,
-    /// Direction of the cuts. Default `alternate`.
-    pub direction: Sourced<Direction>,
-    /// Cutting speed; positive.
-    pub cut_feed: Sourced<Speed>,
-    /// Speed through the air; positive.
-    pub travel_feed: Sourced<Speed>,
-    /// Rate of turning the blade; positive.
-    pub reorient_rate: Sourced<AngularSpeed>,
-    /// Height of the safe plane above the stock; positive.
-    pub clearance: Sourced<Length>,
-    /// How far cuts run out beyond the stock; `auto` is the blade's overhang plus `run_out`.
-    pub extension: Sourced<Auto<Length>>,
-    /// Air between the blade and the stock where it turns; zero or more. Default 2 mm.
-    pub run_out: Sourced<Length>,
-    /// Distance of the blade's middle plane from the material that stays; `auto` is half the blade's thickness.
-    pub standoff: Sourced<Auto<Length>>,
-}
-
-/// Tips that a job gives.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tips {
-    /// The tips in the order in which they are cut, at least one, within the stock.
-    pub tips: Vec<Tip>,
-    /// Where the word `tips` stands.
-    pub span: Span,
-}
-
-/// A tip that a job gives.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tip {
-    /// Where it runs in the x-z plane of the workpiece, in mm.
-    pub point: Point2,
-    /// Where it is written.
-    pub span: Span,
-}
-
-/// Bounds on what the planner may choose and on the result.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
-    /// The swing.
-    pub swing: Bounds<Angle>,
-    /// Layer spacing.
-    pub layer: Bounds<Length>,
-    /// Spacing of tips within a layer.
-    pub step: Bounds<Length>,
-    /// Largest height of material left standing: distance of the machined contour from the nearest point of the part.
-    pub scallop: Option<Sourced<Length>>,
-    /// How `scallop` was chosen, where the job sets no such limit and the compiler chose one; none in a job as written.
-    pub chosen: Option<ChosenScallop>,
-    /// Longest edge that a cut may use.
-    pub edge: Option<Sourced<Length>>,
-    /// Longest time of the operation, as planned.
-    pub time: Option<Sourced<Duration>>,
-    /// Most V-cuts of the operation, as planned; at least 1.
-    pub cuts: Option<Sourced<f64>>,
-}
-
-/// How a limit on the scallop was chosen for an operation that has none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ChosenScallop {
-    /// The mean depth of what the operation is to take away, along the part.
-    pub depth: Length,
-    /// What the limit was taken for.
-    pub why: WhyChosen,
-}
-
-/// Why a limit on the scallop is the chosen one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WhyChosen {
-    /// It is the widest of those tried under which at most a tenth stays of what is to go.
-    LittleStays,
-    /// It is the widest of those tried; under none of them, however tight, a tenth or less stayed.
-    MoreStays,
-    /// It is the tightest of those tried that a plan keeps.
-    TightestKept,
 }
 
 /// Bounds of a value from below and above. Not crossed.
@@ -236,64 +123,6 @@ impl<T> Default for Bounds<T> {
             most: None,
         }
     }
-}
-
-/// What the open parameters of an operation are to make least, within its limits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Objective {
-    /// Processing time.
-    Time,
-    /// Height of material left standing on the part.
-    Scallop,
-    /// Number of V-cuts.
-    Cuts,
-    /// Length of edge in the material.
-    BladeLoad,
-}
-
-/// By which formulas open parameters are chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Formulas {
-    /// Those of the paper as printed [Cui 8-14].
-    Paper,
-    /// The blade's true reach and the lattice's true scallop (`docs/process.md`).
-    Exact,
-}
-
-/// How tips are laid out [Cui fig. 4].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lattice {
-    /// The same x in every layer.
-    Orthogonal,
-    /// Every other layer shifted by half a step.
-    Interlaced,
-    /// Every layer on its own, its outer tips on the part's profile.
-    Free,
-}
-
-/// In which order the Vs of an operation are cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sequence {
-    /// Layer by layer, each from left to right.
-    Rows,
-    /// Layer by layer, to and fro.
-    Boustrophedon,
-    /// Always the nearest one whose chip comes free.
-    Nearest,
-}
-
-/// What becomes of a tip that would cut the part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Residual {
-    /// It is dropped.
-    Discard,
-    /// It is raised until it clears the part.
-    Lift,
-    /// It slides within its layer until it clears the part.
-    Shift,
-    /// Dropped where the residual stays within the limit, else raised, else moved if its chip does not come free there.
-    /// Regular tips whose chips do not come free are raised by the least that frees them.
-    Mixed,
 }
 
 /// Order of the flanks.
@@ -385,6 +214,7 @@ pub enum GivenValue {
 }
 
 /// What the variants of a choice are called in the language, in one place for those who read it and those who speak of it.
+#[macro_export]
 macro_rules! words {
     ($($choice:ident { $($variant:ident = $word:literal),+ $(,)? })+) => {
         $(impl $choice {
@@ -403,11 +233,6 @@ macro_rules! words {
 }
 
 words! {
-    Lattice { Orthogonal = "orthogonal", Interlaced = "interlaced", Free = "free" }
-    Objective { Time = "time", Scallop = "scallop", Cuts = "cuts", BladeLoad = "blade_load" }
-    Formulas { Paper = "paper", Exact = "exact" }
-    Residual { Discard = "discard", Lift = "lift", Shift = "shift", Mixed = "mixed" }
     Order { Point = "point", Layer = "layer" }
-    Sequence { Rows = "rows", Boustrophedon = "boustrophedon", Nearest = "nearest" }
     Direction { Alternate = "alternate", Forward = "forward", Backward = "backward" }
 }

@@ -3,9 +3,7 @@
 //! All places become one; which values were given and which are defaults stays. Tips keep their places: there are as many of
 //! them as cuts.
 
-use super::{
-    Blade, Bounds, CheckedJob, GivenOption, Limits, Machine, Operation, RoughVcut, Sourced, TargetOptions,
-};
+use super::{Blade, Bounds, CheckedJob, GivenOption, Machine, Setup, Sourced, TargetOptions};
 use vcutc_diagnostics::source::{SourceMap, Span};
 
 impl CheckedJob {
@@ -18,9 +16,8 @@ impl CheckedJob {
         job.stock_span = place;
         job.profile_span = place;
         for operation in &mut job.operations {
-            match operation {
-                Operation::RoughVcut(asked) => vcut(asked, place),
-            }
+            setup(operation.setup_mut(), place);
+            operation.forget_places(place);
         }
         if let Some(on) = &mut job.machine {
             machine(on, place);
@@ -29,73 +26,56 @@ impl CheckedJob {
     }
 }
 
-fn sourced<T>(value: &mut Sourced<T>, place: Span) {
-    value.span = value.span.map(|_| place);
+impl<T> Sourced<T> {
+    /// Replaces the place of a value that is written by this one.
+    pub fn forget_place(&mut self, place: Span) {
+        self.span = self.span.map(|_| place);
+    }
+}
+
+impl<T> Bounds<T> {
+    /// As [`Sourced::forget_place`], for both.
+    pub fn forget_places(&mut self, place: Span) {
+        optional(&mut self.least, place);
+        optional(&mut self.most, place);
+    }
 }
 
 fn optional<T>(value: &mut Option<Sourced<T>>, place: Span) {
     if let Some(value) = value {
-        sourced(value, place);
+        value.forget_place(place);
     }
 }
 
-fn vcut(asked: &mut RoughVcut, place: Span) {
-    asked.head_span = place;
-    blade(&mut asked.blade, place);
-    limits(&mut asked.limits, place);
-    sourced(&mut asked.lattice, place);
-    sourced(&mut asked.rake, place);
-    sourced(&mut asked.swing, place);
-    sourced(&mut asked.layer, place);
-    sourced(&mut asked.step, place);
-    sourced(&mut asked.overlap, place);
-    sourced(&mut asked.objective, place);
-    sourced(&mut asked.formulas, place);
-    sourced(&mut asked.allowance, place);
-    sourced(&mut asked.residual, place);
-    sourced(&mut asked.order, place);
-    sourced(&mut asked.sequence, place);
-    sourced(&mut asked.direction, place);
-    sourced(&mut asked.cut_feed, place);
-    sourced(&mut asked.travel_feed, place);
-    sourced(&mut asked.reorient_rate, place);
-    sourced(&mut asked.clearance, place);
-    sourced(&mut asked.extension, place);
-    sourced(&mut asked.run_out, place);
-    sourced(&mut asked.standoff, place);
+fn setup(setup: &mut Setup, place: Span) {
+    setup.head_span = place;
+    blade(&mut setup.blade, place);
+    setup.rake.forget_place(place);
+    setup.direction.forget_place(place);
+    setup.cut_feed.forget_place(place);
+    setup.travel_feed.forget_place(place);
+    setup.reorient_rate.forget_place(place);
+    setup.clearance.forget_place(place);
+    setup.extension.forget_place(place);
+    setup.run_out.forget_place(place);
 }
 
 fn blade(blade: &mut Blade, place: Span) {
     blade.span = place;
-    sourced(&mut blade.cutting_length, place);
-    sourced(&mut blade.half_apex, place);
-    sourced(&mut blade.thickness, place);
-}
-
-fn limits(limits: &mut Limits, place: Span) {
-    bounds(&mut limits.swing, place);
-    bounds(&mut limits.layer, place);
-    bounds(&mut limits.step, place);
-    optional(&mut limits.scallop, place);
-    optional(&mut limits.edge, place);
-    optional(&mut limits.time, place);
-    optional(&mut limits.cuts, place);
-}
-
-fn bounds<T>(bounds: &mut Bounds<T>, place: Span) {
-    optional(&mut bounds.least, place);
-    optional(&mut bounds.most, place);
+    blade.cutting_length.forget_place(place);
+    blade.half_apex.forget_place(place);
+    blade.thickness.forget_place(place);
 }
 
 fn machine(machine: &mut Machine, place: Span) {
     machine.head_span = place;
     machine.model_span = place;
-    sourced(&mut machine.tool, place);
-    sourced(&mut machine.base, place);
+    machine.tool.forget_place(place);
+    machine.base.forget_place(place);
     optional(&mut machine.load, place);
     optional(&mut machine.home, place);
     optional(&mut machine.ultrasonic, place);
-    sourced(&mut machine.ready, place);
+    machine.ready.forget_place(place);
     for target in &mut machine.targets {
         options(target, place);
     }

@@ -10,9 +10,9 @@ mod blade;
 mod cell;
 mod decimal_comma;
 mod described;
-mod dimension;
-mod eval;
-mod fields;
+pub mod dimension;
+pub mod eval;
+pub mod fields;
 mod files;
 mod frame;
 mod functions;
@@ -20,33 +20,30 @@ mod gather;
 mod heads;
 mod home;
 mod lets;
-mod limits;
 mod machine;
 mod mismatch;
 mod missing;
 mod model;
-mod names;
+pub mod names;
 mod near_files;
 mod options;
 mod overrides;
-mod point;
+pub mod point;
 mod profile;
-mod quantity;
-mod range;
-mod read;
-mod report;
-mod rough_vcut;
-mod session;
-mod spec;
+pub mod quantity;
+pub mod range;
+pub mod read;
+pub mod report;
+pub mod session;
+pub mod setup;
+pub mod spec;
 mod stock;
 pub mod study;
-mod tips;
 pub mod units;
 pub mod vocabulary;
+pub mod written;
 
-#[cfg(test)]
-mod tests;
-
+use crate::operation::Operations;
 use crate::{Blade, CheckedJob, Machine, Operation};
 use eval::Scope;
 use files::{File, Files};
@@ -58,6 +55,7 @@ use session::Session;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{LoadError, Loader, SourceMap, Spanned};
 use vcutc_syntax::ast::Ast;
+use written::Written;
 
 /// What the command line says about a job, over what the job's files say.
 #[derive(Clone, Copy, Debug, Default)]
@@ -68,6 +66,8 @@ pub struct Choices<'a> {
     pub machine: Option<&'a str>,
     /// Options of a target, over those of its block in the machine.
     pub options: Typed<'a>,
+    /// The operations of the language.
+    pub operations: Operations,
 }
 
 /// Options of a target as the command line gives them.
@@ -128,6 +128,7 @@ struct Said<'a> {
     overrides: &'a Overrides,
     machine: Option<&'a Spanned<String>>,
     options: options::Said<'a>,
+    operations: Operations,
 }
 
 /// What the files define, and what it is worth.
@@ -138,7 +139,7 @@ fn understand(
     said: Said<'_>,
     session: &mut Session<'_>,
 ) -> (Option<CheckedJob>, Vec<study::Definition>) {
-    let all = gather::gather(files, said.overrides, session);
+    let all = gather::gather(files, said.overrides, said.operations, session);
     let values = lets::evaluate(&all.lets, &all.names, &mut session.reports);
     let scope = Scope {
         names: &all.names,
@@ -192,7 +193,7 @@ fn whole(
     session: &mut Session<'_>,
 ) -> Checked<CheckedJob> {
     let (blades, machines) = named_things(all, scope, session);
-    let missing = Missing::of(root, all, session);
+    let missing = Missing::of(root, all, said.operations, session);
     let name = match all.job {
         Some(name) => Ok(name),
         None => Err(missing.job(session)),
@@ -205,16 +206,21 @@ fn whole(
         Some(placed) => profile::check(placed.block, placed.place, stock, scope, session),
         None => Err(missing.profile(stock.ok(), session)),
     };
-    let operations: Vec<Checked<Operation>> = all
-        .roughings
+    let operations: Vec<Checked<Box<dyn Operation>>> = all
+        .operations
         .iter()
-        .map(|placed| {
-            let operation =
-                rough_vcut::check(placed.block, placed.place, scope, &blades, stock.ok(), session);
-            operation.map(Operation::RoughVcut)
+        .map(|(kind, placed)| {
+            let written = Written {
+                block: placed.block,
+                place: placed.place,
+                scope,
+                blades: &blades,
+                stock: stock.ok(),
+            };
+            kind.check(written, session)
         })
         .collect();
-    let operations: Checked<Vec<Operation>> = if operations.is_empty() {
+    let operations: Checked<Vec<Box<dyn Operation>>> = if operations.is_empty() {
         Err(missing.operation(session))
     } else {
         operations.into_iter().collect()

@@ -14,9 +14,10 @@ use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
 use vcutc_driver::hints::{Hint, hints};
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Typed, Unhurried};
+use vcutc_job::PlannedJob;
+use vcutc_job::operation::Operations;
 use vcutc_job::sema::study::{Study, study};
 use vcutc_job::sema::{Choices, Part};
-use vcutc_process::plan::PlannedJob;
 use vcutc_syntax::ast::{Ast, Item};
 
 /// The texts of open documents, by their paths. They stand for the files.
@@ -95,13 +96,13 @@ pub(super) struct Planned {
 
 /// Whether a file is a job or a library: a library defines names and holds nothing that belongs to one job only. A file
 /// without anything is a job that has not begun.
-pub(super) fn part_of(ast: &Ast) -> Part {
+pub(super) fn part_of(ast: &Ast, operations: Operations) -> Part {
     let mut defines = false;
     for item in &ast.items {
         match item {
             Item::Job { .. } => return Part::Job,
             Item::Use { .. } | Item::Let { .. } => defines = true,
-            Item::Block(block) => match vcutc_job::sema::vocabulary::standing(block) {
+            Item::Block(block) => match vcutc_job::sema::vocabulary::standing(block, operations) {
                 Some(Part::Job) => return Part::Job,
                 Some(Part::Library) => defines = true,
                 None => {}
@@ -113,12 +114,15 @@ pub(super) fn part_of(ast: &Ast) -> Part {
 
 impl Analysis {
     /// Looks at text and meaning. None when the root file cannot be read.
-    pub(super) fn of(root: &str, stamp: u64, loader: &dyn Loader) -> Option<Self> {
-        let (sources, diagnostics, study) = studied(root, Part::Job, loader)?;
-        let part = study.files.first().map_or(Part::Job, |file| part_of(&file.ast));
+    pub(super) fn of(root: &str, stamp: u64, loader: &dyn Loader, operations: Operations) -> Option<Self> {
+        let (sources, diagnostics, study) = studied(root, Part::Job, loader, operations)?;
+        let part = study
+            .files
+            .first()
+            .map_or(Part::Job, |file| part_of(&file.ast, operations));
         let (sources, diagnostics, study) = match part {
             Part::Job => (sources, diagnostics, study),
-            Part::Library => studied(root, part, loader)?,
+            Part::Library => studied(root, part, loader, operations)?,
         };
         let planning = match &study.job {
             Some(_) => Planning::Due,
@@ -182,9 +186,17 @@ impl Analysis {
 }
 
 /// What a file and all that it uses say as a job or a library. None when it cannot be read.
-fn studied(root: &str, part: Part, loader: &dyn Loader) -> Option<(SourceMap, Vec<Diagnostic>, Study)> {
+fn studied(
+    root: &str,
+    part: Part,
+    loader: &dyn Loader,
+    operations: Operations,
+) -> Option<(SourceMap, Vec<Diagnostic>, Study)> {
     let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
-    let choices = Choices::default();
+    let choices = Choices {
+        operations,
+        ..Choices::default()
+    };
     let study = study(root, part, loader, choices, &mut sources, &mut diagnostics).ok()?;
     Some((sources, diagnostics, study))
 }
@@ -193,6 +205,7 @@ fn studied(root: &str, part: Part, loader: &dyn Loader) -> Option<(SourceMap, Ve
 #[derive(Debug)]
 pub struct Task {
     pub(super) root: String,
+    pub(super) operations: Operations,
     pub(super) stamp: u64,
     pub(super) open: OpenTexts,
     pub(super) wanted: Wanted,
@@ -245,6 +258,7 @@ impl Task {
             overrides: &[],
             machine: None,
             options: Typed::default(),
+            operations: self.operations,
             targets,
         };
         let mut early = Early {

@@ -12,6 +12,7 @@ use super::surroundings::BlockAround;
 use super::values::{Begun, Place};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::Backend;
+use vcutc_job::operation::Operations;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
 use vcutc_machine::catalogue;
 
@@ -41,7 +42,7 @@ pub(super) fn completion(
     let offers = match &context.wanted {
         Wanted::Nothing => Vec::new(),
         Wanted::Entry => desk.entries(text),
-        Wanted::Head(words) => head(words),
+        Wanted::Head(words) => head(words, desk.operations()),
         Wanted::Joint { piece, given } => joints(piece, given),
         Wanted::Point => vec![point()],
         Wanted::File => vec![file()],
@@ -71,8 +72,8 @@ impl Desk<'_> {
     /// The fields of the innermost block, if it is one with a table.
     fn spec(&self) -> Option<&'static BlockSpec> {
         let mut blocks = self.context.blocks.iter();
-        let first = blocks.next()?.name();
-        let mut spec = vocabulary::block(first);
+        let outer = blocks.next()?;
+        let mut spec = vocabulary::block(outer.name(), outer.second(), self.operations());
         for inner in blocks {
             spec = match spec.and_then(|spec| spec.field(inner.name()))?.takes {
                 Takes::Fields(spec) => Some(spec),
@@ -115,15 +116,24 @@ impl Desk<'_> {
     /// The block as the reference calls it.
     fn title(&self) -> String {
         match self.innermost().map(BlockAround::name) {
-            Some("rough") => "rough vcut".to_owned(),
-            Some(name) => name.to_owned(),
+            Some(name) => self.of_operation(name, self.innermost().and_then(BlockAround::second)),
             None => String::new(),
         }
     }
 
+    /// The head of an operation that begins with these words; of other blocks the first word.
+    fn of_operation(&self, first: &str, second: Option<&str>) -> String {
+        let kind = self.operations().find(first, second);
+        kind.map_or(first, |kind| kind.head()).to_owned()
+    }
+
+    const fn operations(&self) -> Operations {
+        self.analysis.study.operations
+    }
+
     fn entries(&self, text: &str) -> Vec<Offer> {
         let Some(innermost) = self.innermost() else {
-            return items(text);
+            return items(text, self.operations());
         };
         if let Some(target) = self.target() {
             return options(target, &innermost.entries);
@@ -246,18 +256,18 @@ fn field_snippet(field: &FieldSpec, number: usize) -> String {
 }
 
 /// What can stand at the top of a file. What a job has once only is not offered again.
-fn items(text: &str) -> Vec<Offer> {
+fn items(text: &str, operations: Operations) -> Vec<Offer> {
     const ONCE: &[&str] = &["job", "stock", "profile", "cell"];
     let is_there = |word: &str| {
         let mut lines = text.lines();
         lines.any(|line| line.split_whitespace().next() == Some(word))
     };
-    vocabulary::items()
+    vocabulary::items(operations)
         .filter(|(word, _)| !(ONCE.contains(word) && is_there(word)))
         .map(|(word, form)| Offer {
-            snippet: item_snippet(form),
-            detail: form.to_owned(),
-            documentation: manual::about(if word == "rough" { "rough vcut" } else { word }),
+            snippet: item_snippet(&form),
+            documentation: manual::about(operations.find(word, None).map_or(word, |kind| kind.head())),
+            detail: form,
             ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
         })
         .collect()
@@ -273,12 +283,13 @@ fn item_snippet(form: &str) -> String {
 }
 
 /// The next word of a head.
-fn head(words: &[String]) -> Vec<Offer> {
+fn head(words: &[String], operations: Operations) -> Vec<Offer> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let next = match words.as_slice() {
-        ["rough"] => vocabulary::head_words("rough"),
-        ["machine", _, "="] => vocabulary::head_words("machine"),
+        ["machine", _, "="] => vocabulary::head_words("machine", operations),
         ["profile", "="] => return short_forms(),
+        ["machine"] => Vec::new(),
+        [first] => vocabulary::head_words(first, operations),
         _ => Vec::new(),
     };
     next.iter()

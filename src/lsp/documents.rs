@@ -5,6 +5,7 @@ use super::analysis::{Analysis, OpenTexts, Overlay};
 use super::text::{Encoding, Text};
 use lsp_types::Uri;
 use std::collections::{BTreeMap, BTreeSet};
+use vcutc_job::operation::Operations;
 use vcutc_job::sema::Part;
 
 /// How the client calls an open document.
@@ -30,6 +31,8 @@ pub(super) enum Language {
 /// Open documents and what is known of them.
 #[derive(Debug, Default)]
 pub(super) struct Documents {
+    /// The operations of the language.
+    pub(super) operations: Operations,
     /// Their texts.
     pub(super) texts: OpenTexts,
     /// How the client calls them.
@@ -57,6 +60,14 @@ enum Roots {
 }
 
 impl Documents {
+    /// None open yet.
+    pub(super) fn new(operations: Operations) -> Self {
+        Self {
+            operations,
+            ..Self::default()
+        }
+    }
+
     /// Opens a document, or opens it anew.
     pub(super) fn open(&mut self, path: String, called: Called, text: &str) {
         self.texts.insert(path.clone(), Text::new(text, self.encoding));
@@ -162,7 +173,7 @@ impl Documents {
             open: &self.texts,
             below: files,
         };
-        Analysis::of(path, self.stamps, &overlay)
+        Analysis::of(path, self.stamps, &overlay, self.operations)
     }
 
     fn is_library(&self, path: &str) -> bool {

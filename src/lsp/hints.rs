@@ -29,7 +29,7 @@ pub(super) fn hints(analysis: &Analysis, path: &str, within: Range<usize>) -> Ve
     };
     let evaluator = analysis.study.evaluator();
     let mut found = Vec::new();
-    for site in sites(ast) {
+    for site in sites(ast, analysis.study.operations) {
         if found.len() >= MOST_HINTS {
             break;
         }

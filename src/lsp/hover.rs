@@ -77,7 +77,7 @@ fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Told> {
         .last()?;
     let span = Span::of_bytes(file, token.start..token.end);
     let is_site = |site: &Site<'_>| !matches!(site.kind, Kind::Value(_)) && site.span == span;
-    if sites(ast).iter().any(is_site) {
+    if sites(ast, analysis.study.operations).iter().any(is_site) {
         return None;
     }
     let text = keyword_explained(text.get(token.start..token.end)?)?;
@@ -122,23 +122,25 @@ fn label(analysis: &Analysis, function: &str, name: Span) -> Option<String> {
 /// The value behind a name in a call.
 fn argument(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
     let file = analysis.study.files.iter().find(|file| file.id == name.file)?;
-    sites(&file.ast).into_iter().find_map(|site| {
-        let Kind::Value(value) = site.kind else {
-            return None;
-        };
-        walk(value).find_map(|part| match &part.node {
-            Expr::Call { arguments, .. } => arguments.iter().find_map(|argument| {
-                let is_it = argument.name.as_ref().is_some_and(|known| known.span == name);
-                is_it.then_some(&argument.value)
-            }),
-            Expr::Number { .. }
-            | Expr::Text(_)
-            | Expr::Name(_)
-            | Expr::Negate(_)
-            | Expr::Binary { .. }
-            | Expr::Tuple(_) => None,
+    sites(&file.ast, analysis.study.operations)
+        .into_iter()
+        .find_map(|site| {
+            let Kind::Value(value) = site.kind else {
+                return None;
+            };
+            walk(value).find_map(|part| match &part.node {
+                Expr::Call { arguments, .. } => arguments.iter().find_map(|argument| {
+                    let is_it = argument.name.as_ref().is_some_and(|known| known.span == name);
+                    is_it.then_some(&argument.value)
+                }),
+                Expr::Number { .. }
+                | Expr::Text(_)
+                | Expr::Name(_)
+                | Expr::Negate(_)
+                | Expr::Binary { .. }
+                | Expr::Tuple(_) => None,
+            })
         })
-    })
 }
 
 /// The words of an expression and what it comes to.

@@ -190,6 +190,7 @@ fn without_links(text: &str) -> String {
 mod tests {
     use super::*;
     use vcutc_job::sema::vocabulary::{self, BlockSpec, Form, Need, Takes};
+    use vcutc_registry::OPERATIONS;
 
     fn blocks() -> Vec<(&'static str, &'static BlockSpec)> {
         let tops = ["stock", "blade", "rough", "machine", "cell"];
@@ -198,7 +199,7 @@ mod tests {
             .map(|first| {
                 (
                     if first == "rough" { "rough vcut" } else { first },
-                    vocabulary::block(first).unwrap(),
+                    vocabulary::block(first, None, OPERATIONS).unwrap(),
                 )
             })
             .collect();

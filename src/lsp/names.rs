@@ -25,7 +25,7 @@ pub(super) fn sites_at<'a>(analysis: &'a Analysis, path: &str, offset: usize) ->
     let Some((_, ast)) = analysis.file(path) else {
         return Vec::new();
     };
-    let mut found: Vec<Site<'a>> = sites(ast)
+    let mut found: Vec<Site<'a>> = sites(ast, analysis.study.operations)
         .into_iter()
         .filter(|site| site.span.start as usize <= offset && offset <= site.span.end as usize)
         .collect();
@@ -87,7 +87,7 @@ pub(super) fn definition_at<'a>(analysis: &'a Analysis, path: &str, offset: usiz
 pub(super) fn occurrences(analysis: &Analysis, name: &str) -> Vec<Span> {
     let files = analysis.study.files.iter();
     files
-        .flat_map(|file| sites(&file.ast))
+        .flat_map(|file| sites(&file.ast, analysis.study.operations))
         .filter_map(|site| named(analysis, &site))
         .filter(|found| found.text == name)
         .map(|found| found.span)
@@ -153,7 +153,9 @@ fn clash(analysis: &Analysis, new: &str) -> Option<String> {
             matches!(site.kind, Kind::Reference(_) | Kind::Variable)
                 && analysis.sources.slice(site.span) == new
         };
-        let taken = sites(&file.ast).into_iter().any(|site| is_it(&site));
+        let taken = sites(&file.ast, analysis.study.operations)
+            .into_iter()
+            .any(|site| is_it(&site));
         taken.then(|| {
             let file = analysis.sources.name(file.id);
             format!("`{new}` is used in {file} already and would get another meaning")
@@ -184,7 +186,7 @@ pub(super) fn changes_meaning(
         below,
     };
     analyses.iter().find_map(|before| {
-        let Some(after) = Analysis::of(&before.root, before.stamp, &overlay) else {
+        let Some(after) = Analysis::of(&before.root, before.stamp, &overlay, before.study.operations) else {
             return Some(format!("{} cannot be read any more", before.root));
         };
         let (told_before, told_after) = (told(before), told(&after));
@@ -204,7 +206,10 @@ pub(super) fn changes_meaning(
 fn unread(analysis: &Analysis, name: &str) -> Option<String> {
     analysis.study.files.iter().find_map(|file| {
         let source = analysis.sources.get(file.id)?;
-        let known: BTreeSet<u32> = sites(&file.ast).iter().map(|site| site.span.start).collect();
+        let known: BTreeSet<u32> = sites(&file.ast, analysis.study.operations)
+            .iter()
+            .map(|site| site.span.start)
+            .collect();
         let token = tokens(&source.text).find(|token| {
             let is_known = u32::try_from(token.start).is_ok_and(|start| known.contains(&start));
             token.kind == TokenKind::Word

@@ -20,6 +20,7 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::Wanted;
+use vcutc_job::operation::Operations;
 
 /// How far the conversation is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,12 +101,12 @@ pub struct Server {
 }
 
 impl Server {
-    /// A server that knows these targets.
+    /// A server that knows these operations and targets.
     #[must_use]
-    pub fn new(targets: &[&'static dyn Backend]) -> Self {
+    pub fn new(operations: Operations, targets: &[&'static dyn Backend]) -> Self {
         Self {
             stage: Stage::Fresh,
-            documents: Documents::default(),
+            documents: Documents::new(operations),
             published: BTreeMap::new(),
             targets: targets.to_vec(),
             insertion: Insertion::default(),
@@ -414,6 +415,7 @@ impl Server {
         known.planning = Planning::UnderWay(interest);
         Some(Task {
             root: known.root.clone(),
+            operations: self.documents.operations,
             stamp: known.stamp,
             open: self.documents.texts.clone(),
             wanted,

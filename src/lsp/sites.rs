@@ -4,6 +4,7 @@
 //! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
 
 use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_job::operation::Operations;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
 use vcutc_syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
 
@@ -109,8 +110,11 @@ const NOWHERE: Place<'static> = Place {
 };
 
 /// The places of a file, in the order of the text; a place within another comes after it.
-pub(super) fn sites(ast: &Ast) -> Vec<Site<'_>> {
-    let mut row = Row::default();
+pub(super) fn sites(ast: &Ast, operations: Operations) -> Vec<Site<'_>> {
+    let mut row = Row {
+        known: operations,
+        ..Row::default()
+    };
     for item in &ast.items {
         row.item(item);
     }
@@ -120,7 +124,9 @@ pub(super) fn sites(ast: &Ast) -> Vec<Site<'_>> {
 #[derive(Default)]
 struct Row<'a> {
     sites: Vec<Site<'a>>,
+    /// How many there are so far.
     operations: usize,
+    known: Operations,
 }
 
 impl<'a> Row<'a> {
@@ -148,11 +154,19 @@ impl<'a> Row<'a> {
         else {
             return;
         };
+        let second = match block.head.get(1) {
+            Some(Spanned {
+                node: HeadPart::Word(second),
+                ..
+            }) => Some(second.as_str()),
+            Some(_) | None => None,
+        };
+        let kind = self.known.find(first, second);
         let mut place = Place {
-            block: if first == "rough" { "rough vcut" } else { first },
+            block: kind.map_or(first, |kind| kind.head()),
             ..NOWHERE
         };
-        if first == "rough" {
+        if kind.is_some() {
             place.operation = Some(self.operations);
             self.operations += 1;
         }
@@ -163,7 +177,11 @@ impl<'a> Row<'a> {
                 self.profile_entry(entry, place);
             }
         } else {
-            self.entries(&block.entries, vocabulary::block(first), place);
+            self.entries(
+                &block.entries,
+                vocabulary::block(first, second, self.known),
+                place,
+            );
         }
     }
 
@@ -380,6 +398,7 @@ mod tests {
     use vcutc_diagnostics::source::{LoadError, Loader, SourceMap};
     use vcutc_job::sema::vocabulary::{Form, Need};
     use vcutc_job::sema::{Choices, check};
+    use vcutc_registry::OPERATIONS;
 
     /// Files in memory.
     struct Shop(BTreeMap<&'static str, String>);
@@ -411,7 +430,17 @@ mod tests {
     /// Codes and helps of a check.
     fn told(shop: &Shop) -> Vec<(&'static str, Vec<String>)> {
         let (mut sources, mut found) = (SourceMap::default(), Vec::new());
-        check(ROOT, shop, Choices::default(), &mut sources, &mut found).unwrap();
+        check(
+            ROOT,
+            shop,
+            Choices {
+                operations: OPERATIONS,
+                ..Choices::default()
+            },
+            &mut sources,
+            &mut found,
+        )
+        .unwrap();
         let told = found.into_iter();
         told.map(|diagnostic| (diagnostic.code.number(), diagnostic.help))
             .collect()
@@ -439,7 +468,7 @@ mod tests {
             let id = sources.add(file, text.as_str());
             let ast = vcutc_syntax::parse(id, &text, &mut Vec::new());
             let mut name = None;
-            for site in sites(&ast) {
+            for site in sites(&ast, OPERATIONS) {
                 if let Kind::Field(_) = site.kind {
                     name = Some(site.span);
                 }

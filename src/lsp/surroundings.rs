@@ -17,6 +17,11 @@ impl BlockAround {
     pub(super) fn name(&self) -> &str {
         self.head.first().map_or("", String::as_str)
     }
+
+    /// The second word of the head.
+    pub(super) fn second(&self) -> Option<&str> {
+        self.head.get(1).map(String::as_str)
+    }
 }
 
 /// A text as its tokens, comments left out. Tokens are known by their numbers.

@@ -48,7 +48,7 @@ fn of_block(block: &Block, text: &Text) -> DocumentSymbol {
     let (kind, name) = match word(0) {
         "blade" => (SymbolKind::CLASS, word(1).to_owned()),
         "machine" => (SymbolKind::OBJECT, word(1).to_owned()),
-        "rough" => (SymbolKind::FUNCTION, head_text(block)),
+        _ if !word(1).is_empty() => (SymbolKind::FUNCTION, head_text(block)),
         _ => (SymbolKind::STRUCT, head_text(block)),
     };
     let detail = head_text(block);

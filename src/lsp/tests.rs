@@ -10,6 +10,7 @@ use vcutc_diagnostics::source::{LoadError, Loader};
 use vcutc_job::sema::study::Meaning;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
 use vcutc_registry as registry;
+use vcutc_registry::OPERATIONS;
 
 /// One text for every path that ends as jobs do, and no other files.
 struct One(String);
@@ -52,7 +53,7 @@ fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
         .into_iter()
         .map(|head| {
             let first = head.split(' ').next().unwrap();
-            (head, vocabulary::block(first).unwrap())
+            (head, vocabulary::block(first, None, OPERATIONS).unwrap())
         })
         .collect()
 }
@@ -143,13 +144,13 @@ fn other_spots() -> Vec<Spot> {
         spots.push(spot(&text, "profile", "profile"));
         spots.push(spot(&text, &format!("= {word}"), word));
     }
-    for (word, form) in vocabulary::items() {
+    for (word, form) in vocabulary::items(OPERATIONS) {
         let text = form
             .replace("NAME", "n")
             .replace("VALUE", "3 mm")
             .replace("...", "");
         spots.push(spot(&text, word, word));
-        for next in vocabulary::head_words(word) {
+        for next in vocabulary::head_words(word, OPERATIONS) {
             let text = text.replace("robot", next);
             spots.push(spot(&text, &format!(" {next} "), next));
         }
@@ -191,7 +192,7 @@ fn spots_of_targets() -> Vec<Spot> {
 /// What is shown over a word; none if that is nothing, or about something else.
 fn explained(spot: &Spot) -> Option<String> {
     let path = "/job.vcut";
-    let known = Analysis::of(path, 1, &One(spot.text.clone()))?;
+    let known = Analysis::of(path, 1, &One(spot.text.clone()), OPERATIONS)?;
     let told = hover(&known, path, spot.at, &registry::backends())?;
     (spot.text.get(told.span.bytes()) == Some(spot.word.as_str())).then_some(told.text)
 }
@@ -328,15 +329,15 @@ fn the_grammar_of_editors_has_every_word_and_no_other() {
     assert_eq!(named_by("constant", None), set(["auto", "pi"]));
     let plain = ["job", "use", "let"];
     assert_eq!(named_by("item", Some(1)), set(plain));
-    let blocks = vocabulary::items().map(|(word, _)| word);
+    let blocks = vocabulary::items(OPERATIONS).map(|(word, _)| word);
     let blocks = blocks.filter(|word| !plain.contains(word));
     assert_eq!(named_by("head", Some(3)), set(blocks));
-    let machines = vocabulary::head_words("machine");
+    let machines = vocabulary::head_words("machine", OPERATIONS);
     assert_eq!(
         named_by("head", Some(1)),
         set(machines.into_iter().chain(["machine"]))
     );
-    let roughings = vocabulary::head_words("rough");
+    let roughings = vocabulary::head_words("rough", OPERATIONS);
     assert_eq!(
         named_by("head", Some(2)),
         set(roughings.into_iter().chain(["rough"]))
@@ -401,7 +402,7 @@ fn the_snippets_of_editors_are_right() {
             }
             _ => format!("{job}{own}"),
         };
-        let known = Analysis::of("/job.vcut", 1, &One(text.clone())).unwrap();
+        let known = Analysis::of("/job.vcut", 1, &One(text.clone()), OPERATIONS).unwrap();
         let codes = known.diagnostics.iter().map(|found| found.code.number());
         // The file that a drawing's snippet names is not there.
         let wrong: Vec<&str> = codes.filter(|code| *code != "VC0212").collect();
@@ -416,7 +417,7 @@ fn functions_take_and_give_what_their_signatures_say() {
         let inside = &example[name.len() + 1..example.len() - 1];
         let argument = inside.split(',').next().unwrap();
         let text = format!("let given = {example}\nlet taken = {argument}\n");
-        let known = Analysis::of("/job.vcut", 1, &One(text)).unwrap();
+        let known = Analysis::of("/job.vcut", 1, &One(text), OPERATIONS).unwrap();
         let dimension = |name: &str| match known.study.definition(name).unwrap().meaning {
             Meaning::Value(Some(value)) => value.dimension(),
             Meaning::Value(None) | Meaning::Blade | Meaning::Machine => panic!("{example}"),

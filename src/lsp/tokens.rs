@@ -4,6 +4,7 @@ use super::sites::{Kind, Named, sites};
 use super::text::Text;
 use lsp_types::{SemanticToken, SemanticTokenModifier, SemanticTokenType};
 use std::collections::BTreeMap;
+use vcutc_job::operation::Operations;
 use vcutc_job::sema::vocabulary;
 use vcutc_syntax::ast::Ast;
 use vcutc_syntax::lexical::{Token, TokenKind, tokens};
@@ -61,8 +62,8 @@ struct Stretch {
 }
 
 /// The tokens of a file, each relative to the one before.
-pub(super) fn semantic_tokens(ast: &Ast, text: &Text) -> Vec<SemanticToken> {
-    let known: BTreeMap<usize, Stretch> = sites(ast)
+pub(super) fn semantic_tokens(ast: &Ast, operations: Operations, text: &Text) -> Vec<SemanticToken> {
+    let known: BTreeMap<usize, Stretch> = sites(ast, operations)
         .iter()
         .filter_map(|site| {
             let (class, modifiers) = class_of(site.kind)?;
@@ -84,7 +85,7 @@ pub(super) fn semantic_tokens(ast: &Ast, text: &Text) -> Vec<SemanticToken> {
         if token.start < done {
             continue;
         }
-        if let Some(stretch) = stretch_of(token, &known, text.as_str()) {
+        if let Some(stretch) = stretch_of(token, &known, (text.as_str(), operations)) {
             done = stretch.end;
             stretches.push(stretch);
         }
@@ -109,7 +110,11 @@ const fn class_of(kind: Kind<'_>) -> Option<(Class, u32)> {
     })
 }
 
-fn stretch_of(token: Token, known: &BTreeMap<usize, Stretch>, text: &str) -> Option<Stretch> {
+fn stretch_of(
+    token: Token,
+    known: &BTreeMap<usize, Stretch>,
+    (text, operations): (&str, Operations),
+) -> Option<Stretch> {
     let of = |class| Stretch {
         start: token.start,
         end: token.end,
@@ -124,7 +129,7 @@ fn stretch_of(token: Token, known: &BTreeMap<usize, Stretch>, text: &str) -> Opt
             Some(stretch) => Some(*stretch),
             None => {
                 let word = text.get(token.start..token.end).unwrap_or_default();
-                is_keyword(word).then(|| of(Class::Keyword))
+                is_keyword(word, operations).then(|| of(Class::Keyword))
             }
         },
         TokenKind::Symbol => match known.get(&token.start) {
@@ -140,10 +145,10 @@ fn stretch_of(token: Token, known: &BTreeMap<usize, Stretch>, text: &str) -> Opt
 }
 
 /// Words that are keywords where the tree has no site for them.
-fn is_keyword(word: &str) -> bool {
+fn is_keyword(word: &str, operations: Operations) -> bool {
     let joints = vocabulary::JOINTS_OF_CURVES.contains(&word);
     joints
-        || vocabulary::items().any(|(known, _)| known == word)
+        || vocabulary::items(operations).any(|(known, _)| known == word)
         || vocabulary::CURVES.iter().any(|(known, _)| *known == word)
 }
 

@@ -32,8 +32,7 @@ use crate::trouble::Trouble;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
-use vcutc_job::{CheckedJob, Direction, Machine, RoughVcut};
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
+use vcutc_job::{CheckedJob, Machine, PlannedJob};
 
 /// A change that was tried and makes the job compile.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,21 +88,13 @@ impl Case<'_> {
 
     /// Whether planning the cuts again is affordable.
     fn may_plan_again(&self) -> bool {
-        cuts(self.plan) <= MOST_CUTS_PLANNED_AGAIN
+        self.plan.cuts() <= MOST_CUTS_PLANNED_AGAIN
     }
-}
-
-fn cuts(plan: &PlannedJob) -> usize {
-    let cuts = plan
-        .operations
-        .iter()
-        .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len());
-    cuts.sum()
 }
 
 /// How often a job may be tried: less often the larger it is, for a try takes as long as its cuts are many.
 fn tries(plan: &PlannedJob) -> u32 {
-    let affordable = MOST_CUTS_TRIED / cuts(plan).max(1);
+    let affordable = MOST_CUTS_TRIED / plan.cuts().max(1);
     u32::try_from(affordable)
         .unwrap_or(MOST_TRIES)
         .clamp(2, MOST_TRIES)
@@ -171,12 +162,6 @@ pub fn elsewhere_for(
         works: &mut |_| false,
     };
     base::moved_to(&mut case).or_else(|| base::turned_to(&mut case))
-}
-
-/// What to write where, so that an operation is cut in another direction.
-#[must_use]
-pub fn stated_direction(asked: &RoughVcut, direction: Direction) -> Vec<(Span, String)> {
-    process::stated(asked, "direction", asked.direction.span, direction.word()).edits
 }
 
 /// What is found and confirmed.

@@ -23,8 +23,8 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::{CheckedJob, Machine, Operation, RoughVcut};
-use vcutc_process::plan::PlannedJob;
+use vcutc_job::PlannedJob;
+use vcutc_job::{CheckedJob, Machine, Setup};
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.
@@ -546,10 +546,9 @@ impl<'s> Scene<'s> {
         (span.unwrap_or(self.machine.head_span), words.unwrap_or_default())
     }
 
-    fn asked(&self, op: OpId) -> Option<&RoughVcut> {
+    fn asked(&self, op: OpId) -> Option<&Setup> {
         let operation = self.program.ops.get(op.0 as usize)?.site.operation()?;
-        let Operation::RoughVcut(asked) = self.job.operations.get(usize::from(operation.0))?;
-        Some(asked)
+        Some(self.job.operations.get(usize::from(operation.0))?.setup())
     }
 
     fn stroke(&self, op: OpId) -> Option<Stroke> {

@@ -1,9 +1,8 @@
-//! The V-cuts of a job: planned, chosen, lowered to motions, and proven
+//! From a checked job to a proven program: planning, lowering and the messages of a proof, over whatever operations there are.
+//!
+//! What an operation does at each stage is its own affair (`src/operations`); here is what they have in common.
 
-pub mod choice;
 pub mod lower;
 pub mod plan;
 pub mod posture;
-#[cfg(test)]
-mod replayed;
 pub mod verdict;

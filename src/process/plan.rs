@@ -1,136 +1,11 @@
-//! From a checked job to the cuts that carry it out.
-//!
-//! The open parameters are decided first ([`parameters`]). [`lay_out`] lays tips out layer by layer ([`lattice`]), decides what
-//! becomes of tips that would cut the part ([`residual`]), and keeps a surface of its own while it goes, because whether a
-//! tip can be cut depends on what has been cut before. [`route`] puts the cuts in order. Nothing is promised: the cuts are
-//! proven later, from the program. Which of several plans is taken where the job leaves the choice open, `choice` says.
-//!
-//! Tips lie on a grid of a micrometre ([`vcutc_geometry::grid`]), so that a program printed with three decimals says exactly what was
-//! planned and proven.
+//! From a checked job to its plan: every operation plans itself on what those before it left of the stock.
 
-pub mod blade_reach;
-mod complaints;
-pub mod decision;
-pub mod floor;
-pub mod given;
-pub mod lattice;
-pub mod optimum;
-pub mod parameters;
-pub mod refusal;
-pub mod removable;
-pub mod residual;
-pub mod route;
-pub mod time_model;
-
-#[cfg(test)]
-pub(crate) mod tests;
-
-use complaints::{nothing_to_cut, too_many_cuts, too_many_operations};
-use decision::Decision;
-use given::Course;
-use parameters::VcutParameters;
-use refusal::Refused;
-use residual::Strategies;
-use route::Run;
-use vcutc_backend_api::ir::Stock;
-use vcutc_backend_api::units::{Duration, Length};
-use vcutc_diagnostics::Diagnostic;
-use vcutc_geometry::cone;
-use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
-use vcutc_job::{CheckedJob, Machine, Operation, Order, Residual, RoughVcut, Sequence, Tips};
+use vcutc_cancellation::{Effort, Wanted};
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::operation::{Ground, Laid, Operation, Settled, Unplanned, WorksThere};
+use vcutc_job::search::{RouteSet, SearchSpace};
+use vcutc_job::{CheckedJob, PlannedJob};
 use vcutc_simulation::surface::Surface;
-
-/// A job with every choice made.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlannedJob {
-    /// The job's name.
-    pub name: String,
-    /// The stock.
-    pub stock: Stock,
-    /// The part's profile.
-    pub profile: Profile,
-    /// The machine, if the job has one.
-    pub machine: Option<Machine>,
-    /// The operations in order.
-    pub operations: Vec<PlannedOperation>,
-}
-
-/// One operation with every choice made.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PlannedOperation {
-    /// V-shaped roughing.
-    RoughVcut(PlannedVcut),
-}
-
-/// V-shaped roughing with every choice made.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlannedVcut {
-    /// What the job asks for.
-    pub asked: RoughVcut,
-    /// What it came out as.
-    pub parameters: VcutParameters,
-    /// What became of tips that would cut the part.
-    pub strategy: Residual,
-    /// Order of the flanks.
-    pub order: Order,
-    /// Order of the Vs.
-    pub sequence: Sequence,
-    /// The part with its allowance: no cut's material side may go below.
-    pub bound: Profile,
-    /// The mean-value estimate of the time [Cui 11].
-    pub estimate: Duration,
-    /// How many Vs that estimate is made for.
-    pub estimated_cuts: f64,
-    /// The cuts, layer by layer, each layer from left to right.
-    pub cuts: Vec<PlannedCut>,
-    /// Which way layers go and what is not cut, where the job gives the tips.
-    pub course: Option<Course>,
-    /// In which order they are made: every cut in one run.
-    pub runs: Vec<Run>,
-    /// Why it came out so, where the job left the choice open.
-    pub decisions: Vec<Decision>,
-}
-
-/// One V-cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlannedCut {
-    /// The layer it belongs to, counted from 1 at the top. A layer that cuts nothing has no number.
-    pub layer: u32,
-    /// Where the blade's tip runs, in the x-z plane.
-    pub tip: Point2,
-    /// How the tip came to be where it is.
-    pub origin: TipOrigin,
-    /// How the blade gets from the cut left of it in the same layer to it, or back; over the safe plane if there is none.
-    pub way: Way,
-}
-
-/// The way between two neighbouring cuts of a layer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    /// Beside the work at working height.
-    Beside,
-    /// Over the safe plane: material in between stands so high that the leaning blade would meet it.
-    Over,
-}
-
-/// How a tip came to be where it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TipOrigin {
-    /// A point of the lattice.
-    Lattice,
-    /// Given by the job.
-    Given,
-    /// Raised to clear the part.
-    Lifted,
-    /// Moved sideways to clear the part.
-    Shifted,
-    /// Raised because the blade does not reach the full depth at once.
-    Relieved,
-}
-
-/// What is told of parameters that were compared as plans.
-pub const PARAMETERS: &str = "parameters";
 
 /// Most cuts that a job may have. A cut takes seconds, so a program of this size runs for weeks.
 pub const MOST_CUTS: usize = 4_000_000;
@@ -138,211 +13,147 @@ pub const MOST_CUTS: usize = 4_000_000;
 /// Most operations that a job may have.
 pub const MOST_OPERATIONS: usize = 1000;
 
-/// Most older corners that all flanks of an operation together may pass under while they are measured, which bounds the
-/// planner's work: at large overlaps every flank passes many.
-const MOST_PASSED: f64 = 2e8;
-
-/// An operation laid out.
-#[derive(Clone, Debug)]
-pub struct LaidOut {
-    /// The operation, cut in rows.
-    pub vcut: PlannedVcut,
-    /// What it leaves of the stock.
-    pub after: Surface,
-    /// Whether another residual strategy would have come to other cuts.
-    pub strategies: Strategies,
+/// Makes every choice. Without errors there is a plan.
+#[must_use]
+pub fn plan(job: &CheckedJob) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    plan_within(job, SearchSpace::along(RouteSet::Full))
 }
 
-/// The work as an operation finds it.
-#[derive(Clone, Copy, Debug)]
-pub struct Work<'w> {
-    /// What the operations before it left of the stock.
-    pub before: &'w Surface,
-    /// The part with the operation's allowance.
-    pub bound: &'w Profile,
+/// Makes every choice, with some routes and swings left out.
+#[must_use]
+pub fn plan_within(job: &CheckedJob, space: SearchSpace) -> (Option<PlannedJob>, Vec<Diagnostic>) {
+    match plan_while(job, space, &Wanted::ALWAYS) {
+        Ok(plan) => (Some(plan), Vec::new()),
+        Err(refusal) => (None, refusal.with_help(&Wanted::ALWAYS, &mut |_| true)),
+    }
 }
 
-/// Lays out the cuts of an operation with these parameters on what those before left. A residual strategy that it leaves open
-/// is taken as `mixed`: where there is a choice, give the operation with the choice made.
+/// As [`plan_within`] while the plan is wanted. What is found afterwards is discarded ([`Wanted::answer`]).
 ///
 /// # Errors
-/// What keeps the operation from being cut at all.
-pub fn lay_out(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    parameters: VcutParameters,
-    cuts_left: usize,
-    work: Work<'_>,
-) -> Result<LaidOut, Box<Refused>> {
-    let Work { before, bound } = work;
-    let clearance = cone::clearance(bound, parameters.flanks.slope);
-    let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
-    if let Some(tips) = &asked.tips {
-        if tips.tips.len() > cuts_left || given::passed_corners(tips, &parameters) > MOST_PASSED {
-            return Err(Box::new(given::too_many(tips).into()));
+/// Why there is no plan: at once, before anything that helps is looked for.
+pub fn plan_while<'j>(
+    job: &'j CheckedJob,
+    space: SearchSpace,
+    wanted: &Wanted,
+) -> Result<PlannedJob, Refusal<'j>> {
+    if let Some(one) = job.operations.get(MOST_OPERATIONS) {
+        return Err(Refusal::TooMany(Box::new(too_many(&**one, job.operations.len()))));
+    }
+    let mut unplanned: Vec<Box<dyn Unplanned + 'j>> = Vec::new();
+    let mut ground = first_ground(job, space, wanted);
+    let mut operations = Vec::new();
+    for operation in &job.operations {
+        match operation.plan(ground.clone()) {
+            Ok(Laid { planned, after }) => {
+                ground.cuts_left -= planned.cuts();
+                ground.before = after;
+                operations.push(planned);
+            }
+            Err(refused) => unplanned.push(refused),
         }
-        let ground = Ground {
-            layout: &layout,
-            parameters: &parameters,
-            bound,
-        };
-        return lay_out_given(job, asked, tips, before, ground);
     }
-    if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
-        return Err(Box::new(too_many_cuts(asked, &parameters, layout.most_tips())));
+    if !unplanned.is_empty() {
+        return Err(Refusal::Unplanned(unplanned));
     }
-    let strategy = asked.residual.value.or(Residual::Mixed);
-    let mut after = before.clone();
-    let planner =
-        residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, &mut after);
-    let mut decided = plan_layers(planner, &layout, cuts_left);
-    if decided.as_ref().is_ok_and(|(cuts, _)| cuts.is_empty()) && strategy == Residual::Mixed {
-        // Where all there is to cut is less than what may stay, `mixed` takes it rather than nothing.
-        let planner =
-            residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, &mut after);
-        decided = plan_layers(planner.thorough(), &layout, cuts_left);
-    }
-    let (cuts, strategies) = match decided {
-        Ok((cuts, _)) if cuts.is_empty() => {
-            return Err(Box::new(nothing_to_cut(job, asked, &parameters, &clearance)));
-        }
-        Ok(decided) => decided,
-        Err(count) => return Err(Box::new(too_many_cuts(asked, &parameters, count))),
-    };
-    let ground = Ground {
-        layout: &layout,
-        parameters: &parameters,
-        bound,
-    };
-    let vcut = PlannedVcut {
-        strategy,
-        cuts,
-        ..unplanned(job, asked, ground)
-    };
-    let order = vcut.order;
-    Ok(LaidOut {
-        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
-        after,
-        strategies,
+    Ok(PlannedJob {
+        name: job.name.clone(),
+        stock: job.stock,
+        profile: job.profile.clone(),
+        machine: job.machine.clone(),
+        operations,
     })
 }
 
-/// What is known of an operation before its cuts are.
-#[derive(Clone, Copy)]
-struct Ground<'g> {
-    layout: &'g lattice::Layout<'g>,
-    parameters: &'g VcutParameters,
-    bound: &'g Profile,
+fn too_many(one: &dyn Operation, count: usize) -> Diagnostic {
+    Diagnostic::new(
+        Code::TooManyCuts,
+        format!("this job has {count} operations, a job may have {MOST_OPERATIONS}"),
+        one.setup().head_span,
+        "the first one too many",
+    )
+    .help("split the job")
 }
 
-/// An operation without cuts.
-fn unplanned(job: &CheckedJob, asked: &RoughVcut, ground: Ground<'_>) -> PlannedVcut {
-    let parameters = ground.parameters;
-    let model = parameters.time_model(job, asked);
-    PlannedVcut {
-        asked: asked.clone(),
-        parameters: parameters.clone(),
-        strategy: Residual::Discard,
-        order: asked.order.value.or(Order::Point),
-        sequence: Sequence::Rows,
-        bound: ground.bound.clone(),
-        estimate: model.estimate(parameters.swing, parameters.layer, parameters.step),
-        estimated_cuts: model.cuts(parameters.layer, parameters.step),
-        cuts: Vec::new(),
-        course: None,
-        runs: Vec::new(),
-        decisions: Vec::new(),
+/// The work as the first operation of a job finds it.
+fn first_ground<'j>(job: &'j CheckedJob, space: SearchSpace, wanted: &Wanted) -> Ground<'j> {
+    Ground {
+        job,
+        before: Surface::untouched(job.stock),
+        space,
+        cuts_left: MOST_CUTS,
+        wanted: wanted.clone(),
     }
 }
 
-/// As [`lay_out`], where the job gives the tips.
-fn lay_out_given(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    tips: &Tips,
-    before: &Surface,
-    ground: Ground<'_>,
-) -> Result<LaidOut, Box<Refused>> {
-    if let Some(refused) = given::in_the_part(job, tips, ground.layout) {
-        return Err(Box::new(refused.into()));
-    }
-    let mut after = before.clone();
-    let (cuts, course) = given::cuts(tips, ground.parameters, &mut after);
-    if cuts.is_empty() {
-        return Err(Box::new(given::nothing_to_cut(job, tips).into()));
-    }
-    let vcut = PlannedVcut {
-        cuts,
-        course: Some(course),
-        ..unplanned(job, asked, ground)
-    };
-    let order = vcut.order;
-    Ok(LaidOut {
-        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
-        after,
-        strategies: Strategies::Alike,
-    })
+/// Why a job has no plan, in two steps: what to report is known at once, and what helps takes plans to find out.
+pub enum Refusal<'j> {
+    /// It has more operations than are planned.
+    TooMany(Box<Diagnostic>),
+    /// Operations without a plan.
+    Unplanned(Vec<Box<dyn Unplanned + 'j>>),
 }
 
-impl PlannedVcut {
-    /// Whether plans that were simulated decided the parameters, rather than formulas alone.
+impl Refusal<'_> {
+    /// What there is to report, before anything is tried.
     #[must_use]
-    pub fn is_found_by_simulation(&self) -> bool {
-        self.decisions.iter().any(|decision| decision.field == PARAMETERS)
+    pub fn at_once(&self) -> Vec<Diagnostic> {
+        self.with_help(&Wanted::never(), &mut |_| false)
     }
 
-    /// The same cuts in another order. Given tips keep their sequence.
+    /// The same with changes that work, of those that were found while they were wanted.
     #[must_use]
-    pub fn along(mut self, order: Order, sequence: Sequence, before: &Surface, stock: Stock) -> Self {
-        let terrain = route::Terrain {
-            cuts: &self.cuts,
-            before,
-            parameters: &self.parameters,
-            safe: (stock.height + self.asked.clearance.value).to_mm(),
-        };
-        self.runs = match &self.course {
-            Some(course) => route::as_given(terrain, &course.headings, order),
-            None => route::route(terrain, sequence, order),
-        };
-        self.order = order;
-        self.sequence = sequence;
-        self
-    }
-}
-
-/// A job of more operations than are planned.
-#[must_use]
-pub fn refuse_operations(job: &CheckedJob) -> Option<Diagnostic> {
-    let Operation::RoughVcut(asked) = job.operations.get(MOST_OPERATIONS)?;
-    Some(too_many_operations(asked, job.operations.len()))
-}
-
-/// The cuts of all layers, or how many there were when there were too many.
-fn plan_layers(
-    mut planner: residual::LayerPlanner<'_>,
-    layout: &lattice::Layout<'_>,
-    cuts_left: usize,
-) -> Result<(Vec<PlannedCut>, Strategies), usize> {
-    for layer in 1..=layout.layers() {
-        planner.layer(layer);
-        if planner.count() > cuts_left {
-            return Err(planner.count());
+    pub fn with_help(&self, wanted: &Wanted, works: &mut WorksThere<'_>) -> Vec<Diagnostic> {
+        match self {
+            Self::TooMany(diagnostic) => vec![(**diagnostic).clone()],
+            Self::Unplanned(all) => {
+                let mut effort = Effort::OF_A_REFUSAL;
+                let all = all.iter();
+                all.flat_map(|one| one.diagnostics(wanted, &mut effort, works))
+                    .collect()
+            }
         }
     }
-    Ok(planner.finish())
 }
 
-/// About how many corners the flanks of an operation pass under, and free lattices look at.
-fn passed_corners(layout: &lattice::Layout<'_>, parameters: &VcutParameters) -> f64 {
-    let flanks = &parameters.flanks;
-    let by_flank = 2.0 * flanks.reach.to_mm() / (flanks.slope * parameters.step.to_mm());
-    let per_layer = layout.corners_per_layer();
-    layout.most_tips() as f64 * (1.0 + by_flank) + f64::from(layout.layers()) * per_layer as f64
-}
-
-/// Smallest gain in depth for which a tip is moved: cuts that take less are not worth their time. A twentieth of a layer is a
-/// judgement, from no source.
+/// Whether a job of one operation has a plan with nothing wrong that keeps all limits, as far as is seen with so much work.
+/// Where it has one, [`plan`] finds one.
 #[must_use]
-pub fn smallest_gain(layer: Length) -> Length {
-    layer * 0.05
+pub fn is_plannable(job: &CheckedJob, effort: &mut Effort, wanted: &Wanted) -> bool {
+    match &job.operations[..] {
+        [only] => only.is_plannable(
+            first_ground(job, SearchSpace::along(RouteSet::Full), wanted),
+            effort,
+        ),
+        _ => false,
+    }
+}
+
+/// The job with its operations' limits on time and cuts taken away; none where there are no such limits.
+#[must_use]
+pub fn without_plan_limits(job: &CheckedJob) -> Option<CheckedJob> {
+    let mut free = job.clone();
+    let mut is_limited = false;
+    for operation in &mut free.operations {
+        if let Some(unlimited) = operation.without_plan_limits() {
+            *operation = unlimited;
+            is_limited = true;
+        }
+    }
+    is_limited.then_some(free)
+}
+
+/// The job with the limits that a plan of it chose, as if it had set them; none where it chose none. Planned along other routes,
+/// or with narrower swings, it keeps to them.
+#[must_use]
+pub fn settled(job: &CheckedJob, plan: &PlannedJob) -> Option<CheckedJob> {
+    let mut settled = job.clone();
+    let mut is_limited = false;
+    for (operation, planned) in settled.operations.iter_mut().zip(&plan.operations) {
+        match operation.settle(&**planned) {
+            Settled::Limited => is_limited = true,
+            Settled::AsAsked => {}
+        }
+    }
+    is_limited.then_some(settled)
 }

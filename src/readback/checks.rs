@@ -17,10 +17,10 @@ use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::PlannedJob;
 use vcutc_machine::Model;
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
 use vcutc_motion::verdict as reach_verdict;
-use vcutc_process::plan::PlannedJob;
 use vcutc_process::verdict;
 use vcutc_simulation::prove::{CutFault, Finding};
 use vcutc_simulation::report::report;
@@ -357,22 +357,22 @@ impl Read<'_> {
         if found.is_empty() && !is_told {
             let report = report(replay, plan.stock, &plan.profile, timing(verified));
             let excess = verdict::scallop_excess(plan, &report);
-            found.extend(excess.map(|(_, asked, limit)| {
-                let span = asked.limits.scallop.and_then(|limit| limit.span);
+            found.extend(excess.and_then(|(operation, limit)| {
+                let head_span = plan.operation(operation)?.asked().setup().head_span;
                 let height = show(report.scallop.height.to_mm());
                 let message = format!(
                     "{height} mm of material stay on the part at x {} mm, the limit is {} mm",
                     show(report.scallop.peak.x),
-                    show(limit.to_mm())
+                    show(limit.value.to_mm())
                 );
-                Diagnostic::new(
+                let diagnostic = Diagnostic::new(
                     Code::ProgramCuts,
                     message,
                     self.bench.span(usize::MAX),
                     "when the program ends",
                 )
-                .and(span.unwrap_or(asked.head_span), "the limit")
-                .help("restore the changed cuts")
+                .and(limit.span.unwrap_or(head_span), "the limit");
+                Some(diagnostic.help("restore the changed cuts"))
             }));
         }
         found

@@ -12,7 +12,7 @@ use vcutc_backend_api::readback::{Deed, FrameRole, Mismatch, Moment, Says, essen
 use vcutc_backend_api::stroke::Pose;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic, Label};
-use vcutc_job::{Machine, Operation};
+use vcutc_job::Machine;
 
 /// So many differences are told one by one.
 const MOST_IN_FULL: usize = 20;
@@ -573,14 +573,12 @@ impl Teller<'_> {
             return asked;
         };
         let operation = found.site.operation();
-        let vcut = operation.and_then(|operation| {
-            let Operation::RoughVcut(vcut) = self.scene.job.operations.get(usize::from(operation.0))?;
-            Some(vcut)
-        });
+        let operation = operation.and_then(|id| self.scene.job.operations.get(usize::from(id.0)));
+        let setup = operation.map(|operation| operation.setup());
         let span = match (mismatch, found.action) {
-            (Some(Mismatch::Feed { .. }), Action::Cut { .. }) => vcut.and_then(|vcut| vcut.cut_feed.span),
-            (Some(Mismatch::Feed { .. }), _) => vcut.and_then(|vcut| vcut.travel_feed.span),
-            (Some(Mismatch::Rate { .. }), _) => vcut.and_then(|vcut| vcut.reorient_rate.span),
+            (Some(Mismatch::Feed { .. }), Action::Cut { .. }) => setup.and_then(|setup| setup.cut_feed.span),
+            (Some(Mismatch::Feed { .. }), _) => setup.and_then(|setup| setup.travel_feed.span),
+            (Some(Mismatch::Rate { .. }), _) => setup.and_then(|setup| setup.reorient_rate.span),
             (Some(Mismatch::Output { .. }), _) => machine
                 .and_then(|machine| machine.ultrasonic)
                 .and_then(|output| output.span),

@@ -39,8 +39,8 @@ use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{FileId, SourceMap};
 use vcutc_job::CheckedJob;
+use vcutc_job::PlannedJob;
 use vcutc_motion::solve::{Reached, rig};
-use vcutc_process::plan::PlannedJob;
 use way::way;
 
 /// A job's program as it is written now, and who can read it.

@@ -6,7 +6,7 @@ use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Grain, Judge, Place};
 use vcutc_backend_api::stroke::Pose;
 use vcutc_diagnostics::source::{FileId, Span};
-use vcutc_job::{CheckedJob, Operation};
+use vcutc_job::CheckedJob;
 
 /// Two programs, and the job that one of them was made from.
 pub(super) struct Scene<'s> {
@@ -58,7 +58,7 @@ pub(super) fn asked(job: &CheckedJob, program: &Program, op: Option<OpId>) -> Sp
         .and_then(|op| op.site.operation())
         .and_then(|operation| job.operations.get(usize::from(operation.0)));
     match operation {
-        Some(Operation::RoughVcut(vcut)) => vcut.head_span,
+        Some(operation) => operation.setup().head_span,
         None => job.name_span,
     }
 }

@@ -1,6 +1,10 @@
-//! The backends this build knows, by name.
+//! The operations and the backends that this build knows.
 
 use vcutc_backend_api::backend::Backend;
+use vcutc_job::operation::Operations;
+
+/// All operations.
+pub const OPERATIONS: Operations = Operations(&[&vcutc_vcut::Vcut]);
 
 /// All backends, in the order of their names.
 #[must_use]

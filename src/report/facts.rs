@@ -4,8 +4,7 @@ use super::Material;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Ready, Registered};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{Blade, CheckedJob, Machine, RoughVcut};
-use vcutc_process::plan::PlannedOperation;
+use vcutc_job::{Blade, CheckedJob, Machine, Setup};
 
 /// A name and a value, as plain text.
 pub(super) type Fact = (&'static str, String);
@@ -36,8 +35,8 @@ fn frame(frame: &Frame) -> String {
 /// The blades of a job, each once.
 pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<&'a Blade> {
     let mut named: Vec<&Blade> = Vec::new();
-    for PlannedOperation::RoughVcut(vcut) in &material.plan.operations {
-        let blade = &vcut.asked.blade;
+    for planned in &material.plan.operations {
+        let blade = &planned.asked().setup().blade;
         if named.iter().all(|other| other.name != blade.name) {
             named.push(blade);
         }
@@ -142,15 +141,14 @@ pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
 /// The speeds of all operations, each set once.
 pub(super) fn speeds(material: &Material<'_>) -> Vec<Fact> {
     let mut list: Vec<Fact> = Vec::new();
-    let operations = material.plan.operations.iter();
-    for RoughVcut {
-        cut_feed,
-        travel_feed,
-        reorient_rate,
-        clearance,
-        ..
-    } in operations.map(|PlannedOperation::RoughVcut(vcut)| &vcut.asked)
-    {
+    for planned in &material.plan.operations {
+        let Setup {
+            cut_feed,
+            travel_feed,
+            reorient_rate,
+            clearance,
+            ..
+        } = planned.asked().setup();
         let words = format!(
             "cut {} mm/s, travel {} mm/s, turn {} deg/s; clearance {} mm",
             show(cut_feed.value.to_mm_per_s()),

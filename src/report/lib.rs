@@ -10,7 +10,7 @@ pub mod sheet;
 
 use vcutc_driver::{Compiled, Outcome};
 use vcutc_job::CheckedJob;
-use vcutc_process::plan::PlannedJob;
+use vcutc_job::PlannedJob;
 
 /// What a report is made from: a job that compiled, with all that came of it.
 #[derive(Clone, Copy, Debug)]

@@ -14,11 +14,10 @@ pub use paths::paths;
 pub use time::time;
 
 use super::Material;
-use vcutc_diagnostics::number::show;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::planned::TipOrigin;
 use vcutc_picture::thin::Thinned;
 use vcutc_picture::{Prefix, contour, correlation, deviation, lattice};
-use vcutc_process::plan::{PlannedOperation, PlannedVcut, TipOrigin};
 use vcutc_process::verdict;
 use vcutc_simulation::contour::{SAMPLES, Sampled, sampled};
 
@@ -27,9 +26,15 @@ use vcutc_simulation::contour::{SAMPLES, Sampled, sampled};
 pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
     let Machined { chips, surfaces, .. } = machined(material);
     let vees: Vec<[[f64; 2]; 3]> = chips.iter().filter_map(|chip| vee(&chip.outline)).collect();
-    let bounds: Vec<Vec<[f64; 2]>> = vcuts(material)
-        .filter(|vcut| vcut.asked.allowance.value.to_mm() > 0.0)
-        .map(|vcut| pairs(vcut.bound.points()))
+    let part = &material.plan.profile;
+    let bounds = material
+        .plan
+        .operations
+        .iter()
+        .map(|planned| planned.bound().part);
+    let bounds: Vec<Vec<[f64; 2]>> = bounds
+        .filter(|bound| *bound != part)
+        .map(|bound| pairs(bound.points()))
         .collect();
     let bounds: Vec<&[[f64; 2]]> = bounds.iter().map(Vec::as_slice).collect();
     lattice::draw(&lattice::Lattice {
@@ -146,8 +151,8 @@ fn distances(points: &[Point2], material: &Material<'_>) -> Vec<[f64; 2]> {
 
 /// The smallest limit of any operation to what stays on the part, in mm.
 fn limit(material: &Material<'_>) -> Option<f64> {
-    let limits = vcuts(material).filter_map(|vcut| vcut.asked.limits.scallop);
-    limits.map(|limit| limit.value.to_mm()).min_by(f64::total_cmp)
+    let (_, limit) = material.plan.scallop_limit()?;
+    Some(limit.value.to_mm())
 }
 
 /// How machined contour and part correlate over the lag (`picture::correlation`) [Cui fig. 15].
@@ -250,11 +255,6 @@ fn vee(outline: &[[f64; 2]]) -> Option<[[f64; 2]; 3]> {
     Some([left, tip, right])
 }
 
-fn vcuts<'a>(material: &Material<'a>) -> impl Iterator<Item = &'a PlannedVcut> {
-    let operations = material.plan.operations.iter();
-    operations.map(|PlannedOperation::RoughVcut(vcut)| vcut)
-}
-
 fn stock(material: &Material<'_>) -> [f64; 2] {
     let stock = material.plan.stock;
     [stock.width.to_mm(), stock.height.to_mm()]
@@ -269,7 +269,7 @@ fn pairs(points: &[Point2]) -> Vec<[f64; 2]> {
 }
 
 fn tips(material: &Material<'_>) -> Vec<lattice::Tip> {
-    let cuts = vcuts(material).flat_map(|vcut| &vcut.cuts);
+    let cuts = material.plan.operations.iter().flat_map(|planned| planned.tips());
     cuts.map(|cut| lattice::Tip {
         at: pair(cut.tip),
         origin: match cut.origin {
@@ -286,8 +286,8 @@ fn tips(material: &Material<'_>) -> Vec<lattice::Tip> {
 fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
     let several = material.plan.operations.len() > 1;
     let mut layers = Vec::new();
-    for (operation, vcut) in (1_u32..).zip(vcuts(material)) {
-        for layer in vcut.cuts.chunk_by(|a, b| a.layer == b.layer) {
+    for (operation, planned) in (1_u32..).zip(&material.plan.operations) {
+        for layer in planned.tips().chunk_by(|a, b| a.layer == b.layer) {
             let number = layer.first().map_or(0, |cut| cut.layer);
             let name = if several {
                 format!("{operation}.{number}")
@@ -311,22 +311,12 @@ pub fn laid_out(material: &Material<'_>) -> String {
         count => format!("{count} {one}s"),
     };
     let layers = counted(layers, "layer");
-    let mut vcuts = vcuts(material);
-    match (vcuts.next(), vcuts.next()) {
-        (Some(vcut), None) => {
-            let chosen = &vcut.parameters;
-            let name = match vcut.asked.tips {
-                Some(_) => "given tips",
-                None => chosen.lattice.word(),
-            };
-            format!(
-                "{name}, {layers}; swing {} deg, layer {} mm, step {} mm",
-                show(chosen.swing.to_deg()),
-                show(chosen.layer.to_mm()),
-                show(chosen.step.to_mm())
-            )
+    match &material.plan.operations[..] {
+        [planned] => {
+            let [name, measures] = planned.layout();
+            format!("{name}, {layers}; {measures}")
         }
-        (_, _) => format!(
+        _ => format!(
             "{} in {layers} of {} operations",
             counted(cuts, "cut"),
             material.plan.operations.len()

@@ -19,10 +19,10 @@ use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
 use vcutc_driver::{Compiled, Finished};
 use vcutc_geometry::curve::Point2;
+use vcutc_job::PlannedJob;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_motion::solve::{Reached, rig};
-use vcutc_process::plan::PlannedJob;
 
 /// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.
 pub const MOST_OPS: usize = 400_000;

@@ -15,7 +15,6 @@ use vcutc_driver::Outcome;
 use vcutc_driver::checks::{Checks, ReadBack};
 use vcutc_driver::summary::time;
 use vcutc_picture::{Prefix, setup};
-use vcutc_process::plan::{PlannedOperation, PlannedVcut};
 
 const STYLE: &str = include_str!("assets/sheet.css");
 /// Most layers that have a row each; more than that are folded into one.
@@ -29,18 +28,12 @@ const MOST_FILES: usize = 4;
 pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])], read_back: Option<ReadBack>) -> Option<String> {
     let material = Material::of(outcome)?;
     let job = material.job;
-    let vcuts: Vec<&PlannedVcut> = material
-        .plan
-        .operations
-        .iter()
-        .map(|PlannedOperation::RoughVcut(vcut)| vcut)
-        .collect();
     let machine = job.machine.as_ref();
     let mut body = header(outcome, &material);
     body += "<div class=\"columns\">\n";
     body += &section("Stock and zero of the work", &stock(&material));
     body += &section("Blade", &blades(&material));
-    body += &section("Cuts", &cuts(&material, &vcuts));
+    body += &section("Cuts", &cuts(&material));
     body += &section(
         "Machine and program",
         &(rows(&[facts::control(machine), facts::speeds(&material)].concat()) + &programs(files)),
@@ -145,8 +138,8 @@ struct Layer {
 }
 
 /// The cuts layer by layer, with a sum.
-fn cuts(material: &Material<'_>, vcuts: &[&PlannedVcut]) -> String {
-    let layers = layers(material, vcuts);
+fn cuts(material: &Material<'_>) -> String {
+    let layers = layers(material);
     let (shown, folded) = layers.split_at(match layers.len() {
         count if count > MOST_LAYERS => MOST_LAYERS - 1,
         count => count,
@@ -193,11 +186,12 @@ fn row(layer: &Layer) -> String {
 }
 
 /// The layers of all operations in the order of work; those of several are named `operation.layer`.
-fn layers(material: &Material<'_>, vcuts: &[&PlannedVcut]) -> Vec<Layer> {
+fn layers(material: &Material<'_>) -> Vec<Layer> {
+    let operations = &material.plan.operations;
     let times = &material.compiled.report.times.layers;
     let mut layers = Vec::new();
-    for (number, vcut) in (0_u16..).zip(vcuts) {
-        for cuts in vcut.cuts.chunk_by(|a, b| a.layer == b.layer) {
+    for (number, planned) in (0_u16..).zip(operations) {
+        for cuts in planned.tips().chunk_by(|a, b| a.layer == b.layer) {
             let layer = cuts.first().map_or(0, |cut| cut.layer);
             let heights = cuts.iter().map(|cut| cut.tip.z);
             let taken = times
@@ -205,7 +199,7 @@ fn layers(material: &Material<'_>, vcuts: &[&PlannedVcut]) -> Vec<Layer> {
                 .find(|time| time.operation.0 == number && time.layer == layer)
                 .map_or(Duration::ZERO, |time| time.timing.total());
             layers.push(Layer {
-                name: if vcuts.len() > 1 {
+                name: if operations.len() > 1 {
                     format!("{}.{layer}", number + 1)
                 } else {
                     layer.to_string()

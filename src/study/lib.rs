@@ -1,4 +1,3 @@
 //! Studies of a job: its trade-offs, and where the work should be
 
-pub mod optimisation;
 pub mod placement;

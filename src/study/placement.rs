@@ -16,6 +16,8 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 use vcutc_driver::{self as driver, Request, Stage, internal, rules_broken};
+use vcutc_job::PlannedJob;
+use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::sema;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_motion::place::Spot;
@@ -26,8 +28,7 @@ use vcutc_motion::place::taught::TaughtPoses;
 use vcutc_motion::remedy::trial::{self, Room};
 use vcutc_motion::remedy::wording;
 use vcutc_motion::rig::Rig;
-use vcutc_process::choice::{self, Latitude, Leeway};
-use vcutc_process::plan::PlannedJob;
+use vcutc_process::plan::plan_within;
 use vcutc_process::verdict;
 
 /// Where the work stands best.
@@ -152,6 +153,7 @@ fn prepare(
             overrides: request.overrides,
             machine: request.machine,
             options: request.options,
+            operations: request.operations,
         },
         sources,
         &mut diagnostics,
@@ -169,7 +171,7 @@ fn prepare(
         Some((plan, _)) => plan,
         None => {
             // Where the machine follows these routes, the job compiles, whatever faster ones there are.
-            let (plan, found) = choice::choose_within(&job, Leeway::along(Latitude::RowsByPoint));
+            let (plan, found) = plan_within(&job, SearchSpace::along(RouteSet::RowsByPoint));
             diagnostics.extend(found);
             let Some(plan) = plan.filter(|_| !has_errors(&diagnostics)) else {
                 return Err(Failed::Diagnostics(diagnostics));

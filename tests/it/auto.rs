@@ -3,7 +3,7 @@
 use crate::pipeline::{Files, compile};
 use vcutc::driver::Compiled;
 use vcutc::job::Order;
-use vcutc::process::plan::PlannedOperation;
+use vcutc::vcut::PlannedVcut;
 
 /// A job of an arched part whose best lattice an earlier search missed: its even and odd rows end at different places.
 fn arched(lattice: &str, layer: &str, step: &str) -> String {
@@ -73,7 +73,9 @@ fn a_narrower_swing_is_taken_where_it_costs_less_than_a_slower_route() {
             "leaning.vcut",
             &Files::default().with("leaning.vcut", leaning(order)),
         );
-        let [PlannedOperation::RoughVcut(vcut)] = outcome.plan.unwrap().operations.try_into().unwrap();
+        let vcut = PlannedVcut::of(&*outcome.plan.unwrap().operations[0])
+            .unwrap()
+            .clone();
         (vcut, outcome.compiled.unwrap())
     };
     let (by_point, slower) = compiled("point");

@@ -106,6 +106,7 @@ impl Case {
             &self.name,
             &loader,
             Choices {
+                operations: vcutc::registry::OPERATIONS,
                 overrides: &self.overrides(),
                 machine: self.machine(),
                 options: Typed::default(),

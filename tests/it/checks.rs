@@ -12,8 +12,8 @@ use vcutc::job::CheckedJob;
 use vcutc::job::sema;
 use vcutc::machine::catalogue;
 use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, solve};
-use vcutc::process::choice;
 use vcutc::process::lower::lower;
+use vcutc::process::plan::plan;
 use vcutc::report::page::{Further, page};
 use vcutc::report::sheet::sheet;
 use vcutc_backend_api::verify::verify;
@@ -53,6 +53,7 @@ const WITHOUT_RATES: [&str; 3] = [
 fn checked(text: &str) -> CheckedJob {
     let files = Files::default().with(JOB, text);
     let choices = sema::Choices {
+        operations: vcutc::registry::OPERATIONS,
         overrides: &[],
         machine: None,
         options: Typed::default(),
@@ -65,7 +66,7 @@ fn checked(text: &str) -> CheckedJob {
 /// Whether the robot carries out the job, by reach alone: nothing is searched for where it does not.
 fn is_reached(text: &str) -> bool {
     let job = checked(text);
-    let Some(plan) = choice::choose(&job).0 else {
+    let Some(plan) = plan(&job).0 else {
         return false;
     };
     let program = verify(lower(&plan, &SourceMap::default())).unwrap();

@@ -5,7 +5,7 @@ use crate::repository::read;
 use glam::{DMat3, DVec3};
 use vcutc::motion::solve::rig;
 use vcutc::motion::trajectory::{Spacing, trajectory};
-use vcutc::process::plan::PlannedOperation;
+use vcutc::vcut::PlannedVcut;
 use vcutc_backend_api::ir::Action;
 use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::stroke::Stroke;
@@ -164,7 +164,7 @@ fn no_turn_takes_an_edge_over_the_work() {
         assert!(turning > 100, "{machine}: {turning}");
         // `run_out` is 2 mm.
         assert!(nearest > 1.9, "{machine}: {nearest}");
-        let PlannedOperation::RoughVcut(vcut) = &outcome.plan.as_ref().unwrap().operations[0];
+        let vcut = PlannedVcut::of(&*outcome.plan.as_ref().unwrap().operations[0]).unwrap();
         extensions.push(vcut.parameters.extension.to_mm());
     }
     let [swings, on_table, both_under, round_a_cone] = extensions[..] else {

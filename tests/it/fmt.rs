@@ -36,7 +36,16 @@ fn layout(text: &str) -> Option<String> {
 /// Everything that `sema` made of a job, and the codes it reported, without places.
 fn meaning(path: &str, loader: &dyn Loader) -> String {
     let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
-    let checked = sema::check(path, loader, Choices::default(), &mut sources, &mut diagnostics);
+    let checked = sema::check(
+        path,
+        loader,
+        Choices {
+            operations: vcutc::registry::OPERATIONS,
+            ..Choices::default()
+        },
+        &mut sources,
+        &mut diagnostics,
+    );
     let job = checked.ok().map(|(_, job)| job);
     let codes: Vec<_> = diagnostics
         .iter()

@@ -43,6 +43,7 @@ pub(crate) fn patiently(text: &str, wanted: Wanted) -> (Outcome, Vec<Diagnostic>
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        operations: vcutc::registry::OPERATIONS,
         targets: &registry::backends(),
     };
     let mut noting = Noting {

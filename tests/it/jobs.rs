@@ -13,9 +13,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use vcutc::driver::Outcome;
-use vcutc::job::{Auto, Operation};
-use vcutc::process::plan::{PlannedOperation, TipOrigin, Way};
+use vcutc::job::Auto;
 use vcutc::registry;
+use vcutc::vcut::RoughVcut;
+use vcutc::vcut::plan::{PlannedVcut, TipOrigin, Way};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::exchange::Exchange;
 
@@ -222,9 +223,9 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
     let job = outcome.job.as_ref().unwrap();
     let mut subjects = BTreeSet::new();
     let auto = |name: &str, is_auto: bool| format!("{name} {}", if is_auto { "auto" } else { "given" });
-    for Operation::RoughVcut(asked) in &job.operations {
+    for asked in job.operations.iter().filter_map(|asked| RoughVcut::of(&**asked)) {
         subjects.extend([
-            format!("{:?} {:?}", asked.blade.edges, asked.direction.value),
+            format!("{:?} {:?}", asked.setup.blade.edges, asked.setup.direction.value),
             auto("lattice", asked.lattice.value == Auto::Auto),
             auto("order", asked.order.value == Auto::Auto),
             auto("sequence", asked.sequence.value == Auto::Auto),
@@ -235,11 +236,12 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
             auto("swing", asked.swing.value == Auto::Auto),
             auto("layer", asked.layer.value == Auto::Auto),
             auto("step", asked.step.value == Auto::Auto),
-            auto("extension", asked.extension.value == Auto::Auto),
+            auto("extension", asked.setup.extension.value == Auto::Auto),
             auto("standoff", asked.standoff.value == Auto::Auto),
         ]);
     }
-    for PlannedOperation::RoughVcut(vcut) in &outcome.plan.as_ref().unwrap().operations {
+    let planned = &outcome.plan.as_ref().unwrap().operations;
+    for vcut in planned.iter().filter_map(|planned| PlannedVcut::of(&**planned)) {
         subjects.extend([
             format!("{:?} {:?}", vcut.parameters.lattice, vcut.order),
             format!("{:?} by {:?}", vcut.sequence, vcut.order),

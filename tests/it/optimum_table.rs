@@ -7,10 +7,10 @@ use crate::pipeline::{Files, compile, told};
 use crate::published::{ARC, LEAD_DEG};
 use crate::repository::{read, root};
 use vcutc::driver::Outcome;
-use vcutc::job::{Formulas, Lattice};
-use vcutc::process::plan::optimum::published::table_1;
-use vcutc::process::plan::optimum::{Optimum, Problem, Range, solve};
-use vcutc::process::plan::{PlannedOperation, blade_reach};
+use vcutc::vcut::asked::{Formulas, Lattice};
+use vcutc::vcut::plan::optimum::published::table_1;
+use vcutc::vcut::plan::optimum::{Optimum, Problem, Range, solve};
+use vcutc::vcut::plan::{PlannedVcut, blade_reach};
 use vcutc_backend_api::units::{Angle, Length};
 
 const PAGE: &str = "docs/optimum.md";
@@ -139,7 +139,7 @@ fn the_table_of_optima_is_current_and_the_papers() {
         assert!((planned / model - 1.0).abs() < share, "{}: {planned}", row.name);
         assert!(simulated <= bound + 1e-3, "{}: {simulated} {bound}", row.name);
         // What the planner needs for the lattice it has planned is within the edge in use.
-        let PlannedOperation::RoughVcut(vcut) = &row.outcome.plan.as_ref().unwrap().operations[0];
+        let vcut = PlannedVcut::of(&*row.outcome.plan.as_ref().unwrap().operations[0]).unwrap();
         let p = &vcut.parameters;
         let needed = blade_reach::needed_reach(p.lattice, p.layer, p.step, p.flanks.slope);
         assert!(needed <= p.flanks.reach + Length::mm(1e-6), "{}", row.name);

@@ -32,6 +32,7 @@ fn codes(job: &str) -> BTreeSet<Code> {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        operations: vcutc::registry::OPERATIONS,
         targets: &vcutc::registry::backends(),
     };
     let outcome = compile(request, &mut |_| {}).expect("the page itself can be read");

@@ -57,6 +57,7 @@ pub(crate) fn compile_on(machine: Option<&str>, path: &str, files: &Files) -> Ou
         overrides: &[],
         machine,
         options: Typed::default(),
+        operations: vcutc::registry::OPERATIONS,
         targets: &vcutc::registry::backends(),
     };
     driver::compile(request, &mut |_| {}).unwrap()

@@ -7,8 +7,8 @@
 use crate::pipeline::{Files, compile, told};
 use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
-use vcutc::process::plan::{PlannedOperation, PlannedVcut};
 use vcutc::simulation::surface::{Surface, Vee};
+use vcutc::vcut::plan::PlannedVcut;
 
 /// Rake less half the apex angle of the blade of Cui et al.: what the leading edge makes with the feed.
 pub(crate) const LEAD_DEG: f64 = 60.0 - 7.13;
@@ -84,8 +84,7 @@ fn block(profile: &str, parameters: &Parameters) -> Outcome {
 }
 
 fn planned(outcome: &Outcome) -> &PlannedVcut {
-    let PlannedOperation::RoughVcut(vcut) = &outcome.plan.as_ref().unwrap().operations[0];
-    vcut
+    PlannedVcut::of(&*outcome.plan.as_ref().unwrap().operations[0]).unwrap()
 }
 
 /// Layers, cuts, area removed in mm2 and the longest edge in use in mm.

@@ -12,8 +12,8 @@ use vcutc::motion::legs::{Leg, Poses, legs};
 use vcutc::motion::path::prove;
 use vcutc::motion::rig::Rig;
 use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, rig, solve};
-use vcutc::process::choice;
 use vcutc::process::lower::lower;
+use vcutc::process::plan::plan;
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
@@ -66,7 +66,7 @@ fn abb(direction: &str, base: &str) -> Files {
 
 /// The program of a job as it is before reach looks at it.
 fn program(job: &CheckedJob) -> VerifiedProgram {
-    let plan = choice::choose(job).0.unwrap();
+    let plan = plan(job).0.unwrap();
     verify(lower(&plan, &SourceMap::default())).unwrap()
 }
 

@@ -3,9 +3,9 @@
 use crate::pipeline::{Files, compile};
 use proptest::prelude::*;
 use vcutc::driver::Outcome;
-use vcutc::job::Lattice;
-use vcutc::process::plan::parameters::VcutParameters;
-use vcutc::process::plan::{PlannedOperation, blade_reach};
+use vcutc::vcut::asked::Lattice;
+use vcutc::vcut::plan::parameters::VcutParameters;
+use vcutc::vcut::plan::{PlannedVcut, blade_reach};
 
 const WIDTH: f64 = 120.0;
 const LATTICES: [&str; 3] = ["orthogonal", "interlaced", "free"];
@@ -122,7 +122,7 @@ fn bound(parameters: &VcutParameters, allowance: f64, x: f64) -> f64 {
 fn share(job: &Random) -> Option<f64> {
     let outcome = job.outcome();
     let report = &outcome.compiled.as_ref()?.report;
-    let PlannedOperation::RoughVcut(vcut) = &outcome.plan.as_ref()?.operations[0];
+    let vcut = PlannedVcut::of(&*outcome.plan.as_ref()?.operations[0]).unwrap();
     let scallop = report.scallop;
     Some(scallop.height.to_mm() / bound(&vcut.parameters, job.allowance, scallop.peak.x))
 }
@@ -155,7 +155,7 @@ fn the_planners_bound_is_the_true_one_but_for_wide_interlaced_lattices_and_sides
                 pieces: vec![(WIDTH, 0.0)],
             };
             let outcome = job.outcome();
-            let PlannedOperation::RoughVcut(vcut) = &outcome.plan.as_ref().unwrap().operations[0];
+            let vcut = PlannedVcut::of(&*outcome.plan.as_ref().unwrap().operations[0]).unwrap();
             let VcutParameters {
                 lattice,
                 layer,

@@ -85,6 +85,7 @@ fn compiled(option: &str) -> Outcome {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        operations: vcutc::registry::OPERATIONS,
         targets: &[&ABLE],
     };
     compile(request, &mut |_| {}).unwrap()

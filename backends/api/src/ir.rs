@@ -7,6 +7,7 @@ use crate::geometry::{Frame, Orientation, Point3};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Version of the exchange form that this crate reads and writes.
 pub const IR_VERSION: u32 = 2;
@@ -242,13 +243,75 @@ pub struct Operation {
     pub source: SourceRef,
 }
 
-/// Kinds of operation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// A kind of operation: the words of its head in the language, joined by `_`, such as `rough_vcut`. Programs name the kind for
+/// people; what their ops mean does not depend on it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum OperationKind {
-    /// V-shaped roughing with a straight blade.
-    RoughVcut,
+#[serde(try_from = "String", into = "String")]
+pub struct OperationKind(
+    #[cfg_attr(feature = "schema", schemars(regex(pattern = "^[a-z]+(_[a-z]+)*$")))] Cow<'static, str>,
+);
+
+/// A text that is not the name of a kind of operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotAKind;
+
+impl core::fmt::Display for NotAKind {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("a kind of operation is words of small letters, joined by `_`")
+    }
+}
+
+impl TryFrom<String> for OperationKind {
+    type Error = NotAKind;
+
+    fn try_from(name: String) -> Result<Self, NotAKind> {
+        let is_kind = is_name_of_kind(name.as_bytes());
+        if is_kind {
+            Ok(Self(Cow::Owned(name)))
+        } else {
+            Err(NotAKind)
+        }
+    }
+}
+
+impl From<OperationKind> for String {
+    fn from(OperationKind(name): OperationKind) -> Self {
+        name.into_owned()
+    }
+}
+
+impl OperationKind {
+    /// The kind of that name, such as `rough_vcut`; none where it is not one.
+    #[must_use]
+    pub const fn named(name: &'static str) -> Option<Self> {
+        if is_name_of_kind(name.as_bytes()) {
+            Some(Self(Cow::Borrowed(name)))
+        } else {
+            None
+        }
+    }
+
+    /// Its head in the language: `rough vcut`.
+    #[must_use]
+    pub fn head(&self) -> String {
+        self.0.replace('_', " ")
+    }
+}
+
+/// Whether a text is words of small letters, joined by `_`, and no longer than a line of a program takes.
+const fn is_name_of_kind(name: &[u8]) -> bool {
+    let mut index = 0;
+    let mut is_in_word = false;
+    while index < name.len() {
+        match name[index] {
+            b'a'..=b'z' => is_in_word = true,
+            b'_' if is_in_word => is_in_word = false,
+            _ => return false,
+        }
+        index += 1;
+    }
+    is_in_word && name.len() <= 40
 }
 
 /// A straight blade.

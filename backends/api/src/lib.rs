@@ -37,6 +37,7 @@
 //! its dialect ([`readback`]) and compared with the program, op by op, before anything reaches a disk.
 
 pub mod backend;
+pub mod builder;
 pub mod bundle;
 pub mod confdata;
 pub mod exchange;

@@ -3,9 +3,9 @@
 use vcutc_diagnostics::Edit;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
-use vcutc_job::{CheckedJob, Direction, Operation, RoughVcut};
-use vcutc_motion::remedy::speed::Field;
-use vcutc_motion::remedy::{self, Elsewhere, wording};
+use vcutc_job::setup::SpeedField as Field;
+use vcutc_job::{CheckedJob, Direction, Setup};
+use vcutc_motion::remedy::{Elsewhere, wording};
 
 /// A change of a job.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,10 +20,10 @@ pub(super) enum Change {
 
 impl Change {
     /// Changes an operation, as far as the change is one of operations.
-    pub(super) fn apply_to(&self, asked: &mut RoughVcut) {
+    pub(super) fn apply_to(&self, setup: &mut Setup) {
         match self {
-            Self::Speed { field, most } if field.value(asked) > *most => field.set(asked, *most),
-            Self::Direction(direction) => asked.direction.value = *direction,
+            Self::Speed { field, most } if field.value(setup) > *most => field.set(setup, *most),
+            Self::Direction(direction) => setup.direction.value = *direction,
             Self::Speed { .. } | Self::Base(_) => {}
         }
     }
@@ -31,8 +31,8 @@ impl Change {
     /// The job with this change.
     pub(super) fn of(&self, job: &CheckedJob) -> CheckedJob {
         let mut changed = job.clone();
-        for Operation::RoughVcut(asked) in &mut changed.operations {
-            self.apply_to(asked);
+        for operation in &mut changed.operations {
+            self.apply_to(operation.setup_mut());
         }
         if let (Self::Base(elsewhere), Some(machine)) = (self, &mut changed.machine) {
             machine.base.value = elsewhere.base;
@@ -41,13 +41,9 @@ impl Change {
     }
 
     /// What to write: `reorient = 65 deg/s`.
-    pub(super) fn written(&self, job: &CheckedJob) -> String {
+    pub(super) fn written(&self) -> String {
         match self {
-            Self::Speed { field, most } => {
-                let of = |Operation::RoughVcut(asked): &Operation| field.written(asked);
-                let (name, unit, _) = job.operations.first().map_or(("", "", None), of);
-                format!("{name} = {} {unit}", show(*most))
-            }
+            Self::Speed { field, most } => format!("{} = {} {}", field.name(), show(*most), field.unit()),
             Self::Direction(direction) => format!("direction = {}", direction.word()),
             Self::Base(elsewhere) => format!("base = {}", wording::frame_text(&elsewhere.base)),
         }
@@ -55,18 +51,15 @@ impl Change {
 
     /// The same as edits; empty where something of it is not written anywhere.
     pub(super) fn edits(&self, job: &CheckedJob) -> Vec<Edit> {
-        let operations = job.operations.iter();
+        let setups = job.operations.iter().map(|operation| operation.setup());
         let edits: Option<Vec<(Span, String)>> = match self {
-            Self::Speed { field, most } => operations
-                .filter(|Operation::RoughVcut(asked)| field.value(asked) > *most)
-                .map(|Operation::RoughVcut(asked)| {
-                    let (_, unit, span) = field.written(asked);
-                    Some((span?, format!("{} {unit}", show(*most))))
-                })
+            Self::Speed { field, most } => setups
+                .filter(|setup| field.value(setup) > *most)
+                .map(|setup| Some((field.span(setup)?, format!("{} {}", show(*most), field.unit()))))
                 .collect(),
             Self::Direction(direction) => {
-                let stated = operations
-                    .map(|Operation::RoughVcut(asked)| remedy::stated_direction(asked, *direction))
+                let stated = setups
+                    .map(|setup| setup.stated("direction", setup.direction.span, direction.word()))
                     .map(|edits| (!edits.is_empty()).then_some(edits));
                 stated.collect::<Option<Vec<_>>>().map(|edits| edits.concat())
             }

@@ -3,9 +3,10 @@
 use super::*;
 use crate::{Outcome, Request, Typed, compile};
 use vcutc_diagnostics::source::{LoadError, Loader};
+use vcutc_job::operation::Operations;
 use vcutc_motion::remedy::trial;
 use vcutc_motion::solve::Unreached;
-use vcutc_process::choice::choose;
+use vcutc_process::plan::plan;
 
 /// Few cuts, with a `reorient` that no axis of the head follows.
 const JOB: &str = r#"job "tip"
@@ -50,6 +51,7 @@ fn outcome(text: &str) -> Outcome {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        operations: Operations(&[&vcutc_vcut::Vcut]),
         targets: &[],
     };
     compile(request, &mut |_| ()).unwrap()
@@ -60,7 +62,7 @@ fn made_slow() -> (CheckedJob, Compiled) {
     let fast = outcome(JOB).job.unwrap();
     let slow = outcome(&JOB.replace("reorient = 200", "reorient = 20"));
     let mut compiled = slow.compiled.unwrap();
-    let plan = choose(&fast).0.unwrap();
+    let plan = plan(&fast).0.unwrap();
     let unreachable = match trial::with_machine(&plan, |_| (), &Wanted::ALWAYS) {
         Some(Err(Unreached::Unreachable(unreachable))) => *unreachable,
         other => panic!("{other:?}"),

@@ -10,7 +10,8 @@ use vcutc_backend_api::ir::{Action, Program};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
-use vcutc_job::{CheckedJob, Operation, RoughVcut};
+use vcutc_job::CheckedJob;
+use vcutc_job::setup::SpeedField;
 
 /// How far beyond the factor of the first motion is looked.
 const FARTHER: [f64; 3] = [1.0, 2.0, 4.0];
@@ -44,13 +45,21 @@ impl Off {
             return None;
         };
         let op = program.ops.get(op.0 as usize)?;
-        let Operation::RoughVcut(asked) = job.operations.get(usize::from(op.site.operation()?.0))?;
+        let setup = job.operations.get(usize::from(op.site.operation()?.0))?.setup();
+        let stated = |field: SpeedField| {
+            Some(Stated {
+                field: field.name(),
+                value: field.value(setup),
+                unit: field.unit(),
+                span: field.span(setup)?,
+            })
+        };
         let speeds = match op.action {
-            Action::Cut { .. } => vec![cut(asked)],
-            Action::Approach { .. } | Action::Retract { .. } => vec![travel(asked)],
+            Action::Cut { .. } => vec![SpeedField::Cut],
+            Action::Approach { .. } | Action::Retract { .. } => vec![SpeedField::Travel],
             // Where the blade turns on its way, either of the two holds it back.
-            Action::Travel { .. } => vec![reorient(asked), travel(asked)],
-            Action::Turn { .. } => vec![reorient(asked)],
+            Action::Travel { .. } => vec![SpeedField::Reorient, SpeedField::Travel],
+            Action::Turn { .. } => vec![SpeedField::Reorient],
             Action::Home
             | Action::AxisTravel { .. }
             | Action::Ultrasonic { .. }
@@ -60,36 +69,9 @@ impl Off {
         };
         Some(Self {
             factor: range.factor()?,
-            speeds: speeds.into_iter().flatten().collect(),
+            speeds: speeds.into_iter().filter_map(stated).collect(),
         })
     }
-}
-
-fn cut(asked: &RoughVcut) -> Option<Stated> {
-    Some(Stated {
-        field: "cut",
-        value: asked.cut_feed.value.to_mm_per_s(),
-        unit: "mm/s",
-        span: asked.cut_feed.span?,
-    })
-}
-
-fn travel(asked: &RoughVcut) -> Option<Stated> {
-    Some(Stated {
-        field: "travel",
-        value: asked.travel_feed.value.to_mm_per_s(),
-        unit: "mm/s",
-        span: asked.travel_feed.span?,
-    })
-}
-
-fn reorient(asked: &RoughVcut) -> Option<Stated> {
-    Some(Stated {
-        field: "reorient",
-        value: asked.reorient_rate.value.to_rad_per_s().to_degrees(),
-        unit: "deg/s",
-        span: asked.reorient_rate.span?,
-    })
 }
 
 /// A speed that people like to write, on the far side of `value` as seen from `from`.

@@ -10,13 +10,13 @@ use std::fmt::Write as _;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dimension {
     /// Of length.
-    pub(crate) length: i8,
+    pub length: i8,
     /// Of angle.
-    pub(crate) angle: i8,
+    pub angle: i8,
     /// Of time.
-    pub(crate) time: i8,
+    pub time: i8,
     /// Of mass.
-    pub(crate) mass: i8,
+    pub mass: i8,
 }
 
 impl Dimension {
@@ -27,16 +27,16 @@ impl Dimension {
     /// An angle.
     pub const ANGLE: Self = Self::new(0, 1, 0, 0);
     /// A time.
-    pub(crate) const TIME: Self = Self::new(0, 0, 1, 0);
+    pub const TIME: Self = Self::new(0, 0, 1, 0);
     /// A mass.
-    pub(crate) const MASS: Self = Self::new(0, 0, 0, 1);
+    pub const MASS: Self = Self::new(0, 0, 0, 1);
     /// A speed.
-    pub(crate) const SPEED: Self = Self::new(1, 0, -1, 0);
+    pub const SPEED: Self = Self::new(1, 0, -1, 0);
     /// A turning rate.
-    pub(crate) const TURNING_RATE: Self = Self::new(0, 1, -1, 0);
+    pub const TURNING_RATE: Self = Self::new(0, 1, -1, 0);
 
     /// From the four exponents.
-    pub(crate) const fn new(length: i8, angle: i8, time: i8, mass: i8) -> Self {
+    pub const fn new(length: i8, angle: i8, time: i8, mass: i8) -> Self {
         Self {
             length,
             angle,
@@ -56,17 +56,17 @@ impl Dimension {
     }
 
     /// Of a product; none when an exponent grows out of all sense.
-    pub(crate) fn times(self, other: Self) -> Option<Self> {
+    pub fn times(self, other: Self) -> Option<Self> {
         self.zip(other, i8::checked_add)
     }
 
     /// Of a quotient; none when an exponent grows out of all sense.
-    pub(crate) fn over(self, other: Self) -> Option<Self> {
+    pub fn over(self, other: Self) -> Option<Self> {
         self.zip(other, i8::checked_sub)
     }
 
     /// Of a whole power; none when an exponent grows out of all sense.
-    pub(crate) fn power(self, exponent: i8) -> Option<Self> {
+    pub fn power(self, exponent: i8) -> Option<Self> {
         self.zip(Self::new(exponent, exponent, exponent, exponent), i8::checked_mul)
     }
 
@@ -77,7 +77,7 @@ impl Dimension {
     }
 
     /// In words, with article: `a length`.
-    pub(crate) fn words(self) -> String {
+    pub fn words(self) -> String {
         let name = match (self.length, self.angle, self.time, self.mass) {
             (0, 0, 0, 0) => "a pure number",
             (1, 0, 0, 0) => "a length",
@@ -95,7 +95,7 @@ impl Dimension {
     }
 
     /// The unit that people use for it: `mm`, `deg`, `mm/s`; empty for a pure number.
-    pub(crate) fn unit(self) -> String {
+    pub fn unit(self) -> String {
         let powers = [
             ("mm", self.length),
             ("deg", self.angle),
@@ -124,7 +124,7 @@ impl Dimension {
     }
 
     /// How much one of [`Self::unit`] is in the units that values are held in (mm, rad, s, kg).
-    pub(crate) fn unit_size(self) -> f64 {
+    pub fn unit_size(self) -> f64 {
         match self.angle {
             0 => 1.0,
             1 => PI / 180.0,

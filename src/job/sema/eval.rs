@@ -21,34 +21,34 @@ const DEEPEST: usize = 200;
 
 /// What names stand for while an expression is evaluated.
 #[derive(Clone, Copy)]
-pub(crate) struct Scope<'a> {
+pub struct Scope<'a> {
     /// All names of the job.
-    pub(crate) names: &'a Names<'a>,
+    pub names: &'a Names<'a>,
     /// The job's `let`s.
     pub(crate) lets: &'a [Let<'a>],
     /// Their values; none while they are still being worked out.
-    pub(crate) values: &'a [Option<Checked<Quantity>>],
+    pub values: &'a [Option<Checked<Quantity>>],
     /// The variable of a formula.
-    pub(crate) variable: Option<(&'a str, Quantity)>,
+    pub variable: Option<(&'a str, Quantity)>,
 }
 
 /// A value with the expression it came from.
 #[derive(Clone, Copy)]
-pub(crate) struct Operand<'e> {
+pub struct Operand<'e> {
     /// The expression.
-    pub(crate) expr: &'e Spanned<Expr>,
+    pub expr: &'e Spanned<Expr>,
     /// Its value.
-    pub(crate) quantity: Quantity,
+    pub quantity: Quantity,
 }
 
 impl Scope<'_> {
     /// The value of an expression.
-    pub(crate) fn evaluate(&self, expr: &Spanned<Expr>, reports: &mut Reports) -> Checked<Quantity> {
+    pub fn evaluate(&self, expr: &Spanned<Expr>, reports: &mut Reports) -> Checked<Quantity> {
         self.at_depth(expr, 0, reports)
     }
 
     /// The value of an expression that must have a certain dimension, in mm, rad, s, kg.
-    pub(crate) fn expect(
+    pub fn expect(
         &self,
         expr: &Spanned<Expr>,
         wanted: Dimension,
@@ -80,12 +80,7 @@ impl Scope<'_> {
     }
 
     /// The value of an expression that stands `depth` levels deep in another.
-    pub(super) fn at_depth(
-        &self,
-        expr: &Spanned<Expr>,
-        depth: usize,
-        reports: &mut Reports,
-    ) -> Checked<Quantity> {
+    pub fn at_depth(&self, expr: &Spanned<Expr>, depth: usize, reports: &mut Reports) -> Checked<Quantity> {
         if depth > DEEPEST {
             let diagnostic = Diagnostic::new(
                 Code::NestedTooDeeply,
@@ -260,7 +255,7 @@ fn combine(
 }
 
 /// The common dimension of two values that are added or compared; `joint` is what joins them, as it is written.
-pub(super) fn same_dimension(
+pub fn same_dimension(
     joint: &str,
     left: Operand<'_>,
     right: Operand<'_>,

@@ -14,15 +14,15 @@ use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Curve, Entry, Expr, HeadPart, Point, Relation};
 
 use super::spec::Written;
-pub(crate) use super::spec::{BlockSpec, FieldSpec, Form, Inner, Takes, block, bounds, limit, points, value};
+pub use super::spec::{BlockSpec, FieldSpec, Form, Inner, Takes, block, bounds, limit, points, value};
 
 /// Where a block stands, as far as its fields need to know.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub struct Place {
     /// Its head: where to point when something is missing.
-    pub(crate) head: Span,
+    pub head: Span,
     /// All of it, up to the closing brace.
-    pub(crate) whole: Span,
+    pub whole: Span,
 }
 
 /// What was found of a field.
@@ -35,14 +35,14 @@ enum Slot<'a> {
 }
 
 /// The fields of one block.
-pub(crate) struct Fields<'a> {
+pub struct Fields<'a> {
     spec: &'static BlockSpec,
     place: Place,
     slots: BTreeMap<&'static str, (Slot<'a>, Span)>,
     /// Bounds from below, which may stand beside those from above.
     least: BTreeMap<&'static str, (Slot<'a>, Span)>,
     /// Inner blocks that are options for targets.
-    pub(crate) targets: Vec<&'a Block>,
+    pub targets: Vec<&'a Block>,
     insertion: Insertion,
     damage: Option<Reported>,
     /// Fields that an unknown one perhaps is.
@@ -51,7 +51,7 @@ pub(crate) struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     /// Sorts the entries of a block.
-    pub(crate) fn sort(
+    pub fn sort(
         spec: &'static BlockSpec,
         place: Place,
         entries: &'a [Entry],
@@ -164,22 +164,22 @@ impl<'a> Fields<'a> {
     }
 
     /// The value that a field is to be at least, if it is given.
-    pub(crate) fn least(&self, name: &str) -> Checked<Option<&'a Spanned<Expr>>> {
+    pub fn least(&self, name: &str) -> Checked<Option<&'a Spanned<Expr>>> {
         taken_value(self.least.get(name))
     }
 
     /// The value of a field, if it is given.
-    pub(crate) fn value(&self, name: &str) -> Checked<Option<&'a Spanned<Expr>>> {
+    pub fn value(&self, name: &str) -> Checked<Option<&'a Spanned<Expr>>> {
         taken_value(self.slots.get(name))
     }
 
     /// The value of a field that must be given.
-    pub(crate) fn required_value(&self, name: &str, reports: &mut Reports) -> Checked<&'a Spanned<Expr>> {
+    pub fn required_value(&self, name: &str, reports: &mut Reports) -> Checked<&'a Spanned<Expr>> {
         self.value(name)?.ok_or_else(|| self.missing(name, reports))
     }
 
     /// A field that is a block, if it is given.
-    pub(crate) fn block(&self, name: &str) -> Checked<Option<&'a Block>> {
+    pub fn block(&self, name: &str) -> Checked<Option<&'a Block>> {
         match self.slots.get(name) {
             Some((Slot::Block(block), _)) => Ok(Some(block)),
             Some((Slot::Spoiled(reported), _)) => Err(*reported),
@@ -188,7 +188,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A field that is a row of points, if it is given, and where it stands.
-    pub(crate) fn points(&self, name: &str) -> Checked<Option<(&'a [Point], Span)>> {
+    pub fn points(&self, name: &str) -> Checked<Option<(&'a [Point], Span)>> {
         match self.slots.get(name) {
             Some((Slot::Points(points), span)) => Ok(Some((points, *span))),
             Some((Slot::Spoiled(reported), _)) => Err(*reported),
@@ -197,17 +197,17 @@ impl<'a> Fields<'a> {
     }
 
     /// Where the name of a field stands, if it is given in whatever form.
-    pub(crate) fn place_of(&self, name: &str) -> Option<Span> {
+    pub fn place_of(&self, name: &str) -> Option<Span> {
         self.slots.get(name).map(|(_, span)| *span)
     }
 
     /// A field that is a block and must be given.
-    pub(crate) fn required_block(&self, name: &str, reports: &mut Reports) -> Checked<&'a Block> {
+    pub fn required_block(&self, name: &str, reports: &mut Reports) -> Checked<&'a Block> {
         self.block(name)?.ok_or_else(|| self.missing(name, reports))
     }
 
     /// A typical value of a field.
-    pub(crate) fn typical(&self, name: &str) -> Option<&'static str> {
+    pub fn typical(&self, name: &str) -> Option<&'static str> {
         self.spec.field(name).map(|spec| spec.typical)
     }
 
@@ -230,7 +230,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Offers to add a field with a value.
-    pub(crate) fn offer(&self, diagnostic: Diagnostic, title: impl Into<String>, field: &str) -> Diagnostic {
+    pub fn offer(&self, diagnostic: Diagnostic, title: impl Into<String>, field: &str) -> Diagnostic {
         diagnostic.fix(title, self.insertion.at, self.insertion.text(field))
     }
 
@@ -302,7 +302,7 @@ fn field_list(spec: &BlockSpec) -> String {
 }
 
 /// The head of a block, from its first word to the last.
-pub(crate) fn head_span(block: &Block) -> Span {
+pub fn head_span(block: &Block) -> Span {
     match (block.head.first(), block.head.last()) {
         (Some(first), Some(last)) => first.span.to(last.span),
         _ => block.span,
@@ -468,7 +468,7 @@ impl<'n, 'a> Given<'n, 'a> {
 }
 
 /// What a curve is called in a sentence.
-pub(crate) const fn curve_words(curve: &Curve) -> &'static str {
+pub const fn curve_words(curve: &Curve) -> &'static str {
     match curve {
         Curve::Start(_) => "`start`",
         Curve::Line { .. } => "`line`",

@@ -9,6 +9,7 @@ use super::names::{Names, Thing, did_you_mean, more_than_one};
 use super::overrides::Overrides;
 use super::report::{Reported, Reports};
 use super::session::Session;
+use crate::operation::{self, Operations};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Expr, Item};
@@ -60,8 +61,8 @@ pub(crate) struct Definitions<'a> {
     pub(crate) profile: Option<Placed<'a>>,
     /// The choice of the machine.
     pub(crate) cell: Option<Placed<'a>>,
-    /// Roughing operations, in order.
-    pub(crate) roughings: Vec<Placed<'a>>,
+    /// Operations, in order.
+    pub(crate) operations: Vec<(&'static dyn operation::Kind, Placed<'a>)>,
     /// Set when a block could not be made out: it may be any that seems to be missing.
     pub(crate) doubtful: Option<Reported>,
 }
@@ -70,6 +71,7 @@ pub(crate) struct Definitions<'a> {
 pub(crate) fn gather<'a>(
     files: &'a Files,
     overrides: &'a Overrides,
+    operations: Operations,
     session: &mut Session<'_>,
 ) -> Definitions<'a> {
     let mut all = Definitions::default();
@@ -81,7 +83,7 @@ pub(crate) fn gather<'a>(
         .map(|file| (file, Standing::Used(file.used_at)));
     for (file, standing) in used.chain(root) {
         for item in &file.ast.items {
-            all.item(item, standing, overrides, &mut session.reports);
+            all.item(item, standing, (overrides, operations), &mut session.reports);
         }
     }
     // A block that could not be made out may define the name that seems to be missing.
@@ -93,7 +95,13 @@ pub(crate) fn gather<'a>(
 }
 
 impl<'a> Definitions<'a> {
-    fn item(&mut self, item: &'a Item, standing: Standing, overrides: &'a Overrides, reports: &mut Reports) {
+    fn item(
+        &mut self,
+        item: &'a Item,
+        standing: Standing,
+        (overrides, operations): (&'a Overrides, Operations),
+        reports: &mut Reports,
+    ) {
         match item {
             Item::Use { .. } => {}
             Item::Let { name, value, .. } => self.add_let(name, value, overrides, reports),
@@ -110,7 +118,7 @@ impl<'a> Definitions<'a> {
                     }
                 }
             }
-            Item::Block(block) => match classify(block) {
+            Item::Block(block) => match classify(block, operations) {
                 Ok(kind) => self.block(kind, block, standing, reports),
                 Err(fault) => {
                     self.doubtful = Some(reports.push(*fault));
@@ -153,9 +161,9 @@ impl<'a> Definitions<'a> {
             Kind::Stock => single(&mut self.stock, "stock", placed, standing, reports),
             Kind::Profile => single(&mut self.profile, "profile", placed, standing, reports),
             Kind::Cell => single(&mut self.cell, "cell", placed, standing, reports),
-            Kind::RoughVcut => {
-                if is_allowed("rough vcut", place.head, standing, reports) {
-                    self.roughings.push(placed);
+            Kind::Operation(kind) => {
+                if is_allowed(kind.head(), place.head, standing, reports) {
+                    self.operations.push((kind, placed));
                 }
             }
             Kind::Blade(name) => {

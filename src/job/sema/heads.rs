@@ -3,6 +3,7 @@
 use super::fields::head_span;
 use super::machine;
 use super::names::did_you_mean;
+use crate::operation::{self, Operations};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
@@ -20,27 +21,48 @@ pub(crate) enum Kind<'a> {
     Cell,
     /// `blade NAME`.
     Blade(Spanned<&'a str>),
-    /// `rough vcut`.
-    RoughVcut,
+    /// An operation such as `rough vcut`.
+    Operation(&'static dyn operation::Kind),
     /// `machine NAME = robot "model"`.
     Machine(machine::Head<'a>),
 }
 
 /// First words of heads, and how a whole head looks.
-pub(crate) const FORMS: &[(&str, &str)] = &[
-    ("stock", "stock { ... }"),
-    ("profile", "profile { ... }"),
-    ("blade", "blade NAME { ... }"),
-    ("rough", "rough vcut { ... }"),
-    (
-        "machine",
-        "machine NAME = robot \"kuka/kr210_r3100_ultra\" { ... }",
-    ),
-    ("cell", "cell { machine = NAME }"),
-];
+pub(crate) fn forms(operations: Operations) -> Vec<(&'static str, String)> {
+    let form = |(word, form): (&'static str, &str)| (word, form.to_owned());
+    let mut of_operations: Vec<(&'static str, String)> = operations
+        .0
+        .iter()
+        .map(|kind| {
+            let words = kind.words();
+            (words[0], format!("{} {{ ... }}", kind.head()))
+        })
+        .collect();
+    of_operations.dedup_by_key(|(word, _)| *word);
+    let before = [
+        ("stock", "stock { ... }"),
+        ("profile", "profile { ... }"),
+        ("blade", "blade NAME { ... }"),
+    ];
+    let after = [
+        (
+            "machine",
+            "machine NAME = robot \"kuka/kr210_r3100_ultra\" { ... }",
+        ),
+        ("cell", "cell { machine = NAME }"),
+    ];
+    let before = before.map(form).into_iter();
+    before.chain(of_operations).chain(after.map(form)).collect()
+}
 
-/// What may follow `rough`.
-pub(crate) const ROUGHINGS: &[&str] = &["vcut"];
+/// What may follow the first word of an operation: `vcut` after `rough`.
+pub(crate) fn second_words(first: &str, operations: Operations) -> Vec<&'static str> {
+    let kinds = operations.0.iter().map(|kind| kind.words());
+    kinds
+        .filter(|words| words[0] == first)
+        .map(|words| words[1])
+        .collect()
+}
 
 /// Kinds of machine.
 pub(crate) const MACHINES: &[(&str, MachineKind)] = &[
@@ -49,7 +71,7 @@ pub(crate) const MACHINES: &[(&str, MachineKind)] = &[
 ];
 
 /// The kind of a block.
-pub(crate) fn classify(block: &Block) -> Result<Kind<'_>, Box<Diagnostic>> {
+pub(crate) fn classify(block: &Block, operations: Operations) -> Result<Kind<'_>, Box<Diagnostic>> {
     let parts: Vec<(&HeadPart, Span)> = block.head.iter().map(|part| (&part.node, part.span)).collect();
     let Some(&(HeadPart::Word(first), at)) = parts.first() else {
         let diagnostic = Diagnostic::new(
@@ -58,7 +80,7 @@ pub(crate) fn classify(block: &Block) -> Result<Kind<'_>, Box<Diagnostic>> {
             head_span(block),
             "no such word",
         );
-        return Err(Box::new(with_list(diagnostic)));
+        return Err(Box::new(with_list(diagnostic, operations)));
     };
     let rest = parts.get(1..).unwrap_or_default();
     match first.as_str() {
@@ -66,35 +88,41 @@ pub(crate) fn classify(block: &Block) -> Result<Kind<'_>, Box<Diagnostic>> {
         "profile" => plain(Kind::Profile, first, rest),
         "cell" => plain(Kind::Cell, first, rest),
         "blade" => blade(at, rest),
-        "rough" => rough(at, rest),
         "machine" => machine(at, rest),
-        _ => Err(Box::new(unknown(first, at))),
+        first if !second_words(first, operations).is_empty() => operation((first, at), rest, operations),
+        _ => Err(Box::new(unknown(first, at, operations))),
     }
 }
 
-fn form_of(first: &str) -> &'static str {
-    FORMS
-        .iter()
+fn form_of(first: &str) -> String {
+    let mut forms = forms(Operations::default()).into_iter();
+    forms
         .find(|(word, _)| *word == first)
-        .map_or("", |(_, form)| form)
+        .map_or_else(String::new, |(_, form)| form)
 }
 
-fn unknown(word: &str, at: Span) -> Diagnostic {
+fn unknown(word: &str, at: Span, operations: Operations) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::UnknownBlock,
         format!("there is no block `{word}`"),
         at,
         "not a block of the language",
     );
-    if ROUGHINGS.contains(&word) || ["roughing", "vcuts", "v_cut"].contains(&word) {
-        return diagnostic.fix("write `rough vcut`", at, "rough vcut");
+    let meant = operations
+        .0
+        .iter()
+        .find(|kind| kind.words()[1] == word || kind.mistaken_for().contains(&word));
+    if let Some(kind) = meant {
+        let head = kind.head();
+        return diagnostic.fix(format!("write `{head}`"), at, head);
     }
-    let near = nearest(word, FORMS.iter().map(|(word, _)| *word));
-    with_list(did_you_mean(diagnostic, at, &near))
+    let forms = forms(operations);
+    let near = nearest(word, forms.iter().map(|(word, _)| *word));
+    with_list(did_you_mean(diagnostic, at, &near), operations)
 }
 
-fn with_list(diagnostic: Diagnostic) -> Diagnostic {
-    let names: Vec<&str> = FORMS.iter().map(|(word, _)| *word).collect();
+fn with_list(diagnostic: Diagnostic, operations: Operations) -> Diagnostic {
+    let names: Vec<&str> = forms(operations).iter().map(|(word, _)| *word).collect();
     diagnostic.note(format!(
         "a job holds `job`, `use`, `let` and the blocks {}",
         names.join(", ")
@@ -105,13 +133,12 @@ fn with_list(diagnostic: Diagnostic) -> Diagnostic {
 fn plain<'a>(kind: Kind<'a>, first: &str, rest: &[(&HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
     match rest.first() {
         None => Ok(kind),
-        Some((_, at)) => Err(surplus(first, *at)),
+        Some((_, at)) => Err(surplus(first, *at, &form_of(first))),
     }
 }
 
 /// Something behind a head that is complete.
-fn surplus(first: &str, at: Span) -> Box<Diagnostic> {
-    let form = form_of(first);
+fn surplus(first: &str, at: Span, form: &str) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new(
         Code::Misplaced,
         format!("there is something after the head of `{first}`"),
@@ -122,65 +149,92 @@ fn surplus(first: &str, at: Span) -> Box<Diagnostic> {
 }
 
 /// A head that ends too early.
-fn incomplete(first: &str, what: &str, at: Span) -> Box<Diagnostic> {
+fn incomplete(first: &str, what: &str, at: Span, form: &str) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new(
         Code::MissingField,
         format!("`{first}` needs {what}"),
         at,
         format!("{what} is missing after this"),
     );
-    Box::new(diagnostic.help(format!("write `{}`", form_of(first))))
+    Box::new(diagnostic.help(format!("write `{form}`")))
 }
 
 fn blade<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
     match rest {
         [(HeadPart::Word(name), span)] => Ok(Kind::Blade(Spanned::new(name, *span))),
-        [(HeadPart::Word(_), _), (_, span), ..] => Err(surplus("blade", *span)),
-        _ => Err(incomplete("blade", "a name", at)),
+        [(HeadPart::Word(_), _), (_, span), ..] => Err(surplus("blade", *span, &form_of("blade"))),
+        _ => Err(incomplete("blade", "a name", at, &form_of("blade"))),
     }
 }
 
-fn rough<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
+fn operation<'a>(
+    (first, at): (&str, Span),
+    rest: &[(&'a HeadPart, Span)],
+    operations: Operations,
+) -> Result<Kind<'a>, Box<Diagnostic>> {
+    let kinds = second_words(first, operations);
+    // What the operations of this word are, together.
+    let noun = match first {
+        "rough" => "roughing",
+        other => other,
+    };
+    let form = || {
+        let kind = kinds.first().copied().unwrap_or_default();
+        format!("{first} {kind} {{ ... }}")
+    };
     match rest {
-        [(HeadPart::Word(kind), _), more @ ..] if ROUGHINGS.contains(&kind.as_str()) => match more {
-            [] => Ok(Kind::RoughVcut),
-            [(_, span), ..] => Err(surplus("rough", *span)),
-        },
-        [(HeadPart::Word(kind), span), ..] => {
-            let diagnostic = Diagnostic::new(
-                Code::UnknownBlock,
-                format!("there is no operation `rough {kind}`"),
-                *span,
-                "not a kind of roughing",
-            );
-            let near = nearest(kind, ROUGHINGS.iter().copied());
-            let diagnostic = did_you_mean(diagnostic, *span, &near);
-            Err(Box::new(
-                diagnostic.note(format!("kinds of roughing: {}", ROUGHINGS.join(", "))),
-            ))
+        [(HeadPart::Word(second), at), more @ ..] => {
+            let found = operations
+                .0
+                .iter()
+                .find(|kind| kind.words() == [first, second.as_str()]);
+            match (found, more) {
+                (Some(kind), []) => Ok(Kind::Operation(*kind)),
+                (Some(_), [(_, span), ..]) => Err(surplus(first, *span, &form())),
+                (None, _) => {
+                    let diagnostic = Diagnostic::new(
+                        Code::UnknownBlock,
+                        format!("there is no operation `{first} {second}`"),
+                        *at,
+                        format!("not a kind of {noun}"),
+                    );
+                    let near = nearest(second, kinds.iter().copied());
+                    let diagnostic = did_you_mean(diagnostic, *at, &near);
+                    Err(Box::new(
+                        diagnostic.note(format!("kinds of {noun}: {}", kinds.join(", "))),
+                    ))
+                }
+            }
         }
-        _ => Err(incomplete("rough", "a kind of roughing", at)),
+        _ => Err(incomplete(first, &format!("a kind of {noun}"), at, &form())),
     }
 }
 
 fn machine<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
     let (name, behind) = match rest {
         [(HeadPart::Word(name), span), behind @ ..] => (Spanned::new(name.as_str(), *span), behind),
-        _ => return Err(incomplete("machine", "a name", at)),
+        _ => return Err(incomplete("machine", "a name", at, &form_of("machine"))),
     };
     let (kind, behind) = match behind {
         [(HeadPart::Equals, _), (HeadPart::Word(kind), span), behind @ ..] => {
             (Spanned::new(machine_kind(kind, *span)?, *span), behind)
         }
-        _ => return Err(incomplete("machine", "what it is", name.span)),
+        _ => {
+            return Err(incomplete(
+                "machine",
+                "what it is",
+                name.span,
+                &form_of("machine"),
+            ));
+        }
     };
     match behind {
         [(HeadPart::Text(model), span)] => {
             let model = Spanned::new(model.as_str(), *span);
             Ok(Kind::Machine(machine::Head { name, kind, model }))
         }
-        [(HeadPart::Text(_), _), (_, span), ..] => Err(surplus("machine", *span)),
-        _ => Err(incomplete("machine", "its model", name.span)),
+        [(HeadPart::Text(_), _), (_, span), ..] => Err(surplus("machine", *span, &form_of("machine"))),
+        _ => Err(incomplete("machine", "its model", name.span, &form_of("machine"))),
     }
 }
 

@@ -6,6 +6,7 @@ use super::gather::Definitions;
 use super::quantity::number;
 use super::report::Reported;
 use super::session::{Session, start_of};
+use crate::operation::Operations;
 use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -16,15 +17,20 @@ pub(crate) struct Missing {
     start: Span,
     /// Name of the root file without folder and ending.
     stem: String,
-    /// Name of a blade to use in an example.
-    blade: String,
+    /// An operation as an example, with a blade of the job.
+    operation: String,
     /// Set when the block may be there but could not be read.
     quiet: Option<Reported>,
 }
 
 impl Missing {
     /// For the root file.
-    pub(crate) fn of(root: &File, all: &Definitions<'_>, session: &Session<'_>) -> Self {
+    pub(crate) fn of(
+        root: &File,
+        all: &Definitions<'_>,
+        operations: Operations,
+        session: &Session<'_>,
+    ) -> Self {
         let start = start_of(root.id);
         let text = session
             .sources
@@ -51,11 +57,9 @@ impl Missing {
                 .chars()
                 .filter(|letter| !matches!(letter, '"' | '\\') && !letter.is_control())
                 .collect(),
-            blade: all
-                .blades
-                .first()
-                .map_or("dagger", |(name, _)| name.node)
-                .to_owned(),
+            operation: operations.0.first().map_or_else(String::new, |kind| {
+                kind.example(all.blades.first().map_or("dagger", |(name, _)| name.node))
+            }),
             quiet: session.damage_at(start).or(all.doubtful),
         }
     }
@@ -104,12 +108,12 @@ impl Missing {
 
     /// The job has no operation.
     pub(crate) fn operation(&self, session: &mut Session<'_>) -> Reported {
-        let example = format!(
-            "rough vcut {{\n  blade = {}\n  lattice = orthogonal\n  rake = 60 deg\n  \
-             feed {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  clearance = 10 mm\n}}",
-            self.blade
-        );
-        self.block("operation", "nothing is done to the stock", &example, session)
+        self.block(
+            "operation",
+            "nothing is done to the stock",
+            &self.operation,
+            session,
+        )
     }
 
     fn block(&self, what: &str, label: &str, example: &str, session: &mut Session<'_>) -> Reported {

@@ -13,7 +13,7 @@ use vcutc_diagnostics::{Code, Diagnostic};
 
 /// What a name stands for, with its place in the list of its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Thing {
+pub enum Thing {
     /// A `let`.
     Let(usize),
     /// A blade.
@@ -24,7 +24,7 @@ pub(crate) enum Thing {
 
 impl Thing {
     /// With article.
-    pub(crate) const fn words(self) -> &'static str {
+    pub const fn words(self) -> &'static str {
         match self {
             Self::Let(_) => "a value",
             Self::Blade(_) => "a blade",
@@ -35,30 +35,30 @@ impl Thing {
 
 /// A name's definition.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Definition {
+pub struct Definition {
     /// What it stands for.
-    pub(crate) thing: Thing,
+    pub thing: Thing,
     /// Where the name is defined.
-    pub(crate) span: Span,
+    pub span: Span,
 }
 
 /// All names of a job.
 #[derive(Debug, Default)]
-pub(crate) struct Names<'a> {
+pub struct Names<'a> {
     table: BTreeMap<&'a str, Definition>,
     /// Set when definitions may be missing for a reason that has been reported.
-    pub(crate) incomplete: Option<Reported>,
+    pub incomplete: Option<Reported>,
 }
 
 /// Most names that an unknown one is compared with.
 const MOST_COMPARED: usize = 20_000;
 
 /// Words with a meaning of their own in values.
-pub(crate) const RESERVED: &[&str] = &["auto", "pi"];
+pub const RESERVED: &[&str] = &["auto", "pi"];
 
 impl<'a> Names<'a> {
     /// Defines a name, or reports why it cannot be defined.
-    pub(crate) fn define(&mut self, name: Spanned<&'a str>, thing: Thing, reports: &mut Reports) {
+    pub fn define(&mut self, name: Spanned<&'a str>, thing: Thing, reports: &mut Reports) {
         let Spanned { node: name, span } = name;
         let fault = if RESERVED.contains(&name) {
             Diagnostic::new(
@@ -81,7 +81,7 @@ impl<'a> Names<'a> {
     }
 
     /// The definition of a name.
-    pub(crate) fn get(&self, name: &str) -> Option<Definition> {
+    pub fn get(&self, name: &str) -> Option<Definition> {
         self.table.get(name).copied()
     }
 
@@ -94,12 +94,12 @@ impl<'a> Names<'a> {
     }
 
     /// Names of `let`s that are near a wanted one.
-    pub(crate) fn lets_near(&self, wanted: &str) -> Vec<&'a str> {
+    pub fn lets_near(&self, wanted: &str) -> Vec<&'a str> {
         nearest(wanted, self.of_kind(|thing| matches!(thing, Thing::Let(_))))
     }
 
     /// All names of a kind, for a help line; none when there are none, or too many to read.
-    pub(crate) fn list(&self, is_wanted: fn(Thing) -> bool) -> Option<String> {
+    pub fn list(&self, is_wanted: fn(Thing) -> bool) -> Option<String> {
         let names: Vec<String> = self
             .of_kind(is_wanted)
             .take(13)
@@ -109,7 +109,7 @@ impl<'a> Names<'a> {
     }
 
     /// Reports a name that is not one of the kind wanted.
-    pub(crate) fn not_a(
+    pub fn not_a(
         &self,
         what: &str,
         name: &str,
@@ -187,7 +187,7 @@ impl<'a> Names<'a> {
 }
 
 /// Adds near names: a fix when there is one, a help line when there are several.
-pub(crate) fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) -> Diagnostic {
+pub fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) -> Diagnostic {
     match near {
         [] => diagnostic,
         [one] => diagnostic.fix(format!("did you mean `{one}`?"), span, *one),
@@ -199,12 +199,12 @@ pub(crate) fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) ->
 }
 
 /// The diagnostic for a name that is defined twice.
-pub(crate) fn twice(name: &str, second: Span, first: Span) -> Diagnostic {
+pub fn twice(name: &str, second: Span, first: Span) -> Diagnostic {
     again(name, second, first).help("take one of the two out, or give it another name")
 }
 
 /// The diagnostic for what a job has once and no other name can be given to.
-pub(crate) fn more_than_one(what: &str, second: Span, first: Span) -> Diagnostic {
+pub fn more_than_one(what: &str, second: Span, first: Span) -> Diagnostic {
     again(what, second, first).help(format!("take one of the two out: a job has one `{what}`"))
 }
 

@@ -8,7 +8,7 @@ use vcutc_geometry::curve::Point2;
 use vcutc_syntax::ast::{Expr, Point};
 
 /// A point, in mm.
-pub(crate) fn point(point: &Point, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Point2> {
+pub fn point(point: &Point, scope: &Scope<'_>, reports: &mut Reports) -> Checked<Point2> {
     let mut coordinate = |expr: &Spanned<Expr>, taker: &str| {
         scope.expect(expr, Dimension::LENGTH, taker, Some("10 mm"), reports)
     };

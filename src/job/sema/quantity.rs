@@ -18,22 +18,22 @@ const LARGEST: f64 = 1e9;
 
 impl Quantity {
     /// A value held in the units of its dimension.
-    pub(crate) const fn new(value: f64, dimension: Dimension) -> Self {
+    pub const fn new(value: f64, dimension: Dimension) -> Self {
         Self { value, dimension }
     }
 
     /// A pure number.
-    pub(crate) const fn pure(value: f64) -> Self {
+    pub const fn pure(value: f64) -> Self {
         Self::new(value, Dimension::PURE)
     }
 
     /// A length, in mm.
-    pub(crate) const fn length(mm: f64) -> Self {
+    pub const fn length(mm: f64) -> Self {
         Self::new(mm, Dimension::LENGTH)
     }
 
     /// Whether it is a number of a size that can mean something.
-    pub(crate) fn is_sensible(self) -> bool {
+    pub fn is_sensible(self) -> bool {
         let Dimension {
             length,
             angle,
@@ -48,13 +48,13 @@ impl Quantity {
     }
 
     /// As people write it, to six digits: `34.16 deg`.
-    pub(crate) fn text(self) -> String {
+    pub fn text(self) -> String {
         with_unit(self.value / self.dimension.unit_size(), self.dimension)
     }
 }
 
 /// A number of the dimension's usual unit, with that unit: `34.16 deg`.
-pub(crate) fn with_unit(number_of_units: f64, dimension: Dimension) -> String {
+pub fn with_unit(number_of_units: f64, dimension: Dimension) -> String {
     let (number, unit) = (number(number_of_units), dimension.unit());
     if unit.is_empty() {
         number
@@ -64,12 +64,12 @@ pub(crate) fn with_unit(number_of_units: f64, dimension: Dimension) -> String {
 }
 
 /// A length as people write it.
-pub(crate) fn mm(value: f64) -> String {
+pub fn mm(value: f64) -> String {
     Quantity::length(value).text()
 }
 
 /// A number to six digits, without trailing zeros.
-pub(crate) fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude == 0.0 {
         return "0".to_owned();
@@ -89,7 +89,7 @@ pub(crate) fn number(value: f64) -> String {
 }
 
 /// A type of the later stages that a quantity turns into.
-pub(crate) trait Measured: Copy {
+pub trait Measured: Copy {
     /// What a value must be to become one.
     const DIMENSION: Dimension;
 

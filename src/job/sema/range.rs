@@ -5,7 +5,7 @@ use super::quantity::{number, with_unit};
 
 /// Lower end of a range.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Low {
+pub enum Low {
     /// The end itself is not legal.
     Above(f64),
     /// The end itself is legal.
@@ -14,7 +14,7 @@ pub(crate) enum Low {
 
 /// Upper end of a range.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum High {
+pub enum High {
     /// The end itself is not legal.
     Below(f64),
     /// The end itself is legal.
@@ -38,50 +38,49 @@ const fn range(dimension: Dimension, low: Low, high: High) -> Range {
 const LONGEST: f64 = 100_000.0;
 
 /// Lengths of things that exist.
-pub(crate) const SIZE: Range = range(Dimension::LENGTH, Low::Above(0.0), High::AtMost(LONGEST));
+pub const SIZE: Range = range(Dimension::LENGTH, Low::Above(0.0), High::AtMost(LONGEST));
 /// Lengths that may be nothing.
-pub(crate) const DISTANCE: Range = range(Dimension::LENGTH, Low::AtLeast(0.0), High::AtMost(LONGEST));
+pub const DISTANCE: Range = range(Dimension::LENGTH, Low::AtLeast(0.0), High::AtMost(LONGEST));
 /// Coordinates.
-pub(crate) const COORDINATE: Range = range(Dimension::LENGTH, Low::AtLeast(-LONGEST), High::AtMost(LONGEST));
+pub const COORDINATE: Range = range(Dimension::LENGTH, Low::AtLeast(-LONGEST), High::AtMost(LONGEST));
 /// Half the apex angle of a blade.
-pub(crate) const HALF_APEX: Range = range(Dimension::ANGLE, Low::AtLeast(0.0), High::Below(90.0));
+pub const HALF_APEX: Range = range(Dimension::ANGLE, Low::AtLeast(0.0), High::Below(90.0));
 /// Rake: at 90 deg the blade stands square to the feed.
-pub(crate) const RAKE: Range = range(Dimension::ANGLE, Low::Above(0.0), High::AtMost(90.0));
+pub const RAKE: Range = range(Dimension::ANGLE, Low::Above(0.0), High::AtMost(90.0));
 /// Swing: half the opening angle of a V. Swings are chosen to a thousandth of a degree; less than that is no V.
-pub(crate) const SWING: Range = range(Dimension::ANGLE, Low::AtLeast(0.001), High::Below(90.0));
+pub const SWING: Range = range(Dimension::ANGLE, Low::AtLeast(0.001), High::Below(90.0));
 /// Angles of a frame.
-pub(crate) const FRAME_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-360.0), High::AtMost(360.0));
+pub const FRAME_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-360.0), High::AtMost(360.0));
 /// Parts of a quaternion. Whether all four make a rotation is looked at together.
-pub(crate) const QUATERNION_PART: Range = range(Dimension::PURE, Low::AtLeast(-1000.0), High::AtMost(1000.0));
+pub const QUATERNION_PART: Range = range(Dimension::PURE, Low::AtLeast(-1000.0), High::AtMost(1000.0));
 /// Angles of robot axes, which may turn more than once.
-pub(crate) const AXIS_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-1080.0), High::AtMost(1080.0));
+pub const AXIS_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-1080.0), High::AtMost(1080.0));
 /// Speeds of the tip, up to 100 m/s.
-pub(crate) const SPEED: Range = range(Dimension::SPEED, Low::Above(0.0), High::AtMost(100_000.0));
+pub const SPEED: Range = range(Dimension::SPEED, Low::Above(0.0), High::AtMost(100_000.0));
 /// Rates of turning the blade.
-pub(crate) const TURNING_RATE: Range =
-    range(Dimension::TURNING_RATE, Low::Above(0.0), High::AtMost(10_000.0));
+pub const TURNING_RATE: Range = range(Dimension::TURNING_RATE, Low::Above(0.0), High::AtMost(10_000.0));
 /// Overlap of neighbouring cuts.
-pub(crate) const OVERLAP: Range = range(Dimension::PURE, Low::AtLeast(0.0), High::Below(1.0));
+pub const OVERLAP: Range = range(Dimension::PURE, Low::AtLeast(0.0), High::Below(1.0));
 /// Waiting times, up to an hour.
-pub(crate) const WAIT: Range = range(Dimension::TIME, Low::AtLeast(0.0), High::AtMost(3600.0));
+pub const WAIT: Range = range(Dimension::TIME, Low::AtLeast(0.0), High::AtMost(3600.0));
 /// Longest times of an operation, up to a year.
-pub(crate) const LONGEST_TIME: Range = range(Dimension::TIME, Low::Above(0.0), High::AtMost(31_536_000.0));
+pub const LONGEST_TIME: Range = range(Dimension::TIME, Low::Above(0.0), High::AtMost(31_536_000.0));
 /// Most cuts of an operation.
-pub(crate) const MOST_CUTS: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(4_000_000.0));
+pub const MOST_CUTS: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(4_000_000.0));
 /// Masses on a flange.
-pub(crate) const MASS: Range = range(Dimension::MASS, Low::AtLeast(0.0), High::AtMost(10_000.0));
+pub const MASS: Range = range(Dimension::MASS, Low::AtLeast(0.0), High::AtMost(10_000.0));
 /// Factors by which a file's points are stretched.
-pub(crate) const SCALE: Range = range(Dimension::PURE, Low::Above(0.0), High::AtMost(1e6));
+pub const SCALE: Range = range(Dimension::PURE, Low::Above(0.0), High::AtMost(1e6));
 /// Gaps between the lines of a drawing over which they are joined.
-pub(crate) const JOINING: Range = range(Dimension::LENGTH, Low::Above(0.0), High::AtMost(10.0));
+pub const JOINING: Range = range(Dimension::LENGTH, Low::Above(0.0), High::AtMost(10.0));
 /// Numbers of inputs and outputs of a controller.
-pub(crate) const SIGNAL: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(65_535.0));
+pub const SIGNAL: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(65_535.0));
 /// Numbers of a controller's own tables, counted from 1.
-pub(crate) const TABLE_NUMBER: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(9_999.0));
+pub const TABLE_NUMBER: Range = range(Dimension::PURE, Low::AtLeast(1.0), High::AtMost(9_999.0));
 
 impl Range {
     /// Whether a value in mm, rad, s, kg lies within.
-    pub(crate) fn holds(self, value: f64) -> bool {
+    pub fn holds(self, value: f64) -> bool {
         // Ends are converted, not the value, so that `90 deg` is exactly the end at 90 deg.
         let unit = self.dimension.unit_size();
         let above = match self.low {
@@ -96,7 +95,7 @@ impl Range {
     }
 
     /// In words: `greater than 0 deg and at most 90 deg`.
-    pub(crate) fn words(self) -> String {
+    pub fn words(self) -> String {
         let low = match self.low {
             Low::Above(end) => format!("greater than {}", self.end(end)),
             Low::AtLeast(end) => format!("at least {}", self.end(end)),

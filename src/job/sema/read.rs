@@ -14,15 +14,15 @@ use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::Expr;
 
 /// Reads values, and reports what is wrong with them.
-pub(crate) struct Reader<'s> {
+pub struct Reader<'s> {
     /// What names stand for.
-    pub(crate) scope: Scope<'s>,
+    pub scope: Scope<'s>,
     /// Where faults go.
-    pub(crate) reports: &'s mut Reports,
+    pub reports: &'s mut Reports,
 }
 
 /// A value that stands in the text.
-pub(crate) const fn sourced<T>(value: T, span: Span) -> Sourced<T> {
+pub const fn sourced<T>(value: T, span: Span) -> Sourced<T> {
     Sourced {
         value,
         span: Some(span),
@@ -30,7 +30,7 @@ pub(crate) const fn sourced<T>(value: T, span: Span) -> Sourced<T> {
 }
 
 /// A value that is a default.
-pub(crate) const fn default<T>(value: T) -> Sourced<T> {
+pub const fn default<T>(value: T) -> Sourced<T> {
     Sourced { value, span: None }
 }
 
@@ -43,7 +43,7 @@ fn as_percent(expr: &Spanned<Expr>, value: f64, range: Range) -> Option<String> 
 
 impl Reader<'_> {
     /// The value of an expression within a range, in mm, rad, s, kg. `taker` names who takes it: `` `rake` ``.
-    pub(crate) fn within(
+    pub fn within(
         &mut self,
         expr: &Spanned<Expr>,
         range: Range,
@@ -80,7 +80,7 @@ impl Reader<'_> {
     }
 
     /// The value of a field, if it is given.
-    pub(crate) fn optional<T: Measured>(
+    pub fn optional<T: Measured>(
         &mut self,
         fields: &Fields<'_>,
         name: &str,
@@ -93,7 +93,7 @@ impl Reader<'_> {
     }
 
     /// The value that a field is to be at least, if it is given.
-    pub(crate) fn least<T: Measured>(
+    pub fn least<T: Measured>(
         &mut self,
         fields: &Fields<'_>,
         name: &str,
@@ -106,7 +106,7 @@ impl Reader<'_> {
     }
 
     /// The value of a field that must be given.
-    pub(crate) fn required<T: Measured>(
+    pub fn required<T: Measured>(
         &mut self,
         fields: &Fields<'_>,
         name: &str,
@@ -117,7 +117,7 @@ impl Reader<'_> {
     }
 
     /// The value of a field that has a default.
-    pub(crate) fn defaulted<T: Measured>(
+    pub fn defaulted<T: Measured>(
         &mut self,
         fields: &Fields<'_>,
         name: &str,
@@ -129,7 +129,7 @@ impl Reader<'_> {
     }
 
     /// The value of a field that may be left to the compiler, which is also its default.
-    pub(crate) fn auto<T: Measured>(
+    pub fn auto<T: Measured>(
         &mut self,
         fields: &Fields<'_>,
         name: &str,
@@ -175,7 +175,7 @@ impl Reader<'_> {
     }
 
     /// One of a few words, or `auto`, which is also its default.
-    pub(crate) fn auto_choice<T: Copy>(
+    pub fn auto_choice<T: Copy>(
         &mut self,
         fields: &Fields<'_>,
         name: &str,
@@ -190,7 +190,7 @@ impl Reader<'_> {
     }
 
     /// One of a few words, if the field is given.
-    pub(crate) fn choice<T: Copy>(
+    pub fn choice<T: Copy>(
         &mut self,
         fields: &Fields<'_>,
         name: &str,
@@ -203,7 +203,7 @@ impl Reader<'_> {
     }
 
     /// One of a few words.
-    pub(crate) fn word<T: Copy>(
+    pub fn word<T: Copy>(
         &mut self,
         name: &str,
         expr: &Spanned<Expr>,
@@ -254,7 +254,7 @@ impl Reader<'_> {
     }
 
     /// A text in quotes, if the field is given.
-    pub(crate) fn text(&mut self, fields: &Fields<'_>, name: &str) -> Checked<Option<Spanned<String>>> {
+    pub fn text(&mut self, fields: &Fields<'_>, name: &str) -> Checked<Option<Spanned<String>>> {
         let Some(expr) = fields.value(name)? else {
             return Ok(None);
         };
@@ -283,7 +283,7 @@ impl Reader<'_> {
     }
 
     /// A whole number within a range.
-    pub(crate) fn whole(&mut self, expr: &Spanned<Expr>, range: Range, taker: &str) -> Checked<u32> {
+    pub fn whole(&mut self, expr: &Spanned<Expr>, range: Range, taker: &str) -> Checked<u32> {
         let value = self.within(expr, range, taker, None)?;
         #[expect(
             clippy::cast_possible_truncation,
@@ -307,12 +307,12 @@ impl Reader<'_> {
 }
 
 /// The words of a choice.
-pub(crate) fn words_of<T>(choice: &[(&'static str, T)]) -> Vec<&'static str> {
+pub fn words_of<T>(choice: &[(&'static str, T)]) -> Vec<&'static str> {
     choice.iter().map(|(word, _)| *word).collect()
 }
 
 /// What an expression is called in a sentence, by its looks.
-pub(crate) const fn looks_like(expr: &Expr) -> &'static str {
+pub const fn looks_like(expr: &Expr) -> &'static str {
     match expr {
         Expr::Number { .. } | Expr::Negate(_) => "a number",
         Expr::Text(_) => "a text",

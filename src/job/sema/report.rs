@@ -7,38 +7,38 @@ use vcutc_diagnostics::Diagnostic;
 
 /// Proof that a diagnostic has been reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Reported(());
+pub struct Reported(());
 
 /// A value, or the proof that its fault has been reported.
-pub(crate) type Checked<T> = Result<T, Reported>;
+pub type Checked<T> = Result<T, Reported>;
 
 /// The diagnostics of one run, or of one trial evaluation.
 #[derive(Debug, Default)]
-pub(crate) struct Reports {
+pub struct Reports {
     diagnostics: Vec<Diagnostic>,
 }
 
 impl Reports {
     /// Takes a diagnostic.
-    pub(crate) fn push(&mut self, diagnostic: Diagnostic) -> Reported {
+    pub fn push(&mut self, diagnostic: Diagnostic) -> Reported {
         self.diagnostics.push(diagnostic);
         Reported(())
     }
 
     /// Takes what another stage has found; the token when that was anything.
-    pub(crate) fn append(&mut self, found: Vec<Diagnostic>) -> Option<Reported> {
+    pub fn append(&mut self, found: Vec<Diagnostic>) -> Option<Reported> {
         let token = (!found.is_empty()).then_some(Reported(()));
         self.diagnostics.extend(found);
         token
     }
 
     /// Whether there are more than anybody reads in one go, so that it is time to be brief.
-    pub(crate) const fn are_many(&self) -> bool {
+    pub const fn are_many(&self) -> bool {
         self.diagnostics.len() > 200
     }
 
     /// All of them, in the order in which they were found.
-    pub(crate) fn into_vec(self) -> Vec<Diagnostic> {
+    pub fn into_vec(self) -> Vec<Diagnostic> {
         self.diagnostics
     }
 }

@@ -8,26 +8,26 @@ use vcutc_diagnostics::source::{FileId, Loader, SourceMap, Span};
 use vcutc_machine::Model;
 
 /// One run.
-pub(crate) struct Session<'a> {
+pub struct Session<'a> {
     /// Where files come from.
-    pub(crate) loader: &'a dyn Loader,
+    pub loader: &'a dyn Loader,
     /// All texts so far.
-    pub(crate) sources: &'a mut SourceMap,
+    pub sources: &'a mut SourceMap,
     /// What there is to tell.
-    pub(crate) reports: Reports,
+    pub reports: Reports,
     /// Files of which a part could not be read. What seems to be missing there may be in the unreadable part.
     damaged: BTreeMap<FileId, Reported>,
     /// Machines read so far, by name of the catalogue or path of the file: a shop may put one arm into several cells.
-    pub(crate) machines: BTreeMap<String, Checked<Arc<Model>>>,
+    pub machines: BTreeMap<String, Checked<Arc<Model>>>,
     /// Profiles read so far, by path: the cells of a shop may share one.
-    pub(crate) profiles: BTreeMap<String, Checked<Profile>>,
+    pub profiles: BTreeMap<String, Checked<Profile>>,
     /// Set when definitions may be missing because a file could not be had or read in full.
     incomplete: Option<Reported>,
 }
 
 impl<'a> Session<'a> {
     /// A run that has found nothing yet.
-    pub(crate) fn new(loader: &'a dyn Loader, sources: &'a mut SourceMap) -> Self {
+    pub fn new(loader: &'a dyn Loader, sources: &'a mut SourceMap) -> Self {
         Self {
             loader,
             sources,
@@ -40,29 +40,29 @@ impl<'a> Session<'a> {
     }
 
     /// Remembers that a part of a file could not be read.
-    pub(crate) fn set_damaged(&mut self, file: FileId, reported: Reported) {
+    pub fn set_damaged(&mut self, file: FileId, reported: Reported) {
         self.damaged.insert(file, reported);
         self.incomplete = Some(reported);
     }
 
     /// Remembers that a whole file is missing.
-    pub(crate) const fn set_incomplete(&mut self, reported: Reported) {
+    pub const fn set_incomplete(&mut self, reported: Reported) {
         self.incomplete = Some(reported);
     }
 
     /// Whether a part of the file at that place could not be read.
-    pub(crate) fn damage_at(&self, place: Span) -> Option<Reported> {
+    pub fn damage_at(&self, place: Span) -> Option<Reported> {
         self.damaged.get(&place.file).copied()
     }
 
     /// Whether definitions may be missing.
-    pub(crate) const fn incomplete(&self) -> Option<Reported> {
+    pub const fn incomplete(&self) -> Option<Reported> {
         self.incomplete
     }
 }
 
 /// The whole text of a file as a place of no extent at its start.
-pub(crate) const fn start_of(file: FileId) -> Span {
+pub const fn start_of(file: FileId) -> Span {
     Span {
         file,
         start: 0,

@@ -23,7 +23,7 @@ pub enum Form {
 
 /// How an entry is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Written {
+pub enum Written {
     /// `name = value`.
     Value,
     /// `name { ... }`.
@@ -36,7 +36,7 @@ pub(super) enum Written {
 
 impl Form {
     /// Whether a field of this form is written so.
-    pub(super) const fn takes(self, written: Written) -> bool {
+    pub const fn takes(self, written: Written) -> bool {
         match (self, written) {
             (Self::Value, Written::Value)
             | (Self::Block, Written::Block)
@@ -116,7 +116,7 @@ impl FieldSpec {
     }
 
     /// The same, but it must be there.
-    pub(crate) const fn required(self) -> Self {
+    pub const fn required(self) -> Self {
         Self {
             need: Need::Required,
             ..self
@@ -124,17 +124,17 @@ impl FieldSpec {
     }
 
     /// The same, with what its value is.
-    pub(crate) const fn takes(self, takes: Takes) -> Self {
+    pub const fn takes(self, takes: Takes) -> Self {
         Self { takes, ..self }
     }
 
     /// The same, with a value of a range.
-    pub(crate) const fn within(self, range: Range) -> Self {
+    pub const fn within(self, range: Range) -> Self {
         self.takes(Takes::Quantity(range))
     }
 
     /// The same, but it can be left to the compiler.
-    pub(crate) const fn or_auto(self) -> Self {
+    pub const fn or_auto(self) -> Self {
         Self {
             leaving: Leaving::Open,
             ..self
@@ -152,27 +152,27 @@ impl FieldSpec {
 }
 
 /// A field of the form `name = value`.
-pub(crate) const fn value(name: &'static str, typical: &'static str) -> FieldSpec {
+pub const fn value(name: &'static str, typical: &'static str) -> FieldSpec {
     FieldSpec::new(name, Form::Value, typical)
 }
 
 /// A field of the form `name { ... }`.
-pub(crate) const fn block(name: &'static str, typical: &'static str) -> FieldSpec {
+pub const fn block(name: &'static str, typical: &'static str) -> FieldSpec {
     FieldSpec::new(name, Form::Block, typical)
 }
 
 /// A field of the form `name (x, z) (x, z) ...`.
-pub(crate) const fn points(name: &'static str, typical: &'static str) -> FieldSpec {
+pub const fn points(name: &'static str, typical: &'static str) -> FieldSpec {
     FieldSpec::new(name, Form::Points, typical)
 }
 
 /// A field of the form `name <= value`.
-pub(crate) const fn limit(name: &'static str, typical: &'static str) -> FieldSpec {
+pub const fn limit(name: &'static str, typical: &'static str) -> FieldSpec {
     FieldSpec::new(name, Form::Limit, typical)
 }
 
 /// A field of the forms `name <= value` and `name >= value`.
-pub(crate) const fn bounds(name: &'static str, typical: &'static str) -> FieldSpec {
+pub const fn bounds(name: &'static str, typical: &'static str) -> FieldSpec {
     FieldSpec::new(name, Form::Bounds, typical)
 }
 
@@ -180,7 +180,7 @@ pub(crate) const fn bounds(name: &'static str, typical: &'static str) -> FieldSp
 #[derive(Debug)]
 pub struct BlockSpec {
     /// What it is called in a sentence, such as `` `rough vcut` ``.
-    pub(crate) title: &'static str,
+    pub title: &'static str,
     /// Its fields, in the order in which people write them.
     pub fields: &'static [FieldSpec],
     /// What becomes of inner blocks that are no fields.

@@ -14,6 +14,7 @@ use super::report::{Checked, Reports};
 use super::session::Session;
 use super::{Choices, Part, Said, cell, cut_short, options, understand, units};
 use crate::CheckedJob;
+use crate::operation::Operations;
 use vcutc_diagnostics::source::{FileId, LoadError, Loader, SourceMap, Spanned};
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_syntax::ast::{Ast, Expr};
@@ -27,6 +28,8 @@ pub struct Study {
     pub definitions: Vec<Definition>,
     /// The job, when it is one and has no errors of meaning.
     pub job: Option<CheckedJob>,
+    /// The operations that the language has.
+    pub operations: Operations,
 }
 
 /// A file and its tree.
@@ -89,6 +92,7 @@ pub fn study(
                     typed: choices.options,
                     read: &overrides.options,
                 },
+                operations: choices.operations,
             };
             understand(root, &files, part, said, &mut session)
         }
@@ -112,6 +116,7 @@ pub fn study(
             .collect(),
         definitions,
         job,
+        operations: choices.operations,
     })
 }
 

@@ -11,38 +11,38 @@ use super::profile::{data, drawing};
 pub(crate) use super::range::Range;
 use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
 pub use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
-use super::{Part, blade, cell, frame, functions, machine, names, rough_vcut, stock, units};
+use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
+use crate::operation::Operations;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_syntax::ast::Block;
 
 /// What can stand at the top of a file: its first word, and how all of it looks.
-pub fn items() -> impl Iterator<Item = (&'static str, &'static str)> {
+pub fn items(operations: Operations) -> impl Iterator<Item = (&'static str, String)> {
     const PLAIN: &[(&str, &str)] = &[
         ("job", "job \"NAME\""),
         ("use", "use \"PATH\""),
         ("let", "let NAME = VALUE"),
     ];
-    PLAIN.iter().chain(heads::FORMS).copied()
+    let plain = PLAIN.iter().map(|(word, form)| (*word, (*form).to_owned()));
+    plain.chain(heads::forms(operations))
 }
 
 /// Words that can follow the first word of a block's head.
-pub fn head_words(first: &str) -> Vec<&'static str> {
+pub fn head_words(first: &str, operations: Operations) -> Vec<&'static str> {
     match first {
-        "rough" => heads::ROUGHINGS.to_vec(),
         "machine" => heads::MACHINES.iter().map(|(word, _)| *word).collect(),
-        _ => Vec::new(),
+        first => heads::second_words(first, operations),
     }
 }
 
-/// The fields of the block whose head begins with this word.
-pub fn block(first: &str) -> Option<&'static BlockSpec> {
+/// The fields of the block whose head begins with these words.
+pub fn block(first: &str, second: Option<&str>, operations: Operations) -> Option<&'static BlockSpec> {
     match first {
         "stock" => Some(&stock::SPEC),
         "blade" => Some(&blade::SPEC),
-        "rough" => Some(&rough_vcut::SPEC),
         "machine" => Some(&machine::SPEC),
         "cell" => Some(&cell::SPEC),
-        _ => None,
+        first => Some(operations.find(first, second)?.spec()),
     }
 }
 
@@ -196,9 +196,9 @@ pub fn unit_spoken(unit: &str) -> Option<String> {
 }
 
 /// Where a block may stand: in a job only, or in a library as well; none if its head is not right.
-pub fn standing(block: &Block) -> Option<Part> {
-    Some(match heads::classify(block).ok()? {
-        Kind::Stock | Kind::Profile | Kind::Cell | Kind::RoughVcut => Part::Job,
+pub fn standing(block: &Block, operations: Operations) -> Option<Part> {
+    Some(match heads::classify(block, operations).ok()? {
+        Kind::Stock | Kind::Profile | Kind::Cell | Kind::Operation(_) => Part::Job,
         Kind::Blade(_) | Kind::Machine(_) => Part::Library,
     })
 }

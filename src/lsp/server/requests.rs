@@ -509,7 +509,7 @@ fn coloured(server: &Server, params: SemanticTokensParams) -> Answer {
         let (_, ast) = asked.analysis.file(&asked.path)?;
         Some(SemanticTokens {
             result_id: None,
-            data: semantic_tokens(ast, asked.text),
+            data: semantic_tokens(ast, asked.analysis.study.operations, asked.text),
         })
     });
     Ok(json!(tokens))

@@ -5,8 +5,7 @@ use crate::sweep::Cure;
 use crate::trouble::Trouble;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::grid;
-use vcutc_job::{Auto, CheckedJob, Operation};
-use vcutc_process::plan::{PlannedJob, PlannedOperation};
+use vcutc_job::{Auto, CheckedJob, PlannedJob};
 
 /// The job with the extension that the turns of its machine need, and `run_out` besides. None where something else is in the
 /// way, or the job states the extension itself.
@@ -29,14 +28,14 @@ pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Opti
     let program = unreachable.program.program();
     let operation = program.ops.get(sweep.op.0 as usize)?.site.operation()?;
     let place = usize::from(operation.0);
-    let PlannedOperation::RoughVcut(vcut) = plan.operations.get(place)?;
+    let planned = plan.operation(operation)?;
     let mut roomier = job.clone();
-    let Operation::RoughVcut(asked) = roomier.operations.get_mut(place)?;
-    match asked.extension.value {
+    let setup = roomier.operations.get_mut(place)?.setup_mut();
+    match setup.extension.value {
         Auto::Auto => {}
         Auto::Given(_) => return None,
     }
-    let needed = vcut.parameters.extension + by + asked.run_out.value;
-    asked.extension.value = Auto::Given(Length::mm(grid::up(needed.to_mm())));
+    let needed = planned.extension() + by + setup.run_out.value;
+    setup.extension.value = Auto::Given(Length::mm(grid::up(needed.to_mm())));
     Some(roomier)
 }

@@ -13,10 +13,9 @@ use crate::trouble::Trouble;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};
-use vcutc_backend_api::units::{Angle, AngularSpeed, Speed};
 use vcutc_diagnostics::number::show;
-use vcutc_diagnostics::source::Span;
-use vcutc_job::{Operation, RoughVcut};
+use vcutc_job::setup::SpeedField as Field;
+use vcutc_job::{Operation, Setup};
 use vcutc_machine::Model;
 
 /// What a lower speed costs.
@@ -26,50 +25,6 @@ pub(super) enum Loss {
     Bearable,
     /// A speed falls below a quarter of what was asked for.
     Severe,
-}
-
-/// A speed of an operation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Field {
-    /// Of cuts.
-    Cut,
-    /// Of ways beside and above the work.
-    Travel,
-    /// Of turns of the blade.
-    Reorient,
-}
-
-impl Field {
-    /// What an operation asks for, in mm/s or deg/s.
-    #[must_use]
-    pub fn value(self, asked: &RoughVcut) -> f64 {
-        match self {
-            Self::Cut => asked.cut_feed.value.to_mm_per_s(),
-            Self::Travel => asked.travel_feed.value.to_mm_per_s(),
-            Self::Reorient => asked.reorient_rate.value.to_rad_per_s().to_degrees(),
-        }
-    }
-
-    /// Asks for another speed, in mm/s or deg/s.
-    pub fn set(self, asked: &mut RoughVcut, speed: f64) {
-        match self {
-            Self::Cut => asked.cut_feed.value = Speed::mm_per_s(speed),
-            Self::Travel => asked.travel_feed.value = Speed::mm_per_s(speed),
-            Self::Reorient => {
-                asked.reorient_rate.value = AngularSpeed::rad_per_s(Angle::deg(speed).to_rad());
-            }
-        }
-    }
-
-    /// What it is called, its unit, and where it is written.
-    #[must_use]
-    pub const fn written(self, asked: &RoughVcut) -> (&'static str, &'static str, Option<Span>) {
-        match self {
-            Self::Cut => ("cut", "mm/s", asked.cut_feed.span),
-            Self::Travel => ("travel", "mm/s", asked.travel_feed.span),
-            Self::Reorient => ("reorient", "deg/s", asked.reorient_rate.span),
-        }
-    }
 }
 
 /// Speeds by operation and field, in mm/s and deg/s.
@@ -184,10 +139,9 @@ pub fn pacing(program: &Program, op: OpId) -> Option<Field> {
     })
 }
 
-fn asked(operations: &[Operation], operation: u16) -> Option<&RoughVcut> {
-    operations
-        .get(usize::from(operation))
-        .map(|Operation::RoughVcut(asked)| asked)
+fn asked(operations: &[Box<dyn Operation>], operation: u16) -> Option<&Setup> {
+    let operation = operations.get(usize::from(operation))?;
+    Some(operation.setup())
 }
 
 /// A value below another that people like to write: whole numbers from ten on, else tenths.
@@ -198,16 +152,15 @@ pub fn lower(value: f64) -> Option<f64> {
     (rounded > 0.0).then_some(rounded)
 }
 
-fn set(operations: &mut [Operation], speeds: &Speeds) {
+fn set(operations: &mut [Box<dyn Operation>], speeds: &Speeds) {
     for (&(operation, field), &speed) in speeds {
-        let Some(Operation::RoughVcut(asked)) = operations.get_mut(usize::from(operation)) else {
-            continue;
-        };
-        field.set(asked, speed);
+        if let Some(operation) = operations.get_mut(usize::from(operation)) {
+            field.set(operation.setup_mut(), speed);
+        }
     }
 }
 
-fn remedy(operations: &[Operation], speeds: &Speeds) -> Option<(Remedy, Loss)> {
+fn remedy(operations: &[Box<dyn Operation>], speeds: &Speeds) -> Option<(Remedy, Loss)> {
     let mut words = Vec::new();
     let mut edits = Vec::new();
     let mut loss = Loss::Bearable;
@@ -216,14 +169,13 @@ fn remedy(operations: &[Operation], speeds: &Speeds) -> Option<(Remedy, Loss)> {
         if speed < SEVERE * field.value(asked) {
             loss = Loss::Severe;
         }
-        let (name, unit, span) = field.written(asked);
-        let text = format!("{} {unit}", show(speed));
-        let word = format!("`{name} = {text}`");
+        let text = format!("{} {}", show(speed), field.unit());
+        let word = format!("`{} = {text}`", field.name());
         // Two operations may ask for the same.
         if !words.contains(&word) {
             words.push(word);
         }
-        edits.extend(span.map(|span| (span, text)));
+        edits.extend(field.span(asked).map(|span| (span, text)));
     }
     let advice = format!("use {}, which the axes follow", words.join(" with "));
     let remedy = if edits.len() == speeds.len() {

@@ -13,10 +13,10 @@ use vcutc_backend_api::ir::{OpId, PlacedFrame, Program, Site};
 use vcutc_backend_api::verify::verify;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_job::PlannedJob;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
 use vcutc_process::lower;
-use vcutc_process::plan::PlannedJob;
 use vcutc_process::verdict;
 
 /// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.

@@ -6,7 +6,7 @@ use vcutc_backend_api::ir::Op;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::{Auto, CheckedJob, Operation, RoughVcut};
+use vcutc_job::{Auto, CheckedJob, Setup};
 
 /// How far out of the stock a tip is carried by lengths that are meant, at most, in mm.
 const MEANT: f64 = 1000.0;
@@ -15,7 +15,7 @@ const MEANT: f64 = 1000.0;
 /// reach the stock itself. `place` says which op it is, such as `layer 7, cut 12`.
 pub(super) fn far_outside(job: &CheckedJob, place: &str, op: &Op, tip: Point3) -> Option<Diagnostic> {
     let operation = job.operations.get(usize::from(op.site.operation()?.0))?;
-    let Operation::RoughVcut(asked) = operation;
+    let asked = operation.setup();
     let above = tip.z - job.stock.height.to_mm();
     let beside = (-tip.y).max(tip.y - job.stock.depth.to_mm());
     let (far, side, field, span) = if above >= beside {
@@ -36,7 +36,7 @@ pub(super) fn far_outside(job: &CheckedJob, place: &str, op: &Op, tip: Point3) -
 }
 
 /// The field that makes cuts run out so far, and where it stands.
-fn run_out(asked: &RoughVcut) -> (&'static str, Option<Span>) {
+fn run_out(asked: &Setup) -> (&'static str, Option<Span>) {
     let blade = &asked.blade;
     match asked.extension.value {
         Auto::Given(_) => ("`extension`", asked.extension.span),

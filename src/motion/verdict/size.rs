@@ -7,7 +7,7 @@
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::{CheckedJob, Operation};
+use vcutc_job::CheckedJob;
 use vcutc_machine::kinematics::pose::Pose;
 
 /// Why the job's machine cannot cut work of that size. None says nothing.
@@ -17,10 +17,8 @@ pub fn too_large(job: &CheckedJob) -> Option<Diagnostic> {
     let model = &machine.model;
     let tip = Pose::from(machine.tool.value.frame).position;
     let tip_apart = model.mechanism.most_apart(&model.axes, tip)?;
-    let edges = job.operations.iter().map(|Operation::RoughVcut(asked)| {
-        let blade = &asked.blade;
-        blade.cutting_length.value.to_mm()
-    });
+    let blades = job.operations.iter().map(|operation| &operation.setup().blade);
+    let edges = blades.map(|blade| blade.cutting_length.value.to_mm());
     let edge = edges.fold(0.0, f64::max);
     let apart = apart(job, edge);
     // An edge at either end, with as much again for what may stay.

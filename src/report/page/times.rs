@@ -6,7 +6,6 @@ use super::{Section, Subject};
 use crate::pictures;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary::time;
-use vcutc_process::plan::PlannedOperation;
 use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::Timing;
 
@@ -37,10 +36,7 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
 
 /// How the mean-value model and the program agree.
 fn agreement(subject: Subject<'_>, total: Duration) -> String {
-    let operations = subject.material.plan.operations.iter();
-    let estimate: Duration = operations
-        .map(|PlannedOperation::RoughVcut(vcut)| vcut.estimate)
-        .sum();
+    let estimate = subject.material.plan.estimate();
     let apart = match (estimate.to_s() / total.to_s() - 1.0) * 100.0 {
         percent if percent >= 0.05 => format!(" ({percent:.1} % too high)"),
         percent if percent <= -0.05 => format!(" ({:.1} % too low)", -percent),

@@ -108,7 +108,8 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
         remark,
         room: Room::Enough,
     };
-    let (scallop, limit) = (report.scallop.height, summary::scallop_limit(material.plan));
+    let limit = material.plan.scallop_limit().map(|(_, limit)| limit.value);
+    let scallop = report.scallop.height;
     let (edge, blade) = (report.longest_edge, summary::longest_blade(material.plan));
     let (left, removed) = (report.residual.to_mm2(), report.removed.to_mm2());
     let mut rows = vec![

@@ -4,13 +4,12 @@ use crate::Material;
 use vcutc_backend_api::ir::Edges;
 use vcutc_diagnostics::number::show;
 use vcutc_picture::{Prefix, blade};
-use vcutc_process::plan::PlannedOperation;
 
 /// The blade of the first operation with the axes of its frame (`picture::blade`); none for a job that plans nothing.
 #[must_use]
 pub fn blade(material: &Material<'_>, ids: Prefix) -> Option<String> {
-    let PlannedOperation::RoughVcut(vcut) = material.plan.operations.first()?;
-    let held = &vcut.asked.blade;
+    let setup = material.plan.operations.first()?.asked().setup();
+    let held = &setup.blade;
     let subtitle = format!(
         "blade `{}`, {} mm long, {} mm thick, over the work at swing 0",
         held.name,
@@ -23,7 +22,7 @@ pub fn blade(material: &Material<'_>, ids: Prefix) -> Option<String> {
             title: "The blade in the hand: the axes of `tool`",
             subtitle: &subtitle,
         },
-        rake: vcut.asked.rake.value.to_rad(),
+        rake: setup.rake.value.to_rad(),
         half_apex: held.half_apex.value.to_rad(),
         back: match held.edges {
             Edges::Double => blade::Back::Edge,

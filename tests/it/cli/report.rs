@@ -8,7 +8,7 @@ use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
-use vcutc::process::plan::PlannedOperation;
+use vcutc::vcut::PlannedVcut;
 
 /// What a hostile author would call things.
 pub(crate) const HOSTILE: &str =
@@ -283,7 +283,7 @@ fn assert_lists_every_cut(job: &str, machine: &str) {
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     let outcome = compile_on(Some(machine), job, &Files::of(root()));
     let (plan, report) = (outcome.plan.unwrap(), outcome.compiled.unwrap().report);
-    let PlannedOperation::RoughVcut(vcut) = &plan.operations[0];
+    let vcut = PlannedVcut::of(&*plan.operations[0]).unwrap();
     let mut planned: Vec<String> = vcut
         .cuts
         .iter()

@@ -239,7 +239,7 @@ fn a_near_file_is_a_quick_fix() {
 #[test]
 fn clients_without_snippets_get_texts() {
     let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
-    editor.server = vcutc::lsp::Server::new(&vcutc::registry::backends());
+    editor.server = vcutc::lsp::Server::new(vcutc::registry::OPERATIONS, &vcutc::registry::backends());
     editor
         .ask("initialize", json!({ "processId": null, "capabilities": {} }))
         .unwrap();

@@ -69,7 +69,7 @@ impl Editor {
             .map(|(name, text)| (format!("/shop/{name}"), (*text).to_owned()))
             .collect();
         let mut editor = Self {
-            server: Server::new(&registry::backends()),
+            server: Server::new(registry::OPERATIONS, &registry::backends()),
             files: Memory(files),
             told: BTreeMap::new(),
             log: Vec::new(),

@@ -95,7 +95,18 @@ fn expected(path: &str, text: &str, part: Part) -> (Vec<Told>, bool) {
     ];
     let files = Memory(files.into_iter().collect());
     let (mut sources, mut found) = (SourceMap::default(), Vec::new());
-    let known = study(path, part, &files, Choices::default(), &mut sources, &mut found).unwrap();
+    let known = study(
+        path,
+        part,
+        &files,
+        Choices {
+            operations: vcutc::registry::OPERATIONS,
+            ..Choices::default()
+        },
+        &mut sources,
+        &mut found,
+    )
+    .unwrap();
     let is_job = known.files[0]
         .ast
         .items

@@ -185,7 +185,7 @@ fn stale_plans_are_not_shown() {
 #[test]
 fn planning_can_be_left_to_the_command_line() {
     let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
-    editor.server = vcutc::lsp::Server::new(&registry::backends());
+    editor.server = vcutc::lsp::Server::new(registry::OPERATIONS, &registry::backends());
     let params =
         json!({ "processId": null, "capabilities": {}, "initializationOptions": { "planning": "never" } });
     editor.ask("initialize", params).unwrap();

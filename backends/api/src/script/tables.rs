@@ -2,7 +2,7 @@
 //! compiler.
 
 use crate::backend::EmitError;
-use crate::ir::{FeedId, OperationId, OperationKind, Program, RateId};
+use crate::ir::{FeedId, OperationId, Program, RateId};
 use crate::units::{AngularSpeed, Speed};
 
 /// The comment above the first line of an operation, `operation 1: rough vcut with blade ` and the blade's name, which is the
@@ -13,9 +13,7 @@ use crate::units::{AngularSpeed, Speed};
 pub fn operation_heading(program: &Program, id: OperationId) -> Result<(String, &str), EmitError> {
     let found = program.operations.get(usize::from(id.0));
     let operation = found.ok_or(EmitError::Internal("an operation is not in its table"))?;
-    let what = match operation.kind {
-        OperationKind::RoughVcut => "rough vcut",
-    };
+    let what = operation.kind.head();
     let ours = format!("operation {}: {what} with blade ", u32::from(id.0) + 1);
     Ok((ours, &operation.blade.name))
 }

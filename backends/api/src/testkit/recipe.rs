@@ -11,6 +11,9 @@ use crate::ir::{
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 use core::num::NonZeroU32;
 
+/// The kind of the operations of recipes.
+const ROUGH_VCUT: OperationKind = OperationKind::named("rough_vcut").unwrap();
+
 /// In which order the flanks of a layer are cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passes {
@@ -248,7 +251,7 @@ impl Recipe {
 
     fn operation(&self) -> Operation {
         Operation {
-            kind: OperationKind::RoughVcut,
+            kind: ROUGH_VCUT,
             blade: Blade {
                 name: "dagger".to_owned(),
                 cutting_length: EDGE,

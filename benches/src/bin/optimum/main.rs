@@ -4,9 +4,9 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use vcutc::job::{Formulas, Lattice, Objective};
-use vcutc::process::plan::optimum::published::table_1;
-use vcutc::process::plan::optimum::{Problem, solve};
+use vcutc::vcut::asked::{Formulas, Lattice, Objective};
+use vcutc::vcut::plan::optimum::published::table_1;
+use vcutc::vcut::plan::optimum::{Problem, solve};
 use vcutc_benches::optimum::{LATTICES, STARTS, cobyla, conflict, is_least, slsqp, within_600_s};
 
 /// How closely the peers are asked to come to the least time.

@@ -1,0 +1,144 @@
+//! Writes a program: collects its ops and the tables that they refer to.
+
+use crate::geometry::Orientation;
+use crate::ir::{
+    Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, Purpose, RateId,
+    Site, Stock,
+};
+use crate::units::{AngularSpeed, Speed};
+
+/// A program in the making.
+#[derive(Clone, Debug)]
+pub struct ProgramBuilder {
+    program: Program,
+}
+
+impl ProgramBuilder {
+    /// A program without ops.
+    #[must_use]
+    pub fn new(name: &str, stock: Stock, cell: Option<Cell>) -> Self {
+        Self {
+            program: Program {
+                version: IR_VERSION,
+                name: name.to_owned(),
+                purpose: Purpose::Work,
+                head: None,
+                stock,
+                cell,
+                operations: Vec::new(),
+                orientations: Vec::new(),
+                feeds: Vec::new(),
+                rates: Vec::new(),
+                ops: Vec::new(),
+            },
+        }
+    }
+
+    /// The stock.
+    #[must_use]
+    pub const fn stock(&self) -> Stock {
+        self.program.stock
+    }
+
+    /// Whether the tip is at a point of W, and not at home or wherever the machine was left.
+    #[must_use]
+    pub fn knows_tip(&self) -> bool {
+        match self.program.ops.last().map(|op| op.action) {
+            None | Some(Action::Home) => false,
+            Some(
+                Action::Travel { .. }
+                | Action::AxisTravel { .. }
+                | Action::Approach { .. }
+                | Action::Retract { .. }
+                | Action::Cut { .. }
+                | Action::Turn { .. }
+                | Action::Ultrasonic { .. }
+                | Action::AwaitReady
+                | Action::Dwell { .. }
+                | Action::ToolChange { .. },
+            ) => true,
+        }
+    }
+
+    /// How the blade is held; none at home or wherever the machine was left.
+    #[must_use]
+    pub fn held(&self) -> Option<Orientation> {
+        let last = self.program.ops.iter().rev().find_map(|op| match op.action {
+            Action::Travel { orientation, .. } | Action::AxisTravel { orientation, .. } => {
+                Some(Some(orientation))
+            }
+            Action::Turn { to, .. } => Some(Some(to)),
+            Action::Home | Action::ToolChange { .. } => Some(None),
+            Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. } => None,
+        });
+        let OrientationId(index) = last.flatten()?;
+        self.program.orientations.get(index as usize).copied()
+    }
+
+    /// Appends an op; leaves out what the cell does not have (home angles, a generator).
+    pub fn op(&mut self, site: Site, action: Action) {
+        let cell = self.program.cell.as_ref();
+        let exists = match action {
+            Action::Home => cell.is_some_and(|cell| cell.home.is_some()),
+            Action::Ultrasonic { .. } | Action::AwaitReady => {
+                cell.is_some_and(|cell| cell.ultrasonic.is_some())
+            }
+            Action::Travel { .. }
+            | Action::AxisTravel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. }
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => true,
+        };
+        if exists {
+            self.program.ops.push(Op { site, action });
+        }
+    }
+
+    /// Adds an operation, and says what ops refer to it by.
+    pub fn operation(&mut self, operation: Operation) -> OperationId {
+        self.program.operations.push(operation);
+        OperationId(id(self.program.operations.len() - 1))
+    }
+
+    /// An orientation of the table, added where it is new.
+    pub fn orientation(&mut self, orientation: Orientation) -> OrientationId {
+        let place = find_or_push(&mut self.program.orientations, orientation);
+        OrientationId(u32::from(id(place)))
+    }
+
+    /// A speed of the table, added where it is new.
+    pub fn feed(&mut self, feed: Speed) -> FeedId {
+        FeedId(id(find_or_push(&mut self.program.feeds, feed)))
+    }
+
+    /// A rate of the table, added where it is new.
+    pub fn rate(&mut self, rate: AngularSpeed) -> RateId {
+        RateId(id(find_or_push(&mut self.program.rates, rate)))
+    }
+
+    /// The program.
+    #[must_use]
+    pub fn finish(self) -> Program {
+        self.program
+    }
+}
+
+/// A handful of entries each: a job has few operations, each with few postures and speeds.
+fn id(place: usize) -> u16 {
+    u16::try_from(place).unwrap_or(u16::MAX)
+}
+
+fn find_or_push<T: PartialEq>(table: &mut Vec<T>, entry: T) -> usize {
+    table.iter().position(|known| *known == entry).unwrap_or_else(|| {
+        table.push(entry);
+        table.len() - 1
+    })
+}

@@ -1,0 +1,249 @@
+//! What an operation is to every stage: the interface between the stages and the folders in `src/operations`.
+//!
+//! An operation passes through three types. A [`Kind`] says how it is written and checks it; what it checked is an
+//! [`Operation`], which plans itself; the plan is a [`PlannedOperation`], which writes itself down as motions, explains what
+//! a proof finds wrong with it, and describes itself for summary, report and editor. The stages know no more of it than
+//! that.
+
+use super::search::SearchSpace;
+use super::sema::written::Written;
+use super::{CheckedJob, PlannedOperation, Setup, Sourced};
+use crate::sema::report::Checked;
+use crate::sema::session::Session;
+use crate::sema::spec::BlockSpec;
+use core::any::Any;
+use core::fmt::Debug;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_cancellation::{Effort, Wanted};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::Span;
+use vcutc_simulation::surface::Surface;
+
+/// A kind of operation in the language.
+pub trait Kind: Debug + Sync {
+    /// The two words of its head: `rough vcut`.
+    fn head(&self) -> &'static str;
+
+    /// The two words, one by one.
+    fn words(&self) -> [&'static str; 2] {
+        let (first, second) = self.head().split_once(' ').unwrap_or((self.head(), ""));
+        [first, second]
+    }
+
+    /// Words that people write for it by mistake.
+    fn mistaken_for(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// The table of its fields.
+    fn spec(&self) -> &'static BlockSpec;
+
+    /// A block of it with this blade, as an example for a job that has none.
+    fn example(&self, blade: &str) -> String;
+
+    /// Works out what a block of it means.
+    fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>>;
+}
+
+/// The kinds of operation that this compiler knows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Operations(pub &'static [&'static dyn Kind]);
+
+impl Operations {
+    /// The kind whose head begins with these words; the first one of its first word where the second is none of theirs.
+    #[must_use]
+    pub fn find(self, first: &str, second: Option<&str>) -> Option<&'static dyn Kind> {
+        let mut kinds = self.0.iter().copied().filter(|kind| kind.words()[0] == first);
+        let named = kinds.clone().find(|kind| Some(kind.words()[1]) == second);
+        named.or_else(|| kinds.next())
+    }
+}
+
+/// An operation as the job asks for it.
+pub trait Operation: OperationValue + Any + Debug + Send + Sync {
+    /// What all operations state.
+    fn setup(&self) -> &Setup;
+
+    /// The same, to be changed.
+    fn setup_mut(&mut self) -> &mut Setup;
+
+    /// Replaces every place of its own in the job's text by this one; the set-up's are not its own.
+    fn forget_places(&mut self, place: Span);
+
+    /// The most material that may stay on the part, if it is limited.
+    fn scallop_limit(&self) -> Option<Sourced<Length>> {
+        None
+    }
+
+    /// What its open parameters are to make least.
+    fn aim(&self) -> Aim {
+        Aim::Time
+    }
+
+    /// The swing, where it is left to the compiler or not.
+    fn swing(&self) -> Swing {
+        Swing::Given
+    }
+
+    /// The narrowest swing that the job allows, if it says so.
+    fn narrowest_swing(&self) -> Option<Angle> {
+        None
+    }
+
+    /// The same operation otherwise, as far as it can be cut otherwise: what may help a machine that does not follow.
+    fn variants(&self, _planned: &dyn PlannedOperation, _of: Variation) -> Vec<Variant> {
+        Vec::new()
+    }
+
+    /// The operation without limits on the plan as a whole (time, cuts); none where it has none.
+    fn without_plan_limits(&self) -> Option<Box<dyn Operation>> {
+        None
+    }
+
+    /// Takes over limits that a plan of it chose.
+    fn settle(&mut self, _planned: &dyn PlannedOperation) -> Settled {
+        Settled::AsAsked
+    }
+
+    /// Plans it.
+    ///
+    /// # Errors
+    /// Why there is no plan: at once, before anything that helps is looked for.
+    fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>>;
+
+    /// Whether there is a plan of it with nothing wrong, as far as is seen with so much work.
+    fn is_plannable(&self, ground: Ground<'_>, effort: &mut Effort) -> bool;
+}
+
+/// What open parameters are to make least, as far as other stages care.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// The time.
+    Time,
+    /// Something else.
+    Otherwise,
+}
+
+/// Whether the compiler chooses the swing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Swing {
+    /// It does.
+    Open,
+    /// The job gives it.
+    Given,
+}
+
+/// Whether an operation took over a limit of its plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Settled {
+    /// It did.
+    Limited,
+    /// It is as the job asks.
+    AsAsked,
+}
+
+/// How an operation may be cut otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variation {
+    /// In another order of its flanks.
+    Order,
+    /// With a smaller swing, the widest first.
+    SmallerSwing,
+}
+
+/// An operation cut otherwise.
+#[derive(Debug)]
+pub struct Variant {
+    /// What to do, in the imperative.
+    pub advice: String,
+    /// What to write where; empty where the value is not written anywhere.
+    pub edits: Vec<(Span, String)>,
+    /// The operation then.
+    pub operation: Box<dyn Operation>,
+}
+
+/// The work as an operation finds it, and how much of what is open is searched.
+#[derive(Clone, Debug)]
+pub struct Ground<'j> {
+    /// The job.
+    pub job: &'j CheckedJob,
+    /// What the operations before it left of the stock.
+    pub before: Surface,
+    /// What is considered.
+    pub space: SearchSpace,
+    /// Most cuts that it may have.
+    pub cuts_left: usize,
+    /// Whether the plan is still wanted.
+    pub wanted: Wanted,
+}
+
+/// An operation planned.
+#[derive(Debug)]
+pub struct Laid {
+    /// The plan.
+    pub planned: Box<dyn PlannedOperation>,
+    /// What it leaves of the stock.
+    pub after: Surface,
+}
+
+/// Whether the job compiles with these changes of its text, as far as those see who come after planning: the machine of the
+/// job, and its target.
+pub type WorksThere<'w> = dyn FnMut(&[(Span, String)]) -> bool + 'w;
+
+/// Why an operation has no plan.
+pub trait Unplanned {
+    /// What there is to report, with changes that work, as far as so much work finds them.
+    fn diagnostics(
+        &self,
+        wanted: &Wanted,
+        effort: &mut Effort,
+        works: &mut WorksThere<'_>,
+    ) -> Vec<Diagnostic>;
+}
+
+/// Changes of one operation of a job, tried before they are offered.
+pub trait Trials {
+    /// The job as it is.
+    fn job(&self) -> &CheckedJob;
+
+    /// Whether anybody still waits for the answer.
+    fn wanted(&self) -> &Wanted;
+
+    /// Whether the job plans and proves with a change of the operation, within all its limits.
+    fn proves(&mut self, change: &dyn Fn(&mut dyn Operation)) -> bool;
+
+    /// The plan of the operation with a change; none where something is wrong with the job then.
+    fn planned(&mut self, change: &dyn Fn(&mut dyn Operation)) -> Option<Box<dyn PlannedOperation>>;
+}
+
+/// What values of operations have in common with other values; every type that can be cloned and compared has it.
+pub trait OperationValue {
+    /// A copy.
+    fn copied(&self) -> Box<dyn Operation>;
+
+    /// Whether the two ask for the same.
+    fn is_same(&self, other: &dyn Operation) -> bool;
+}
+
+impl<T: Operation + Clone + PartialEq> OperationValue for T {
+    fn copied(&self) -> Box<dyn Operation> {
+        Box::new(self.clone())
+    }
+
+    fn is_same(&self, other: &dyn Operation) -> bool {
+        let other: &dyn Any = other;
+        other.downcast_ref::<T>() == Some(self)
+    }
+}
+
+impl Clone for Box<dyn Operation> {
+    fn clone(&self) -> Self {
+        (**self).copied()
+    }
+}
+
+impl PartialEq for dyn Operation {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_same(other)
+    }
+}

@@ -1,0 +1,280 @@
+//! The planned job: every choice made, nothing promised. What a plan of an operation is to the stages after it.
+
+use super::description::{ParameterFigure, ParameterTable};
+use super::operation::{Operation, Trials, WorksThere};
+use super::search::RouteSet;
+use super::{Machine, Order, Sourced};
+use core::any::Any;
+use core::fmt::Debug;
+use vcutc_backend_api::builder::ProgramBuilder;
+use vcutc_backend_api::ir::{OperationId, SourceRef, Stock};
+use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
+use vcutc_simulation::prove::{Bound, Finding};
+use vcutc_simulation::report::Report;
+
+/// A job with every choice made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedJob {
+    /// The job's name.
+    pub name: String,
+    /// The stock.
+    pub stock: Stock,
+    /// The part's profile.
+    pub profile: Profile,
+    /// The machine, if the job has one.
+    pub machine: Option<Machine>,
+    /// The operations in order.
+    pub operations: Vec<Box<dyn PlannedOperation>>,
+}
+
+impl PlannedJob {
+    /// How many cuts it has.
+    #[must_use]
+    pub fn cuts(&self) -> usize {
+        self.operations.iter().map(|planned| planned.cuts()).sum()
+    }
+
+    /// The times of its operations by the mean-value model, together.
+    #[must_use]
+    pub fn estimate(&self) -> Duration {
+        let operations = self.operations.iter();
+        operations.map(|planned| planned.estimate().time).sum()
+    }
+
+    /// The tightest limit on scallop of an operation, with the operation; the first among equals.
+    #[must_use]
+    pub fn scallop_limit(&self) -> Option<(OperationId, Sourced<Length>)> {
+        let limits = (0..)
+            .zip(&self.operations)
+            .filter_map(|(index, planned)| Some((OperationId(index), planned.asked().scallop_limit()?)));
+        limits.min_by(|(_, a), (_, b)| a.value.total_cmp(&b.value))
+    }
+
+    /// The plan of an operation.
+    #[must_use]
+    pub fn operation(&self, operation: OperationId) -> Option<&dyn PlannedOperation> {
+        let planned = self.operations.get(usize::from(operation.0))?;
+        Some(&**planned)
+    }
+}
+
+/// An operation with every choice made.
+pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
+    /// What the job asks for.
+    fn asked(&self) -> &dyn Operation;
+
+    /// The same, to be changed where the plan stays what it is.
+    fn asked_mut(&mut self) -> &mut dyn Operation;
+
+    /// Takes the same operation of another text for what the job asks for.
+    fn set_asked(&mut self, asked: &dyn Operation);
+
+    /// How many cuts it has.
+    fn cuts(&self) -> usize;
+
+    /// Its cuts in the order of the plan: layer by layer, each from left to right.
+    fn tips(&self) -> Vec<PlannedTip>;
+
+    /// Half the opening angle of the cuts.
+    fn swing(&self) -> Angle;
+
+    /// Order of the flanks.
+    fn order(&self) -> Order {
+        Order::Point
+    }
+
+    /// How far cuts run out beyond the stock.
+    fn extension(&self) -> Length;
+
+    /// What the proof holds its cuts to.
+    fn bound(&self) -> Bound<'_>;
+
+    /// What the mean-value model says of it.
+    fn estimate(&self) -> Estimate;
+
+    /// Whether the planner would choose the same among these routes only.
+    fn is_within(&self, _routes: RouteSet) -> bool {
+        true
+    }
+
+    /// The same cuts in rows, in this order of flanks and with no wider swing than this, where they are open: a plan of which
+    /// a few motions say whether a machine may follow.
+    fn in_rows(&self, order: Option<Order>, swing: Option<Angle>, stock: Stock) -> Box<dyn PlannedOperation>;
+
+    /// Writes its motions down.
+    fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder);
+
+    /// Explains what a proof found wrong with a cut; so many cuts have the same fault.
+    fn explain(
+        &self,
+        finding: Finding,
+        count: usize,
+        trials: &mut dyn Trials,
+        works: &mut WorksThere<'_>,
+    ) -> Diagnostic;
+
+    /// Explains that more stays on the part than its limit on scallop allows.
+    fn explain_scallop(&self, report: &Report, trials: &mut dyn Trials) -> Option<Diagnostic>;
+
+    /// What there is to warn of, however well it proves.
+    fn warnings(&self) -> Vec<Diagnostic> {
+        Vec::new()
+    }
+
+    /// The area of the stock's cross-section that it is to cut away.
+    fn to_remove(&self, profile: &Profile, top: &[Point2]) -> Area;
+
+    /// Warns where much of that stays.
+    fn explain_what_stays(&self, balance: Balance<'_>, compile: &Compile<'_>) -> Option<Diagnostic>;
+
+    /// The limits on time and cuts that it breaks, when it takes this long, with what it keeps.
+    fn broken_limits(&self, _asked: &dyn Operation, _time: Duration) -> Option<Diagnostic> {
+        None
+    }
+
+    /// Its parameters, in the order of the language reference.
+    fn parameters(&self) -> Vec<ParameterFigure>;
+
+    /// Its parameters for people, with where each is from.
+    fn tables(&self) -> Vec<ParameterTable>;
+
+    /// Lines of the summary: names and texts.
+    fn summary(&self, report: &Report) -> Vec<(&'static str, String)>;
+
+    /// What was chosen for a field that was left open, and why; none for other fields.
+    fn chosen(&self, _field: &str) -> Option<(String, String)> {
+        None
+    }
+
+    /// How its cuts are laid out, in words: what they are called, and their measures.
+    fn layout(&self) -> [String; 2];
+}
+
+/// The times and cuts of the mean-value model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The time.
+    pub time: Duration,
+    /// The cuts, on average.
+    pub cuts: f64,
+}
+
+/// What an operation is to cut away, and how much of that stays.
+#[derive(Clone, Copy, Debug)]
+pub struct Balance<'b> {
+    /// The job's plan.
+    pub plan: &'b PlannedJob,
+    /// What it leaves.
+    pub report: &'b Report,
+    /// The operation that is to cut away the most.
+    pub operation: OperationId,
+    /// What that is.
+    pub whole: Area,
+}
+
+impl<'b> Balance<'b> {
+    /// By the operation that is to cut away the most; the last one among equals.
+    #[must_use]
+    pub fn of(plan: &'b PlannedJob, report: &'b Report) -> Option<Self> {
+        let stock = plan.stock;
+        let top = [0.0, stock.width.to_mm()].map(|x| Point2 {
+            x,
+            z: stock.height.to_mm(),
+        });
+        let wholes = (0..)
+            .zip(&plan.operations)
+            .map(|(index, planned)| (OperationId(index), planned.to_remove(&plan.profile, &top)));
+        let (operation, whole) = wholes.max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+        Some(Self {
+            plan,
+            report,
+            operation,
+            whole,
+        })
+    }
+
+    /// The area that stays.
+    #[must_use]
+    pub fn stays(&self) -> Area {
+        self.whole - self.report.removed
+    }
+
+    /// The share that stays.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        let whole = self.whole.to_mm2();
+        if whole > 0.0 {
+            (self.stays().to_mm2() / whole).max(0.0)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Compiles the job with a change of an operation, as far as its machine; none where it has errors.
+pub type Compile<'c> = dyn Fn(&dyn Fn(&mut dyn Operation)) -> Option<(PlannedJob, Report)> + 'c;
+
+/// One cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedTip {
+    /// The layer it belongs to, counted from 1 at the top. A layer that cuts nothing has no number.
+    pub layer: u32,
+    /// Where the blade's tip runs, in the x-z plane.
+    pub tip: Point2,
+    /// Why the tip is there.
+    pub origin: TipOrigin,
+}
+
+/// Why a tip is where it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TipOrigin {
+    /// A point of the lattice.
+    Lattice,
+    /// Given by the job.
+    Given,
+    /// Raised to clear the part.
+    Lifted,
+    /// Moved sideways to clear the part.
+    Shifted,
+    /// Raised because the blade does not reach the full depth at once.
+    Relieved,
+}
+
+crate::words! {
+    TipOrigin { Lattice = "lattice", Given = "given", Lifted = "lifted", Shifted = "shifted", Relieved = "relieved" }
+}
+
+/// What values of plans have in common with other values; every type that can be cloned and compared has it.
+pub trait PlannedValue {
+    /// A copy.
+    fn copied(&self) -> Box<dyn PlannedOperation>;
+
+    /// Whether the two are the same plan.
+    fn is_same(&self, other: &dyn PlannedOperation) -> bool;
+}
+
+impl<T: PlannedOperation + Clone + PartialEq> PlannedValue for T {
+    fn copied(&self) -> Box<dyn PlannedOperation> {
+        Box::new(self.clone())
+    }
+
+    fn is_same(&self, other: &dyn PlannedOperation) -> bool {
+        let other: &dyn Any = other;
+        other.downcast_ref::<T>() == Some(self)
+    }
+}
+
+impl Clone for Box<dyn PlannedOperation> {
+    fn clone(&self) -> Self {
+        (**self).copied()
+    }
+}
+
+impl PartialEq for dyn PlannedOperation {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_same(other)
+    }
+}

@@ -1,0 +1,105 @@
+//! Which part of what a job leaves open is searched: all of it, or less where the machine does not follow.
+
+use super::{Order, PlannedJob};
+use vcutc_backend_api::units::Angle;
+
+/// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,
+/// which not every machine can follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RouteSet {
+    /// All of them.
+    Full,
+    /// Those that cut V by V.
+    ByPoint,
+    /// Rows, V by V: what leaves an arm the most freedom to hold the blade otherwise.
+    RowsByPoint,
+    /// Those that cut a layer's left flanks and then its right ones: the blade never turns in the work.
+    ByLayer,
+    /// Rows of them.
+    RowsByLayer,
+}
+
+impl RouteSet {
+    /// What is considered next where the machine cannot carry out what came of this.
+    const fn narrower(self) -> Option<Self> {
+        match self {
+            Self::Full => Some(Self::ByPoint),
+            Self::ByPoint => Some(Self::RowsByPoint),
+            Self::RowsByPoint => Some(Self::ByLayer),
+            Self::ByLayer => Some(Self::RowsByLayer),
+            Self::RowsByLayer => None,
+        }
+    }
+
+    /// The next one under which the planner would choose something else than this plan.
+    #[must_use]
+    pub fn narrower_than(self, plan: &PlannedJob) -> Option<Self> {
+        let mut next = self.narrower();
+        while let Some(routes) = next {
+            if !plan.operations.iter().all(|planned| planned.is_within(routes)) {
+                break;
+            }
+            next = routes.narrower();
+        }
+        next
+    }
+
+    /// The only order of flanks that it leaves, if it leaves one.
+    #[must_use]
+    pub const fn order(self) -> Option<Order> {
+        match self {
+            Self::Full => None,
+            Self::ByPoint | Self::RowsByPoint => Some(Order::Point),
+            Self::ByLayer | Self::RowsByLayer => Some(Order::Layer),
+        }
+    }
+}
+
+/// The widest swing that is considered where the job leaves the swing open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Narrowed {
+    /// The swing.
+    pub widest: Angle,
+    /// The swing that the machine did not follow.
+    pub refused: Angle,
+    /// What it lacked for that.
+    pub lack: Lack,
+}
+
+/// What a machine lacked for a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lack {
+    /// It does not reach that far.
+    Reach,
+    /// An axis, by its number from 0, has too little range.
+    Range {
+        /// The axis.
+        axis: usize,
+    },
+    /// An axis, by its number from 0, is too slow.
+    Rate {
+        /// The axis.
+        axis: usize,
+        /// How fast it would have to move, in rad/s or mm/s.
+        needed: f64,
+    },
+    /// Room around its singular poses.
+    Clearance,
+}
+
+/// What is considered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SearchSpace {
+    /// The routes.
+    pub routes: RouteSet,
+    /// The swings; none where all that the job allows are considered.
+    pub swing: Option<Narrowed>,
+}
+
+impl SearchSpace {
+    /// All routes of a kind, and all swings.
+    #[must_use]
+    pub const fn along(routes: RouteSet) -> Self {
+        Self { routes, swing: None }
+    }
+}

@@ -1,0 +1,147 @@
+//! The fields that all operations have: blade, rake, direction, speeds, and the distances kept from the stock.
+//!
+//! An operation names them in its own table of fields, in the order in which people write them, and reads them here.
+
+use super::fields::{BlockSpec, FieldSpec, Fields, Inner, Place, Takes, block, head_span, value};
+use super::names::Thing;
+use super::range::{DISTANCE, RAKE, SIZE, SPEED, TURNING_RATE};
+use super::read::{Reader, default, looks_like, words_of};
+use super::report::Checked;
+use super::session::Session;
+use super::written::Written;
+use crate::{Blade, Direction, Setup, Sourced};
+use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
+use vcutc_diagnostics::source::Spanned;
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_syntax::ast::{Block, Expr};
+
+/// `blade = NAME`.
+pub const BLADE: FieldSpec = value("blade", "dagger").required().takes(Takes::Blade);
+/// `rake = 60 deg`.
+pub const RAKE_FIELD: FieldSpec = value("rake", "60 deg").required().within(RAKE);
+/// `direction = alternate`.
+pub const DIRECTION: FieldSpec =
+    value("direction", "alternate").takes(Takes::Words(|| words_of(Direction::WORDS)));
+/// `feed { ... }`.
+pub const FEED: FieldSpec = block(
+    "feed",
+    "{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
+)
+.required()
+.takes(Takes::Fields(&FEEDS));
+/// `clearance = 10 mm`.
+pub const CLEARANCE: FieldSpec = value("clearance", "10 mm").required().within(SIZE);
+/// `extension = auto`.
+pub const EXTENSION: FieldSpec = value("extension", "auto").within(DISTANCE).or_auto();
+/// `run_out = 2 mm`.
+pub const RUN_OUT_FIELD: FieldSpec = value("run_out", "2 mm").within(DISTANCE);
+
+const FEEDS: BlockSpec = BlockSpec {
+    title: "`feed`",
+    fields: &[
+        value("cut", "200 mm/s").required().within(SPEED),
+        value("travel", "200 mm/s").required().within(SPEED),
+        value("reorient", "90 deg/s").required().within(TURNING_RATE),
+    ],
+    inner: Inner::Refused,
+};
+
+/// Air between the blade and the stock where it turns, when the job does not say: a usual value for the errors of stock and
+/// robot together, from no source.
+const RUN_OUT: Length = Length::mm(2.0);
+
+/// Reads them.
+pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_>) -> Checked<Setup> {
+    let scope = written.scope;
+    // The block within first: it needs the session, of which the reader holds a part.
+    let feeds = fields
+        .required_block("feed", &mut session.reports)
+        .and_then(|inner| feeds(inner, written, session));
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
+    let blade = fields
+        .required_value("blade", reader.reports)
+        .and_then(|expr| find_blade(expr, written.blades, &mut reader));
+    let rake = reader.required(fields, "rake", RAKE);
+    let direction = reader.choice(fields, "direction", Direction::WORDS);
+    let clearance = reader.required(fields, "clearance", SIZE);
+    let extension = reader.auto(fields, "extension", DISTANCE);
+    let run_out = reader.defaulted(fields, "run_out", DISTANCE, RUN_OUT);
+    let feeds = feeds?;
+    Ok(Setup {
+        head_span: written.place.head,
+        blade: blade?,
+        rake: rake?,
+        direction: direction?.unwrap_or(default(Direction::Alternate)),
+        cut_feed: feeds.cut,
+        travel_feed: feeds.travel,
+        reorient_rate: feeds.reorient,
+        clearance: clearance?,
+        extension: extension?,
+        run_out: run_out?,
+    })
+}
+
+/// The place of a block within an operation.
+#[must_use]
+pub fn inner_place(inner: &Block) -> Place {
+    Place {
+        head: head_span(inner),
+        whole: inner.span,
+    }
+}
+
+/// Speeds of the operation.
+struct Feeds {
+    cut: Sourced<Speed>,
+    travel: Sourced<Speed>,
+    reorient: Sourced<AngularSpeed>,
+}
+
+fn feeds(inner: &Block, written: Written<'_>, session: &mut Session<'_>) -> Checked<Feeds> {
+    let fields = Fields::sort(&FEEDS, inner_place(inner), &inner.entries, session);
+    let mut reader = Reader {
+        scope: written.scope,
+        reports: &mut session.reports,
+    };
+    let cut = reader.required(&fields, "cut", SPEED);
+    let travel = reader.required(&fields, "travel", SPEED);
+    let reorient = reader.required(&fields, "reorient", TURNING_RATE);
+    Ok(Feeds {
+        cut: cut?,
+        travel: travel?,
+        reorient: reorient?,
+    })
+}
+
+/// The blade that the operation names.
+fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Reader<'_>) -> Checked<Blade> {
+    let names = reader.scope.names;
+    let is_blade = |thing| matches!(thing, Thing::Blade(_));
+    let Expr::Name(name) = &expr.node else {
+        let diagnostic = Diagnostic::new(
+            Code::WrongKind,
+            format!(
+                "`blade` takes the name of a blade, not {}",
+                looks_like(&expr.node)
+            ),
+            expr.span,
+            "the name of a blade is wanted here",
+        );
+        let diagnostic = match names.list(is_blade) {
+            Some(list) => diagnostic.help(format!("the blades defined are {list}")),
+            None => diagnostic.help("define one with `blade dagger { ... }` and write `blade = dagger`"),
+        };
+        return Err(reader.reports.push(diagnostic));
+    };
+    let blade = match names.get(name).map(|definition| definition.thing) {
+        Some(Thing::Blade(index)) => blades.get(index),
+        Some(Thing::Let(_) | Thing::Machine(_)) | None => None,
+    };
+    match blade {
+        Some(blade) => blade.clone(),
+        None => Err(names.not_a("blade", name, expr.span, is_blade, reader.reports)),
+    }
+}

@@ -1,0 +1,138 @@
+//! `rough vcut { ... }`: V-shaped roughing.
+
+mod limits;
+#[cfg(test)]
+mod tests;
+mod tips;
+
+use crate::asked::{Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
+use vcutc_backend_api::units::Length;
+use vcutc_job::Order;
+use vcutc_job::operation::{Kind, Operation};
+use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, Takes, block, points, value};
+use vcutc_job::sema::range::{DISTANCE, OVERLAP, SIZE, SWING};
+use vcutc_job::sema::read::{Reader, default, words_of};
+use vcutc_job::sema::report::Checked;
+use vcutc_job::sema::session::Session;
+use vcutc_job::sema::setup;
+use vcutc_job::sema::written::Written;
+
+const SPEC: BlockSpec = BlockSpec {
+    title: "`rough vcut`",
+    fields: &[
+        setup::BLADE,
+        points("tips", "(10 mm, 40 mm) (16 mm, 40 mm)"),
+        value("lattice", "auto")
+            .takes(Takes::Words(|| words_of(Lattice::WORDS)))
+            .or_auto(),
+        setup::RAKE_FIELD,
+        value("swing", "auto").within(SWING).or_auto(),
+        value("layer", "auto").within(SIZE).or_auto(),
+        value("step", "auto").within(SIZE).or_auto(),
+        value("overlap", "auto").within(OVERLAP).or_auto(),
+        value("objective", "time").takes(Takes::Words(|| words_of(Objective::WORDS))),
+        value("model", "exact").takes(Takes::Words(|| words_of(Formulas::WORDS))),
+        block("limits", "{ swing <= 50 deg, scallop <= 10 mm }").takes(Takes::Fields(&limits::LIMITS)),
+        value("allowance", "0.5 mm").within(DISTANCE),
+        value("residual", "auto")
+            .takes(Takes::Words(|| words_of(Residual::WORDS)))
+            .or_auto(),
+        value("order", "auto")
+            .takes(Takes::Words(|| words_of(Order::WORDS)))
+            .or_auto(),
+        value("sequence", "auto")
+            .takes(Takes::Words(|| words_of(Sequence::WORDS)))
+            .or_auto(),
+        setup::DIRECTION,
+        setup::FEED,
+        setup::CLEARANCE,
+        setup::EXTENSION,
+        setup::RUN_OUT_FIELD,
+        value("standoff", "auto").within(DISTANCE).or_auto(),
+    ],
+    inner: Inner::Refused,
+};
+
+/// `rough vcut`.
+#[derive(Clone, Copy, Debug)]
+pub struct Vcut;
+
+impl Kind for Vcut {
+    fn head(&self) -> &'static str {
+        "rough vcut"
+    }
+
+    fn mistaken_for(&self) -> &'static [&'static str] {
+        &["roughing", "vcuts", "v_cut"]
+    }
+
+    fn spec(&self) -> &'static BlockSpec {
+        &SPEC
+    }
+
+    fn example(&self, blade: &str) -> String {
+        format!(
+            "rough vcut {{\n  blade = {blade}\n  lattice = orthogonal\n  rake = 60 deg\n  \
+             feed {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  clearance = 10 mm\n}}"
+        )
+    }
+
+    fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>> {
+        let operation = check(written, session)?;
+        Ok(Box::new(operation))
+    }
+}
+
+fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> {
+    let Written {
+        block,
+        place,
+        scope,
+        stock,
+        ..
+    } = written;
+    let fields = Fields::sort(&SPEC, place, &block.entries, session);
+    let given = tips::check(&fields, stock, scope, session);
+    // Blocks within first: they need the session, of which the reader holds a part.
+    let limits = fields
+        .block("limits")
+        .and_then(|inner| limits::check(inner, scope, session));
+    let setup = setup::check(&fields, written, session);
+    let mut reader = Reader {
+        scope,
+        reports: &mut session.reports,
+    };
+    let lattice = reader.auto_choice(&fields, "lattice", Lattice::WORDS);
+    let swing = reader.auto(&fields, "swing", SWING);
+    let layer = reader.auto(&fields, "layer", SIZE);
+    let step = reader.auto(&fields, "step", SIZE);
+    let overlap = reader.auto(&fields, "overlap", OVERLAP);
+    let objective = reader.choice(&fields, "objective", Objective::WORDS);
+    let formulas = reader.choice(&fields, "model", Formulas::WORDS);
+    let allowance = reader.defaulted(&fields, "allowance", DISTANCE, Length::ZERO);
+    let residual = reader.auto_choice(&fields, "residual", Residual::WORDS);
+    let order = reader.auto_choice(&fields, "order", Order::WORDS);
+    let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
+    let standoff = reader.auto(&fields, "standoff", DISTANCE);
+    let operation = RoughVcut {
+        setup: setup?,
+        tips: None,
+        lattice: lattice?,
+        swing: swing?,
+        layer: layer?,
+        step: step?,
+        overlap: overlap?,
+        objective: objective?.unwrap_or(default(Objective::Time)),
+        formulas: formulas?.unwrap_or(default(Formulas::Exact)),
+        limits: limits?,
+        allowance: allowance?,
+        residual: residual?,
+        order: order?,
+        sequence: sequence?,
+        standoff: standoff?,
+    };
+    match given? {
+        Some(given) => tips::over(given, operation, &fields, &mut session.reports),
+        None => Ok(operation),
+    }
+}

@@ -1,0 +1,143 @@
+//! Ways to cut an operation, written down as programs of their own and measured.
+
+use super::Contender;
+use crate::asked::{Objective, RoughVcut};
+use crate::plan::decision::Standing;
+use crate::plan::{LaidOut, PlannedVcut, Work};
+use vcutc_backend_api::units::{Area, Duration, Length};
+use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_cancellation::Wanted;
+use vcutc_geometry::offset::offset_up;
+use vcutc_geometry::profile::Profile;
+use vcutc_job::CheckedJob;
+use vcutc_job::PlannedOperation;
+use vcutc_job::search::RouteSet;
+use vcutc_process::lower::alone;
+use vcutc_simulation::contour::farthest;
+use vcutc_simulation::prove::replay_on;
+use vcutc_simulation::report::area_under;
+use vcutc_simulation::surface::Surface;
+use vcutc_simulation::timing::total;
+
+/// What a plan comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Figures {
+    pub(super) time: Duration,
+    pub(super) cuts: usize,
+    /// The most that is left: the machined contour's largest distance from the part.
+    pub(super) height: Length,
+    /// The longest edge in use.
+    pub(super) edge: Length,
+}
+
+impl Figures {
+    /// What an objective makes small: seconds, cuts, or millimetres.
+    pub(super) const fn merit(&self, objective: Objective) -> f64 {
+        match objective {
+            Objective::Time => self.time.to_s(),
+            Objective::Cuts => self.cuts as f64,
+            Objective::Scallop => self.height.to_mm(),
+            Objective::BladeLoad => self.edge.to_mm(),
+        }
+    }
+}
+
+/// A job, and the work as one of its operations finds it.
+pub(super) struct Bench<'j> {
+    pub(super) job: &'j CheckedJob,
+    /// What the operations decided so far leave of the stock.
+    before: Surface,
+    /// The part with the operation's allowance.
+    bound: Profile,
+    pub(super) latitude: RouteSet,
+    /// Plans that nobody wants any more are not made.
+    pub(super) wanted: Wanted,
+}
+
+impl<'j> Bench<'j> {
+    pub(super) fn new(job: &'j CheckedJob, asked: &RoughVcut, before: Surface, latitude: RouteSet) -> Self {
+        Self {
+            job,
+            before,
+            bound: offset_up(&job.profile, asked.allowance.value),
+            latitude,
+            wanted: Wanted::ALWAYS,
+        }
+    }
+
+    /// The same, of which no plans are made once they are not wanted any more.
+    pub(super) fn while_wanted(self, wanted: &Wanted) -> Self {
+        Self {
+            wanted: wanted.clone(),
+            ..self
+        }
+    }
+
+    /// The same work for someone else.
+    pub(super) fn for_whom(&self, wanted: &Wanted) -> Self {
+        Self {
+            job: self.job,
+            before: self.before.clone(),
+            bound: self.bound.clone(),
+            latitude: self.latitude,
+            wanted: wanted.clone(),
+        }
+    }
+
+    /// The work as the operation finds it.
+    pub(super) const fn work(&self) -> Work<'_> {
+        Work {
+            before: &self.before,
+            bound: &self.bound,
+        }
+    }
+
+    /// What comes of an operation.
+    pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
+        let vcut = &laid.vcut;
+        let cuts = vcut.cuts.len();
+        let Some(program) = program(self.job, vcut) else {
+            return Contender {
+                laid,
+                standing: Standing::Impossible,
+                figures: Figures {
+                    time: Duration::ZERO,
+                    cuts,
+                    height: Length::ZERO,
+                    edge: Length::ZERO,
+                },
+                residual: Area::ZERO,
+            };
+        };
+        let replay = replay_on(self.before.clone(), &program, &[PlannedOperation::bound(vcut)]);
+        let time = total(&program);
+        let failing = replay.findings.iter().map(|(count, _)| count).sum();
+        let corners: Vec<_> = replay.surface.corners().collect();
+        let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
+        let height = farthest(&corners, &self.job.profile).height;
+        Contender {
+            laid,
+            standing: match failing {
+                0 => Standing::Takes(time),
+                _ => Standing::Fails(failing),
+            },
+            figures: Figures {
+                time,
+                cuts,
+                height,
+                edge: replay.longest_edge,
+            },
+            residual: Area::mm2(area_under(&corners)) - part,
+        }
+    }
+}
+
+/// An operation as a program of its own.
+fn program(job: &CheckedJob, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
+    verify(alone(job, vcut)).ok()
+}
+
+/// How long an operation takes; none where the compiler is at fault, which the proof of the whole then shows.
+pub(super) fn time(job: &CheckedJob, vcut: &PlannedVcut) -> Option<Duration> {
+    program(job, vcut).map(|program| total(&program))
+}

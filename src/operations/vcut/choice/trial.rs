@@ -1,0 +1,602 @@
+//! Parameters by what is left in truth.
+//!
+//! The formulas hold a lattice's scallop bound [Cui 12] against the limit. That is always sound, and often far from what a
+//! planned program leaves, for its residual strategy puts tips onto the part. So the search for parameters is repeated with
+//! laxer limits on scallop, and with swings and layers beside the best ones; each outcome is planned, written down and
+//! replayed. Only what leaves no more than the job's own limit, with every chip free, is sound. Where none of these is sound,
+//! smaller swings and layers are tried until one is ([`spread`]). The best few sound ones are the [`Finalist`]s: they
+//! are compared again along the routes and with the residual strategies that they would be cut by.
+//!
+//! Soundness does not grow or shrink steadily with a parameter, so this is a search, not a proof of least time: the best of a
+//! bounded number of plans.
+
+mod anew;
+mod around;
+mod climb;
+mod met;
+mod spread;
+#[cfg(test)]
+mod tests;
+
+pub(super) use met::TurnedDown;
+
+use super::bench::{Bench, Figures};
+use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
+use crate::asked::{Formulas, Lattice, Objective, Residual, RoughVcut};
+use crate::plan::decision::Standing;
+use crate::plan::floor::Floor;
+use crate::plan::optimum::Bound;
+use crate::plan::parameters::{self, Refusal, VcutParameters};
+use crate::plan::{LaidOut, lay_out};
+use rayon::prelude::*;
+use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_cancellation::Effort;
+use vcutc_job::{Auto, CheckedJob};
+
+/// Most plans that are tried, by the number of cuts of the first one: below the first number the second.
+const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 24), (MOST_CUTS_COMPARED, 6)];
+
+/// One that by the model takes this many times as long as it may is not planned where any plan within the limits will do: on
+/// small parts the model is far from what is planned.
+const BEYOND: f64 = 1.5;
+
+/// A candidate that by the model takes this many times as long as the best one is not planned.
+const BEHIND: f64 = 1.15;
+
+/// Most finalists of operations of up to so many cuts.
+const FINALISTS: [(usize, usize); 2] = [(2_000, 3), (MOST_CUTS_COMPARED, 2)];
+
+/// Parameters that are to be compared along the routes that they would be cut by.
+pub(super) struct Finalist {
+    pub(super) parameters: VcutParameters,
+    pub(super) found: FoundBy,
+}
+
+/// How parameters were found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FoundBy {
+    /// By formulas alone.
+    Formulas,
+    /// By what the simulated plan leaves.
+    Simulation,
+}
+
+impl FoundBy {
+    /// In words.
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::Formulas => "by formulas alone",
+            Self::Simulation => "by simulation",
+        }
+    }
+}
+
+/// What the search came to.
+pub(super) struct Found {
+    /// The best ones; at least one.
+    pub(super) finalists: Vec<Finalist>,
+    /// What came of the formulas' parameters, where they are no finalist.
+    pub(super) by_formulas: Option<Standing>,
+}
+
+impl Found {
+    /// Whether the formulas' choice stands, with more cuts by the model than are compared.
+    pub(super) fn is_large(&self, job: &CheckedJob, asked: &RoughVcut) -> bool {
+        match &self.finalists[..] {
+            [only] if only.found == FoundBy::Formulas => {
+                let found = &only.parameters;
+                let model = found.time_model(job, asked);
+                model.cuts(found.layer, found.step) > MOST_CUTS_COMPARED as f64
+            }
+            _ => false,
+        }
+    }
+}
+
+/// The best parameters on one of these lattices.
+pub(super) fn parameters(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    lattices: &[Lattice],
+    cuts_left: usize,
+) -> Result<Found, Unplanned> {
+    let by_bound = match parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec()) {
+        Ok(found) if !is_searched(asked) => return Ok(plain(found)),
+        Ok(found) => Ok(found),
+        Err(refusal) if goes_on(asked, &refusal) => Err(refusal),
+        Err(refusal) => return Err(refusal.into()),
+    };
+    let mut trials = Trials::new(bench, asked, lattices, cuts_left);
+    let first = trials.search(by_bound.as_ref().ok());
+    let mut finalists = trials.finalists(by_bound.as_ref().ok());
+    if finalists.is_empty() {
+        return by_bound.map(plain).map_err(Unplanned::from);
+    }
+    trials.anew();
+    let is_new = |one: &Finalist| {
+        let known = finalists.iter();
+        !known
+            .into_iter()
+            .any(|known| alike(&known.parameters, &one.parameters))
+    };
+    let found_anew = trials.finalists(by_bound.as_ref().ok());
+    let found_anew: Vec<Finalist> = found_anew.into_iter().filter(is_new).collect();
+    finalists.extend(found_anew);
+    let is_in = finalists.iter().any(|one| one.found == FoundBy::Formulas);
+    Ok(Found {
+        finalists,
+        by_formulas: first.filter(|_| !is_in),
+    })
+}
+
+/// Whether simulation may find something where the formulas find nothing.
+fn goes_on(asked: &RoughVcut, refusal: &Refusal) -> bool {
+    is_searched(asked) && refusal.is_conflict() && asked.limits.scallop.is_some()
+}
+
+/// What was found where any sound plan would do.
+pub(super) struct Any {
+    /// The first sound plan, if there was one.
+    pub(super) sound: Option<(VcutParameters, Figures)>,
+    /// Plans that broke limits before.
+    pub(super) turned_down: Vec<TurnedDown>,
+}
+
+/// The first parameters on one of these lattices whose plan keeps all limits, of those that are searched.
+pub(super) fn any(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    lattices: &[Lattice],
+    cuts_left: usize,
+    effort: Effort,
+) -> (Any, Effort) {
+    let mut trials = Trials::new(bench, asked, lattices, cuts_left);
+    (trials.goal, trials.effort) = (Goal::Any, effort);
+    match parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec()) {
+        Ok(found) => {
+            trials.search(Some(&found));
+        }
+        Err(refusal) if goes_on(asked, &refusal) => {
+            trials.search(None);
+        }
+        Err(_) => {}
+    }
+    let first = trials.sound.into_iter().next();
+    let found = Any {
+        sound: first.map(|sound| (sound.parameters.found_by_simulation(asked), sound.figures)),
+        turned_down: trials.turned_down,
+    };
+    (found, trials.effort)
+}
+
+/// Parameters and the best that come of changing them, for as long as they become better by the objective.
+pub(super) fn from(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    start: &VcutParameters,
+    cuts_left: usize,
+    turned_down: Vec<TurnedDown>,
+) -> Vec<Finalist> {
+    let lattices = [start.lattice];
+    let mut trials = Trials::new(bench, asked, &lattices, cuts_left);
+    trials.turned_down = turned_down;
+    trials.weigh(start.clone());
+    trials.wander();
+    trials.comb();
+    trials.finalists(None)
+}
+
+/// What the formulas say.
+fn plain(parameters: VcutParameters) -> Found {
+    Found {
+        finalists: vec![Finalist {
+            parameters,
+            found: FoundBy::Formulas,
+        }],
+        by_formulas: None,
+    }
+}
+
+/// Whether the plan has a say in the parameters. The formulas of the paper stand as they are printed.
+pub(super) fn is_searched(asked: &RoughVcut) -> bool {
+    let is_open = asked.swing.value == Auto::Auto
+        || asked.layer.value == Auto::Auto
+        || (asked.step.value == Auto::Auto
+            && asked.overlap.value == Auto::Auto
+            && asked.limits.scallop.is_some());
+    is_open && asked.formulas.value == Formulas::Exact
+}
+
+/// What is asked of the model: where plans are searched, those are held to the limits on time and cuts. A scallop or an edge
+/// that is to be small needs them all the same: they hold the layer.
+pub(super) fn of_model(asked: &RoughVcut) -> RoughVcut {
+    match asked.objective.value {
+        Objective::Time | Objective::Cuts if is_searched(asked) => limits::of_plans(asked),
+        Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad => asked.clone(),
+    }
+}
+
+/// The parameters if nothing were known of the scallop.
+pub(super) fn freest(bench: &Bench<'_>, asked: &RoughVcut, lattice: Lattice) -> Option<VcutParameters> {
+    let mut assumed = of_model(asked);
+    if is_searched(asked) {
+        assumed.limits.scallop = None;
+    }
+    parameters::resolve_on(bench.job, &assumed, vec![lattice]).ok()
+}
+
+/// Whether the same cuts come of both.
+fn alike(one: &VcutParameters, two: &VcutParameters) -> bool {
+    (one.lattice, one.swing, one.layer, one.step) == (two.lattice, two.swing, two.layer, two.step)
+}
+
+/// A plan with nothing wrong.
+struct Sound {
+    parameters: VcutParameters,
+    figures: Figures,
+    model: Duration,
+}
+
+/// Parameters that were planned, and what came of them.
+struct Tried {
+    parameters: VcutParameters,
+    standing: Standing,
+}
+
+/// How many plans are made side by side, whatever the number of threads. Only those that are then weighed count, so what comes
+/// of the search is the same as one after the other.
+const AHEAD: usize = 2;
+
+/// What comes of parameters when they are planned.
+#[derive(Clone, Copy)]
+enum Outcome {
+    /// There are no cuts, or too many.
+    Impossible,
+    /// More cuts than are compared.
+    TooLarge { cuts: usize },
+    /// A plan.
+    Planned { standing: Standing, figures: Figures },
+}
+
+/// What the search is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Goal {
+    /// The best plans.
+    Best,
+    /// Any plan that keeps all limits.
+    Any,
+}
+
+struct Trials<'t> {
+    bench: &'t Bench<'t>,
+    asked: &'t RoughVcut,
+    lattices: &'t [Lattice],
+    cuts_left: usize,
+    floor: Floor<'t>,
+    /// How many plans may still be made; not known before the first one.
+    plans_left: Option<usize>,
+    /// How many plans there are in all, by the cuts of the first one.
+    most_plans: &'static [(usize, usize)],
+    tried: Vec<Tried>,
+    /// What was planned ahead and perhaps is asked for next.
+    ahead: Vec<(VcutParameters, Outcome)>,
+    /// The best first.
+    sound: Vec<Sound>,
+    turned_down: Vec<TurnedDown>,
+    /// The least time by the model of those that were not planned, because they must leave too much.
+    passed_over: Option<Duration>,
+    goal: Goal,
+    effort: Effort,
+}
+
+impl<'t> Trials<'t> {
+    fn new(bench: &'t Bench<'t>, asked: &'t RoughVcut, lattices: &'t [Lattice], cuts_left: usize) -> Self {
+        Self {
+            bench,
+            asked,
+            lattices,
+            cuts_left,
+            floor: Floor::new(bench.job, bench.work()),
+            plans_left: None,
+            most_plans: &PLANS,
+            tried: Vec::new(),
+            ahead: Vec::new(),
+            sound: Vec::new(),
+            turned_down: Vec::new(),
+            passed_over: None,
+            goal: Goal::Best,
+            effort: Effort::UNBOUNDED,
+        }
+    }
+
+    /// The whole search; what came of the formulas' parameters.
+    fn search(&mut self, by_bound: Option<&VcutParameters>) -> Option<Standing> {
+        let first = by_bound.and_then(|found| self.weigh(found.clone()));
+        for part in [Self::climb, Self::spread, Self::wander, Self::comb] {
+            if self.is_answered() {
+                break;
+            }
+            part(self);
+        }
+        first
+    }
+
+    /// Whether nothing more is to be known, or nobody wants to know.
+    fn is_answered(&self) -> bool {
+        let is_found = match self.goal {
+            Goal::Best => false,
+            Goal::Any => !self.sound.is_empty(),
+        };
+        is_found || self.effort.is_spent() || self.bench.wanted.is_needless()
+    }
+
+    /// The best few, the best first, and the formulas' parameters if they are sound.
+    fn finalists(&self, by_bound: Option<&VcutParameters>) -> Vec<Finalist> {
+        let Some(best) = self.sound.first() else {
+            return Vec::new();
+        };
+        let most = FINALISTS.iter().find(|(below, _)| best.figures.cuts < *below);
+        let most = most.map_or(1, |&(_, count)| count);
+        let is_by_bound = |sound: &Sound| by_bound.is_some_and(|bound| alike(bound, &sound.parameters));
+        self.sound
+            .iter()
+            .enumerate()
+            .filter(|(rank, sound)| *rank < most || (most > 1 && is_by_bound(sound)))
+            .map(|(_, sound)| match by_bound {
+                Some(bound) if alike(bound, &sound.parameters) => Finalist {
+                    parameters: bound.clone(),
+                    found: FoundBy::Formulas,
+                },
+                Some(_) | None => Finalist {
+                    parameters: self.held_by_simulation(sound),
+                    found: FoundBy::Simulation,
+                },
+            })
+            .collect()
+    }
+
+    /// Parameters with what they came up against, and by what the limit on scallop was held against them.
+    fn held_by_simulation(&self, sound: &Sound) -> VcutParameters {
+        let mut parameters = sound.parameters.clone().found_by_simulation(self.asked);
+        parameters.binding = met::binding(self.asked, sound, &self.turned_down);
+        let is_faster = self.passed_over.is_some_and(|model| model < sound.model);
+        if self.asked.objective.value == Objective::Time && is_faster {
+            parameters.binding.push(Bound::Scallop);
+            parameters.binding.sort_unstable();
+            parameters.binding.dedup();
+        }
+        parameters
+    }
+
+    fn may_go_on(&self) -> bool {
+        self.plans_left != Some(0) && !self.is_answered()
+    }
+
+    /// What comes of parameters; none where no more plans may be made or none can be.
+    fn weigh(&mut self, found: VcutParameters) -> Option<Standing> {
+        let known = self.tried.iter().find(|tried| alike(&tried.parameters, &found));
+        if let Some(known) = known {
+            return Some(known.standing);
+        }
+        if !self.may_go_on() || self.is_too_large(&found) {
+            return None;
+        }
+        let model = self.model(&found);
+        if self.must_leave_too_much(&found) {
+            let least = self.passed_over.map_or(model, |least| least.min(model));
+            self.passed_over = Some(least);
+            return None;
+        }
+        let known = self.ahead.iter().find(|(planned, _)| *planned == found);
+        let outcome = known.map_or_else(|| self.outcome(&found), |(_, outcome)| *outcome);
+        let (standing, figures) = match outcome {
+            Outcome::Impossible => {
+                self.spend(MOST_CUTS_COMPARED - 1, 0);
+                return Some(self.note(found, Standing::Impossible));
+            }
+            Outcome::TooLarge { cuts } => {
+                self.spend(cuts, cuts);
+                return None;
+            }
+            Outcome::Planned { standing, figures } => (standing, figures),
+        };
+        self.spend(figures.cuts, figures.cuts);
+        if standing.time().is_some() {
+            self.keep(Sound {
+                parameters: found.clone(),
+                figures,
+                model,
+            });
+        }
+        self.turned_down.extend(TurnedDown::of(standing, figures));
+        Some(self.note(found, standing))
+    }
+
+    /// Plans parameters.
+    fn outcome(&self, found: &VcutParameters) -> Outcome {
+        if self.bench.wanted.is_needless() {
+            return Outcome::Impossible;
+        }
+        let laid = lay_out(
+            self.bench.job,
+            self.asked,
+            found.clone(),
+            self.cuts_left,
+            self.bench.work(),
+        );
+        let Ok(laid) = laid else {
+            return Outcome::Impossible;
+        };
+        let cuts = laid.vcut.cuts.len();
+        if cuts > MOST_CUTS_COMPARED {
+            return Outcome::TooLarge { cuts };
+        }
+        let limit = self.asked.limits.scallop.map(|limit| limit.value);
+        let weighed = self.bench.weigh(self.along_its_route(laid));
+        let Contender {
+            standing, figures, ..
+        } = weighed.held_to(limit, &self.held_to());
+        Outcome::Planned { standing, figures }
+    }
+
+    /// Plans those that would be weighed next as far as can be seen, side by side.
+    fn plan_ahead<'f>(&mut self, next: impl IntoIterator<Item = &'f VcutParameters>) {
+        if !self.may_go_on() {
+            self.ahead.clear();
+            return;
+        }
+        let is_new = |found: &&VcutParameters| {
+            !self.is_behind(self.model(found))
+                && !self.tried.iter().any(|tried| alike(&tried.parameters, found))
+                && self.may_be_sound(found)
+        };
+        let worth: Vec<&VcutParameters> = next.into_iter().filter(is_new).collect();
+        let planned = worth
+            .into_par_iter()
+            .map(|found| (found.clone(), self.outcome(found)));
+        self.ahead = planned.collect();
+    }
+
+    /// Whether parameters are worth a plan, as far as is known before.
+    fn may_be_sound(&self, found: &VcutParameters) -> bool {
+        !self.is_too_large(found) && !self.must_leave_too_much(found)
+    }
+
+    /// Whether there will be far more cuts than are compared, by the model: to lay them out takes long.
+    fn is_too_large(&self, found: &VcutParameters) -> bool {
+        let model = found.time_model(self.bench.job, self.asked);
+        let cuts = model.cuts(found.layer, found.step);
+        let most = match self.goal {
+            Goal::Best => 1.5,
+            Goal::Any => 1.0,
+        };
+        cuts > most * MOST_CUTS_COMPARED as f64 || self.effort.is_less_than(cuts)
+    }
+
+    /// The operation along its usual route, or along the fastest one where its time is limited and something else made small.
+    fn along_its_route(&self, laid: LaidOut) -> LaidOut {
+        match (self.goal, self.asked.objective.value, self.asked.limits.time) {
+            (Goal::Any, _, Some(_))
+            | (Goal::Best, Objective::Cuts | Objective::Scallop | Objective::BladeLoad, Some(_)) => {
+                route::best(self.bench, laid)
+            }
+            (Goal::Best, Objective::Time, Some(_)) | (Goal::Best | Goal::Any, _, None) => {
+                route::usual(self.bench, laid)
+            }
+        }
+    }
+
+    /// What plans are held to: all but the limit on what is made small, which the best one keeps if any does.
+    fn held_to(&self) -> RoughVcut {
+        let mut held = self.asked.clone();
+        if self.goal == Goal::Any {
+            return held;
+        }
+        match held.objective.value {
+            Objective::Time => held.limits.time = None,
+            Objective::Cuts => held.limits.cuts = None,
+            Objective::Scallop | Objective::BladeLoad => {}
+        }
+        held
+    }
+
+    fn note(&mut self, parameters: VcutParameters, standing: Standing) -> Standing {
+        self.tried.push(Tried { parameters, standing });
+        standing
+    }
+
+    /// Puts a sound plan in its place; behind its equals.
+    fn keep(&mut self, sound: Sound) {
+        let merit = |sound: &Sound| sound.figures.merit(self.asked.objective.value);
+        let rank = self.sound.partition_point(|other| merit(other) <= merit(&sound));
+        self.sound.insert(rank, sound);
+    }
+
+    /// Counts a plan as one of an operation of so many cuts, of which so many were laid out.
+    fn spend(&mut self, cuts: usize, laid_out: usize) {
+        self.effort.spend(laid_out);
+        let left = self.plans_left.unwrap_or_else(|| {
+            let fitting = self.most_plans.iter().find(|(below, _)| cuts < *below);
+            fitting.map_or(1, |&(_, plans)| plans)
+        });
+        self.plans_left = Some(left.saturating_sub(1));
+    }
+
+    fn model(&self, found: &VcutParameters) -> Duration {
+        found
+            .time_model(self.bench.job, self.asked)
+            .estimate(found.swing, found.layer, found.step)
+    }
+
+    fn resolve(&self, assumed: &RoughVcut) -> Option<VcutParameters> {
+        parameters::resolve_on(self.bench.job, assumed, self.lattices.to_vec()).ok()
+    }
+
+    fn is_sound(&mut self, found: VcutParameters) -> bool {
+        self.weigh(found)
+            .is_some_and(|standing| standing.time().is_some())
+    }
+
+    fn weigh_if_promising(&mut self, found: VcutParameters) {
+        if !self.is_behind(self.model(&found)) {
+            self.weigh(found);
+        }
+    }
+
+    /// Whether a time by the model is far behind that of the best one, or beyond the limit where any plan will do.
+    fn is_behind(&self, model: Duration) -> bool {
+        let limit = self.asked.limits.time;
+        match (self.goal, self.asked.objective.value) {
+            (Goal::Any, _) => limit.is_some_and(|limit| model > limit.value * BEYOND),
+            (Goal::Best, Objective::Time) => {
+                self.sound.first().is_some_and(|best| model > best.model * BEHIND)
+            }
+            (Goal::Best, Objective::Cuts | Objective::Scallop | Objective::BladeLoad) => false,
+        }
+    }
+
+    /// Whether parameters keep the job's limits. Swing and layer that are given are taken as they are, with a step that may
+    /// keep no limit, for the proof to judge; those that are tried here are not the job's.
+    fn is_within(&self, found: &VcutParameters) -> bool {
+        let limits = &self.asked.limits;
+        limits.swing.hold(found.swing)
+            && limits.layer.hold(found.layer)
+            && limits.step.hold(found.step)
+            && found.lattice_fits()
+    }
+
+    /// Whether the overlap is open, and more of it may help: without a limit on scallop the formulas choose it.
+    fn has_open_overlap(&self) -> bool {
+        self.asked.step.value == Auto::Auto
+            && self.asked.overlap.value == Auto::Auto
+            && self.asked.limits.scallop.is_some()
+    }
+
+    /// Whether step and overlap are open, and as wide as the blade's reach allows.
+    fn is_step_of_the_blade(&self) -> bool {
+        self.asked.step.value == Auto::Auto
+            && self.asked.overlap.value == Auto::Auto
+            && self.asked.limits.scallop.is_none()
+    }
+
+    /// The least that any plan of a lattice can leave with its tips in their columns, where that is no more than may stay.
+    fn least_left(&self, found: &VcutParameters) -> Option<Length> {
+        let limit = self.asked.limits.scallop?;
+        let followed = self.floor.followed(found.flanks.slope);
+        followed.of_lattice(found, limit.value)
+    }
+
+    /// Whether a plan must leave too much.
+    fn must_leave_too_much(&self, found: &VcutParameters) -> bool {
+        let moves_tips = self.asked.residual.value == Auto::Given(Residual::Shift);
+        !moves_tips && self.asked.limits.scallop.is_some() && self.least_left(found).is_none()
+    }
+}
+
+/// Overlaps are tried up to this, as the formulas do.
+const MOST_OVERLAP: f64 = 0.95;
+
+/// Swings are chosen to a thousandth of a degree.
+fn thousandths(swing: Angle) -> Angle {
+    Angle::deg((swing.to_deg() * 1000.0).floor() / 1000.0)
+}

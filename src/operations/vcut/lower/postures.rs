@@ -1,0 +1,49 @@
+//! The few postures of an operation, computed once each: its thousands of cuts hold the blade in four ways.
+
+use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::ir::Flank;
+use vcutc_process::posture::{Feed, Holder};
+
+/// What an operation's postures are.
+pub(super) struct Postures {
+    holder: Holder,
+    /// Of the left flank and of the right one, each forward and backward.
+    cutting: [[Orientation; 2]; 2],
+    /// By way of what the blade turns from one posture to another, where that was asked.
+    ways: Vec<(Orientation, Orientation, Option<Orientation>)>,
+}
+
+impl Postures {
+    pub(super) fn of(holder: Holder) -> Self {
+        let of = |flank| [Feed::Forward, Feed::Backward].map(|feed| holder.cutting(flank, feed));
+        Self {
+            holder,
+            cutting: [Flank::Left, Flank::Right].map(of),
+            ways: Vec::new(),
+        }
+    }
+
+    /// As [`Holder::cutting`].
+    pub(super) const fn cutting(&self, flank: Flank, feed: Feed) -> Orientation {
+        let [left, right] = self.cutting;
+        let [forward, backward] = match flank {
+            Flank::Left => left,
+            Flank::Right => right,
+        };
+        match feed {
+            Feed::Forward => forward,
+            Feed::Backward => backward,
+        }
+    }
+
+    /// As [`Holder::by_way_of`].
+    pub(super) fn by_way_of(&mut self, from: Orientation, to: Orientation) -> Option<Orientation> {
+        let known = self.ways.iter().find(|way| (way.0, way.1) == (from, to));
+        if let Some((_, _, way)) = known {
+            return *way;
+        }
+        let way = self.holder.by_way_of(from, to);
+        self.ways.push((from, to, way));
+        way
+    }
+}

@@ -1,0 +1,160 @@
+//! V-shaped roughing as an operation of a job.
+
+use crate::asked::{Objective, RoughVcut};
+use crate::choice;
+use crate::plan::PlannedVcut;
+use core::any::Any;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_cancellation::Effort;
+use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::source::Span;
+use vcutc_job::operation::{Aim, Ground, Laid, Operation, Settled, Swing, Unplanned, Variant, Variation};
+use vcutc_job::{Auto, Order, PlannedOperation, Setup, Sourced};
+
+/// By how many degrees the swing is made smaller, one after the other.
+const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
+
+impl RoughVcut {
+    /// An operation that is V-shaped roughing.
+    #[must_use]
+    pub fn of(operation: &dyn Operation) -> Option<&Self> {
+        let operation: &dyn Any = operation;
+        operation.downcast_ref()
+    }
+
+    /// The same, to be changed.
+    #[must_use]
+    pub fn of_mut(operation: &mut dyn Operation) -> Option<&mut Self> {
+        let operation: &mut dyn Any = operation;
+        operation.downcast_mut()
+    }
+
+    fn in_the_other_order(&self) -> Variant {
+        let order = match self.order.value.or(Order::Point) {
+            Order::Point => Order::Layer,
+            Order::Layer => Order::Point,
+        };
+        let mut operation = self.clone();
+        operation.order.value = Auto::Given(order);
+        Variant {
+            advice: format!("cut with `order = {}`", order.word()),
+            edits: self.setup.stated("order", self.order.span, order.word()),
+            operation: Box::new(operation),
+        }
+    }
+
+    /// In whole degrees.
+    fn with_smaller_swings(&self, planned: Angle) -> Vec<Variant> {
+        let now = planned.to_deg().ceil();
+        let swings = SMALLER.into_iter().map(|less| now - less);
+        let with = |swing: f64| {
+            let text = format!("{} deg", show(swing));
+            let mut operation = self.clone();
+            operation.swing.value = Auto::Given(Angle::deg(swing));
+            Variant {
+                advice: format!("use a `swing` of {text}"),
+                edits: self.swing.span.map(|span| (span, text)).into_iter().collect(),
+                operation: Box::new(operation),
+            }
+        };
+        swings.filter(|&swing| swing > 0.0).map(with).collect()
+    }
+}
+
+impl Operation for RoughVcut {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn setup_mut(&mut self) -> &mut Setup {
+        &mut self.setup
+    }
+
+    /// Tips keep their places: there are as many of them as cuts.
+    fn forget_places(&mut self, place: Span) {
+        self.lattice.forget_place(place);
+        self.swing.forget_place(place);
+        self.layer.forget_place(place);
+        self.step.forget_place(place);
+        self.overlap.forget_place(place);
+        self.objective.forget_place(place);
+        self.formulas.forget_place(place);
+        self.allowance.forget_place(place);
+        self.residual.forget_place(place);
+        self.order.forget_place(place);
+        self.sequence.forget_place(place);
+        self.standoff.forget_place(place);
+        let limits = &mut self.limits;
+        limits.swing.forget_places(place);
+        limits.layer.forget_places(place);
+        limits.step.forget_places(place);
+        for limit in [&mut limits.scallop, &mut limits.edge].into_iter().flatten() {
+            limit.forget_place(place);
+        }
+        forget(&mut limits.time, place);
+        forget(&mut limits.cuts, place);
+    }
+
+    fn scallop_limit(&self) -> Option<Sourced<Length>> {
+        self.limits.scallop
+    }
+
+    fn aim(&self) -> Aim {
+        match self.objective.value {
+            Objective::Time => Aim::Time,
+            Objective::Scallop | Objective::Cuts | Objective::BladeLoad => Aim::Otherwise,
+        }
+    }
+
+    fn swing(&self) -> Swing {
+        match self.swing.value {
+            Auto::Auto => Swing::Open,
+            Auto::Given(_) => Swing::Given,
+        }
+    }
+
+    fn narrowest_swing(&self) -> Option<Angle> {
+        self.limits.swing.least.map(|least| least.value)
+    }
+
+    fn variants(&self, planned: &dyn PlannedOperation, of: Variation) -> Vec<Variant> {
+        match of {
+            Variation::Order => vec![self.in_the_other_order()],
+            Variation::SmallerSwing => self.with_smaller_swings(planned.swing()),
+        }
+    }
+
+    fn without_plan_limits(&self) -> Option<Box<dyn Operation>> {
+        let free = choice::without_plan_limits(self)?;
+        Some(Box::new(free))
+    }
+
+    fn settle(&mut self, planned: &dyn PlannedOperation) -> Settled {
+        match PlannedVcut::of(planned).map(|vcut| vcut.asked.limits) {
+            Some(limits) if limits.chosen.is_some() => {
+                self.limits.scallop = limits.scallop;
+                self.limits.chosen = limits.chosen;
+                Settled::Limited
+            }
+            Some(_) | None => Settled::AsAsked,
+        }
+    }
+
+    fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
+        let (vcut, after) = choice::plan(self, ground)?;
+        Ok(Laid {
+            planned: Box::new(vcut),
+            after,
+        })
+    }
+
+    fn is_plannable(&self, ground: Ground<'_>, effort: &mut Effort) -> bool {
+        choice::is_plannable(self, ground, effort)
+    }
+}
+
+fn forget<T>(limit: &mut Option<Sourced<T>>, place: Span) {
+    if let Some(limit) = limit {
+        limit.forget_place(place);
+    }
+}

@@ -1,0 +1,511 @@
+//! What the open parameters come out as.
+//!
+//! This is the one place where `auto` is decided: lattice, swing, layer, step and overlap by optimisation
+//! ([`optimum`]), its result rounded to the grid ([`search`]); extension and standoff from the blade. What
+//! a job gives is kept as it is, whatever comes of it: the proof says what is wrong with it.
+
+mod complaints;
+mod grid_forms;
+mod infeasible;
+mod search;
+mod swung;
+
+pub use grid_forms::largest_layers;
+pub use swung::Swung;
+
+use super::blade_reach::{self, Flanks};
+use super::optimum::{self, Bound, Problem};
+use super::refusal::Refused;
+use super::time_model::TimeModel;
+use crate::asked::{Lattice, RoughVcut};
+use grid_forms::{fits, widest_step};
+use search::Chosen;
+use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::number::show;
+use vcutc_geometry::grid;
+use vcutc_job::{Auto, CheckedJob, Direction};
+use vcutc_process::posture::Holder;
+
+/// The parameters of one V-cutting operation, all decided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VcutParameters {
+    /// How tips are laid out.
+    pub lattice: Lattice,
+    /// Overlap by which an open step follows from the layer.
+    pub overlap: f64,
+    /// Half the opening angle of the V.
+    pub swing: Angle,
+    /// Layer spacing.
+    pub layer: Length,
+    /// Spacing of tips in a layer; free layouts use a little less where that spreads tips evenly over a stretch.
+    pub step: Length,
+    /// How far cuts run out beyond the stock.
+    pub extension: Length,
+    /// Distance of the blade's middle plane from the material that stays.
+    pub standoff: Length,
+    /// How much higher the tip runs than the V its material side makes: `standoff / sin(swing)`.
+    pub drop: Length,
+    /// Slope and reach of the flanks.
+    pub flanks: Flanks,
+    /// How high above the tip material may stand while the blade moves or turns beside it: the blade leans over the work.
+    pub clear_height: Length,
+    /// Bounds that the choice of open parameters came up against.
+    pub binding: Vec<Bound>,
+    /// How the limit on scallop was held against them.
+    pub scallop_by: ScallopBy,
+}
+
+/// What is held against a limit on scallop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScallopBy {
+    /// The lattice's bound [Cui 12].
+    Bound,
+    /// What the simulated program leaves.
+    Simulation,
+}
+
+/// A parameter that was left to the compiler, and what it came out as.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Its name in the language.
+    pub name: &'static str,
+    /// Its value with unit.
+    pub value: String,
+}
+
+impl VcutParameters {
+    /// Whether the blade reaches what the lattice needs far from the part.
+    #[must_use]
+    pub fn lattice_fits(&self) -> bool {
+        fits(self.lattice, self.layer, self.step, &self.flanks)
+    }
+
+    /// The step that goes with this layer when it is left open.
+    #[must_use]
+    pub fn step_for_layer(&self) -> Length {
+        widest_step(self.lattice, self.layer, self.overlap, &self.flanks)
+    }
+
+    /// What was left open and how it was decided, in the order of the language reference.
+    #[must_use]
+    pub fn choices(&self, asked: &RoughVcut) -> Vec<Choice> {
+        let length = |name, open: Auto<Length>, value: Length| match open {
+            Auto::Auto => Some(Choice {
+                name,
+                value: format!("{} mm", show(value.to_mm())),
+            }),
+            Auto::Given(_) => None,
+        };
+        let lattice = match asked.lattice.value {
+            Auto::Auto => Some(Choice {
+                name: "lattice",
+                value: self.lattice.word().to_owned(),
+            }),
+            Auto::Given(_) => None,
+        };
+        let swing = match asked.swing.value {
+            Auto::Auto => Some(Choice {
+                name: "swing",
+                value: format!("{} deg", show(self.swing.to_deg())),
+            }),
+            Auto::Given(_) => None,
+        };
+        let overlap = match (asked.overlap.value, asked.step.value) {
+            (Auto::Auto, Auto::Auto) => Some(Choice {
+                name: "overlap",
+                value: format!("{} %", show(self.overlap * 100.0)),
+            }),
+            (Auto::Given(_), _) | (_, Auto::Given(_)) => None,
+        };
+        [
+            lattice,
+            swing,
+            length("layer", asked.layer.value, self.layer),
+            length("step", asked.step.value, self.step),
+            overlap,
+            length("extension", asked.setup.extension.value, self.extension),
+            length("standoff", asked.standoff.value, self.standoff),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// What the open parameters came up against, in words: why they are not better. Empty where nothing bound them.
+    #[must_use]
+    pub fn reasons(&self, asked: &RoughVcut) -> Vec<&'static str> {
+        let mut words: Vec<&'static str> = self
+            .binding
+            .iter()
+            .map(|bound| match (bound, self.scallop_by) {
+                (Bound::Scallop, ScallopBy::Simulation) => "the limit on scallop as simulated",
+                (bound, ScallopBy::Bound | ScallopBy::Simulation) => bound_in_words(asked, *bound),
+            })
+            .collect();
+        words.dedup();
+        words
+    }
+
+    /// What the lattice leaves on the part at most by its bound, with the allowance and the standoff.
+    #[must_use]
+    pub fn scallop_bound(&self, asked: &RoughVcut) -> Length {
+        blade_reach::scallop_bound(self.lattice, self.layer, self.step, self.flanks.slope)
+            + asked.allowance.value
+            + self.drop
+    }
+
+    /// Whether the limit on scallop kept the open parameters from coming out better.
+    #[must_use]
+    pub fn is_bound_by_scallop(&self) -> bool {
+        self.binding.contains(&Bound::Scallop)
+    }
+
+    /// The same, found by simulation: where the lattice's bound breaks the limit on scallop, simulation has held it.
+    #[must_use]
+    pub fn found_by_simulation(self, asked: &RoughVcut) -> Self {
+        let bound = self.scallop_bound(asked);
+        let is_broken = asked.limits.scallop.is_some_and(|limit| bound > limit.value);
+        Self {
+            scallop_by: if is_broken {
+                ScallopBy::Simulation
+            } else {
+                self.scallop_by
+            },
+            ..self
+        }
+    }
+
+    /// The mean-value model of the paper for a job cut with these parameters.
+    #[must_use]
+    pub fn time_model(&self, job: &CheckedJob, asked: &RoughVcut) -> TimeModel {
+        let stock = job.stock;
+        TimeModel {
+            width: stock.width,
+            depth: stock.depth,
+            area: job.area_to_remove(),
+            clearance: asked.setup.clearance.value,
+            extension: self.extension,
+            rake: asked.setup.rake.value,
+            cut_feed: asked.setup.cut_feed.value,
+            travel_feed: asked.setup.travel_feed.value,
+            reorient_rate: asked.setup.reorient_rate.value,
+        }
+    }
+}
+
+const fn bound_in_words(asked: &RoughVcut, bound: Bound) -> &'static str {
+    let limits = &asked.limits;
+    match bound {
+        Bound::SwingLeast if limits.swing.least.is_none() => "the flattest swing looked at",
+        Bound::SwingMost if limits.swing.most.is_none() => "the widest swing looked at",
+        Bound::SwingLeast | Bound::SwingMost => "the limit on swing",
+        Bound::LayerMost if limits.layer.most.is_none() => "the depth of the work",
+        Bound::LayerLeast | Bound::LayerMost => "the limit on layer",
+        Bound::StepMost if limits.step.most.is_none() => "the width of the stock",
+        Bound::StepLeast | Bound::StepMost => "the limit on step",
+        Bound::OverlapLeast => "Vs that just meet",
+        Bound::OverlapMost => "the largest overlap looked at",
+        Bound::Scallop => "the limit on scallop",
+        Bound::Edge if limits.edge.is_none() => "the blade's edge",
+        Bound::Edge => "the limit on edge",
+        Bound::Time => "the limit on time",
+        Bound::Cuts => "the limit on cuts",
+    }
+}
+
+/// What is known before the open parameters are chosen.
+struct Resolution {
+    /// Lattices to choose from.
+    lattices: Vec<Lattice>,
+    /// Distance of the blade's middle plane from the material that stays.
+    standoff: Length,
+}
+
+/// Why nothing was decided, before anybody asks for the words: to find those takes many times as long.
+#[derive(Clone, Debug)]
+pub enum Refusal {
+    /// The operation contradicts itself.
+    Contradiction(Vec<Refused>),
+    /// No parameters keep the limits of this problem.
+    Conflict(Box<Problem>),
+    /// Nothing keeps the objective from falling for ever.
+    Unbounded,
+    /// Some do, but none on the grid.
+    OffGrid,
+}
+
+impl Refusal {
+    /// Whether it is limits that cannot be kept together.
+    #[must_use]
+    pub const fn is_conflict(&self) -> bool {
+        match self {
+            Self::Conflict(_) | Self::OffGrid => true,
+            Self::Contradiction(_) | Self::Unbounded => false,
+        }
+    }
+
+    /// In the user's words.
+    #[must_use]
+    pub fn in_words(self, asked: &RoughVcut) -> Vec<Refused> {
+        match self {
+            Self::Contradiction(refused) => refused,
+            Self::Conflict(problem) => {
+                let bounds = optimum::conflicting(&problem);
+                vec![infeasible::conflict(asked, &problem, &bounds)]
+            }
+            Self::Unbounded => vec![complaints::nothing_holds_the_layer(asked, &[])],
+            Self::OffGrid => vec![infeasible::off_grid(asked).into()],
+        }
+    }
+}
+
+/// That nothing holds the layer, with limits on time that are likely to be kept.
+#[must_use]
+pub fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> Refused {
+    complaints::nothing_holds_the_layer(asked, times)
+}
+
+/// Decides what is open.
+///
+/// # Errors
+/// When the operation contradicts itself, or nothing keeps its limits.
+pub fn resolve(job: &CheckedJob, asked: &RoughVcut) -> Result<VcutParameters, Refusal> {
+    resolve_on(job, asked, search::lattices(asked))
+}
+
+/// Decides what is open, with the lattice one of these.
+///
+/// # Errors
+/// As for [`resolve`].
+pub fn resolve_on(
+    job: &CheckedJob,
+    asked: &RoughVcut,
+    lattices: Vec<Lattice>,
+) -> Result<VcutParameters, Refusal> {
+    let contradiction =
+        |told: Vec<Diagnostic>| Refusal::Contradiction(told.into_iter().map(Refused::from).collect());
+    let resolution = consider(asked, lattices).map_err(contradiction)?;
+    let chosen = decide(job, asked, &resolution)?;
+    let edge = edge_overhang(asked, chosen.swing);
+    let mut told = Vec::new();
+    complete(asked, resolution.standoff, edge, chosen, &mut told).ok_or_else(|| contradiction(told))
+}
+
+/// What is known before.
+///
+/// # Errors
+/// What there is to tell where the operation contradicts itself.
+fn consider(asked: &RoughVcut, lattices: Vec<Lattice>) -> Result<Resolution, Vec<Diagnostic>> {
+    let mut told = Vec::new();
+    complaints::check_rake(asked, &mut told);
+    complaints::check_given(asked, &mut told);
+    let standoff = resolve_standoff(asked, &mut told);
+    if told.is_empty() {
+        Ok(Resolution { lattices, standoff })
+    } else {
+        Err(told)
+    }
+}
+
+/// The lattices that are open, in the order of the language reference.
+#[must_use]
+pub fn open_lattices(asked: &RoughVcut) -> Vec<Lattice> {
+    search::lattices(asked)
+}
+
+/// The optimisation problem that an operation poses. None when its rake or its standoff contradict its blade.
+#[must_use]
+pub fn problem(job: &CheckedJob, asked: &RoughVcut) -> Option<Problem> {
+    let mut diagnostics = Vec::new();
+    complaints::check_rake(asked, &mut diagnostics);
+    let standoff = resolve_standoff(asked, &mut diagnostics);
+    diagnostics
+        .is_empty()
+        .then(|| search::problem(job, asked, search::lattices(asked), standoff))
+}
+
+/// Lattice, swing, layer and step.
+fn decide(job: &CheckedJob, asked: &RoughVcut, resolution: &Resolution) -> Result<Chosen, Refusal> {
+    if let Auto::Auto = asked.layer.value
+        && let Some(complaint) =
+            complaints::no_room_for_scallops(asked, least_drop(asked, resolution.standoff))
+    {
+        return Err(Refusal::Contradiction(vec![complaint]));
+    }
+    search::choose(job, asked, resolution.lattices.clone(), resolution.standoff)
+        .or_else(|refusal| as_given(asked, resolution, &refusal).ok_or(refusal))
+}
+
+/// The least that the standoff raises the tip by, whatever the swing.
+fn least_drop(asked: &RoughVcut, standoff: Length) -> Length {
+    let widest = asked
+        .limits
+        .swing
+        .most
+        .map_or(Angle::deg(90.0), |limit| limit.value);
+    standoff / asked.swing.value.or(widest).sin()
+}
+
+/// Swing and layer as they are given where what they conflict with is told better by the proof: which chip is not
+/// cut free, how much the contour really leaves, and how long it takes.
+fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Refusal) -> Option<Chosen> {
+    let (Auto::Given(swing), Auto::Given(layer)) = (asked.swing.value, asked.layer.value) else {
+        return None;
+    };
+    if !why.is_conflict() {
+        return None;
+    }
+    let overlap = asked.overlap.value.or(0.0);
+    let flanks = flanks_at(asked, swing);
+    let choices = resolution.lattices.iter().map(|&lattice| Chosen {
+        lattice,
+        swing,
+        layer,
+        step: asked.step.value.or(widest_step(lattice, layer, overlap, &flanks)),
+        overlap,
+        binding: Vec::new(),
+    });
+    let needs =
+        |chosen: &Chosen| blade_reach::needed_reach(chosen.lattice, chosen.layer, chosen.step, flanks.slope);
+    choices.min_by(|one, two| needs(one).total_cmp(&needs(two)))
+}
+
+/// The length of edge that may be used.
+fn usable_edge(asked: &RoughVcut) -> Length {
+    let blade = asked.setup.blade.cutting_length.value;
+    asked.limits.edge.map_or(blade, |limit| limit.value.min(blade))
+}
+
+fn flanks_at(asked: &RoughVcut, swing: Angle) -> Flanks {
+    Flanks::new(
+        usable_edge(asked),
+        asked.setup.blade.half_apex.value,
+        asked.setup.rake.value,
+        swing,
+    )
+}
+
+/// What follows from lattice, swing, layer and step, and from the overhang of the edge at that swing.
+fn complete(
+    asked: &RoughVcut,
+    standoff: Length,
+    edge: Length,
+    chosen: Chosen,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<VcutParameters> {
+    let Chosen {
+        lattice,
+        swing,
+        layer,
+        step,
+        overlap,
+        binding,
+    } = chosen;
+    let flanks = flanks_at(asked, swing);
+    let lean = Lean::new(asked, swing);
+    // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
+    let teeth = layer + step * (flanks.slope / 2.0);
+    let extension = resolve_extension(asked, edge, lean.overhang(teeth), diagnostics)?;
+    // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
+    let clear_height = lean.clear_height(extension).max(teeth);
+    Some(VcutParameters {
+        lattice,
+        overlap,
+        swing,
+        layer,
+        step,
+        extension,
+        standoff,
+        drop: standoff / swing.sin(),
+        flanks,
+        clear_height,
+        binding,
+        scallop_by: ScallopBy::Bound,
+    })
+}
+
+/// How far the edge lies over the work while it cuts [Cui 5] and while it turns beside it; the whole cutting length, as deep
+/// cuts use it.
+fn edge_overhang(asked: &RoughVcut, swing: Angle) -> Length {
+    let (length, half_apex) = (
+        asked.setup.blade.cutting_length.value,
+        asked.setup.blade.half_apex.value,
+    );
+    let cutting = length * (asked.setup.rake.value - half_apex).cos();
+    match asked.setup.direction.value {
+        Direction::Alternate => {
+            let holder = Holder {
+                swing,
+                rake: asked.setup.rake.value,
+                edges: asked.setup.blade.edges,
+            };
+            cutting.max(holder.turning_overhang(length, half_apex))
+        }
+        // The blade turns above the work only.
+        Direction::Forward | Direction::Backward => cutting,
+    }
+}
+
+/// How the blade leans over the work while its tip is beside it. Above the cutting length it is taken to go on along the tool
+/// axis as wide as it is there.
+struct Lean {
+    /// Half the blade's width at its full cutting length, measured along y: `L sin(beta) / sin(theta)`.
+    half_width: Length,
+    /// How far the tool axis leans along y for each millimetre of height: `cot(theta) / cos(alpha)`.
+    per_height: f64,
+}
+
+impl Lean {
+    fn new(asked: &RoughVcut, swing: Angle) -> Self {
+        let (blade, rake) = (&asked.setup.blade, asked.setup.rake.value);
+        Self {
+            half_width: blade.cutting_length.value * (blade.half_apex.value.sin() / rake.sin()),
+            per_height: rake.cos().max(0.0) / (rake.sin() * swing.cos()),
+        }
+    }
+
+    /// How far the blade lies over the work at a height above the tip.
+    fn overhang(&self, height: Length) -> Length {
+        self.half_width + height * self.per_height
+    }
+
+    /// The height up to which the blade is clear of the work with its tip that far beside it.
+    fn clear_height(&self, extension: Length) -> Length {
+        let upright = 1e-9;
+        Length::mm((extension - self.half_width).to_mm().max(0.0) / self.per_height.max(upright))
+    }
+}
+
+/// Half the blade's thickness, or what is given: less would let the blade's side enter the part.
+fn resolve_standoff(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Length {
+    let least = asked.setup.blade.thickness.value / 2.0;
+    match asked.standoff.value {
+        Auto::Auto => least,
+        Auto::Given(standoff) => {
+            if standoff < least {
+                diagnostics.push(complaints::standoff_too_small(asked, standoff, least));
+            }
+            standoff
+        }
+    }
+}
+
+/// The extension on the grid. The blade lies over the work by its edge, and above the edge by its body up to the teeth of
+/// the layer above; given extensions need only clear the edge.
+fn resolve_extension(
+    asked: &RoughVcut,
+    edge: Length,
+    body_overhang: Length,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Length> {
+    let on_grid = |extension: Length| Length::mm(grid::up(extension.to_mm()));
+    match asked.setup.extension.value {
+        Auto::Auto => Some(on_grid(body_overhang.max(edge) + asked.setup.run_out.value)),
+        Auto::Given(extension) if on_grid(extension) >= on_grid(edge) => Some(on_grid(extension)),
+        Auto::Given(extension) => {
+            diagnostics.push(complaints::extension_too_short(asked, extension, on_grid(edge)));
+            None
+        }
+    }
+}

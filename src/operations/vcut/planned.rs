@@ -1,0 +1,168 @@
+//! The plan of V-shaped roughing as the stages after planning see it.
+
+use crate::asked::{RoughVcut, Sequence};
+use crate::plan::PlannedVcut;
+use crate::plan::removable::Removable;
+use crate::{choice, lower, summary, tables, verdict};
+use core::any::Any;
+use vcutc_backend_api::builder::ProgramBuilder;
+use vcutc_backend_api::ir::{SourceRef, Stock};
+use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::number::show;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
+use vcutc_job::description::{ParameterFigure, ParameterTable};
+use vcutc_job::operation::{Operation, Trials, WorksThere};
+use vcutc_job::planned::{Balance, Compile, Estimate, PlannedTip};
+use vcutc_job::search::RouteSet;
+use vcutc_job::{Auto, Order, PlannedOperation};
+use vcutc_simulation::prove::{Bound, Finding};
+use vcutc_simulation::report::Report;
+use vcutc_simulation::surface::Surface;
+
+impl PlannedVcut {
+    /// A plan that is one of V-shaped roughing.
+    #[must_use]
+    pub fn of(planned: &dyn PlannedOperation) -> Option<&Self> {
+        let planned: &dyn Any = planned;
+        planned.downcast_ref()
+    }
+}
+
+impl PlannedOperation for PlannedVcut {
+    fn asked(&self) -> &dyn Operation {
+        &self.asked
+    }
+
+    fn asked_mut(&mut self) -> &mut dyn Operation {
+        &mut self.asked
+    }
+
+    fn set_asked(&mut self, asked: &dyn Operation) {
+        if let Some(asked) = RoughVcut::of(asked) {
+            self.asked.clone_from(asked);
+        }
+    }
+
+    fn cuts(&self) -> usize {
+        self.cuts.len()
+    }
+
+    fn tips(&self) -> Vec<PlannedTip> {
+        let cuts = self.cuts.iter();
+        cuts.map(|cut| PlannedTip {
+            layer: cut.layer,
+            tip: cut.tip,
+            origin: cut.origin,
+        })
+        .collect()
+    }
+
+    fn swing(&self) -> Angle {
+        self.parameters.swing
+    }
+
+    fn order(&self) -> Order {
+        self.order
+    }
+
+    fn extension(&self) -> Length {
+        self.parameters.extension
+    }
+
+    fn bound(&self) -> Bound<'_> {
+        Bound {
+            part: &self.bound,
+            drop: self.parameters.drop,
+            edge: self.asked.limits.edge.map(|limit| limit.value),
+        }
+    }
+
+    fn estimate(&self) -> Estimate {
+        Estimate {
+            time: self.estimate,
+            cuts: self.estimated_cuts,
+        }
+    }
+
+    fn is_within(&self, routes: RouteSet) -> bool {
+        choice::is_within(self, routes)
+    }
+
+    fn in_rows(&self, order: Option<Order>, swing: Option<Angle>, stock: Stock) -> Box<dyn PlannedOperation> {
+        let mut vcut = self.clone();
+        if let (Auto::Auto, Some(swing)) = (vcut.asked.swing.value, swing)
+            && swing < vcut.parameters.swing
+        {
+            vcut.parameters.swing = swing;
+        }
+        let order = vcut.asked.order.value.or(order.unwrap_or(vcut.order));
+        Box::new(vcut.along(order, Sequence::Rows, &Surface::untouched(stock), stock))
+    }
+
+    fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {
+        lower::lower(self, source, builder);
+    }
+
+    fn explain(
+        &self,
+        finding: Finding,
+        count: usize,
+        trials: &mut dyn Trials,
+        works: &mut WorksThere<'_>,
+    ) -> Diagnostic {
+        verdict::explain(self, finding, count, trials, works)
+    }
+
+    fn explain_scallop(&self, report: &Report, trials: &mut dyn Trials) -> Option<Diagnostic> {
+        verdict::over_limit(self, report, trials)
+    }
+
+    fn warnings(&self) -> Vec<Diagnostic> {
+        verdict::idle_tips(self).into_iter().collect()
+    }
+
+    fn to_remove(&self, profile: &Profile, top: &[Point2]) -> Area {
+        Removable::new(profile, &self.asked).under(top)
+    }
+
+    fn explain_what_stays(&self, balance: Balance<'_>, compile: &Compile<'_>) -> Option<Diagnostic> {
+        verdict::much_stays(self, balance, compile)
+    }
+
+    fn broken_limits(&self, asked: &dyn Operation, time: Duration) -> Option<Diagnostic> {
+        choice::broken_limits(self, RoughVcut::of(asked)?, time)
+    }
+
+    fn parameters(&self) -> Vec<ParameterFigure> {
+        summary::parameters(self)
+    }
+
+    fn tables(&self) -> Vec<ParameterTable> {
+        tables::tables(self)
+    }
+
+    fn summary(&self, report: &Report) -> Vec<(&'static str, String)> {
+        summary::summary(self, report)
+    }
+
+    fn chosen(&self, field: &str) -> Option<(String, String)> {
+        summary::chosen(self, field)
+    }
+
+    fn layout(&self) -> [String; 2] {
+        let found = &self.parameters;
+        let name = match self.asked.tips {
+            Some(_) => "given tips",
+            None => found.lattice.word(),
+        };
+        let measures = format!(
+            "swing {} deg, layer {} mm, step {} mm",
+            show(found.swing.to_deg()),
+            show(found.layer.to_mm()),
+            show(found.step.to_mm())
+        );
+        [name.to_owned(), measures]
+    }
+}
