@@ -91,7 +91,9 @@ use abreast::Underway;
 use arm::{ArmBranch, Carrying};
 use bounds::Stretch;
 use course::{Flight, Span};
+use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::segments::LinearSegment;
 use vcutc_machine::kinematics::five_axis::FiveAxis;
 use vcutc_machine::kinematics::opw::Opw;
 use vcutc_machine::kinematics::pose::Pose;
@@ -108,6 +110,18 @@ pub struct Course {
     pub to: Pose,
     /// How long it takes, in s; positive.
     pub duration: f64,
+}
+
+impl Course {
+    /// That of a straight motion of a program.
+    #[must_use]
+    pub fn of(program: &Program, line: &LinearSegment) -> Option<Self> {
+        Some(Self {
+            from: Pose::from(program.frame(line.from)?),
+            to: Pose::from(program.frame(line.to)?),
+            duration: line.duration().to_s(),
+        })
+    }
 }
 
 /// What holds all along a course that the axes follow on one branch.

@@ -43,24 +43,17 @@ impl Off {
         else {
             return None;
         };
-        let op = program.ops.get(op.0 as usize)?;
+        let op = program.op(*op)?;
         let Operation::RoughVcut(asked) = job.operations.get(usize::from(op.site.operation()?.0))?;
-        let speeds = match op.action {
-            Action::Cut { .. } => vec![cut(asked)],
-            Action::Approach { .. } | Action::Retract { .. } => vec![travel(asked)],
-            // Where the blade turns on its way, either of the two holds it back.
-            Action::Travel { .. } => vec![reorient(asked), travel(asked)],
-            Action::Turn { .. } => vec![reorient(asked)],
-            Action::Home
-            | Action::AxisTravel { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => Vec::new(),
-        };
+        // Where the blade turns on its way, either of the two holds it back.
+        let rate = op.action.rate().and_then(|_| reorient(asked));
+        let feed = op.action.feed().and_then(|_| match op.action {
+            Action::Cut { .. } => cut(asked),
+            _ => travel(asked),
+        });
         Some(Self {
             factor: range.factor()?,
-            speeds: speeds.into_iter().flatten().collect(),
+            speeds: rate.into_iter().chain(feed).collect(),
         })
     }
 }
