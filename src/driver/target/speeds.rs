@@ -9,7 +9,8 @@ use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
-use vcutc_job::{CheckedJob, Operation, RoughVcut};
+use vcutc_job::{CheckedJob, Operation};
+use vcutc_motion::remedy::speed::Field;
 use vcutc_process::plan::parameters::show;
 
 /// How far beyond the factor of the first motion is looked.
@@ -46,43 +47,25 @@ impl Off {
         let op = program.op(*op)?;
         let Operation::RoughVcut(asked) = job.operations.get(usize::from(op.site.operation()?.0))?;
         // Where the blade turns on its way, either of the two holds it back.
-        let rate = op.action.rate().and_then(|_| reorient(asked));
-        let feed = op.action.feed().and_then(|_| match op.action {
-            Action::Cut { .. } => cut(asked),
-            _ => travel(asked),
+        let rate = op.action.rate().map(|_| Field::Reorient);
+        let feed = op.action.feed().map(|_| match op.action {
+            Action::Cut { .. } => Field::Cut,
+            _ => Field::Travel,
         });
+        let stated = |field: Field| {
+            let (name, unit, span) = field.written(asked);
+            Some(Stated {
+                field: name,
+                value: field.value(asked),
+                unit,
+                span: span?,
+            })
+        };
         Some(Self {
             factor: range.factor()?,
-            speeds: rate.into_iter().chain(feed).collect(),
+            speeds: rate.into_iter().chain(feed).filter_map(stated).collect(),
         })
     }
-}
-
-fn cut(asked: &RoughVcut) -> Option<Stated> {
-    Some(Stated {
-        field: "cut",
-        value: asked.cut_feed.value.to_mm_per_s(),
-        unit: "mm/s",
-        span: asked.cut_feed.span?,
-    })
-}
-
-fn travel(asked: &RoughVcut) -> Option<Stated> {
-    Some(Stated {
-        field: "travel",
-        value: asked.travel_feed.value.to_mm_per_s(),
-        unit: "mm/s",
-        span: asked.travel_feed.span?,
-    })
-}
-
-fn reorient(asked: &RoughVcut) -> Option<Stated> {
-    Some(Stated {
-        field: "reorient",
-        value: asked.reorient_rate.value.to_rad_per_s().to_degrees(),
-        unit: "deg/s",
-        span: asked.reorient_rate.span?,
-    })
 }
 
 /// A speed that people like to write, on the far side of `value` as seen from `from`.
