@@ -53,11 +53,9 @@ pub fn lifted(program: &Program, lift: Length) -> Program {
 /// blade, in whole mm.
 #[must_use]
 pub fn least_lift(program: &Program, clearance: Length) -> Length {
-    let tips = program.ops.iter().filter_map(|op| tip(&op.action));
-    let lowest = tips.fold(f64::INFINITY, f64::min);
-    if lowest == f64::INFINITY {
+    let Some(lowest) = lowest_tip(program) else {
         return Length::mm(WHOLE);
-    }
+    };
     let above = clearance.max(half_thickness(program));
     let lift = program.stock.height.to_mm() + above.to_mm() - lowest;
     // A millionth less than a whole number is that number: tips are on a grid, and their sums are rounded.
@@ -67,26 +65,13 @@ pub fn least_lift(program: &Program, clearance: Length) -> Length {
 /// How far the lowest tip of an air cut is above the stock.
 #[must_use]
 pub fn least_gap(program: &Program) -> Option<Length> {
-    let tips = program.ops.iter().filter_map(|op| tip(&op.action));
-    let lowest = tips.reduce(f64::min)?;
-    Some(Length::mm(lowest) - program.stock.height)
+    Some(Length::mm(lowest_tip(program)?) - program.stock.height)
 }
 
-/// The height at which an op leaves the tip, in mm; none for one that leaves it where it is, or at home.
-const fn tip(action: &Action) -> Option<f64> {
-    match action {
-        Action::Travel { to, .. }
-        | Action::AxisTravel { to, .. }
-        | Action::Approach { to, .. }
-        | Action::Retract { to, .. }
-        | Action::Cut { to, .. } => Some(to.z),
-        Action::Home
-        | Action::Turn { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => None,
-    }
+/// The height of the lowest tip, in mm.
+fn lowest_tip(program: &Program) -> Option<f64> {
+    let poses = program.segments().filter_map(|segment| segment.end());
+    poses.map(|pose| pose.tip.z).reduce(f64::min)
 }
 
 /// An action in the air; none for a wait that has nothing to wait for.

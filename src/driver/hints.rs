@@ -25,7 +25,7 @@ use vcutc_job::PlannedJob;
 use vcutc_job::setup::SpeedField as Field;
 use vcutc_job::{CheckedJob, Direction, Machine};
 use vcutc_motion::path::Violation;
-use vcutc_motion::place::strokes::Strokes;
+use vcutc_motion::place::motions::TellingMotions;
 use vcutc_motion::remedy;
 use vcutc_motion::remedy::speed;
 use vcutc_motion::rig::Rig;
@@ -241,7 +241,7 @@ impl Search<'_> {
         };
         let (tool, base) = (self.machine.tool.value.frame, self.machine.base.value.frame);
         let rig = Rig::new(&self.machine.model, tool, base);
-        Strokes::of(program.program()).are_each_followed(&rig)
+        TellingMotions::of(program.program()).are_each_followed(&rig)
     }
 
     /// The best of each kind, as far as it is worth a hint, what saves most first.

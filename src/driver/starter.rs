@@ -12,15 +12,15 @@ use crate::memory::Memory;
 use crate::{self as driver, Request, Typed, Unhelped};
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
-use vcutc_backend_api::geometry::{Frame, Point3};
+use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
 use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_job::operation::Operations;
 use vcutc_machine::Model;
-use vcutc_motion::legs::{Leg, Poses, Taught, legs};
+use vcutc_motion::moves::above_first_pose;
+use vcutc_motion::place::motions::TellingMotions;
 use vcutc_motion::place::score::Judge;
-use vcutc_motion::place::strokes::Strokes;
 use vcutc_motion::place::taught::TaughtPoses;
 use vcutc_motion::remedy::wording;
 use vcutc_motion::rig::Rig;
@@ -232,11 +232,11 @@ fn setups(model: &Model, tool: Tool, reorient: u32, program: &Program, taught: &
         .collect();
     // Stable, so that of equals the first stays first.
     scored.sort_by(|(a, _), (b, _)| b.better(a));
-    let strokes = Strokes::of(program);
+    let motions = TellingMotions::of(program);
     let setup = |(_, place): (_, Place)| {
         let base = Frame::from(place);
         let rig = Rig::new(model, tool.frame(), base);
-        let home = strokes.are_followed(&rig).then(|| home(&rig, program))??;
+        let home = motions.are_followed(&rig).then(|| home(&rig, program))??;
         Some(Setup {
             tool,
             base,
@@ -255,15 +255,7 @@ fn setups(model: &Model, tool: Tool, reorient: u32, program: &Program, taught: &
 /// Axis values above the first pose of a program, in whole degrees and millimetres: of all ways to stand there the one that
 /// keeps farthest from the limits.
 fn home(rig: &Rig<'_>, program: &Program) -> Option<AxisValues> {
-    let first = legs(program).into_iter().find_map(|leg| match leg {
-        Leg::ByAxes(taught) => Some(taught),
-        Leg::Along(_) | Leg::Still | Leg::Home => None,
-    })?;
-    let tip = Point3 {
-        z: first.tip.z + RAISED,
-        ..first.tip
-    };
-    let above = Poses::of(program).blade_in_work(Taught { tip, ..first })?;
+    let above = above_first_pose(program, RAISED)?;
     let ways = rig.mechanism.all(&rig.flange_in_root(&above));
     let room = |values: &AxisValues| {
         let pairs = rig.axes.iter().zip(values.0);

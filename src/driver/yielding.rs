@@ -1,7 +1,7 @@
 //! How what a job leaves open yields to its machine: other routes, then narrower swings, until the machine follows.
 //!
 //! A program that fails as a whole is dear to refute. Whether the cuts of an order, or of a swing, can be followed at all, a
-//! few telling motions say much sooner ([`Strokes`]): those that they rule out are not planned. How many plans are
+//! few telling motions say much sooner ([`TellingMotions`]): those that they rule out are not planned. How many plans are
 //! proven is bounded by [`MOST_PLANS`], and for jobs of many cuts by [`MOST_CUTS_PUT`].
 
 use vcutc_backend_api::units::Angle;
@@ -13,7 +13,7 @@ use vcutc_job::operation::Swing;
 use vcutc_job::search::{Lack, Narrowed, RouteSet, SearchSpace};
 use vcutc_job::{CheckedJob, Order};
 use vcutc_motion::path::Violation;
-use vcutc_motion::place::strokes::Strokes;
+use vcutc_motion::place::motions::TellingMotions;
 use vcutc_motion::rig::Rig;
 use vcutc_motion::solve::{Changes, Unreachable, Unreached};
 use vcutc_motion::trouble::Trouble;
@@ -242,7 +242,7 @@ impl<'j> Yielding<'j> {
             return true;
         };
         let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
-        Strokes::of(program.program()).are_each_followed(&rig)
+        TellingMotions::of(program.program()).are_each_followed(&rig)
     }
 }
 

@@ -8,7 +8,7 @@ pub mod axis_range;
 pub mod demand;
 pub mod describe;
 pub mod ladder;
-pub mod legs;
+pub mod moves;
 pub mod pace;
 pub mod path;
 pub mod place;

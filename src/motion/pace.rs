@@ -24,7 +24,7 @@ mod smooth;
 mod tests;
 mod track;
 
-use crate::legs::{Leg, Poses, Stroke, Taught, legs, numbered};
+use crate::moves::paths;
 use crate::path::{Course, Followed};
 use crate::rig::Rig;
 use crate::solve::rig;
@@ -32,8 +32,9 @@ use chebyshev::Weights;
 use profile::Bounds;
 use rayon::prelude::*;
 use track::Part;
-use vcutc_backend_api::ir::{Axis, MOST_AXES, Maker, OpId, Program};
+use vcutc_backend_api::ir::{Axis, MOST_AXES, Maker, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_machine::Model;
@@ -75,14 +76,12 @@ pub struct Paced {
 /// The times of a program that no machine carries out: at programmed speeds.
 #[must_use]
 pub fn programmed(program: &VerifiedProgram) -> Paced {
-    let is_by_axes = |leg: &Leg| matches!(leg, Leg::Home | Leg::ByAxes(_));
     Paced {
         times: op_times(program),
         basis: Basis {
             kept: Kept::Speeds,
-            untimed: legs(program.program())
-                .iter()
-                .filter(|leg| is_by_axes(leg))
+            untimed: (program.program().segments())
+                .filter(|segment| segment.path.is_of_axes())
                 .count(),
             unfollowed: 0,
         },
@@ -104,43 +103,26 @@ pub fn paced(reached: &ReachableProgram, model: &Model) -> Paced {
         path: model.path,
         weights: Weights::new(),
     };
-    let legs = legs(reached.program());
-    let starts = starts(&legs, reached, cell.home.map(|home| home.0));
-    let known: Vec<Option<f64>> = legs
+    let paths = paths(reached.program());
+    let known: Vec<Option<f64>> = paths
         .par_iter()
-        .zip(&starts)
         .enumerate()
-        .map(|(index, (leg, start))| clock.leg(OpId(u32::try_from(index).ok()?), leg, start.as_ref()))
+        .map(|(index, path)| clock.path(OpId(u32::try_from(index).ok()?), path))
         .collect();
     paced.basis = Basis {
         kept: clock.kept(),
         untimed: 0,
         unfollowed: 0,
     };
-    for ((leg, known), time) in legs.iter().zip(known).zip(&mut paced.times) {
-        match (leg, known) {
-            (Leg::Still, _) => {}
+    for ((path, known), time) in paths.iter().zip(known).zip(&mut paced.times) {
+        match (path, known) {
+            (Path::Still, _) => {}
             (_, Some(seconds)) => *time = Duration::s(seconds),
-            (Leg::Home | Leg::ByAxes(_), None) => paced.basis.untimed += 1,
-            (Leg::Along(_), None) => paced.basis.unfollowed += 1,
+            (Path::Home | Path::Axes(_), None) => paced.basis.untimed += 1,
+            (Path::Linear(_), None) => paced.basis.unfollowed += 1,
         }
     }
     paced
-}
-
-/// The axes at the beginning of every op, where known.
-fn starts(legs: &[Leg], reached: &ReachableProgram, home: Option<Joints>) -> Vec<Option<Joints>> {
-    let mut at = home;
-    numbered(legs)
-        .map(|(op, leg)| {
-            let start = at;
-            match leg {
-                Leg::Still => {}
-                Leg::Home | Leg::ByAxes(_) | Leg::Along(_) => at = reached.axes_after(op).map(|end| end.0),
-            }
-            start
-        })
-        .collect()
 }
 
 fn axis_bounds(axes: &[Axis]) -> [Bounds; MOST_AXES] {
@@ -188,13 +170,14 @@ impl Clock<'_> {
     }
 
     /// How long an op takes, in s.
-    fn leg(&self, op: OpId, leg: &Leg, start: Option<&Joints>) -> Option<f64> {
-        match leg {
-            Leg::Still => None,
-            Leg::Home | Leg::ByAxes(_) => self.by_axes(start?, &self.reached.axes_after(op)?.0),
-            Leg::Along(stroke) => match self.kept() {
-                Kept::Speeds => Some(stroke.duration),
-                Kept::Accelerations | Kept::Jerks => self.along(op, stroke, start?),
+    fn path(&self, op: OpId, path: &Path) -> Option<f64> {
+        let start = self.reached.axes_before(op).map(|start| start.0);
+        match path {
+            Path::Still => None,
+            Path::Home | Path::Axes(_) => self.by_axes(&start?, &self.reached.axes_after(op)?.0),
+            Path::Linear(line) => match self.kept() {
+                Kept::Speeds => Some(line.duration().to_s()),
+                Kept::Accelerations | Kept::Jerks => self.along(op, line, &start?),
             },
         }
     }
@@ -216,18 +199,17 @@ impl Clock<'_> {
     }
 
     /// A straight motion or a turn, from stop to stop.
-    fn along(&self, op: OpId, stroke: &Stroke, start: &Joints) -> Option<f64> {
-        let way = Ways::of(self.reached.program(), stroke)?;
+    fn along(&self, op: OpId, line: &LinearSegment, start: &Joints) -> Option<f64> {
         let moves_axes = |bounds: &Bounds| bounds.acceleration.is_some() || bounds.jerk.is_some();
         if !self.axes.iter().any(moves_axes) {
             return self
                 .stops(op)
                 .windows(2)
-                .map(|ends| self.path_bounds(&way, stroke, share(ends)).duration(1.0))
+                .map(|ends| self.path_bounds(line, share(ends)).duration(1.0))
                 .sum();
         }
         let end = self.reached.axes_after(op)?.0;
-        let course: Course = Poses::of(self.reached.program()).course(stroke)?;
+        let course = Course::of(self.reached.program(), line)?;
         let branch = self.reached.branch_after(op)?;
         let followed = Followed::new(&self.rig, &course, branch, [start, &end])?;
         let mut near = *start;
@@ -238,7 +220,7 @@ impl Clock<'_> {
             let parts = track::parts(&self.weights, &near, |place, near| {
                 followed.joints_at(begin + share * place, near)
             })?;
-            seconds += self.portion(&parts, self.path_bounds(&way, stroke, share))?;
+            seconds += self.portion(&parts, self.path_bounds(line, share))?;
             near = followed.joints_at(begin + share, &near)?;
         }
         Some(seconds)
@@ -253,7 +235,7 @@ impl Clock<'_> {
     }
 
     /// Bounds of the part of a motion that is done, or of a share of the motion.
-    fn path_bounds(&self, way: &Ways, stroke: &Stroke, share: f64) -> Bounds {
+    fn path_bounds(&self, line: &LinearSegment, share: f64) -> Bounds {
         let tip = Bounds {
             rate: None,
             acceleration: self.path.acceleration,
@@ -265,12 +247,12 @@ impl Clock<'_> {
             jerk: self.path.turning_jerk,
         };
         let programmed = Bounds {
-            rate: Some(1.0 / (stroke.duration * share)),
+            rate: Some(1.0 / (line.duration().to_s() * share)),
             ..Bounds::default()
         };
         programmed
-            .and(tip.over(way.tip * share))
-            .and(blade.over(way.blade * share))
+            .and(tip.over(line.length().to_mm() * share))
+            .and(blade.over(line.turn.to_rad() * share))
     }
 
     /// Where on the way of an op the machine stops, from 0 to 1.
@@ -297,21 +279,5 @@ fn share(ends: &[f64]) -> f64 {
     match ends {
         [begin, end] => end - begin,
         _ => 0.0,
-    }
-}
-
-/// How far the tip goes (mm), and how far the blade turns (rad).
-struct Ways {
-    tip: f64,
-    blade: f64,
-}
-
-impl Ways {
-    fn of(program: &Program, stroke: &Stroke) -> Option<Self> {
-        let held = |taught: Taught| program.orientations.get(taught.held.0 as usize).copied();
-        Some(Self {
-            tip: stroke.from.tip.distance(stroke.to.tip).to_mm(),
-            blade: held(stroke.from)?.angle_to(held(stroke.to)?).to_rad(),
-        })
     }
 }

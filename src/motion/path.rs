@@ -68,6 +68,7 @@
 mod abreast;
 mod along;
 mod arm;
+mod arm_course;
 mod axes;
 mod bounds;
 mod chain;
@@ -80,108 +81,20 @@ mod refuted;
 mod serial;
 #[cfg(test)]
 mod tests;
+mod types;
 mod worst;
 
 pub use axes::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
 pub use refuted::{Refuted, refuted};
+pub use types::{Breach, Clearance, Course, Proof, Singularity, Violation};
 pub use worst::{Look, worst};
 
 use super::rig::Rig;
 use abreast::Underway;
-use arm::{ArmBranch, Carrying};
-use bounds::Stretch;
-use course::{Flight, Span};
+use arm_course::ArmCourse;
 use vcutc_backend_api::motion::Branch;
 use vcutc_machine::kinematics::five_axis::FiveAxis;
-use vcutc_machine::kinematics::opw::Opw;
-use vcutc_machine::kinematics::pose::Pose;
-use vcutc_machine::kinematics::serial::SerialArm;
-use vcutc_machine::kinematics::{Joints, Mechanism, newton};
-
-/// A motion as controllers interpolate it: the tip on a straight line, the orientation on one rotation axis (of a robot) or
-/// the rotary axes each at a constant rate (of a five-axis machine), both at a constant rate and finishing together.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Course {
-    /// Blade frame T in W at the start.
-    pub from: Pose,
-    /// Blade frame T in W at the end.
-    pub to: Pose,
-    /// How long it takes, in s; positive.
-    pub duration: f64,
-}
-
-/// What holds all along a course that the axes follow on one branch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proof {
-    /// The axes at the start.
-    pub start: Joints,
-    /// The axes at the end.
-    pub end: Joints,
-    /// No axis goes below this.
-    pub low: Joints,
-    /// No axis goes above this.
-    pub high: Joints,
-    /// No axis moves faster than this either way, in rad or mm a second.
-    pub rate: Joints,
-    /// How far the arm keeps from its singular poses.
-    pub clearance: Clearance,
-    /// How many times the inverse kinematics was solved.
-    pub solves: u32,
-}
-
-/// How far an arm is from its singular poses. A machine without such a pose is infinitely far from it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Clearance {
-    /// Of the hand from being stretched: the angle of axis 5, in rad.
-    pub wrist: f64,
-    /// Of the elbow from being stretched or folded: the least angle between upper arm and the line to the wrist, in rad.
-    pub elbow: f64,
-    /// Of the wrist centre from axis 1, in mm.
-    pub shoulder: f64,
-}
-
-/// Why the axes do not follow a course.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Breach {
-    /// Where on the course, from 0 to 1.
-    pub at: f64,
-    /// What breaks there.
-    pub what: Violation,
-}
-
-/// What breaks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Violation {
-    /// No axis values bring the blade there on this branch.
-    OutOfReach,
-    /// An axis would have to leave its range.
-    Limit {
-        /// The axis, from 0.
-        axis: usize,
-        /// Where it would have to be.
-        value: f64,
-    },
-    /// An axis would have to move too fast.
-    Rate {
-        /// The axis, from 0.
-        axis: usize,
-        /// How fast it would have to move.
-        rate: f64,
-    },
-    /// The arm comes too near to a singular pose.
-    Singular(Singularity),
-}
-
-/// Kinds of singular pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Singularity {
-    /// Axes 4 and 6 in line; the angle of axis 5 in rad.
-    Wrist(f64),
-    /// Arm stretched or folded; the angle left in rad.
-    Elbow(f64),
-    /// Wrist centre over axis 1; the distance in mm.
-    Shoulder(f64),
-}
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// Proves that the axes follow a course on a branch, beginning at `start` (which must bring the blade to `course.from`),
 /// within the limits and rates of the rig's axes and no nearer to singular poses than `least`.
@@ -240,7 +153,7 @@ pub fn joints_on(
 pub struct Followed<'r>(Follower<'r>);
 
 enum Follower<'r> {
-    Arm(Way<'r>),
+    Arm(ArmCourse<'r>),
     FiveAxis {
         machine: &'r FiveAxis,
         rig: &'r Rig<'r>,
@@ -261,7 +174,7 @@ impl<'r> Followed<'r> {
                 ends,
             }
         } else {
-            Follower::Arm(Way::new(rig, course, branch)?)
+            Follower::Arm(ArmCourse::new(rig, course, branch)?)
         }))
     }
 
@@ -269,7 +182,7 @@ impl<'r> Followed<'r> {
     #[must_use]
     pub fn joints_at(&self, place: f64, near: &Joints) -> Option<Joints> {
         match &self.0 {
-            Follower::Arm(way) => way.joints_at(place, near),
+            Follower::Arm(arm) => arm.joints_at(place, near),
             Follower::FiveAxis {
                 machine,
                 rig,
@@ -278,112 +191,4 @@ impl<'r> Followed<'r> {
             } => Some(five_axis::joints_between(machine, rig, course, *ends, place)),
         }
     }
-}
-
-/// A machine on a branch that carries the blade along a course.
-struct Way<'m> {
-    flight: Flight,
-    machine: Machine<'m>,
-}
-
-/// How the axes are found, and how spans are proven.
-#[derive(Clone, Copy)]
-enum Machine<'m> {
-    /// By a closed form.
-    Arm(&'m Opw, ArmBranch),
-    /// By iteration and the Jacobian.
-    Serial(&'m SerialArm),
-}
-
-impl<'m> Way<'m> {
-    /// `None` for a course without a duration, beyond all machines, or a branch that the machine does not have.
-    fn new(rig: &Rig<'m>, course: &Course, branch: Branch) -> Option<Self> {
-        let lasts = course.duration > 0.0 && course.duration.is_finite();
-        let mut rig = rig.clone();
-        let machine = match (rig.mechanism, branch) {
-            (
-                Mechanism::OrthoParallel(arm),
-                Branch::Arm {
-                    shoulder,
-                    elbow,
-                    wrist,
-                },
-            ) => Machine::Arm(
-                arm,
-                ArmBranch {
-                    shoulder,
-                    elbow,
-                    wrist,
-                },
-            ),
-            (
-                Mechanism::Mounted(mounted),
-                Branch::Arm {
-                    shoulder,
-                    elbow,
-                    wrist,
-                },
-            ) => {
-                // Seen from the arm's own foot and for its own flange it is any other arm.
-                rig.work_in_root = mounted.foot_in_root.inverse() * rig.work_in_root;
-                rig.flange_in_blade = rig.flange_in_blade * mounted.flange_in_hand.inverse();
-                Machine::Arm(
-                    &mounted.arm,
-                    ArmBranch {
-                        shoulder,
-                        elbow,
-                        wrist,
-                    },
-                )
-            }
-            (Mechanism::Serial(arm), Branch::Numbered(_)) => Machine::Serial(arm),
-            (Mechanism::OrthoParallel(_) | Mechanism::Mounted(_), Branch::Numbered(_))
-            | (Mechanism::Serial(_), Branch::Arm { .. })
-            | (Mechanism::FiveAxis(_), _) => return None,
-        };
-        let flight = Flight::new(&rig, course).filter(|_| lasts)?;
-        Some(Self { flight, machine })
-    }
-
-    /// The axes at a place of the course.
-    fn joints_at(&self, place: f64, near: &Joints) -> Option<Joints> {
-        let flange = self.flight.flange_at(place);
-        match self.machine {
-            Machine::Arm(arm, branch) => arm.on_branch(&flange, branch.into(), near),
-            Machine::Serial(arm) => newton::follow(arm, &flange, near),
-        }
-    }
-
-    /// The start to go on from. Where kinematics finds no axis values, or others than the given ones, there is none.
-    fn begun(&self, start: &Joints) -> Option<Joints> {
-        let begun = self.joints_at(0.0, start).filter(|begun| is_same(begun, start))?;
-        match self.machine {
-            Machine::Arm(..) => Some(*start),
-            // Its spans are proven from what the axes are before.
-            Machine::Serial(arm) => serial::verified(arm, &self.flight, 0.0, &begun),
-        }
-    }
-
-    /// What the axes do on a span that they enter at `begin`, proven.
-    fn stretch(&self, span: Span, begin: &Joints) -> Result<Stretch, Violation> {
-        match self.machine {
-            Machine::Arm(arm, branch) => {
-                let mut carrying = Carrying::new(arm, branch, self.flight.turning());
-                carrying.take(0, &self.flight);
-                carrying.set(0, span);
-                carrying.sweep();
-                carrying.stretch(0)
-            }
-            Machine::Serial(arm) => serial::stretch(arm, &self.flight, span, begin),
-        }
-    }
-}
-
-/// How far apart given and computed axis values at the start may be, in rad or mm.
-const SAME_START: f64 = 1e-5;
-
-fn is_same(one: &Joints, other: &Joints) -> bool {
-    one.iter()
-        .zip(other)
-        .all(|(one, other)| (one - other).abs() <= SAME_START)
 }

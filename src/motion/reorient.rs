@@ -5,9 +5,9 @@
 //! per cent on a head that swings and rakes, by half on one whose C axis carries the blade round a cone. Here such ops get the rate
 //! with which the blade never turns faster than it should ([`vcutc_machine::kinematics::five_axis::FiveAxis::fastest_turn`]).
 
-use super::legs::{Leg, Pace, legs};
-use vcutc_backend_api::ir::{Action, OrientationId, Program, RateId};
+use vcutc_backend_api::ir::{Action, Program, RateId};
 use vcutc_backend_api::motion::Motion;
+use vcutc_backend_api::segments::{LimitedBy, Segment};
 use vcutc_backend_api::units::AngularSpeed;
 use vcutc_machine::kinematics::Mechanism;
 
@@ -26,21 +26,21 @@ pub fn slowed(program: &Program, motion: &Motion, mechanism: &Mechanism) -> Opti
     };
     let mut slowed = program.clone();
     let mut is_slower = false;
-    for (index, leg) in legs(program).iter().enumerate() {
+    for segment in program.segments() {
+        let index = segment.id.0 as usize;
         let before = index.checked_sub(1).and_then(|before| motion.ends.get(before));
-        let (Some(start), Some(end), Some(op)) = (before, motion.ends.get(index), slowed.ops.get(index))
-        else {
+        let (Some(start), Some(end)) = (before, motion.ends.get(index)) else {
             continue;
         };
-        let Some((asked, share)) = asked(program, leg, op.action, machine.fastest_turn(&start.0, &end.0))
-        else {
+        let Some((asked, share)) = asked(&segment, machine.fastest_turn(&start.0, &end.0)) else {
             continue;
         };
         let Some(rate) = known_or_new(&mut slowed.rates, rounded_down(asked, share)) else {
             continue;
         };
-        if let Some(op) = slowed.ops.get_mut(index) {
-            op.action = at_rate(op.action, rate);
+        let action = slowed.ops.get_mut(index).map(|op| &mut op.action);
+        if let Some(Action::Travel { rate: known, .. } | Action::Turn { rate: known, .. }) = action {
+            *known = rate;
             is_slower = true;
         }
     }
@@ -49,20 +49,18 @@ pub fn slowed(program: &Program, motion: &Motion, mechanism: &Mechanism) -> Opti
 
 /// The rate that an op asks for, and the part of it at which its blade turns no faster than that; none of ops that do not turn
 /// faster.
-fn asked(program: &Program, leg: &Leg, action: Action, fastest: f64) -> Option<(AngularSpeed, f64)> {
-    let stroke = leg.stroke()?;
-    let rate = action.rate()?;
-    let held = |id: OrientationId| program.orientations.get(id.0 as usize).copied();
-    let shortest = held(stroke.from.held)?.angle_to(held(stroke.to.held)?).to_rad();
+fn asked(segment: &Segment<'_>, fastest: f64) -> Option<(AngularSpeed, f64)> {
+    let line = segment.path.line()?;
+    let asked = line.rate?;
+    let shortest = line.turn.to_rad();
     if shortest <= 0.0 {
         // Both postures are one; no rate of turning paces the op.
         return None;
     }
-    let asked = program.rates.get(usize::from(rate.0)).copied()?;
     // A travel whose tip takes longer may turn slowly enough as it is.
-    let turns_at = match stroke.pace {
-        Pace::Feed(_) => fastest / stroke.duration,
-        Pace::Rate(_) => fastest / shortest * asked.to_rad_per_s(),
+    let turns_at = match line.limited_by()? {
+        LimitedBy::Feed(_) => fastest / line.duration().to_s(),
+        LimitedBy::Rate(_) => fastest / shortest * asked.to_rad_per_s(),
     };
     let is_faster = turns_at > asked.to_rad_per_s() * (1.0 + SAME);
     is_faster.then_some((asked, shortest / fastest))
@@ -89,30 +87,4 @@ fn known_or_new(rates: &mut Vec<AngularSpeed>, rate: AngularSpeed) -> Option<Rat
         rates.push(rate);
     }
     Some(id)
-}
-
-const fn at_rate(action: Action, rate: RateId) -> Action {
-    match action {
-        Action::Travel {
-            to,
-            orientation,
-            feed,
-            ..
-        } => Action::Travel {
-            to,
-            orientation,
-            feed,
-            rate,
-        },
-        Action::Turn { to, .. } => Action::Turn { to, rate },
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Approach { .. }
-        | Action::Retract { .. }
-        | Action::Cut { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => action,
-    }
 }

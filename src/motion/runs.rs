@@ -3,9 +3,11 @@
 //! A run begins where all axes move at once, for there the machine may come to stand in another way; or, if the caller asks
 //! for it, wherever they might.
 
-use super::legs::{Detour, Leg, Stroke, Taught, numbered};
+use super::moves::numbered;
 use core::ops::Range;
-use vcutc_backend_api::ir::OpId;
+use vcutc_backend_api::ir::{Action, OpId, Program};
+use vcutc_backend_api::segments::{LinearSegment, Path};
+use vcutc_backend_api::state::TipPose;
 
 /// A stretch of a program, beginning with the op that leads to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,9 +24,9 @@ pub(super) enum StationKind {
     /// The machine is at home.
     Home,
     /// A run that is reached by a move of all axes.
-    Run(Taught),
+    Run(TipPose),
     /// A run that is reached along a course, which a move of all axes could take the place of.
-    Joined(Stroke),
+    Joined(LinearSegment),
 }
 
 /// Where a program is taken apart.
@@ -43,26 +45,26 @@ impl Station {
     }
 
     /// The pose with which a run begins.
-    pub(super) const fn begins(&self) -> Option<Taught> {
+    pub(super) const fn begins(&self) -> Option<TipPose> {
         match self.kind {
             StationKind::Home => None,
             StationKind::Run(taught) => Some(taught),
-            StationKind::Joined(stroke) => Some(stroke.to),
+            StationKind::Joined(line) => Some(line.to),
         }
     }
 }
 
 /// Takes a program apart. Ops before the first station belong to none: they move nothing.
-pub(super) fn split(legs: &[Leg], split: Split) -> Vec<Station> {
+pub(super) fn split(program: &Program, paths: &[Path], split: Split) -> Vec<Station> {
     let mut stations: Vec<Station> = Vec::new();
-    for (op, leg) in numbered(legs) {
-        let kind = match (leg, split) {
-            (Leg::Home, _) => Some(StationKind::Home),
-            (&Leg::ByAxes(taught), _) => Some(StationKind::Run(taught)),
-            (Leg::Along(stroke), Split::AtDetours) if stroke.detour == Detour::Allowed => {
-                Some(StationKind::Joined(*stroke))
+    for (op, path) in numbered(paths) {
+        let kind = match (path, split) {
+            (Path::Home, _) => Some(StationKind::Home),
+            (&Path::Axes(taught), _) => Some(StationKind::Run(taught)),
+            (Path::Linear(line), Split::AtDetours) if may_move_axes(program, op, line) => {
+                Some(StationKind::Joined(*line))
             }
-            (Leg::Along(_), Split::AtAxisMoves | Split::AtDetours) | (Leg::Still, _) => None,
+            (Path::Linear(_), Split::AtAxisMoves | Split::AtDetours) | (Path::Still, _) => None,
         };
         let index = op.0 as usize;
         match (kind, stations.last_mut()) {
@@ -75,4 +77,14 @@ pub(super) fn split(legs: &[Leg], split: Split) -> Vec<Station> {
         }
     }
     stations
+}
+
+/// How far the tip may lie below the stock's top and count as above it, in mm (as in the program's verifier).
+const SAME: f64 = 1e-6;
+
+/// Whether a move of all axes may take a line's place: it goes through the air, and both of its ends lie above the stock.
+fn may_move_axes(program: &Program, op: OpId, line: &LinearSegment) -> bool {
+    let action = program.op(op).map(|op| op.action);
+    let top = program.stock.height.to_mm();
+    matches!(action, Some(Action::Travel { .. })) && line.from.tip.z.min(line.to.tip.z) >= top - SAME
 }

@@ -1,7 +1,7 @@
 //! The branch for a whole program, and with it the axes at the end of every op.
 //!
 //! Wanted is one branch of the inverse kinematics, and one turn of each axis, that carries the whole program with the largest
-//! margin ([`super::demand`]). Taught poses alone say for each branch what its margin is at most, cheaply; branches are then
+//! margin ([`super::demand`]). TipPose poses alone say for each branch what its margin is at most, cheaply; branches are then
 //! proven in the order of these bounds, until a proven margin is no smaller than the bounds of all that are left. A branch whose
 //! bound is larger is asked for the motions about its worst taught pose first: where these leave no more than the best branch
 //! so far, it is not proven any further. So the two ways to flip a wrist, which share their first three axes and with them
@@ -19,7 +19,7 @@
 use super::axis_range::{best_margin, turn_to_middle};
 use super::demand::Demand;
 use super::ladder::{Stuck, climb};
-use super::legs::{Leg, Taught, legs};
+use super::moves::paths;
 use super::path::{Clearance, Proof};
 use super::rig::Rig;
 use super::runs::{Split, Station, StationKind, split};
@@ -34,6 +34,8 @@ use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Action, Axis, AxisValues, Cell, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch};
+use vcutc_backend_api::segments::Path;
+use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
 use vcutc_machine::Model;
@@ -150,19 +152,19 @@ pub fn solve_while(
         let what = MotionRule::Machine;
         return Err(Unreached::Motion(vec![MotionFault { op: None, what }]));
     };
-    let legs = legs(program.program());
+    let paths = paths(program.program());
     let rig = rig(model, cell);
     let open = opened(&model.axes);
     let middle = middles(&model.axes);
     let survey = Survey {
         program: program.program(),
-        legs: &legs,
+        paths: &paths,
         open: Rig {
             axes: &open,
             ..rig.clone()
         },
         rig: rig.clone(),
-        followed: Stands::of(&rig, program.program(), &legs, &middle, wanted),
+        followed: Stands::of(&rig, program.program(), &paths, &middle, wanted),
         middle,
         least: *least,
         wanted,
@@ -224,7 +226,7 @@ fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Rea
         stretches: solved.report.stretches.clone(),
         waypoints: Vec::new(),
     };
-    motion.waypoints = waypoints(program.program(), &legs(program.program()), rig, &motion);
+    motion.waypoints = waypoints(program.program(), rig, &motion);
     let report = solved.report;
     joined_to(program, rig, Found { motion, report })
 }
@@ -277,7 +279,7 @@ type Bound = (Branch, Option<f64>);
 
 /// What each branch makes of the taught poses alone.
 fn screen(survey: &Survey<'_>) -> Vec<Bound> {
-    let taught: Vec<Taught> = survey.legs.iter().filter_map(Leg::taught).collect();
+    let taught: Vec<TipPose> = survey.paths.iter().filter_map(Path::target).collect();
     let seen = taught
         .par_chunks(SCREENED)
         .map(|poses| {
@@ -310,7 +312,7 @@ const SCREENED: usize = 1024;
 
 /// The branch that carries the whole program with the largest margin.
 fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Option<Solved> {
-    let stations = split(survey.legs, Split::AtAxisMoves);
+    let stations = split(survey.program, survey.paths, Split::AtAxisMoves);
     let mut by_bound: Vec<(Branch, f64)> = bounds
         .iter()
         .filter_map(|&(branch, bound)| Some((branch, bound?)))
@@ -346,19 +348,22 @@ fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) ->
 /// Whether the motions to and from a branch's worst taught pose leave no more than a margin, or are not carried at all: no
 /// program that has them leaves more.
 fn leaves_no_more(survey: &Survey<'_>, branch: Branch, margin: f64) -> bool {
-    let worst = (survey.legs.par_iter().enumerate())
-        .filter_map(|(index, leg)| {
-            let stand = survey.stand(leg.taught()?, branch)?;
+    let worst = (survey.paths.par_iter().enumerate())
+        .filter_map(|(index, path)| {
+            let stand = survey.stand(path.target()?, branch)?;
             Some((best_margin(survey.rig.axes, &stand), index))
         })
         .min_by(|(a, first), (b, second)| a.total_cmp(b).then(first.cmp(second)));
     let Some((_, index)) = worst else { return true };
-    let (before, after) = survey.legs.split_at(index + 1);
-    let to = before.last().and_then(Leg::stroke);
-    let from = after.iter().find(|leg| **leg != Leg::Still).and_then(Leg::stroke);
-    to.into_iter().chain(from).any(|stroke| {
+    let (before, after) = survey.paths.split_at(index + 1);
+    let to = before.last().and_then(Path::line);
+    let from = after
+        .iter()
+        .find(|path| **path != Path::Still)
+        .and_then(Path::line);
+    to.into_iter().chain(from).any(|line| {
         survey
-            .stroke(stroke, branch)
+            .line(line, branch)
             .map_or(true, |proof| best_sweep(survey.rig.axes, &proof) <= margin)
     })
 }
@@ -398,7 +403,7 @@ fn by_changes(
     home: Option<Joints>,
     changes: Changes,
 ) -> Result<Solved, Box<Trouble>> {
-    let stations = split(survey.legs, Split::AtDetours);
+    let stations = split(survey.program, survey.paths, Split::AtDetours);
     let found = |carried: &[Vec<OnBranch>], stuck: usize| {
         let branches: Vec<Branch> = bounds.iter().map(|&(branch, _)| branch).collect();
         trouble::found(survey, &stations, carried, &branches, stuck)
@@ -445,13 +450,13 @@ fn carrying(survey: &Survey<'_>, station: &Station, bounds: &[Bound]) -> Vec<OnB
 fn joined(survey: &Survey<'_>, station: &Station, branch: Branch) -> Option<Proof> {
     match &station.kind {
         StationKind::Home | StationKind::Run(_) => None,
-        StationKind::Joined(stroke) => survey.stroke(stroke, branch).ok(),
+        StationKind::Joined(line) => survey.line(line, branch).ok(),
     }
 }
 
 /// Puts together what a way up says of every op.
 fn solved(survey: &Survey<'_>, stations: &[Station], ways: &Ways<'_>, way: &[usize]) -> Solved {
-    let mut ends: Vec<Joints> = Vec::with_capacity(survey.legs.len());
+    let mut ends: Vec<Joints> = Vec::with_capacity(survey.paths.len());
     let mut changes = Vec::new();
     let mut stretches: Vec<Stretch> = Vec::new();
     let mut demand: Option<Demand> = None;

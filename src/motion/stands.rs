@@ -2,19 +2,21 @@
 //!
 //! The solutions that [`newton::search`] finds are numbered pose by pose, and the numbers of one pose mean nothing at another.
 //! Here branch `n` means solution `n` at the **first** pose of the program and whatever it becomes when it is followed from
-//! there, pose by pose, as the program goes. So strokes that share a pose begin and end with the same axes, and join.
+//! there, pose by pose, as the program goes. So lines that share a pose begin and end with the same axes, and join.
 //!
-//! Nothing is proven here: [`super::path`] proves every stroke, beginning with what stands here.
+//! Nothing is proven here: [`super::path`] proves every line, beginning with what stands here.
 
 use super::axis_range::best_margin;
-use super::legs::{Leg, Poses, Taught};
-use super::path::joints_on;
+use super::path::{Course, joints_on};
 use super::rig::Rig;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OrientationId, Program};
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::segments::Path;
+use vcutc_backend_api::state::TipPose;
 use vcutc_cancellation::Wanted;
+use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::serial::SerialArm;
 use vcutc_machine::kinematics::{Joints, Mechanism, Solution, Solutions, newton};
 
@@ -27,10 +29,10 @@ pub(super) struct Stands {
 /// A taught pose, to the last digit.
 type Key = ([u64; 3], OrientationId);
 
-fn key(taught: Taught) -> Key {
+fn key(taught: TipPose) -> Key {
     // Adding zero makes the negative zero positive.
     let bits = [taught.tip.x, taught.tip.y, taught.tip.z].map(|part| (part + 0.0).to_bits());
-    (bits, taught.held)
+    (bits, taught.orientation)
 }
 
 /// A branch that so many poses could not be followed to is followed no more: each such pose costs as much as a hundred others.
@@ -48,7 +50,7 @@ impl Stands {
     pub(super) fn of(
         rig: &Rig<'_>,
         program: &Program,
-        legs: &[Leg],
+        paths: &[Path],
         middle: &Joints,
         wanted: &Wanted,
     ) -> Option<Self> {
@@ -61,7 +63,7 @@ impl Stands {
             rig,
             arm,
             program,
-            legs,
+            paths,
             middle,
             wanted,
         };
@@ -74,13 +76,13 @@ impl Stands {
     }
 
     /// The axes on a branch at a taught pose, each within half a turn of the middle of its range.
-    pub(super) fn on(&self, taught: Taught, branch: Branch) -> Option<Joints> {
+    pub(super) fn on(&self, taught: TipPose, branch: Branch) -> Option<Joints> {
         let (_, stands) = self.branches.iter().find(|(other, _)| *other == branch)?;
         stands.get(&key(taught)).copied()
     }
 
     /// The axes on all branches that come to a taught pose.
-    pub(super) fn at(&self, taught: Taught) -> Solutions {
+    pub(super) fn at(&self, taught: TipPose) -> Solutions {
         let mut all = Solutions::NONE;
         for (branch, stands) in &self.branches {
             if let Some(&joints) = stands.get(&key(taught)) {
@@ -99,7 +101,7 @@ struct Walk<'w> {
     rig: &'w Rig<'w>,
     arm: &'w SerialArm,
     program: &'w Program,
-    legs: &'w [Leg],
+    paths: &'w [Path],
     middle: &'w Joints,
     wanted: &'w Wanted,
 }
@@ -108,11 +110,11 @@ impl Walk<'_> {
     /// The solutions at the first taught pose: those within the ranges of the axes or, so that it can be told which axis
     /// leaves its own, all if there are none.
     fn beginnings(&self) -> Vec<Solution> {
-        let first = self.legs.iter().find_map(arrival);
-        let Some(pose) = first.and_then(|taught| Poses::of(self.program).blade_in_work(taught)) else {
+        let first = self.paths.iter().find_map(Path::target);
+        let Some(pose) = first.and_then(|taught| self.program.frame(taught)) else {
             return Vec::new();
         };
-        let found = newton::search(self.arm, &self.rig.flange_in_root(&pose));
+        let found = newton::search(self.arm, &self.rig.flange_in_root(&Pose::from(pose)));
         let within = |solution: &&Solution| best_margin(self.rig.axes, &solution.joints) >= 0.0;
         let inside: Vec<Solution> = found.iter().filter(within).copied().collect();
         if inside.is_empty() {
@@ -127,14 +129,14 @@ impl Walk<'_> {
         let mut stands: BTreeMap<Key, Joints> = BTreeMap::new();
         let mut at = begin.joints;
         let mut missed = 0;
-        for leg in self.legs {
-            let Some(taught) = arrival(leg) else { continue };
+        for path in self.paths {
+            let Some(taught) = path.target() else { continue };
             if let Some(known) = stands.get(&key(taught)) {
                 at = *known;
                 continue;
             }
             match self
-                .along(leg, begin.branch, &at)
+                .along(path, begin.branch, &at)
                 .or_else(|| self.straight(taught, &at))
             {
                 Some(joints) => {
@@ -152,15 +154,14 @@ impl Walk<'_> {
 
     /// Follows a course that turns the blade. One that does not is as straight for the flange as it is for the tip, and where
     /// the course does not begin at `at`, since the branch missed poses, there is nothing to follow.
-    fn along(&self, leg: &Leg, branch: Branch, at: &Joints) -> Option<Joints> {
-        let stroke = leg.stroke().filter(|stroke| stroke.from.held != stroke.to.held)?;
-        let course = Poses::of(self.program).course(stroke)?;
+    fn along(&self, path: &Path, branch: Branch, at: &Joints) -> Option<Joints> {
+        let line = path.line().filter(|line| line.turns())?;
+        let course = Course::of(self.program, line)?;
         let (apart, _) = self.rig.blade_in_work(at).apart(&course.from);
         if apart > JOINED {
             return None;
         }
-        let held = |taught: Taught| self.program.orientations.get(taught.held.0 as usize);
-        let turn = held(stroke.from)?.angle_to(*held(stroke.to)?).to_rad();
+        let turn = line.turn.to_rad();
         let steps = (1..MOST_STEPS).find(|steps| turn <= LONGEST_TURN * f64::from(*steps))?;
         (1..=steps).try_fold(*at, |near, step| {
             let place = f64::from(step) / f64::from(steps);
@@ -169,17 +170,8 @@ impl Walk<'_> {
         })
     }
 
-    fn straight(&self, taught: Taught, at: &Joints) -> Option<Joints> {
-        let pose = Poses::of(self.program).blade_in_work(taught)?;
+    fn straight(&self, taught: TipPose, at: &Joints) -> Option<Joints> {
+        let pose = Pose::from(self.program.frame(taught)?);
         newton::follow(self.arm, &self.rig.flange_in_root(&pose), at)
-    }
-}
-
-/// The pose that a leg leads to.
-const fn arrival(leg: &Leg) -> Option<Taught> {
-    match leg {
-        Leg::ByAxes(taught) => Some(*taught),
-        Leg::Along(stroke) => Some(stroke.to),
-        Leg::Still | Leg::Home => None,
     }
 }

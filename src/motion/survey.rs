@@ -7,7 +7,7 @@
 //! known exactly, for turns move it as a whole.
 
 use super::demand::Demand;
-use super::legs::{Leg, Poses, Stroke, Taught, numbered};
+use super::moves::numbered;
 use super::path::{Breach, Clearance, Course, Proof, Refuted, Violation, prove, prove_all, refuted};
 use super::rig::Rig;
 use super::runs::Station;
@@ -16,13 +16,16 @@ use core::f64::consts::TAU;
 use rayon::prelude::*;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId, Program};
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::segments::{LinearSegment, Path};
+use vcutc_backend_api::state::TipPose;
 use vcutc_cancellation::{Needless, Wanted};
+use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::{Joints, Solutions};
 
 /// A program on a machine, ready to be surveyed.
 pub(super) struct Survey<'s> {
     pub(super) program: &'s Program,
-    pub(super) legs: &'s [Leg],
+    pub(super) paths: &'s [Path],
     /// The machine as it is.
     pub(super) rig: Rig<'s>,
     /// The machine with the limits of axes that can make a full turn left open.
@@ -130,11 +133,11 @@ pub(super) fn travel(axes: &[Axis], from: &Joints, to: &Joints) -> f64 {
 
 impl Survey<'_> {
     /// The axes on a branch at a taught pose, each within half a turn of the middle of its range.
-    pub(super) fn stand(&self, taught: Taught, branch: Branch) -> Option<Joints> {
+    pub(super) fn stand(&self, taught: TipPose, branch: Branch) -> Option<Joints> {
         if let Some(followed) = &self.followed {
             return followed.on(taught, branch);
         }
-        let blade_in_work = Poses::of(self.program).blade_in_work(taught)?;
+        let blade_in_work = Pose::from(self.program.frame(taught)?);
         let flange_in_root = self.rig.flange_in_root(&blade_in_work);
         self.rig
             .mechanism
@@ -142,43 +145,46 @@ impl Survey<'_> {
     }
 
     /// All ways to stand at a taught pose.
-    pub(super) fn stands(&self, taught: Taught) -> Solutions {
+    pub(super) fn stands(&self, taught: TipPose) -> Solutions {
         if let Some(followed) = &self.followed {
             return followed.at(taught);
         }
-        match Poses::of(self.program).blade_in_work(taught) {
-            Some(pose) => self.rig.mechanism.all(&self.rig.flange_in_root(&pose)),
+        match self.program.frame(taught) {
+            Some(blade) => self
+                .rig
+                .mechanism
+                .all(&self.rig.flange_in_root(&Pose::from(blade))),
             None => Solutions::NONE,
         }
     }
 
     /// Proves one course on a branch.
-    pub(super) fn stroke(&self, stroke: &Stroke, branch: Branch) -> Result<Proof, Breach> {
+    pub(super) fn line(&self, line: &LinearSegment, branch: Branch) -> Result<Proof, Breach> {
         self.wanted.go_on().map_err(|Needless| NOWHERE)?;
-        let (course, start) = self.begun(stroke, branch).ok_or(NOWHERE)?;
+        let (course, start) = self.begun(line, branch).ok_or(NOWHERE)?;
         prove(&self.open, &course, branch, &start, &self.least)
     }
 
-    /// Proves the courses of legs on a branch; nothing for legs that are none.
-    fn strokes(&self, legs: &[(OpId, &Leg)], branch: Branch) -> Vec<Option<Result<Proof, Breach>>> {
+    /// Proves the courses of paths on a branch; nothing for paths that are none.
+    fn lines(&self, paths: &[(OpId, &Path)], branch: Branch) -> Vec<Option<Result<Proof, Breach>>> {
         let is_needless = self.wanted.is_needless();
-        let begun: Vec<Option<(Course, Joints)>> = legs
+        let begun: Vec<Option<(Course, Joints)>> = paths
             .iter()
-            .map(|(_, leg)| self.begun(leg.stroke()?, branch).filter(|_| !is_needless))
+            .map(|(_, path)| self.begun(path.line()?, branch).filter(|_| !is_needless))
             .collect();
         let courses: Vec<(Course, Joints)> = begun.iter().flatten().copied().collect();
         let mut proofs = prove_all(&self.open, &courses, branch, &self.least).into_iter();
-        let each = legs.iter().zip(&begun).map(|((_, leg), begun)| {
-            leg.stroke()?;
+        let each = paths.iter().zip(&begun).map(|((_, path), begun)| {
+            path.line()?;
             Some(begun.and_then(|_| proofs.next()).unwrap_or(Err(NOWHERE)))
         });
         each.collect()
     }
 
-    /// The course of a stroke, and the axes at its beginning.
-    fn begun(&self, stroke: &Stroke, branch: Branch) -> Option<(Course, Joints)> {
-        let start = self.stand(stroke.from, branch)?;
-        Some((Poses::of(self.program).course(stroke)?, start))
+    /// The course of a line, and the axes at its beginning.
+    fn begun(&self, line: &LinearSegment, branch: Branch) -> Option<(Course, Joints)> {
+        let start = self.stand(line.from, branch)?;
+        Some((Course::of(self.program, line)?, start))
     }
 
     /// What a branch makes of a run that it carries: as [`Survey::run`], which says why it does not, but sooner where it does not.
@@ -196,13 +202,13 @@ impl Survey<'_> {
         branch: Branch,
         counts: impl Fn(Refuted) -> bool + Sync,
     ) -> bool {
-        let legs = self.legs.get(station.ops.clone()).unwrap_or_default();
-        let after_entry = legs.get(1..).unwrap_or_default();
+        let paths = self.paths.get(station.ops.clone()).unwrap_or_default();
+        let after_entry = paths.get(1..).unwrap_or_default();
         after_entry
             .par_iter()
             .with_min_len(AT_ONCE)
-            .filter_map(Leg::stroke)
-            .any(|stroke| match self.begun(stroke, branch) {
+            .filter_map(Path::line)
+            .any(|line| match self.begun(line, branch) {
                 Some((course, start)) => refuted(&self.open, &course, branch, &start).is_some_and(&counts),
                 None => counts(Refuted::Pose),
             })
@@ -236,10 +242,10 @@ impl Survey<'_> {
                 },
             });
         }
-        let legs = self.legs.get(station.ops.clone()).unwrap_or_default();
-        let after_entry: Vec<(OpId, &Leg)> = numbered(legs)
+        let paths = self.paths.get(station.ops.clone()).unwrap_or_default();
+        let after_entry: Vec<(OpId, &Path)> = numbered(paths)
             .skip(1)
-            .map(|(op, leg)| (OpId(op.0.saturating_add(entry.0)), leg))
+            .map(|(op, path)| (OpId(op.0.saturating_add(entry.0)), path))
             .collect();
         for batch in after_entry.chunks(extent.batch()) {
             let is_enough = match extent {
@@ -257,7 +263,7 @@ impl Survey<'_> {
             }
             let proofs: Vec<Option<Result<Proof, Breach>>> = batch
                 .par_chunks(AT_ONCE)
-                .flat_map_iter(|legs| self.strokes(legs, branch))
+                .flat_map_iter(|paths| self.lines(paths, branch))
                 .collect();
             for (&(op, _), proof) in batch.iter().zip(&proofs) {
                 match proof {

@@ -17,10 +17,11 @@
 //! that is less than [`FINE`]: then the blade may be in the work, and the motion is refused. Nothing enters the
 //! work by more than [`GRAZE`] unseen.
 
-use super::legs::{Leg, Stroke, legs, numbered};
+use super::moves::{numbered, paths};
 use super::rig::Rig;
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::{Blade, OpId, Program, Stock};
+use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
@@ -82,9 +83,9 @@ pub enum Cure {
 /// # Errors
 /// The first motion that does.
 pub(super) fn clear(program: &VerifiedProgram, rig: &Rig<'_>, ends: &[Joints]) -> Result<(), Sweep> {
-    let legs = legs(program.program());
-    let mut turns = numbered(&legs)
-        .filter_map(|(op, leg)| Turn::of(program.program(), rig, ends, op, leg))
+    let paths = paths(program.program());
+    let mut turns = numbered(&paths)
+        .filter_map(|(op, path)| Turn::of(program.program(), rig, ends, op, path))
         .peekable();
     let mut found: Option<Sweep> = None;
     prove::accompanied(program, &mut |op, surface| {
@@ -231,12 +232,12 @@ struct Hit {
 
 impl<'t, 'm> Turn<'t, 'm> {
     /// The motion of an op, if it changes how the blade is held.
-    fn of(program: &Program, rig: &'t Rig<'m>, ends: &[Joints], op: OpId, leg: &Leg) -> Option<Self> {
-        let Stroke { from, to, .. } = leg.stroke().filter(|stroke| stroke.from.held != stroke.to.held)?;
+    fn of(program: &Program, rig: &'t Rig<'m>, ends: &[Joints], op: OpId, path: &Path) -> Option<Self> {
+        let LinearSegment { from, to, .. } = path.line().filter(|line| line.turns())?;
         let index = op.0 as usize;
         let axes = [*ends.get(index.checked_sub(1)?)?, *ends.get(index)?];
-        let operation = program.ops.get(index)?.site.operation()?;
-        let blade = &program.operations.get(usize::from(operation.0))?.blade;
+        let operation = program.op(op)?.site.operation()?;
+        let blade = &program.operation(operation)?.blade;
         Some(Self {
             op,
             rig,

@@ -1,11 +1,12 @@
 //! Where the axes are all along a program: at the end of every op, and close enough between.
 
-use super::legs::{Leg, Poses, Stroke, legs, numbered};
-use super::path::Followed;
+use super::moves::{numbered, paths};
+use super::path::{Course, Followed};
 use super::rig::Rig;
 use rayon::prelude::*;
-use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program};
+use vcutc_backend_api::ir::{Axis, AxisKind, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_machine::kinematics::Joints;
 
 /// Farthest that the tip moves from one sample to the next, in mm.
@@ -88,13 +89,7 @@ pub fn motions<T: Send, E>(
     make: impl Fn(Motion) -> T + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
-    let program = reached.program();
-    let legs = legs(program);
-    let mut at: Option<Joints> = program
-        .cell
-        .as_ref()
-        .and_then(|cell| cell.home)
-        .map(|home| home.0);
+    let paths = paths(reached.program());
     let mut held = 0.0;
     let mut batch: Vec<Moved<'_>> = Vec::new();
     let mut flush = |batch: &mut Vec<Moved<'_>>| -> Result<(), E> {
@@ -104,15 +99,15 @@ pub fn motions<T: Send, E>(
             .collect();
         made.into_iter().try_for_each(&mut take)
     };
-    for (op, leg) in numbered(&legs) {
+    for (op, path) in numbered(&paths) {
         let Some(end) = reached.axes_after(op).map(|end| end.0) else {
             continue;
         };
-        if *leg == Leg::Still {
+        if *path == Path::Still {
             continue;
         }
-        let moved = Moved::of(program, rig, spacing, (op, leg), at, end);
-        at = Some(end);
+        let start = reached.axes_before(op).map(|start| start.0);
+        let moved = Moved::of(rig, spacing, (op, path), start, end);
         held += moved.steps;
         batch.push(moved);
         if held >= HELD {
@@ -126,7 +121,7 @@ pub fn motions<T: Send, E>(
 /// An op that moves, before it is sampled.
 struct Moved<'l> {
     op: OpId,
-    leg: &'l Leg,
+    path: &'l Path,
     start: Option<Joints>,
     end: Joints,
     /// Into how many steps it is divided.
@@ -135,21 +130,20 @@ struct Moved<'l> {
 
 impl<'l> Moved<'l> {
     fn of(
-        program: &Program,
         rig: &Rig<'_>,
         spacing: &Spacing,
-        (op, leg): (OpId, &'l Leg),
+        (op, path): (OpId, &'l Path),
         start: Option<Joints>,
         end: Joints,
     ) -> Self {
-        let steps = match (leg, start) {
-            (Leg::Home | Leg::ByAxes(_), Some(start)) => axis_steps(rig.axes, spacing, &start, &end),
-            (Leg::Along(stroke), Some(_)) => course_steps(program, spacing, stroke),
-            (Leg::Still, _) | (_, None) => 1.0,
+        let steps = match (path, start) {
+            (Path::Home | Path::Axes(_), Some(start)) => axis_steps(rig.axes, spacing, &start, &end),
+            (Path::Linear(line), Some(_)) => course_steps(spacing, line),
+            (Path::Still, _) | (_, None) => 1.0,
         };
         Self {
             op,
-            leg,
+            path,
             start,
             end,
             steps: steps.clamp(1.0, MOST_SAMPLES),
@@ -158,16 +152,16 @@ impl<'l> Moved<'l> {
 
     fn sampled(&self, reached: &ReachableProgram, rig: &Rig<'_>) -> Motion {
         let &Self { op, start, end, .. } = self;
-        let mut samples = match (self.leg, start) {
-            (Leg::Home | Leg::ByAxes(_), Some(start)) => fractions(self.steps)
+        let mut samples = match (self.path, start) {
+            (Path::Home | Path::Axes(_), Some(start)) => fractions(self.steps)
                 .map(|done| Sample {
                     op,
                     done,
                     joints: core::array::from_fn(|axis| start[axis] + (end[axis] - start[axis]) * done),
                 })
                 .collect(),
-            (Leg::Along(stroke), Some(start)) => self.along(reached, rig, stroke, &start),
-            (Leg::Still, _) | (_, None) => Vec::new(),
+            (Path::Linear(line), Some(start)) => self.along(reached, rig, line, &start),
+            (Path::Still, _) | (_, None) => Vec::new(),
         };
         samples.push(Sample {
             op,
@@ -182,11 +176,11 @@ impl<'l> Moved<'l> {
         &self,
         reached: &ReachableProgram,
         rig: &Rig<'_>,
-        stroke: &Stroke,
+        line: &LinearSegment,
         start: &Joints,
     ) -> Vec<Sample> {
         let op = self.op;
-        let course = Poses::of(reached.program()).course(stroke);
+        let course = Course::of(reached.program(), line);
         let (Some(course), Some(branch)) = (course, reached.branch_after(op)) else {
             return Vec::new();
         };
@@ -211,13 +205,8 @@ fn fractions(steps: f64) -> impl Iterator<Item = f64> {
         .map(move |step| step / steps)
 }
 
-fn course_steps(program: &Program, spacing: &Spacing, stroke: &Stroke) -> f64 {
-    let held = |taught: super::legs::Taught| program.orientations.get(taught.held.0 as usize).copied();
-    let turn = match (held(stroke.from), held(stroke.to)) {
-        (Some(from), Some(to)) => from.angle_to(to).to_rad(),
-        (Some(_) | None, _) => 0.0,
-    };
-    let length = stroke.from.tip.distance(stroke.to.tip).to_mm();
+fn course_steps(spacing: &Spacing, line: &LinearSegment) -> f64 {
+    let (length, turn) = (line.length().to_mm(), line.turn.to_rad());
     (length / spacing.way).max(turn / spacing.turn).ceil()
 }
 

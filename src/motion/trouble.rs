@@ -3,8 +3,7 @@
 //! A motion that no branch carries is told of by itself, as the branch has it that fails least. Where every motion is carried
 //! by some branch but no branch carries all that must be made on one, that is told.
 
-use super::legs::{Leg, Poses};
-use super::path::{Breach, Look, Refuted, Violation, prove, worst};
+use super::path::{Breach, Course, Look, Refuted, Violation, prove, worst};
 use super::runs::{Split, Station, StationKind, split};
 use super::survey::{ENOUGH_TOO_FAST, Extent, Failure, Survey, moved};
 use super::sweep::Sweep;
@@ -13,6 +12,7 @@ use super::ways::{OnBranch, Refused, axis_without_turn};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::{OpId, Site};
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::segments::Path;
 use vcutc_machine::kinematics::Joints;
 
 /// What keeps a machine from a program.
@@ -196,7 +196,7 @@ const TOO_FAST: f64 = 2.0;
 
 /// Says which motion is too fast, if a branch carries the program but for that.
 pub(super) fn too_fast(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Option<Trouble> {
-    let stations = split(survey.legs, Split::AtAxisMoves);
+    let stations = split(survey.program, survey.paths, Split::AtAxisMoves);
     let is_more_than_fast = |refuted: Refuted| match refuted {
         Refuted::Pose => true,
         Refuted::TooFast(times) => times > TOO_FAST,
@@ -251,7 +251,7 @@ pub(super) fn too_fast(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) ->
 
 /// Says what the branch that gets farthest does not carry, without a look at what comes behind.
 pub(super) fn first(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Trouble {
-    let stations = split(survey.legs, Split::AtAxisMoves);
+    let stations = split(survey.program, survey.paths, Split::AtAxisMoves);
     let first_of = |branch: Branch| {
         let failures = stations
             .iter()
@@ -280,10 +280,10 @@ fn failing_on(survey: &Survey<'_>, failure: &Failure, branch: Branch) -> Failing
 
 fn looked_at(survey: &Survey<'_>, failure: &Failure, branch: Branch, look: Look) -> Failing {
     let Failure { op, breach } = *failure;
-    let stroke = survey.legs.get(op.0 as usize).and_then(Leg::stroke);
-    let worst = stroke.and_then(|stroke| {
-        let start = survey.stand(stroke.from, branch)?;
-        let course = Poses::of(survey.program).course(stroke)?;
+    let line = survey.paths.get(op.0 as usize).and_then(Path::line);
+    let worst = line.and_then(|line| {
+        let start = survey.stand(line.from, branch)?;
+        let course = Course::of(survey.program, line)?;
         Some(worst(&survey.open, &course, branch, &start, &breach, look))
     });
     Failing {
@@ -364,7 +364,7 @@ fn common(failing: &[(Branch, Vec<Failure>)]) -> BTreeSet<OpId> {
 
 /// How many cuts besides that of `op` some failing ops belong to.
 fn other_cuts(survey: &Survey<'_>, failing: impl Iterator<Item = OpId>, op: OpId) -> usize {
-    let site = |op: OpId| survey.program.ops.get(op.0 as usize).map(|op| op.site);
+    let site = |op: OpId| survey.program.op(op).map(|op| op.site);
     let own = site(op);
     let cuts: BTreeSet<(u16, u32, u32)> = failing
         .filter_map(|op| match site(op) {
@@ -416,10 +416,10 @@ fn proven_breach(
     op: OpId,
 ) -> Option<Breach> {
     let index = op.0 as usize;
-    let stroke = survey.legs.get(index)?.stroke()?;
+    let line = survey.paths.get(index)?.line()?;
     let before = index.checked_sub(station.ops.start + 1)?;
     let start = moved(run.carried.ends.get(before)?, by);
-    let course = Poses::of(survey.program).course(stroke)?;
+    let course = Course::of(survey.program, line)?;
     prove(&survey.rig, &course, run.branch, &start, &survey.least).err()
 }
 

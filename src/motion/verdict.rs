@@ -7,17 +7,18 @@ mod size;
 pub use size::too_large;
 
 use crate::describe::{branch_words, site_words, value_words};
-use crate::legs::{Leg, Pace, Stroke, legs};
+use crate::moves::path_of;
 use crate::path::{Singularity, Violation};
-use crate::remedy;
+use crate::remedy::{self, speed::pacing};
 use crate::rig::Rig;
 use crate::solve::{LEAST_CLEARANCE, Unreachable};
 use crate::sweep::{BladePart, Cure, Sweep};
 use crate::trouble::{Count, Failing, Leads, Trouble};
 use crate::way::Obstacle;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, OrientationId, Program, Site};
+use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, Program, Site};
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::segments::{LimitedBy, LinearSegment, Path};
 use vcutc_backend_api::units::Length;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::number::show;
@@ -106,9 +107,9 @@ impl<'s> Scene<'s> {
                         .map_or_else(String::new, |speed| format!(" (this motion needs {speed} or less)"));
                     // How far a linear axis travels for a cut does not depend on where the work lies.
                     let is_linear = self.axis(axis).is_some_and(|axis| axis.kind == AxisKind::Linear);
-                    let or_else = match self.stroke(failing.op).map(|stroke| stroke.pace) {
-                        Some(Pace::Feed(_)) if is_linear => "",
-                        Some(Pace::Feed(_) | Pace::Rate(_)) | None => {
+                    let or_else = match self.limited_by(failing.op) {
+                        Some(LimitedBy::Feed(_)) if is_linear => "",
+                        Some(LimitedBy::Feed(_) | LimitedBy::Rate(_)) | None => {
                             ", or shift the work with `base` to where the axis turns less"
                         }
                     };
@@ -149,12 +150,9 @@ impl<'s> Scene<'s> {
                 Violation::OutOfReach | Violation::Limit { .. } | Violation::Singular(_) => None,
             })
             .reduce(f64::min)?;
-        let (asked, unit) = match self.stroke(failing.op)?.pace {
-            Pace::Feed(feed) => (self.program.feeds.get(usize::from(feed.0))?.to_mm_per_s(), "mm/s"),
-            Pace::Rate(rate) => {
-                let rate = self.program.rates.get(usize::from(rate.0))?;
-                (rate.to_rad_per_s().to_degrees(), "deg/s")
-            }
+        let (asked, unit) = match self.limited_by(failing.op)? {
+            LimitedBy::Feed(feed) => (feed.to_mm_per_s(), "mm/s"),
+            LimitedBy::Rate(rate) => (rate.to_rad_per_s().to_degrees(), "deg/s"),
         };
         // Downwards, to whole units or to a hundredth of slow ones.
         let steps = if asked * share >= 10.0 { 1.0 } else { 100.0 };
@@ -195,7 +193,7 @@ impl<'s> Scene<'s> {
             Violation::OutOfReach | Violation::Limit { .. } => {}
             Violation::Rate { .. } | Violation::Singular(_) => return None,
         }
-        let op = self.program.ops.get(failing.op.0 as usize)?;
+        let op = self.program.op(failing.op)?;
         let place = self.place(failing.op);
         outside::far_outside(self.job, &place, op, self.tip(failing.op)?)
     }
@@ -208,15 +206,15 @@ impl<'s> Scene<'s> {
                 return None;
             }
         };
-        let taught = match legs(self.program).get(failing.op.0 as usize)? {
-            Leg::ByAxes(pose) => [None, Some(*pose)],
-            Leg::Along(stroke) => [Some(stroke.from), Some(stroke.to)],
-            Leg::Still | Leg::Home => return None,
+        let taught = match path_of(self.program, failing.op)? {
+            Path::Axes(pose) => [None, Some(pose)],
+            Path::Linear(line) => [Some(line.from), Some(line.to)],
+            Path::Still | Path::Home => return None,
         };
         let place = self.place(failing.op);
         taught.into_iter().flatten().find_map(|pose| {
-            let held = self.program.orientations.get(pose.held.0 as usize)?;
-            posture::lacks_an_axis(self.machine, &place, pose.tip, *held)
+            let held = self.program.orientation(pose.orientation)?;
+            posture::lacks_an_axis(self.machine, &place, pose.tip, held)
         })
     }
 
@@ -521,43 +519,34 @@ impl<'s> Scene<'s> {
 
     /// Where in the job the speed of an op was asked for, and what it is.
     fn speed(&self, op: OpId) -> (Span, String) {
-        let pace = self.stroke(op).map(|stroke| stroke.pace);
-        let words = match pace {
-            Some(Pace::Feed(feed)) => self
-                .program
-                .feeds
-                .get(usize::from(feed.0))
-                .map(|feed| format!("{} mm/s", show(feed.to_mm_per_s()))),
-            Some(Pace::Rate(rate)) => self
-                .program
-                .rates
-                .get(usize::from(rate.0))
-                .map(|rate| format!("{} deg/s", show(rate.to_rad_per_s().to_degrees()))),
-            None => None,
+        let words = match self.limited_by(op) {
+            Some(LimitedBy::Feed(feed)) => format!("{} mm/s", show(feed.to_mm_per_s())),
+            Some(LimitedBy::Rate(rate)) => format!("{} deg/s", show(rate.to_rad_per_s().to_degrees())),
+            None => String::new(),
         };
-        let span = self.asked(op).and_then(|asked| {
-            let action = self.program.ops.get(op.0 as usize)?.action;
-            match (pace?, action) {
-                (Pace::Rate(_), _) => asked.reorient_rate.span,
-                (Pace::Feed(_), Action::Cut { .. }) => asked.cut_feed.span,
-                (Pace::Feed(_), _) => asked.travel_feed.span,
-            }
-        });
-        (span.unwrap_or(self.machine.head_span), words.unwrap_or_default())
+        let span = self
+            .asked(op)
+            .and_then(|asked| pacing(self.program, op)?.span(asked));
+        (span.unwrap_or(self.machine.head_span), words)
     }
 
     fn asked(&self, op: OpId) -> Option<&Setup> {
-        let operation = self.program.ops.get(op.0 as usize)?.site.operation()?;
+        let operation = self.program.op(op)?.site.operation()?;
         Some(self.job.operations.get(usize::from(operation.0))?.setup())
     }
 
-    fn stroke(&self, op: OpId) -> Option<Stroke> {
-        legs(self.program).get(op.0 as usize)?.stroke().copied()
+    fn line(&self, op: OpId) -> Option<LinearSegment> {
+        path_of(self.program, op)?.line().copied()
+    }
+
+    /// What decides how long an op takes.
+    fn limited_by(&self, op: OpId) -> Option<LimitedBy> {
+        self.line(op)?.limited_by()
     }
 
     /// `layer 7, cut 12 (x 43.2 mm, z 18.6 mm)`.
     fn place(&self, op: OpId) -> String {
-        let Some(found) = self.program.ops.get(op.0 as usize) else {
+        let Some(found) = self.program.op(op) else {
             return "the program".to_owned();
         };
         let tip = self.tip(op);
@@ -583,29 +572,16 @@ impl<'s> Scene<'s> {
 
     /// Where the tip comes to in an op, in the work.
     fn tip(&self, op: OpId) -> Option<Point3> {
-        match self.program.ops.get(op.0 as usize)?.action {
-            Action::Travel { to, .. }
-            | Action::AxisTravel { to, .. }
-            | Action::Approach { to, .. }
-            | Action::Retract { to, .. }
-            | Action::Cut { to, .. } => Some(to),
-            Action::Turn { .. } => self.stroke(op).map(|stroke| stroke.to.tip),
-            Action::Home
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => None,
-        }
+        Some(self.program.segment(op)?.path.target()?.tip)
     }
 
     /// How far along its motion something fails.
     fn along(&self, failing: &Failing) -> String {
-        let Some(stroke) = self.stroke(failing.op) else {
+        let Some(line) = self.line(failing.op) else {
             return "this is where the program comes to the work".to_owned();
         };
         let [first, worst] = [failing.breach, failing.worst].map(|breach| breach.at.clamp(0.0, 1.0));
-        let length = stroke.from.tip.distance(stroke.to.tip).to_mm();
-        let turn = self.turn(&stroke);
+        let (length, turn) = (line.length().to_mm(), line.turn.to_deg());
         let (whole, unit) = if length > 0.0 {
             (length, "mm")
         } else {
@@ -621,15 +597,6 @@ impl<'s> Scene<'s> {
             begins
         } else {
             format!("{begins}; worst at {} {unit}", shown(worst))
-        }
-    }
-
-    /// How far a course turns the blade, in deg.
-    fn turn(&self, stroke: &Stroke) -> f64 {
-        let held = |id: OrientationId| self.program.orientations.get(id.0 as usize).copied();
-        match (held(stroke.from.held), held(stroke.to.held)) {
-            (Some(from), Some(to)) => from.angle_to(to).to_deg(),
-            (Some(_) | None, _) => 0.0,
         }
     }
 }

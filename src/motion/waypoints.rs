@@ -4,13 +4,11 @@
 //! [`CLOSE`] in one, so that which turn of an axis is meant is never in doubt, near singular poses either. Of these places
 //! [`wrist::spaced`] chooses.
 
-use super::legs::{Leg, Poses, Stroke, numbered};
 use super::path::{Course, joints_on};
 use super::rig::Rig;
-use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisValues, Maker, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Motion, Waypoint};
-use vcutc_backend_api::stroke;
+use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::wrist;
 use vcutc_machine::kinematics::Joints;
@@ -24,7 +22,7 @@ const SHORTEST: f64 = 1.0 / 1_048_576.0;
 
 /// The waypoints of a program's motion: for ABB's robots, whose controllers refuse to turn a wrist far in one move; none for
 /// others.
-pub(super) fn waypoints(program: &Program, legs: &[Leg], rig: &Rig<'_>, motion: &Motion) -> Vec<Waypoint> {
+pub(super) fn waypoints(program: &Program, rig: &Rig<'_>, motion: &Motion) -> Vec<Waypoint> {
     let maker = program.cell.as_ref().map(|cell| cell.maker);
     match maker {
         Some(Maker::Abb) => {}
@@ -34,44 +32,38 @@ pub(super) fn waypoints(program: &Program, legs: &[Leg], rig: &Rig<'_>, motion: 
     let mut branches = motion.stretches.iter().peekable();
     let mut branch = None;
     let mut before: Option<AxisValues> = None;
-    for ((op, leg), end) in numbered(legs).zip(&motion.ends) {
+    for (segment, end) in program.segments().zip(&motion.ends) {
+        let op = segment.id;
         while let Some(stretch) = branches.next_if(|stretch| stretch.from <= op) {
             branch = Some(stretch.branch);
         }
-        if let (Leg::Along(stroke), Some(start), Some(branch)) = (leg, before, branch)
+        if let (Path::Linear(line), Some(start), Some(branch)) = (segment.path, before, branch)
             && wrist::turn(&start, end) > wrist::FAR
         {
-            found.extend(on_the_way(program, rig, (op, stroke), branch, [&start.0, &end.0]));
+            found.extend(on_the_way(program, rig, (op, &line), branch, [&start.0, &end.0]));
         }
         before = Some(*end);
     }
     found
 }
 
-/// The waypoints of one stroke.
+/// The waypoints of one line.
 fn on_the_way(
     program: &Program,
     rig: &Rig<'_>,
-    (op, along): (OpId, &Stroke),
+    (op, line): (OpId, &LinearSegment),
     branch: Branch,
     ends: [&Joints; 2],
 ) -> Vec<Waypoint> {
-    let Some(course) = Poses::of(program).course(along) else {
+    let Some(course) = Course::of(program, line) else {
         return Vec::new();
     };
     let [start, end] = ends.map(|joints| AxisValues(*joints));
     let chosen = wrist::spaced(start, &steps(rig, &course, branch, ends), end);
-    let taught = |taught: super::legs::Taught| (taught.tip, taught.held);
-    let Some(action) = program.ops.get(op.0 as usize).map(|op| op.action) else {
-        return Vec::new();
-    };
-    let frame_at = |done: f64| -> Option<Frame> {
-        stroke::Stroke::of(program, taught(along.from), &action)?.frame_at(program, done)
-    };
     chosen
         .into_iter()
         .filter_map(|(done, axes)| {
-            let frame = frame_at(done)?;
+            let frame = line.frame_at(program, done)?;
             Some(Waypoint {
                 op,
                 done,
@@ -108,7 +100,7 @@ mod tests {
     use crate::path::prove;
     use crate::solve::LEAST_CLEARANCE;
     use proptest::prelude::*;
-    use vcutc_backend_api::geometry::{Orientation, Point3};
+    use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
     use vcutc_backend_api::motion::{Elbow, Shoulder, Wrist};
     use vcutc_machine::catalogue;
     use vcutc_machine::kinematics::pose::Pose;

@@ -10,9 +10,8 @@ use super::wording::op_words;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site};
-use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Deed, Judge, Mismatch, Moment, Reader, Says};
-use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
@@ -45,8 +44,9 @@ impl Bench<'_> {
         }
         let read = Read {
             bench: *self,
-            poses: poses(&rebuilt.program),
-            proven: poses(scene.judge.reachable().program()),
+            proven: (scene.judge.reachable().program().segments())
+                .map(|segment| segment.path)
+                .collect(),
             rebuilt: &rebuilt,
         };
         let mut found: Vec<Diagnostic> = read.entries().into_iter().chain(read.halves()).collect();
@@ -69,11 +69,12 @@ impl Bench<'_> {
     fn stances(&self, rebuilt: &Rebuilt, reached: Option<&Reached>) -> Vec<Diagnostic> {
         let proven = reached.map_or_else(|| self.scene.judge.reachable(), |reached| &reached.program);
         let judge = Judge::new(proven, self.reader, self.scene.grain);
-        let poses = poses(&rebuilt.program);
-        let said = (0..).map(OpId).zip(&rebuilt.origins).zip(poses);
-        let other = said.filter_map(|((op, &given), (at, _))| {
+        let said = rebuilt.program.segments().zip(&rebuilt.origins);
+        let other = said.filter_map(|(segment, &given)| {
+            let op = segment.id;
             let deed = deed(self.scene, given)?;
-            let mismatches = judge.mismatches(Moment { op, at }, deed);
+            let before = segment.before;
+            let mismatches = judge.mismatches(Moment { op, before }, deed);
             let stands = |found: &&Mismatch| matches!(found, Mismatch::Stance { .. } | Mismatch::Axis { .. });
             mismatches.iter().find(stands).map(|_| (op, given))
         });
@@ -147,20 +148,6 @@ fn deed<'s>(scene: &'s Scene<'_>, given: usize) -> Option<&'s Deed> {
     }
 }
 
-/// The poses in front of and behind an op.
-type Ends = (Option<Pose>, Option<Pose>);
-
-/// The poses in front of and behind every op.
-fn poses(program: &Program) -> Vec<Ends> {
-    let mut at = None;
-    let both = program.ops.iter().map(|op| {
-        let before = at;
-        at = pose_after(at, &op.action);
-        (before, at)
-    });
-    both.collect()
-}
-
 fn and_more(diagnostic: Diagnostic, others: usize) -> Diagnostic {
     match others {
         0 => diagnostic,
@@ -173,19 +160,17 @@ fn and_more(diagnostic: Diagnostic, others: usize) -> Diagnostic {
 struct Read<'r> {
     bench: Bench<'r>,
     rebuilt: &'r Rebuilt,
-    poses: Vec<Ends>,
-    /// The same of the fresh program.
-    proven: Vec<Ends>,
+    /// What the ops of the fresh program move.
+    proven: Vec<Path>,
 }
 
-/// A cut of a program: its op, how its blade is held, and from where to where its tip goes.
+/// A cut of a program: its op, and from where to where the blade goes.
 #[derive(Clone, Copy)]
 struct CutAt {
     op: OpId,
     site: Site,
     flank: Flank,
-    from: Pose,
-    to: Pose,
+    line: LinearSegment,
 }
 
 impl Read<'_> {
@@ -205,17 +190,15 @@ impl Read<'_> {
     }
 
     fn cuts(&self) -> impl Iterator<Item = CutAt> {
-        let ops = (0..).map(OpId).zip(&self.program().ops).zip(&self.poses);
-        ops.filter_map(|((id, op), &(from, to))| {
-            let Action::Cut { flank, .. } = op.action else {
+        self.program().segments().filter_map(|segment| {
+            let Action::Cut { flank, .. } = segment.op.action else {
                 return None;
             };
             Some(CutAt {
-                op: id,
-                site: op.site,
+                op: segment.id,
+                site: segment.op.site,
                 flank,
-                from: from?,
-                to: to?,
+                line: *segment.path.line()?,
             })
         })
     }
@@ -223,13 +206,16 @@ impl Read<'_> {
     /// Whether a cut is one of the job's, as it was proven.
     fn is_proven(&self, cut: &CutAt) -> bool {
         let partner = self.rebuilt.partners.get(cut.op.0 as usize).copied().flatten();
-        let Some(id) = partner else { return false };
+        let proven = partner.and_then(|id| self.proven.get(id.0 as usize)?.line());
         let fresh = self.bench.scene.judge.reachable().program();
-        let held = |program: &Program, (_, held): Pose| program.orientations.get(held.0 as usize).copied();
-        let Some(&(Some(from), Some(to))) = self.proven.get(id.0 as usize) else {
-            return false;
+        let ends = |program: &Program, line: &LinearSegment| {
+            (
+                line.from.tip,
+                line.to.tip,
+                program.orientation(line.to.orientation),
+            )
         };
-        (from.0, to.0) == (cut.from.0, cut.to.0) && held(fresh, to) == held(self.program(), cut.to)
+        proven.is_some_and(|proven| ends(fresh, proven) == ends(self.program(), &cut.line))
     }
 
     /// The cut that goes deepest into the part.
@@ -268,8 +254,9 @@ impl Read<'_> {
             .map_or(0, |operation| usize::from(operation.0));
         let bound = bounds.get(operation)?;
         let blade = &program.operations.get(operation)?.blade;
-        let held = *program.orientations.get(cut.to.1.0 as usize)?;
-        deepest(bound, edge(blade, held), cut.from.0, cut.to.0)
+        let LinearSegment { from, to, .. } = cut.line;
+        let held = program.orientation(to.orientation)?;
+        deepest(bound, edge(blade, held), from.tip, to.tip)
     }
 
     /// A V whose flanks do not have the same tip.
@@ -287,11 +274,12 @@ impl Read<'_> {
                 continue;
             };
             let key = (operation.0, layer.get(), number.get());
+            let there = cut.line.to.tip;
             let Some((other, tip)) = first.get(&key) else {
-                first.insert(key, (cut, cut.to.0));
+                first.insert(key, (cut, there));
                 continue;
             };
-            let apart = libm::hypot(tip.x - cut.to.0.x, tip.z - cut.to.0.z);
+            let apart = libm::hypot(tip.x - there.x, tip.z - there.z);
             if other.flank != cut.flank && apart > SAME_TIP {
                 count += 1;
                 let changed = if self.is_proven(&cut) { *other } else { cut };

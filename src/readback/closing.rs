@@ -4,9 +4,8 @@
 //! only, and some of what a program says was never judged.
 
 use super::rebuild::Rebuilt;
-use vcutc_backend_api::ir::{Action, Op, Program, Purpose};
+use vcutc_backend_api::ir::{ActionKind, Op, Program, Purpose};
 use vcutc_backend_api::readback::Grain;
-use vcutc_backend_api::script::speeds;
 use vcutc_diagnostics::number::show;
 
 /// Most kinds of changed speeds that are named.
@@ -42,7 +41,7 @@ pub(super) struct OtherSpeed {
 pub(super) fn other_speeds(rebuilt: &Rebuilt, fresh: &Program, grain: Grain) -> Vec<OtherSpeed> {
     let mut found: Vec<OtherSpeed> = Vec::new();
     for (op, partner) in rebuilt.program.ops.iter().zip(&rebuilt.partners) {
-        let partner = partner.and_then(|partner| fresh.ops.get(partner.0 as usize));
+        let partner = partner.and_then(|partner| fresh.op(partner));
         let should = partner.map_or([None, None], |partner| stated(fresh, partner));
         let is = stated(&rebuilt.program, op);
         for (is, should) in is.into_iter().zip(should) {
@@ -74,22 +73,12 @@ pub(super) fn other_speeds(rebuilt: &Rebuilt, fresh: &Program, grain: Grain) -> 
 
 /// The speeds of an op: of its tip, in mm/s, and of its turn, in deg/s.
 fn stated(program: &Program, op: &Op) -> [Option<(Moved, f64)>; 2] {
-    let (feed, rate) = speeds(&op.action);
-    let moved = match op.action {
-        Action::Cut { .. } => Moved::Cut,
-        Action::Home
-        | Action::Travel { .. }
-        | Action::AxisTravel { .. }
-        | Action::Approach { .. }
-        | Action::Retract { .. }
-        | Action::Turn { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => Moved::Travel,
+    let moved = match op.action.kind() {
+        ActionKind::CutLeft | ActionKind::CutRight => Moved::Cut,
+        _ => Moved::Travel,
     };
-    let feed = feed.and_then(|id| program.feeds.get(usize::from(id.0)));
-    let rate = rate.and_then(|id| program.rates.get(usize::from(id.0)));
+    let feed = op.action.feed().and_then(|id| program.feed(id));
+    let rate = op.action.rate().and_then(|id| program.rate(id));
     [
         feed.map(|feed| (moved, feed.to_mm_per_s())),
         rate.map(|rate| (Moved::Turn, rate.to_rad_per_s().to_degrees())),

@@ -2,14 +2,13 @@
 //! asks for something else.
 
 use super::meaning::says_the_same;
-use super::scene::{Scene, asked, place_in, poses_before};
+use super::scene::{Scene, asked, moments, place_in};
 use super::steps::Step;
 use super::told::{Told, skeleton};
 use super::way::{Parts, Way};
 use super::wording::{deed_words, kind_words, mismatch_words, op_words, pace_words};
 use vcutc_backend_api::ir::{Action, OpId, Registered};
 use vcutc_backend_api::readback::{Deed, FrameRole, Mismatch, Moment, Says, essence};
-use vcutc_backend_api::stroke::Pose;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic, Label};
 use vcutc_job::Machine;
@@ -39,7 +38,7 @@ impl Differences {
 pub(super) fn differences(scene: &Scene<'_>, way: &Way) -> Differences {
     let mut teller = Teller {
         scene,
-        poses: poses_before(scene.judge.reachable().program()),
+        moments: moments(scene.judge.reachable().program()),
         diagnostics: Vec::new(),
         counts: Vec::new(),
         after_effects: AfterEffects::default(),
@@ -64,7 +63,7 @@ pub(super) fn differences(scene: &Scene<'_>, way: &Way) -> Differences {
 
 struct Teller<'s> {
     scene: &'s Scene<'s>,
-    poses: Vec<Option<Pose>>,
+    moments: Vec<Moment>,
     diagnostics: Vec<Diagnostic>,
     counts: Vec<(Code, usize)>,
     after_effects: AfterEffects,
@@ -547,8 +546,8 @@ impl Teller<'_> {
         let (Some(op), Says::Deed(deed)) = (self.owner(fresh), is) else {
             return Vec::new();
         };
-        let at = self.poses.get(op.0 as usize).copied().flatten();
-        self.scene.judge.mismatches(Moment { op, at }, deed)
+        let moment = self.moments.get(op.0 as usize);
+        moment.map_or_else(Vec::new, |moment| self.scene.judge.mismatches(*moment, deed))
     }
 
     fn in_words(&self, mismatch: &Mismatch) -> String {
@@ -569,7 +568,7 @@ impl Teller<'_> {
     fn speed_or(&self, asked: Span, op: OpId, mismatch: Option<&Mismatch>) -> Span {
         let program = self.scene.judge.reachable().program();
         let machine = self.scene.job.machine.as_ref();
-        let Some(found) = program.ops.get(op.0 as usize) else {
+        let Some(found) = program.op(op) else {
             return asked;
         };
         let operation = found.site.operation();

@@ -5,18 +5,15 @@
 //! turns the blade is a turn, any other goes through the air, and must prove that it does.
 
 use super::meaning::says_the_same;
-use super::scene::{Scene, poses_before};
+use super::scene::{Scene, moments};
 use super::steps::Step;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, AxisKind, AxisValues, Cell, FeedId, Flank, Op, OpId, OrientationId, Program, RateId, Ready, Site,
     Switch,
 };
-use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::readback::{Deed, FrameRole, Held, Mismatch, Moment, Pace, Says, Target, rotary_way};
-use vcutc_backend_api::script::Generator;
-use vcutc_backend_api::script::speeds;
-use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::state::{Generator, State, TipPose};
 use vcutc_backend_api::swivel::Apart;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
 use vcutc_motion::rig::Rig;
@@ -58,17 +55,16 @@ pub(super) fn rebuild(scene: &Scene<'_>, steps: &[Step], rig: &Rig<'_>) -> Resul
     let mut builder = Builder {
         scene,
         rig,
-        poses: poses_before(fresh),
+        moments: moments(fresh),
         program: Program {
             ops: Vec::with_capacity(fresh.ops.len()),
             ..fresh.clone()
         },
         origins: Vec::new(),
         partners: Vec::new(),
-        at: None,
+        state: State::START,
         axes: None,
         site: Site::Program,
-        generator: Generator::Off,
     };
     for &step in steps {
         match step {
@@ -119,22 +115,21 @@ enum Order {
 struct Builder<'b> {
     scene: &'b Scene<'b>,
     rig: &'b Rig<'b>,
-    /// The poses in front of the ops of the fresh program.
-    poses: Vec<Option<Pose>>,
+    /// The moments before the ops of the fresh program.
+    moments: Vec<Moment>,
     program: Program,
     origins: Vec<usize>,
     partners: Vec<Option<OpId>>,
-    at: Option<Pose>,
+    state: State,
     /// Where the rotary axes are, where the dialect says it.
     axes: Option<AxisValues>,
     site: Site,
-    generator: Generator,
 }
 
 /// The op in whose place a deed stands, and what differs.
 #[derive(Clone)]
 struct Partner {
-    id: OpId,
+    moment: Moment,
     op: Op,
     differs: Vec<Mismatch>,
 }
@@ -192,15 +187,15 @@ impl Builder<'_> {
     }
 
     fn partner(&self, id: OpId, deed: &Deed) -> Option<Partner> {
-        let op = *self.scene.judge.reachable().program().ops.get(id.0 as usize)?;
-        let at = self.poses.get(id.0 as usize).copied().flatten();
-        let differs = self.scene.judge.mismatches(Moment { op: id, at }, deed);
-        Some(Partner { id, op, differs })
+        let op = *self.scene.judge.reachable().program().op(id)?;
+        let moment = *self.moments.get(id.0 as usize)?;
+        let differs = self.scene.judge.mismatches(moment, deed);
+        Some(Partner { moment, op, differs })
     }
 
     fn deed(&mut self, deed: &Deed, partner: Option<Partner>, given: usize) -> Result<(), Obstacle> {
         let (id, site) = match &partner {
-            Some(partner) => (Some(partner.id), partner.op.site),
+            Some(partner) => (Some(partner.moment.op), partner.op.site),
             None => (None, self.site),
         };
         // One that does another kind of thing is no model for what it does.
@@ -208,8 +203,8 @@ impl Builder<'_> {
         let action = match deed {
             Deed::Axes(axes) => Some(self.axes(axes, partner.as_ref(), given)?),
             Deed::AxesToPose(target) => {
-                let (to, orientation) = self.pose(target, partner.as_ref(), given)?;
-                Some(Action::AxisTravel { to, orientation })
+                let TipPose { tip, orientation } = self.pose(target, partner.as_ref(), given)?;
+                Some(Action::AxisTravel { to: tip, orientation })
             }
             Deed::Straight { to, pace, .. } => {
                 let pose = self.pose(to, partner.as_ref(), given)?;
@@ -223,7 +218,7 @@ impl Builder<'_> {
         };
         if let Some(action) = action {
             self.site = site;
-            self.at = pose_after(self.at, &action);
+            self.state = self.state.after(&action);
             self.program.ops.push(Op { site, action });
             self.origins.push(given);
             self.partners.push(id);
@@ -264,31 +259,31 @@ impl Builder<'_> {
     fn is_home(&self, axes: &AxisValues) -> bool {
         let ops = &self.scene.judge.reachable().program().ops;
         let home = ops.iter().position(|op| op.action == Action::Home);
-        let home = home.and_then(|home| u32::try_from(home).ok()).map(OpId);
-        home.is_some_and(|op| {
-            let moment = Moment { op, at: None };
-            self.scene.judge.mismatches(moment, &Deed::Axes(*axes)).is_empty()
-        })
+        let home = home.and_then(|home| self.moments.get(home));
+        home.is_some_and(|home| self.scene.judge.mismatches(*home, &Deed::Axes(*axes)).is_empty())
     }
 
     /// The pose of a target: exact where it is that of its partner within what is printed.
-    fn pose(&mut self, target: &Target, partner: Option<&Partner>, given: usize) -> Result<Pose, Obstacle> {
+    fn pose(
+        &mut self,
+        target: &Target,
+        partner: Option<&Partner>,
+        given: usize,
+    ) -> Result<TipPose, Obstacle> {
         let exact = partner.and_then(|partner| {
-            let before = self.poses.get(partner.id.0 as usize).copied().flatten();
-            Some((partner, pose_after(before, &partner.op.action)?))
+            let after = partner.moment.before.after(&partner.op.action);
+            Some((partner, after.place.pose()?))
         });
         let tip = match exact {
-            Some((partner, (tip, _)))
-                if !partner.differs_in(|found| matches!(found, Mismatch::Tip { .. })) =>
-            {
-                tip
+            Some((partner, pose)) if !partner.differs_in(|found| matches!(found, Mismatch::Tip { .. })) => {
+                pose.tip
             }
             Some(_) | None => target.tip,
         };
         let is_of_attitude =
             |found: &Mismatch| matches!(found, Mismatch::Attitude { .. } | Mismatch::Axis { .. });
-        let held = match exact {
-            Some((partner, (_, held))) if !partner.differs_in(is_of_attitude) => held,
+        let orientation = match exact {
+            Some((partner, pose)) if !partner.differs_in(is_of_attitude) => pose.orientation,
             Some(_) | None => {
                 let orientation = match target.held {
                     Held::Orientation(orientation, _) => orientation,
@@ -297,7 +292,7 @@ impl Builder<'_> {
                 self.orientation(orientation, given)?
             }
         };
-        Ok((tip, held))
+        Ok(TipPose { tip, orientation })
     }
 
     /// The entry of the table that is this orientation within what is printed, or a new one.
@@ -339,7 +334,7 @@ impl Builder<'_> {
     /// The speeds of a straight motion: those of its partner where they are the same within what is printed.
     fn speeds(
         &mut self,
-        to: Pose,
+        to: TipPose,
         target: &Target,
         pace: Pace,
         partner: Option<&Partner>,
@@ -351,9 +346,13 @@ impl Builder<'_> {
                 Mismatch::Feed { .. } | Mismatch::Rate { .. } | Mismatch::Time { .. }
             )
         };
-        let asked = partner
-            .filter(|partner| !partner.differs_in(is_of_speed))
-            .map_or((None, None), |partner| speeds(&partner.op.action));
+        let asked =
+            partner
+                .filter(|partner| !partner.differs_in(is_of_speed))
+                .map_or((None, None), |partner| {
+                    let action = &partner.op.action;
+                    (action.feed(), action.rate())
+                });
         let (feed, rate) = self.as_read(to, target, pace);
         let feed = match (asked.0, feed) {
             (Some(feed), _) => feed,
@@ -370,35 +369,39 @@ impl Builder<'_> {
         Ok((feed, rate))
     }
 
+    /// The pose of the blade here, where that is known.
+    const fn here(&self) -> Option<TipPose> {
+        self.state.place.pose()
+    }
+
     /// Whether the tip is elsewhere at a pose than here.
-    fn moves(&self, to: Pose) -> bool {
-        self.at.is_some_and(|(from, _)| from != to.0)
+    fn moves(&self, to: TipPose) -> bool {
+        self.here().is_some_and(|from| from.tip != to.tip)
     }
 
     /// Whether the blade is held otherwise at a pose than here.
-    fn turns(&self, to: Pose) -> bool {
-        self.at.is_some_and(|(_, held)| held != to.1)
+    fn turns(&self, to: TipPose) -> bool {
+        self.here().is_some_and(|from| from.orientation != to.orientation)
     }
 
     /// The speeds that a pace comes to between here and a pose, as far as it decides them.
-    fn as_read(&self, to: Pose, target: &Target, pace: Pace) -> (Option<Speed>, Option<AngularSpeed>) {
+    fn as_read(&self, to: TipPose, target: &Target, pace: Pace) -> (Option<Speed>, Option<AngularSpeed>) {
         if let Pace::Speeds { tip, turn } = pace {
             return (tip, turn);
         }
-        let Some((from, held)) = self.at else {
+        let Some(from) = self.here() else {
             return (None, None);
         };
+        let held = |pose: TipPose| self.program.orientation(pose.orientation);
+        let ends = held(from).zip(held(to));
         if let Pace::Apart { tip, swivel, twist } = pace {
             let rates = swivel.zip(twist).map(|(swivel, twist)| Apart { swivel, twist });
-            let ends = self.held(held).zip(self.held(to.1)).filter(|_| held != to.1);
+            let ends = ends.filter(|_| self.turns(to));
             let turn = rates.zip(ends).map(|(rates, (from, to))| rates.whole(from, to));
             return (tip, turn);
         }
-        let length = from.distance(to.0);
-        let turn = match (self.held(held), self.held(to.1)) {
-            (Some(from), Some(to)) => from.angle_to(to),
-            (_, _) => Angle::ZERO,
-        };
+        let length = from.tip.distance(to.tip);
+        let turn = ends.map_or(Angle::ZERO, |(from, to)| from.angle_to(to));
         let duration = match pace {
             Pace::Speeds { .. } | Pace::Apart { .. } => return (None, None),
             Pace::Tip(feed) => {
@@ -425,12 +428,8 @@ impl Builder<'_> {
         }
     }
 
-    fn held(&self, id: OrientationId) -> Option<Orientation> {
-        self.program.orientations.get(id.0 as usize).copied()
-    }
-
-    fn straight(&self, pose: Pose, speeds: (FeedId, RateId), partner: Option<&Partner>) -> Action {
-        let (to, orientation) = pose;
+    fn straight(&self, pose: TipPose, speeds: (FeedId, RateId), partner: Option<&Partner>) -> Action {
+        let TipPose { tip: to, orientation } = pose;
         let (feed, rate) = speeds;
         let travel = Action::Travel {
             to,
@@ -438,10 +437,10 @@ impl Builder<'_> {
             feed,
             rate,
         };
-        let Some((from, held)) = self.at else {
+        let Some(TipPose { tip: from, .. }) = self.here() else {
             return travel;
         };
-        let keeps_attitude = held == orientation;
+        let keeps_attitude = !self.turns(pose);
         match partner.map(|partner| partner.op.action) {
             Some(Action::Cut { flank, .. }) if keeps_attitude => Action::Cut { flank, to, feed },
             Some(Action::Approach { .. }) if keeps_attitude => Action::Approach { to, feed },
@@ -488,7 +487,7 @@ impl Builder<'_> {
 
     /// The flank that a posture cuts: the shank leans to its side.
     fn flank(&self, orientation: OrientationId) -> Flank {
-        let leans_left = self.held(orientation).is_some_and(|held| {
+        let leans_left = self.program.orientation(orientation).is_some_and(|held| {
             let [[_, _, along_x], ..] = held.matrix();
             -along_x < 0.0
         });
@@ -496,35 +495,33 @@ impl Builder<'_> {
     }
 
     /// A switch of the generator; other outputs do nothing to the blade.
-    fn switch(&mut self, output: u32, state: Switch) -> Option<Action> {
+    fn switch(&self, output: u32, state: Switch) -> Option<Action> {
         let cell = self.program.cell.as_ref()?;
         if cell.ultrasonic != Some(output) {
             return None;
         }
-        match (state, self.generator) {
-            (Switch::On, Generator::Off) => self.generator = Generator::Starting,
-            (Switch::Off, Generator::Starting | Generator::Running) => self.generator = Generator::Off,
-            // It is so already.
-            (Switch::On, Generator::Starting | Generator::Running) | (Switch::Off, Generator::Off) => {
-                return None;
+        match (state, self.state.generator) {
+            (Switch::On, Generator::Off) | (Switch::Off, Generator::Starting | Generator::Running) => {
+                Some(Action::Ultrasonic { state })
             }
+            // It is so already.
+            (Switch::On, Generator::Starting | Generator::Running) | (Switch::Off, Generator::Off) => None,
         }
-        Some(Action::Ultrasonic { state })
     }
 
-    fn await_input(&mut self, input: u32) -> Option<Action> {
+    fn await_input(&self, input: u32) -> Option<Action> {
         let cell = self.program.cell.as_ref()?;
-        (cell.ready == Ready::Input(input)).then(|| self.now_running())?
+        (cell.ready == Ready::Input(input) && self.is_starting()).then_some(Action::AwaitReady)
     }
 
-    fn wait(&mut self, time: Duration, partner: Option<&Partner>) -> Option<Action> {
+    fn wait(&self, time: Duration, partner: Option<&Partner>) -> Option<Action> {
         let cell = self.program.cell.as_ref()?;
         let is_enough = match cell.ready {
             Ready::Input(_) => false,
             Ready::After(least) => time + self.scene.grain.time >= least,
         };
-        if is_enough && self.generator == Generator::Starting {
-            return self.now_running();
+        if is_enough && self.is_starting() {
+            return Some(Action::AwaitReady);
         }
         match partner {
             Some(Partner { op, differs, .. }) if differs.is_empty() => match op.action {
@@ -536,13 +533,8 @@ impl Builder<'_> {
         }
     }
 
-    fn now_running(&mut self) -> Option<Action> {
-        if self.generator == Generator::Starting {
-            self.generator = Generator::Running;
-            Some(Action::AwaitReady)
-        } else {
-            None
-        }
+    fn is_starting(&self) -> bool {
+        self.state.generator == Generator::Starting
     }
 }
 

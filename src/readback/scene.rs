@@ -2,9 +2,7 @@
 
 use super::told::Told;
 use vcutc_backend_api::ir::{OpId, Program};
-use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::readback::{Grain, Judge, Place};
-use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::readback::{Grain, Judge, Moment, Place};
 use vcutc_diagnostics::source::{FileId, Span};
 use vcutc_job::CheckedJob;
 
@@ -21,15 +19,19 @@ pub(super) struct Scene<'s> {
     pub(super) sources: &'s [FileId],
 }
 
-/// The pose in front of every op.
-pub(super) fn poses_before(program: &Program) -> Vec<Option<Pose>> {
-    let mut at = None;
-    let before = program.ops.iter().map(|op| {
-        let before = at;
-        at = pose_after(at, &op.action);
-        before
+/// The moment before every op of a program, and after the last one.
+pub(super) fn moments(program: &Program) -> Vec<Moment> {
+    let mut moments = Vec::with_capacity(program.ops.len() + 1);
+    let mut segments = program.segments();
+    moments.extend(segments.by_ref().map(|segment| Moment {
+        op: segment.id,
+        before: segment.before,
+    }));
+    moments.push(Moment {
+        op: OpId(u32::try_from(program.ops.len()).unwrap_or(u32::MAX)),
+        before: segments.state(),
     });
-    before.collect()
+    moments
 }
 
 /// Where a statement of a given program stands; behind the last one where there is none of that number.
@@ -53,7 +55,7 @@ pub(super) fn place_in(given: &Told<'_>, sources: &[FileId], index: usize) -> Op
 
 /// Where in the job an op is asked for: its operation, or the job as a whole.
 pub(super) fn asked(job: &CheckedJob, program: &Program, op: Option<OpId>) -> Span {
-    let op = op.and_then(|op| program.ops.get(op.0 as usize));
+    let op = op.and_then(|op| program.op(op));
     let operation = op
         .and_then(|op| op.site.operation())
         .and_then(|operation| job.operations.get(usize::from(operation.0)));

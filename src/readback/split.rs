@@ -6,13 +6,12 @@
 //! part's head or end alone is left aside: it says nothing new.
 
 use super::meaning::meaning;
-use super::scene::{Scene, poses_before};
+use super::scene::{Scene, moments};
 use super::steps::{Step, steps_between};
 use super::told::{Names, Told};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::OpId;
-use vcutc_backend_api::readback::{Deed, Moment, Says, essence};
-use vcutc_backend_api::script::State;
+use vcutc_backend_api::readback::{Deed, Says, essence};
 use vcutc_diff::align::{Pair, common};
 
 /// Whether parts begin elsewhere, judged by what texts of the two programs have in common.
@@ -169,14 +168,7 @@ fn is_restatement_of_ours(scene: &Scene<'_>, fresh: usize) -> bool {
 
 /// The deeds of the given program that restate, at the head of a part, what holds there.
 fn restated(scene: &Scene<'_>, to_fresh: &BTreeMap<usize, usize>) -> BTreeSet<usize> {
-    let program = scene.judge.reachable().program();
-    let poses = poses_before(program);
-    let mut state = State::START;
-    let mut states = vec![state];
-    states.extend(program.ops.iter().map(|op| {
-        state = state.after(&op.action);
-        state
-    }));
+    let moments = moments(scene.judge.reachable().program());
     let mut found = BTreeSet::new();
     let mut next = OpId(0);
     let mut at_head = false;
@@ -189,10 +181,8 @@ fn restated(scene: &Scene<'_>, to_fresh: &BTreeMap<usize, usize>) -> BTreeSet<us
                 if let Some(op) = owner {
                     next = OpId(op.0.saturating_add(1));
                     at_head = false;
-                } else if at_head && let Some(state) = states.get(next.0 as usize) {
-                    let at = poses.get(next.0 as usize).copied().flatten();
-                    let moment = Moment { op: next, at };
-                    if scene.judge.restates(moment, state.generator, deed) {
+                } else if at_head && let Some(moment) = moments.get(next.0 as usize) {
+                    if scene.judge.restates(*moment, deed) {
                         found.insert(given);
                     } else {
                         at_head = false;

@@ -8,7 +8,7 @@ use vcutc_motion::describe::{site_words, value_words};
 
 /// An op in the words of the job: `the left flank of layer 1, cut 2`.
 pub(super) fn op_words(program: &Program, op: OpId) -> String {
-    let Some(op) = program.ops.get(op.0 as usize) else {
+    let Some(op) = program.op(op) else {
         return "the program".to_owned();
     };
     let site = site_words(op.site);

@@ -14,8 +14,10 @@
 use super::surface::{Side, Surface, Vee};
 use core::num::NonZeroU32;
 use std::collections::{BTreeMap, BTreeSet};
-use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Flank, OpId, OperationId, OrientationId, Program, Site};
+use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::ir::{Action, Flank, OpId, Operation, OperationId, OrientationId, Program, Site};
+use vcutc_backend_api::segments::Segment;
+use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
@@ -134,8 +136,8 @@ fn played(
     watch: &mut dyn FnMut(&mut Surface, Release),
 ) -> Replay {
     let mut player = Player::new(surface, program.program(), bounds);
-    for op in &program.program().ops {
-        player.op(op.site, op.action, watch);
+    for cut in program.program().segments().filter_map(Cut::of) {
+        player.cut(&cut, watch);
     }
     player.finish()
 }
@@ -145,9 +147,11 @@ fn played(
 pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Surface)) {
     let program = program.program();
     let mut player = Player::new(Surface::untouched(program.stock), program, &[]);
-    for (op, id) in program.ops.iter().zip((0..).map(OpId)) {
-        show(id, &mut player.surface);
-        player.op(op.site, op.action, &mut |_, _| {});
+    for segment in program.segments() {
+        show(segment.id, &mut player.surface);
+        if let Some(cut) = Cut::of(segment) {
+            player.cut(&cut, &mut |_, _| {});
+        }
     }
 }
 
@@ -175,14 +179,58 @@ struct FlankGeometry {
     edge_per_height: f64,
 }
 
+/// A cut of one flank, as the program states it.
+struct Cut {
+    operation: OperationId,
+    layer: NonZeroU32,
+    cut: NonZeroU32,
+    flank: Flank,
+    /// Where the tip runs.
+    tip: Point2,
+    held: OrientationId,
+}
+
+impl Cut {
+    fn of(segment: Segment<'_>) -> Option<Self> {
+        let Action::Cut { flank, .. } = segment.op.action else {
+            return None;
+        };
+        let Site::Cut {
+            operation,
+            layer,
+            cut,
+        } = segment.op.site
+        else {
+            return None;
+        };
+        let TipPose { tip, orientation } = segment.end()?;
+        Some(Self {
+            operation,
+            layer,
+            cut,
+            flank,
+            tip: Point2 { x: tip.x, z: tip.z },
+            held: orientation,
+        })
+    }
+
+    const fn finding(&self, fault: CutFault) -> Finding {
+        Finding {
+            operation: self.operation,
+            layer: self.layer,
+            cut: self.cut,
+            tip: self.tip,
+            fault,
+        }
+    }
+}
+
 struct Player<'p> {
     program: &'p Program,
     bounds: &'p [Bound<'p>],
     surface: Surface,
     /// What each operation's cuts alone leave, on the blade's side towards the part; in step with `bounds`.
     guards: Vec<Surface>,
-    tip: Point3,
-    held: OrientationId,
     /// Geometry of each orientation with the blade of the operation at hand.
     flanks: Vec<FlankGeometry>,
     operation: Option<OperationId>,
@@ -202,8 +250,6 @@ impl<'p> Player<'p> {
             bounds,
             guards: vec![untouched; bounds.len()],
             surface,
-            tip: Point3::new(0.0, 0.0, 0.0),
-            held: OrientationId(0),
             flanks: Vec::new(),
             operation: None,
             half_done: BTreeSet::new(),
@@ -213,96 +259,43 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn op(&mut self, site: Site, action: Action, watch: &mut dyn FnMut(&mut Surface, Release)) {
-        match action {
-            Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation } => {
-                (self.tip, self.held) = (to, orientation);
-            }
-            Action::Approach { to, .. } | Action::Retract { to, .. } => self.tip = to,
-            Action::Turn { to, .. } => self.held = to,
-            Action::Cut { flank, to, .. } => {
-                self.tip = to;
-                if let Site::Cut {
-                    operation,
-                    layer,
-                    cut,
-                } = site
-                {
-                    self.cut(operation, layer, cut, flank, watch);
-                }
-            }
-            Action::Home
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => {}
-        }
-    }
-
-    fn cut(
-        &mut self,
-        operation: OperationId,
-        layer: NonZeroU32,
-        cut: NonZeroU32,
-        flank: Flank,
-        watch: &mut dyn FnMut(&mut Surface, Release),
-    ) {
-        self.enter(operation);
-        let Some(&geometry) = self.flanks.get(self.held.0 as usize) else {
+    fn cut(&mut self, cut: &Cut, watch: &mut dyn FnMut(&mut Surface, Release)) {
+        self.enter(cut.operation);
+        let Some(&geometry) = self.flanks.get(cut.held.0 as usize) else {
             return;
         };
         let vee = Vee {
-            tip: Point2 {
-                x: self.tip.x,
-                z: self.tip.z,
-            },
+            tip: cut.tip,
             slope: geometry.slope,
         };
-        let side = match flank {
+        let side = match cut.flank {
             Flank::Left => Side::Left,
             Flank::Right => Side::Right,
         };
-        if self.surface.covers(vee.tip) {
+        let blocked_at = if self.surface.covers(vee.tip) {
             let run = self.surface.flank(vee, side);
             let needed = run.reach * geometry.edge_per_height;
-            let finding = |fault| Finding {
-                operation,
-                layer,
-                cut,
-                tip: vee.tip,
-                fault,
-            };
-            self.note_edge(needed, finding);
-            if let Some(at) = run.blocked_at {
-                note(
-                    &mut self.findings.blocked,
-                    finding(CutFault::Blocked { at }),
-                    |_, _| false,
-                );
-            }
+            self.note_edge(needed, cut);
             self.longest_edge = self.longest_edge.max(needed);
-        } else if let Some(at) = self.surface.obstacle(vee) {
-            let fault = CutFault::Blocked { at };
-            let finding = Finding {
-                operation,
-                layer,
-                cut,
-                tip: vee.tip,
-                fault,
-            };
+            run.blocked_at
+        } else {
+            self.surface.obstacle(vee)
+        };
+        if let Some(at) = blocked_at {
+            let finding = cut.finding(CutFault::Blocked { at });
             note(&mut self.findings.blocked, finding, |_, _| false);
         }
         let release = Release {
-            operation,
-            layer,
-            cut,
+            operation: cut.operation,
+            layer: cut.layer,
+            cut: cut.cut,
             vee,
         };
         self.finish_flank(release, watch);
     }
 
     /// Notes a flank that needs more edge than there is.
-    fn note_edge(&mut self, needed: f64, finding: impl Fn(CutFault) -> Finding) {
+    fn note_edge(&mut self, needed: f64, cut: &Cut) {
         let Some(available) = self.usable_edge() else {
             return;
         };
@@ -312,15 +305,16 @@ impl<'p> Player<'p> {
                 needed: Length::mm(needed),
                 available: Length::mm(available),
             };
-            note(&mut self.findings.not_freed, finding(fault), is_longer);
+            note(&mut self.findings.not_freed, cut.finding(fault), is_longer);
         }
     }
 
     /// The blade's edge, or what of it may be used.
     fn usable_edge(&self) -> Option<f64> {
-        let index = usize::from(self.operation?.0);
-        let blade = self.program.operations.get(index)?.blade.cutting_length;
-        let limit = self.bounds.get(index).and_then(|bound| bound.edge);
+        let operation = self.operation?;
+        let blade = self.program.operation(operation)?.blade.cutting_length;
+        let limit = self.bounds.get(usize::from(operation.0));
+        let limit = limit.and_then(|bound| bound.edge);
         Some(limit.map_or(blade, |limit| limit.min(blade)).to_mm())
     }
 
@@ -355,28 +349,9 @@ impl<'p> Player<'p> {
     fn enter(&mut self, operation: OperationId) {
         if self.operation != Some(operation) {
             self.operation = Some(operation);
-            self.flanks = self.geometry_of(operation);
+            self.flanks = flanks(self.program, operation);
             self.half_done.clear();
         }
-    }
-
-    fn geometry_of(&self, operation: OperationId) -> Vec<FlankGeometry> {
-        let Some(operation) = self.program.operations.get(usize::from(operation.0)) else {
-            return Vec::new();
-        };
-        let half_apex = operation.blade.half_apex;
-        let of = |orientation: &vcutc_backend_api::geometry::Orientation| {
-            let m = orientation.matrix();
-            // Tip to shank is -z_t: its slope in the x-z plane is the flank's, its angle to y the rake.
-            let (x, y, z) = (-m[0][2], -m[1][2], -m[2][2]);
-            let rake = Angle::rad(libm::acos(y.abs().min(1.0)));
-            let cos_swing = z / libm::hypot(x, z);
-            FlankGeometry {
-                slope: z / x.abs(),
-                edge_per_height: 1.0 / (cos_swing * (rake - half_apex).sin()),
-            }
-        };
-        self.program.orientations.iter().map(of).collect()
     }
 
     fn finish(mut self) -> Replay {
@@ -411,47 +386,40 @@ impl<'p> Player<'p> {
 
     /// The cut of an operation whose V passes lowest through a point's x.
     fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
-        let stock = self.program.stock;
-        let untouched = Surface::untouched(stock);
-        let mut player = Player::new(untouched, self.program, self.bounds);
-        let mut lowest: Option<(f64, Finding)> = None;
-        for op in &self.program.ops {
-            player.op(op.site, op.action, &mut |_, _| {});
-            let (
-                Action::Cut { .. },
-                Site::Cut {
-                    operation: of,
-                    layer,
-                    cut,
-                },
-            ) = (op.action, op.site)
-            else {
+        let flanks = flanks(self.program, operation);
+        let mut lowest: Option<(f64, Cut)> = None;
+        let cuts = self.program.segments().filter_map(Cut::of);
+        for cut in cuts.filter(|cut| cut.operation == operation) {
+            let Some(geometry) = flanks.get(cut.held.0 as usize) else {
                 continue;
             };
-            let Some(geometry) = player
-                .flanks
-                .get(player.held.0 as usize)
-                .filter(|_| of == operation)
-            else {
-                continue;
-            };
-            let tip = Point2 {
-                x: player.tip.x,
-                z: player.tip.z,
-            };
-            let height = tip.z + (at.x - tip.x).abs() * geometry.slope;
-            if lowest.is_none_or(|(known, _)| height < known) {
-                let finding = Finding {
-                    operation,
-                    layer,
-                    cut,
-                    tip,
-                    fault,
-                };
-                lowest = Some((height, finding));
+            let height = cut.tip.z + (at.x - cut.tip.x).abs() * geometry.slope;
+            if lowest.as_ref().is_none_or(|(known, _)| height < *known) {
+                lowest = Some((height, cut));
             }
         }
-        lowest.map(|(_, finding)| finding)
+        lowest.map(|(_, cut)| cut.finding(fault))
+    }
+}
+
+/// How flanks lie in each of a program's orientations, cut with an operation's blade.
+fn flanks(program: &Program, operation: OperationId) -> Vec<FlankGeometry> {
+    let Some(operation) = program.operation(operation) else {
+        return Vec::new();
+    };
+    let orientations = program.orientations.iter();
+    orientations.map(|held| flank(operation, *held)).collect()
+}
+
+fn flank(operation: &Operation, held: Orientation) -> FlankGeometry {
+    let m = held.matrix();
+    // Tip to shank is -z_t: its slope in the x-z plane is the flank's, its angle to y the rake.
+    let (x, y, z) = (-m[0][2], -m[1][2], -m[2][2]);
+    let rake = Angle::rad(libm::acos(y.abs().min(1.0)));
+    let cos_swing = z / libm::hypot(x, z);
+    FlankGeometry {
+        slope: z / x.abs(),
+        edge_per_height: 1.0 / (cos_swing * (rake - operation.blade.half_apex).sin()),
     }
 }
 

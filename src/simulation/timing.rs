@@ -4,10 +4,9 @@
 //! all axes take depends on the machine, and so does what acceleration adds: nothing of either is said here.
 
 use std::collections::BTreeMap;
-use vcutc_backend_api::ir::{Action, OperationId, OrientationId, Program, Ready, Site};
-use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::stroke::{Pose, Stroke};
-use vcutc_backend_api::units::{Angle, Duration};
+use vcutc_backend_api::ir::{Action, OperationId, Program, Ready, Site};
+use vcutc_backend_api::segments::Segment;
+use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::VerifiedProgram;
 
 /// Time by what it is spent on.
@@ -120,65 +119,22 @@ pub struct Times {
 #[must_use]
 pub fn op_times(program: &VerifiedProgram) -> Vec<Duration> {
     let program = program.program();
-    let mut at = None;
-    let mut times = Vec::with_capacity(program.ops.len());
-    let mut turns = Turns::of(program);
-    for op in &program.ops {
-        times.push(op_time(program, &op.action, at, &mut turns));
-        at = pose_after(at, &op.action);
-    }
-    times
+    program
+        .segments()
+        .map(|segment| op_time(program, &segment))
+        .collect()
 }
 
-/// The angles between the postures of a program, each computed once.
-struct Turns<'p> {
-    program: &'p Program,
-    known: Vec<([OrientationId; 2], Angle)>,
-}
-
-impl<'p> Turns<'p> {
-    /// Programs of more turns than a few compute the rest anew, so that looking never takes long.
-    const MOST: usize = 32;
-
-    const fn of(program: &'p Program) -> Self {
-        Self {
-            program,
-            known: Vec::new(),
-        }
-    }
-
-    fn between(&mut self, from: OrientationId, to: OrientationId) -> Option<Angle> {
-        let known = self.known.iter().find(|(pair, _)| *pair == [from, to]);
-        if let Some((_, angle)) = known {
-            return Some(*angle);
-        }
-        let orientation = |id: OrientationId| self.program.orientations.get(id.0 as usize);
-        let angle = orientation(from)?.angle_to(*orientation(to)?);
-        if self.known.len() < Self::MOST {
-            self.known.push(([from, to], angle));
-        }
-        Some(angle)
-    }
-}
-
-fn op_time(program: &Program, action: &Action, at: Option<Pose>, turns: &mut Turns<'_>) -> Duration {
-    match action {
-        Action::AwaitReady => match program.cell.as_ref().map(|cell| cell.ready) {
+fn op_time(program: &Program, segment: &Segment<'_>) -> Duration {
+    let ready = program.cell.as_ref().map(|cell| cell.ready);
+    match (segment.path.line(), segment.op.action) {
+        (Some(line), _) => line.duration(),
+        (None, Action::Dwell { time }) => time,
+        (None, Action::AwaitReady) => match ready {
             Some(Ready::After(time)) => time,
             Some(Ready::Input(_)) | None => Duration::ZERO,
         },
-        Action::Dwell { time } => *time,
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Ultrasonic { .. }
-        | Action::ToolChange { .. }
-        | Action::Travel { .. }
-        | Action::Approach { .. }
-        | Action::Retract { .. }
-        | Action::Cut { .. }
-        | Action::Turn { .. } => at
-            .and_then(|from| Stroke::turning(program, from, action, |held, then| turns.between(held, then)))
-            .map_or(Duration::ZERO, |stroke| stroke.duration()),
+        (None, _) => Duration::ZERO,
     }
 }
 

@@ -21,9 +21,9 @@ use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::sema;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_motion::place::Spot;
+use vcutc_motion::place::motions::TellingMotions;
 use vcutc_motion::place::score::Judge;
 use vcutc_motion::place::search::{Bounds, Criteria, Placed, search};
-use vcutc_motion::place::strokes::Strokes;
 use vcutc_motion::place::taught::TaughtPoses;
 use vcutc_motion::remedy::trial::{self, Room};
 use vcutc_motion::remedy::wording;
@@ -219,7 +219,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
     let base = machine.base.value;
     let poses = TaughtPoses::of(&proven.program);
     let rig = Rig::new(&machine.model, machine.tool.value.frame, base.frame);
-    let strokes = Strokes::of(proven.program.program());
+    let motions = TellingMotions::of(proven.program.program());
     let judge = |spread| {
         Judge::new(
             rig.mechanism,
@@ -237,7 +237,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
         rough: &rough,
         fine: &fine,
         admits: &|spot: Spot| {
-            strokes.are_followed(&Rig {
+            motions.are_followed(&Rig {
                 work_in_root: spot.work_in_root(&base.frame),
                 ..rig.clone()
             })

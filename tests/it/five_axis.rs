@@ -7,8 +7,6 @@ use vcutc::motion::solve::rig;
 use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::vcut::PlannedVcut;
 use vcutc_backend_api::ir::Action;
-use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::stroke::Stroke;
 
 /// The job of an example, which asks for `generic/head_head_ac`, on another machine.
 fn on(machine: &str) -> Vec<String> {
@@ -193,15 +191,9 @@ fn no_turn_is_faster_than_the_job_asks_for() {
         let reached = compiled.program.reached().unwrap();
         let program = reached.program.program();
         let rig = rig(model, program.cell.as_ref().unwrap());
-        let mut at = None;
         let durations: Vec<f64> = program
-            .ops
-            .iter()
-            .map(|op| {
-                let stroke = at.and_then(|from| Stroke::of(program, from, &op.action));
-                at = pose_after(at, &op.action);
-                stroke.map_or(0.0, |stroke| stroke.duration().to_s())
-            })
+            .segments()
+            .map(|segment| segment.path.line().map_or(0.0, |line| line.duration().to_s()))
             .collect();
         let (mut fastest, mut before) = (0.0_f64, None);
         trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {

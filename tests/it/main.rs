@@ -67,6 +67,7 @@ mod referees;
 mod repository;
 mod scallop;
 mod schema;
+mod segments;
 #[cfg(feature = "krl")]
 mod serial_arm;
 #[cfg(feature = "krl")]

@@ -13,8 +13,8 @@ use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::report::playback::section;
 
 use vcutc::report::playback::track::{Knot, TURN_ERROR, WAY_ERROR, between};
-use vcutc_backend_api::ir::{Action, ActionKind, AxisKind, Flank, OpId, Program, Site};
-use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::ir::{Action, ActionKind, AxisKind, Flank, Program, Site};
+use vcutc_backend_api::state::TipPose;
 
 fn shown(outcome: &Outcome) -> String {
     section(outcome.plan.as_ref().unwrap(), outcome.compiled.as_ref().unwrap())
@@ -137,9 +137,8 @@ fn a_page_says_every_op_of_the_program() {
         let times = &outcome.compiled.as_ref().unwrap().op_times;
         let program = program(&outcome);
         assert_eq!(kinds.len(), program.ops.len(), "{job}");
-        let mut pose = None;
-        for (i, op) in program.ops.iter().enumerate() {
-            pose = pose_after(pose, &op.action);
+        for (i, segment) in program.segments().enumerate() {
+            let (op, pose) = (segment.op, segment.end());
             assert_eq!(
                 ActionKind::NAMES[usize::from(kinds[i])],
                 name(&op.action),
@@ -147,8 +146,12 @@ fn a_page_says_every_op_of_the_program() {
             );
             assert_eq!((operations[i], layers[i], cuts[i]), counted(op.site), "{job} {i}");
             assert_eq!(seconds[i], times[i].to_s(), "{job} {i}");
-            assert_eq!(held[i], pose.map_or(0, |(_, held)| held.0 + 1), "{job} {i}");
-            if let Some((tip, _)) = pose {
+            assert_eq!(
+                held[i],
+                pose.map_or(0, |pose| pose.orientation.0 + 1),
+                "{job} {i}"
+            );
+            if let Some(TipPose { tip, .. }) = pose {
                 // To the last bit, for the section is cut with them.
                 let read = tips[3 * i..3 * i + 3].iter().map(|&tip| f64::from(tip) / 1000.0);
                 assert_eq!(read.collect::<Vec<_>>(), [tip.x, tip.y, tip.z], "{job} {i}");
@@ -263,12 +266,12 @@ fn the_pages_machine_brings_the_blade_where_the_program_has_it() {
             let outcome = compile_on(pairing.machine, &job, &folder());
             let data = data(&shown(&outcome));
             let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
-            let mut pose = None;
-            for (number, op) in (0..).zip(&program(&outcome).ops) {
-                pose = pose_after(pose, &op.action);
-                let (Some((wanted, _)), Some(axes)) = (pose, reached.program.axes_after(OpId(number))) else {
+            for segment in program(&outcome).segments() {
+                let number = segment.id.0;
+                let (Some(pose), Some(axes)) = (segment.end(), reached.program.axes_after(segment.id)) else {
                     continue;
                 };
+                let wanted = pose.tip;
                 let [x, y, z] = tip(&data["cell"], &axes.0);
                 let off = (x - wanted.x)
                     .abs()

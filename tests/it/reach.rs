@@ -8,14 +8,15 @@ use vcutc::driver::Outcome;
 use vcutc::job::CheckedJob;
 use vcutc::machine::kinematics::Joints;
 use vcutc::motion::demand::Demand;
-use vcutc::motion::legs::{Leg, Poses, legs};
-use vcutc::motion::path::prove;
+use vcutc::motion::moves::{above_first_pose, paths};
+use vcutc::motion::path::{Course, prove};
 use vcutc::motion::rig::Rig;
 use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, rig, solve};
 use vcutc::process::lower::lower;
 use vcutc::process::plan::plan;
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::segments::Path;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 
 const JOB: &str = "job.vcut";
@@ -79,16 +80,12 @@ fn solved(outcome: &Outcome) -> &Reached {
 /// Every branch and every turn of every axis, proven from one end of the program to the other with the limits as they are.
 /// The best margin of all that come through.
 fn best_of_all(program: &Program, rig: &Rig<'_>) -> Option<f64> {
-    let legs = legs(program);
-    let first = legs.iter().find_map(|leg| match leg {
-        Leg::ByAxes(taught) => Some(*taught),
-        Leg::Still | Leg::Home | Leg::Along(_) => None,
-    })?;
-    let pose = Poses::of(program).blade_in_work(first).unwrap();
+    let paths = paths(program);
+    let pose = above_first_pose(program, 0.0)?;
     let mut best: Option<f64> = None;
     for solution in rig.mechanism.all(&rig.flange_in_root(&pose)).iter() {
         for start in all_turns(&solution.joints) {
-            if let Some(margin) = carried(program, &legs, rig, solution.branch, start) {
+            if let Some(margin) = carried(program, &paths, rig, solution.branch, start) {
                 best = Some(best.map_or(margin, |best| best.max(margin)));
             }
         }
@@ -110,7 +107,7 @@ fn all_turns(joints: &Joints) -> Vec<Joints> {
     })
 }
 
-fn carried(program: &Program, legs: &[Leg], rig: &Rig<'_>, branch: Branch, start: Joints) -> Option<f64> {
+fn carried(program: &Program, paths: &[Path], rig: &Rig<'_>, branch: Branch, start: Joints) -> Option<f64> {
     let inside = rig
         .axes
         .iter()
@@ -121,9 +118,8 @@ fn carried(program: &Program, legs: &[Leg], rig: &Rig<'_>, branch: Branch, start
     }
     let mut at = start;
     let mut demand = Demand::standing(OpId(0), &start);
-    for leg in legs {
-        let Leg::Along(stroke) = leg else { continue };
-        let course = Poses::of(program).course(stroke).unwrap();
+    for line in paths.iter().filter_map(Path::line) {
+        let course = Course::of(program, line).unwrap();
         let proof = prove(rig, &course, branch, &at, &LEAST_CLEARANCE).ok()?;
         demand = demand.and(&Demand::of(OpId(0), &proof));
         at = proof.end;

@@ -5,7 +5,7 @@ use vcutc::diagnostics::{Code, fix};
 use vcutc::driver::Outcome;
 use vcutc::driver::checks::Standing;
 use vcutc::machine::kinematics::Mechanism;
-use vcutc::motion::legs::{Leg, Poses, legs};
+use vcutc::machine::kinematics::pose::Pose;
 use vcutc::motion::rig::Rig;
 use vcutc::motion::solve::{Reached, rig};
 
@@ -84,17 +84,11 @@ fn the_axes_bring_the_blade_where_the_program_has_it() {
     let program = reached.program.program();
     let cell = program.cell.clone().unwrap();
     let rig: Rig<'_> = rig(model, &cell);
-    let poses = Poses::of(program);
     let mut checked = 0;
-    for (leg, end) in legs(program).iter().zip(&reached.program.motion().ends) {
-        let taught = match leg {
-            Leg::ByAxes(taught) => *taught,
-            Leg::Along(stroke) => stroke.to,
-            Leg::Still | Leg::Home => continue,
-        };
-        let (apart, turned) = rig
-            .blade_in_work(&end.0)
-            .apart(&poses.blade_in_work(taught).unwrap());
+    for (segment, end) in program.segments().zip(&reached.program.motion().ends) {
+        let Some(to) = segment.path.target() else { continue };
+        let should = Pose::from(program.frame(to).unwrap());
+        let (apart, turned) = rig.blade_in_work(&end.0).apart(&should);
         assert!(apart < 1e-5 && turned < 1e-8, "{apart} mm, {turned}");
         checked += 1;
     }

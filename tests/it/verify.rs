@@ -201,23 +201,20 @@ fn a_program_that_has_nothing_to_do_with_the_job_comes_to_an_end() {
 fn no_slit_of_a_proven_program_enters_the_part() {
     use vcutc::simulation::slit::{deepest, edge};
     use vcutc_backend_api::ir::Action;
-    use vcutc_backend_api::motion::pose_after;
     for job in ["block_cui.vcut", "spoiler_naca2412.vcut", "wavy_panel.vcut"] {
         let outcome = compile(job, &Files::of(root().join("examples")));
         let (plan, compiled) = (outcome.plan.as_ref().unwrap(), outcome.compiled.as_ref().unwrap());
         let bounds = vcutc::process::verdict::bounds(plan);
         let program = compiled.program.verified().program();
-        let mut at = None;
         let mut cuts = 0;
-        for op in &program.ops {
-            let before = at;
-            at = pose_after(at, &op.action);
-            if let (Action::Cut { .. }, Some((from, _)), Some((to, held))) = (op.action, before, at) {
+        for segment in program.segments() {
+            let op = segment.op;
+            if let (Action::Cut { .. }, Some(line)) = (op.action, segment.path.line()) {
                 let operation = usize::from(op.site.operation().unwrap().0);
                 let blade = &program.operations[operation].blade;
-                let edge = edge(blade, program.orientations[held.0 as usize]);
+                let edge = edge(blade, program.orientation(line.to.orientation).unwrap());
                 assert_eq!(
-                    deepest(&bounds[operation], edge, from, to),
+                    deepest(&bounds[operation], edge, line.from.tip, line.to.tip),
                     None,
                     "{job}: {:?}",
                     op.site

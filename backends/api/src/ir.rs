@@ -61,6 +61,38 @@ pub enum Purpose {
     },
 }
 
+impl Program {
+    /// An op by its number.
+    #[must_use]
+    pub fn op(&self, id: OpId) -> Option<&Op> {
+        self.ops.get(id.0 as usize)
+    }
+
+    /// An operation by its number.
+    #[must_use]
+    pub fn operation(&self, id: OperationId) -> Option<&Operation> {
+        self.operations.get(usize::from(id.0))
+    }
+
+    /// An orientation by its number.
+    #[must_use]
+    pub fn orientation(&self, id: OrientationId) -> Option<Orientation> {
+        self.orientations.get(id.0 as usize).copied()
+    }
+
+    /// A tip speed by its number.
+    #[must_use]
+    pub fn feed(&self, id: FeedId) -> Option<Speed> {
+        self.feeds.get(usize::from(id.0)).copied()
+    }
+
+    /// A reorientation rate by its number.
+    #[must_use]
+    pub fn rate(&self, id: RateId) -> Option<AngularSpeed> {
+        self.rates.get(usize::from(id.0)).copied()
+    }
+}
+
 impl Purpose {
     /// Whether the program cuts.
     #[must_use]
@@ -571,6 +603,24 @@ impl ActionKind {
 }
 
 impl Action {
+    /// The speed of the ops that move the tip on a line.
+    #[must_use]
+    pub const fn feed(&self) -> Option<FeedId> {
+        match *self {
+            Self::Travel { feed, .. }
+            | Self::Approach { feed, .. }
+            | Self::Retract { feed, .. }
+            | Self::Cut { feed, .. } => Some(feed),
+            Self::Home
+            | Self::AxisTravel { .. }
+            | Self::Turn { .. }
+            | Self::Ultrasonic { .. }
+            | Self::AwaitReady
+            | Self::Dwell { .. }
+            | Self::ToolChange { .. } => None,
+        }
+    }
+
     /// The rate of the ops that turn the blade at one.
     #[must_use]
     pub const fn rate(&self) -> Option<RateId> {

@@ -21,6 +21,9 @@
 //! `MoveJ`). The first way from home is always such a move, since the way of a straight move from axis values would
 //! depend on the arm; later ones are where the arm has to stand differently, and lie above the stock.
 //!
+//! An op says where its motion ends. [`ir::Program::segments`] walks the ops and says of each where it begins, what moves and
+//! how fast; everything that follows a program uses it.
+//!
 //! # How a machine carries it out
 //!
 //! The program says nothing of axes but at home. Which way of holding the blade is meant, and where the axes are at the end
@@ -51,6 +54,8 @@ pub mod profile;
 pub mod protocol;
 pub mod readback;
 pub mod script;
+pub mod segments;
+pub mod state;
 pub mod stroke;
 pub mod swivel;
 #[cfg(feature = "testkit")]

@@ -11,7 +11,8 @@ mod tests;
 
 use crate::geometry::{Frame, Point3};
 use crate::ir::{Action, AxisValues, Cell, Head, OpId, OrientationId, Program};
-use crate::stroke::Stroke;
+use crate::segments::{LinearSegment, Path};
+use crate::state::TipPose;
 use crate::verify::VerifiedProgram;
 use core::fmt;
 use serde::{Deserialize, Serialize};
@@ -219,6 +220,15 @@ impl ReachableProgram {
         self.motion.ends.get(op.0 as usize).copied()
     }
 
+    /// The axes when an op begins: at home before the first motion, and not known there without a home.
+    #[must_use]
+    pub fn axes_before(&self, op: OpId) -> Option<AxisValues> {
+        let home = self.program().cell.as_ref().and_then(|cell| cell.home);
+        let before = op.0.checked_sub(1).map(OpId);
+        let moved = before.filter(|before| home.is_some() || self.branch_after(*before).is_some());
+        moved.map_or(home, |before| self.axes_after(before))
+    }
+
     /// The branch that an op ends on; none before the first motion to a pose.
     #[must_use]
     pub fn branch_after(&self, op: OpId) -> Option<Branch> {
@@ -244,10 +254,10 @@ fn faults(
         return whole(MotionRule::Complete);
     }
     let mut faults = stretch_faults(program, motion);
-    let mut at: Option<(Point3, OrientationId)> = None;
     let mut before: Option<AxisValues> = cell.home;
-    for (id, (op, &values)) in (0..).map(OpId).zip(program.ops.iter().zip(&motion.ends)) {
-        let mut fault = |what| faults.push(MotionFault { op: Some(id), what });
+    for (segment, &values) in program.segments().zip(&motion.ends) {
+        let op = Some(segment.id);
+        let mut fault = |what| faults.push(MotionFault { op, what });
         let beyond = values.0.iter().skip(cell.axes.len());
         if !(values.0.iter().all(|value| value.is_finite()) && beyond.copied().all(|value| value == 0.0)) {
             fault(MotionRule::Complete);
@@ -256,39 +266,20 @@ fn faults(
         if !within_limits(cell, &values) {
             fault(MotionRule::Limits);
         }
-        at = pose_after(at, &op.action);
-        let moves = match (op.action, at) {
-            (Action::Home, _) => {
-                if cell.home != Some(values) {
-                    fault(MotionRule::Pose);
-                }
-                true
-            }
-            (
-                Action::Travel { .. }
-                | Action::AxisTravel { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. },
-                Some((tip, held)),
-            ) => {
-                let held = program.orientations.get(held.0 as usize).copied();
-                let is = blade_in_work(&values);
-                let should = held.map(|orientation| Frame {
-                    origin: tip,
-                    orientation,
-                });
-                if !should.is_some_and(|should| is_there(&is, &should)) {
-                    fault(MotionRule::Pose);
-                }
-                true
-            }
-            (_, _) => false,
+        let is_there = |pose: TipPose| {
+            let should = program.frame(pose);
+            should.is_some_and(|should| is_there(&blade_in_work(&values), &should))
         };
-        if !moves && before.is_some_and(|before| before != values) {
-            fault(MotionRule::Still);
-        }
+        let broken = match segment.path {
+            Path::Still => before
+                .is_some_and(|before| before != values)
+                .then_some(MotionRule::Still),
+            Path::Home => (cell.home != Some(values)).then_some(MotionRule::Pose),
+            Path::Axes(to) | Path::Linear(LinearSegment { to, .. }) => {
+                (!is_there(to)).then_some(MotionRule::Pose)
+            }
+        };
+        broken.into_iter().for_each(fault);
         before = Some(values);
     }
     faults.extend(waypoint_faults(program, motion, blade_in_work));
@@ -305,27 +296,24 @@ fn waypoint_faults(
     };
     let mut faults = Vec::new();
     let mut waypoints = motion.waypoints.iter().peekable();
-    let mut at = None;
-    for (id, op) in (0..).map(OpId).zip(&program.ops) {
-        let stroke = at.and_then(|from| Stroke::of(program, from, &op.action));
+    for segment in program.segments() {
         let mut done = 0.0;
-        while let Some(waypoint) = waypoints.next_if(|waypoint| waypoint.op == id) {
+        while let Some(waypoint) = waypoints.next_if(|waypoint| waypoint.op == segment.id) {
             let in_order = done < waypoint.done && waypoint.done < 1.0;
             done = waypoint.done;
-            let on_the_way = stroke
-                .and_then(|stroke| stroke.frame_at(program, waypoint.done))
+            let on_the_way = (segment.path.line())
+                .and_then(|line| line.frame_at(program, waypoint.done))
                 .is_some_and(|should| is_there(&waypoint.frame, &should));
             let held = waypoint.axes.0.iter().all(|value| value.is_finite())
                 && within_limits(cell, &waypoint.axes)
                 && is_there(&blade_in_work(&waypoint.axes), &waypoint.frame);
             if !(in_order && on_the_way && held) {
                 faults.push(MotionFault {
-                    op: Some(id),
+                    op: Some(segment.id),
                     what: MotionRule::Waypoints,
                 });
             }
         }
-        at = pose_after(at, &op.action);
     }
     if waypoints.next().is_some() {
         faults.push(MotionFault {
@@ -384,10 +372,8 @@ fn stretch_faults(program: &Program, motion: &Motion) -> Vec<MotionFault> {
         op: Some(op),
         what: MotionRule::Stretches,
     };
-    let first = (0..).map(OpId).zip(&program.ops).find_map(|(id, op)| {
-        let is_at_pose = pose_after(None, &op.action).is_some();
-        is_at_pose.then_some(id)
-    });
+    let first = program.segments().find(|segment| segment.end().is_some());
+    let first = first.map(|segment| segment.id);
     let begun = motion.stretches.first().map(|stretch| stretch.from);
     let first = (begun != first).then(|| fault(begun.or(first).unwrap_or(OpId(0))));
     let later = motion

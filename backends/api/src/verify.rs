@@ -1,7 +1,7 @@
 //! The verifier: the only way from a [`Program`] to a [`VerifiedProgram`].
 //!
-//! It walks the ops once, carrying what the machine would be doing (where the tip is, how the blade is held, whether
-//! it vibrates), and checks each op against that. What it promises to backends: every table reference is valid, every
+//! It walks the ops once, with what the machine is doing before each of them ([`Program::segments`]: where the tip is, how
+//! the blade is held, whether it vibrates), and checks each op against that. What it promises to backends: every table reference is valid, every
 //! number finite, every speed positive, every straight motion starts from a known pose, the first motion is `Home` where
 //! there is a home and the next one a move of all axes, no rotation is ambiguous, the blade only meets the stock in cuts,
 //! and the two flanks of every V are there once.
@@ -15,9 +15,11 @@ pub use capability::{Capabilities, Capability};
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Axis, Cell, Edges, FeedId, Flank, Head, IR_VERSION, MOST_AXES, Op, OpId, Operation, OperationId,
-    OrientationId, Program, Purpose, RateId, Ready, Registered, Site, Switch,
+    Action, Axis, Cell, Edges, Flank, Head, IR_VERSION, MOST_AXES, Op, OpId, Operation, OperationId,
+    OrientationId, Program, Purpose, Ready, Registered, Site, Switch,
 };
+use crate::segments::Segment;
+use crate::state::{Generator, Place, State};
 use crate::units::{Angle, Duration, Length, Mass};
 use core::fmt;
 use core::num::NonZeroU32;
@@ -45,11 +47,7 @@ impl VerifiedProgram {
     /// The orientation behind an id (the identity for an id of another program).
     #[must_use]
     pub fn orientation(&self, id: OrientationId) -> Orientation {
-        self.program
-            .orientations
-            .get(id.0 as usize)
-            .copied()
-            .unwrap_or(Orientation::IDENTITY)
+        self.program.orientation(id).unwrap_or(Orientation::IDENTITY)
     }
 
     /// The same program with another head, on which no rule depends.
@@ -152,10 +150,11 @@ const SAME: f64 = 1e-6;
 pub fn verify(program: Program) -> Result<VerifiedProgram, Vec<Fault>> {
     let mut walk = Walk::new(&program);
     walk.tables();
-    for (index, op) in (0..).zip(&program.ops) {
-        walk.op(OpId(index), op);
+    let mut segments = program.segments();
+    for segment in segments.by_ref() {
+        walk.op(&segment);
     }
-    walk.ending();
+    walk.ending(segments.state());
     let Walk {
         mut faults, needs, ..
     } = walk;
@@ -165,25 +164,6 @@ pub fn verify(program: Program) -> Result<VerifiedProgram, Vec<Fault>> {
     } else {
         Err(faults)
     }
-}
-
-/// Where the machine is.
-#[derive(Clone, Copy, PartialEq)]
-enum Where {
-    /// Nothing has moved yet.
-    Start,
-    /// At the home angles.
-    Home,
-    /// With the tip at a point, the blade held so.
-    Tip(Point3, OrientationId),
-}
-
-/// State of the generator.
-#[derive(Clone, Copy, PartialEq)]
-enum Generator {
-    Off,
-    Starting,
-    Running,
 }
 
 /// A cut of one flank.
@@ -199,36 +179,36 @@ struct Walk<'p> {
     program: &'p Program,
     faults: Vec<Fault>,
     needs: Capabilities,
-    at: Where,
-    generator: Generator,
     operation: Option<OperationId>,
     /// The passes of the operation at hand.
     passes: Vec<Pass>,
     current: OpId,
-    /// Angles between postures that were asked for.
-    turns: Known<[OrientationId; 2], Angle>,
-    /// How far the edges of an operation's blade lie along y in a posture.
-    overhangs: Known<(OperationId, OrientationId), [Length; 2]>,
+    overhangs: Overhangs,
     /// Half the thickness of the thickest blade, in mm.
     half_thickness: f64,
 }
 
-/// Answers that are asked for again and again: a program has a handful of postures for all its ops.
-struct Known<K, V>(Vec<(K, V)>);
+/// How far the edges of an operation's blade lie along y in a posture: a program has a handful of postures for all its ops.
+struct Overhangs(Vec<((OperationId, OrientationId), [Length; 2])>);
 
-impl<K: PartialEq, V: Copy> Known<K, V> {
+impl Overhangs {
     /// Programs of more postures than a few compute the rest anew, so that looking never takes long.
     const MOST: usize = 32;
 
-    fn of(&mut self, key: K, compute: impl FnOnce() -> V) -> V {
-        if let Some((_, value)) = self.0.iter().find(|(known, _)| *known == key) {
-            return *value;
+    fn of(
+        &mut self,
+        key: (OperationId, OrientationId),
+        operation: &Operation,
+        held: Orientation,
+    ) -> [Length; 2] {
+        if let Some((_, known)) = self.0.iter().find(|(known, _)| *known == key) {
+            return *known;
         }
-        let value = compute();
+        let found = overhangs(operation, held);
         if self.0.len() < Self::MOST {
-            self.0.push((key, value));
+            self.0.push((key, found));
         }
-        value
+        found
     }
 }
 
@@ -239,13 +219,10 @@ impl<'p> Walk<'p> {
             half_thickness: half_thickness(program).to_mm(),
             faults: Vec::new(),
             needs: Capabilities::NONE,
-            at: Where::Start,
-            generator: Generator::Off,
             operation: None,
             passes: Vec::new(),
             current: OpId(0),
-            turns: Known(Vec::new()),
-            overhangs: Known(Vec::new()),
+            overhangs: Overhangs(Vec::new()),
         }
     }
 
@@ -293,27 +270,27 @@ impl<'p> Walk<'p> {
             .extend(broken.into_iter().map(|rule| Fault { op: None, rule }));
     }
 
-    fn op(&mut self, id: OpId, op: &Op) {
-        self.current = id;
+    fn op(&mut self, segment: &Segment<'_>) {
+        let (op, before) = (segment.op, segment.before);
+        self.current = segment.id;
         self.site(op.site);
         match self.program.purpose {
             Purpose::Work => {}
-            Purpose::AirCut { .. } => self.require(self.is_of_an_air_cut(&op.action), Rule::AirCut),
+            Purpose::AirCut { .. } => self.require(self.is_of_an_air_cut(segment), Rule::AirCut),
         }
+        self.tables_have(segment);
         match op.action {
-            Action::Home => self.home(),
-            Action::Travel {
-                to,
-                orientation,
-                feed,
-                rate,
-            } => self.travel(op.site, to, orientation, feed, rate),
-            Action::AxisTravel { to, orientation } => self.axis_travel(to, orientation),
-            Action::Approach { to, feed } | Action::Retract { to, feed } => self.straight(to, feed),
-            Action::Cut { flank, to, feed } => self.cut(op.site, flank, to, feed),
-            Action::Turn { to, rate } => self.turn(op.site, to, rate),
-            Action::Ultrasonic { state } => self.ultrasonic(state),
-            Action::AwaitReady => self.await_ready(),
+            Action::Home => self.home(before.place),
+            Action::Travel { to, .. } => self.travel(segment, to),
+            Action::AxisTravel { to, .. } => self.axis_travel(before.place, to),
+            Action::Approach { to, .. } | Action::Retract { to, .. } => self.straight(before.place, to),
+            Action::Cut { flank, to, .. } => self.cut(segment, flank, to),
+            Action::Turn { to, .. } => self.turn(segment, to),
+            Action::Ultrasonic { .. } => {
+                self.needs = self.needs.with(Capability::Output);
+                self.require(self.is_wired(), Rule::TableReference);
+            }
+            Action::AwaitReady => self.await_ready(before.generator),
             Action::Dwell { time } => {
                 self.needs = self.needs.with(Capability::Dwell);
                 self.require(time.is_finite() && time.to_s() >= 0.0, Rule::Number);
@@ -322,9 +299,19 @@ impl<'p> Walk<'p> {
         }
     }
 
+    /// Every id refers to an entry of its table.
+    fn tables_have(&mut self, segment: &Segment<'_>) {
+        let (program, action) = (self.program, segment.op.action);
+        let held = segment.end().map(|pose| pose.orientation);
+        let known = action.feed().is_none_or(|id| program.feed(id).is_some())
+            && action.rate().is_none_or(|id| program.rate(id).is_some())
+            && held.is_none_or(|id| program.orientation(id).is_some());
+        self.require(known, Rule::TableReference);
+    }
+
     fn site(&mut self, site: Site) {
         if let Some(operation) = site.operation() {
-            self.require(self.operation(operation).is_some(), Rule::TableReference);
+            self.require(self.program.operation(operation).is_some(), Rule::TableReference);
         }
         let Some(here) = site.operation() else {
             return;
@@ -359,88 +346,63 @@ impl<'p> Walk<'p> {
         }
     }
 
-    fn home(&mut self) {
+    fn home(&mut self, from: Place) {
         self.needs = self.needs.with(Capability::JointMove);
         self.require(self.has_home(), Rule::HomeAngles);
-        let retracted = match self.at {
-            Where::Tip(tip, _) => self.is_outside(tip),
-            Where::Start | Where::Home => true,
-        };
+        let retracted = from.pose().is_none_or(|pose| self.is_outside(pose.tip));
         self.require(retracted, Rule::AirMoveThroughStock);
-        self.at = Where::Home;
     }
 
-    fn travel(&mut self, site: Site, to: Point3, orientation: OrientationId, feed: FeedId, rate: RateId) {
-        self.needs = self.needs.with(Capability::LinearMove);
-        self.feed(feed);
-        self.rate(rate);
-        self.require(to.is_finite(), Rule::Number);
-        let known = self.orientation(orientation).is_some();
-        self.require(known, Rule::TableReference);
-        match self.at {
-            Where::Tip(from, held) => {
-                self.rotation(held, orientation);
-                self.air(from, to);
-                if held != orientation {
-                    self.turns_clear(site, from, [held, orientation]);
-                    self.turns_clear(site, to, [held, orientation]);
-                }
-            }
-            Where::Start | Where::Home => self.fault(Rule::KnownStart),
+    fn travel(&mut self, segment: &Segment<'_>, to: Point3) {
+        self.rotation(segment);
+        self.straight(segment.before.place, to);
+        if let (Some(from), Some(there)) = (segment.start(), segment.end())
+            && from.orientation != there.orientation
+        {
+            let postures = [from.orientation, there.orientation];
+            self.turns_clear(segment.op.site, from.tip, postures);
+            self.turns_clear(segment.op.site, to, postures);
         }
-        self.at = Where::Tip(to, orientation);
     }
 
     /// The way of the tip is not a line, so both ends must lie above the stock; that the way between them does too is for
     /// reach to prove, which knows the machine.
-    fn axis_travel(&mut self, to: Point3, orientation: OrientationId) {
+    fn axis_travel(&mut self, from: Place, to: Point3) {
         self.needs = self.needs.with(Capability::JointMove);
         self.require(to.is_finite(), Rule::Number);
-        self.require(self.orientation(orientation).is_some(), Rule::TableReference);
         let top = self.program.stock.height.to_mm();
         let above = |tip: Point3| tip.z >= top - SAME;
-        let from_above = match self.at {
-            Where::Tip(from, _) => above(from),
-            Where::Home => true,
-            Where::Start => {
+        let from_above = match from {
+            Place::Pose(from) => above(from.tip),
+            Place::Home => true,
+            Place::Unknown => {
                 self.require(!self.has_home(), Rule::KnownStart);
                 true
             }
         };
         self.require(from_above && above(to), Rule::AirMoveThroughStock);
-        self.at = Where::Tip(to, orientation);
     }
 
-    fn straight(&mut self, to: Point3, feed: FeedId) {
+    /// Through the air on a straight line.
+    fn straight(&mut self, from: Place, to: Point3) {
         self.needs = self.needs.with(Capability::LinearMove);
-        self.feed(feed);
         self.require(to.is_finite(), Rule::Number);
-        match self.at {
-            Where::Tip(from, held) => {
-                self.air(from, to);
-                self.at = Where::Tip(to, held);
-            }
-            Where::Start | Where::Home => self.fault(Rule::KnownStart),
+        match from.pose() {
+            Some(from) => self.air(from.tip, to),
+            None => self.fault(Rule::KnownStart),
         }
     }
 
-    fn cut(&mut self, site: Site, flank: Flank, to: Point3, feed: FeedId) {
+    fn cut(&mut self, segment: &Segment<'_>, flank: Flank, to: Point3) {
         self.needs = self.needs.with(Capability::LinearMove);
-        self.feed(feed);
         self.require(to.is_finite(), Rule::Number);
-        let Where::Tip(from, held) = self.at else {
+        let Some(from) = segment.start() else {
             self.fault(Rule::KnownStart);
             return;
         };
-        self.at = Where::Tip(to, held);
-        self.require(self.crosses_stock(from, to), Rule::CutAcrossStock);
-        let wired = self
-            .program
-            .cell
-            .as_ref()
-            .is_some_and(|cell| cell.ultrasonic.is_some());
-        if wired && self.program.purpose.is_work() {
-            match self.generator {
+        self.require(self.crosses_stock(from.tip, to), Rule::CutAcrossStock);
+        if self.is_wired() && self.program.purpose.is_work() {
+            match segment.before.generator {
                 Generator::Off => self.fault(Rule::SilentCut),
                 Generator::Starting => self.fault(Rule::ReadyNotAwaited),
                 Generator::Running => {}
@@ -450,13 +412,17 @@ impl<'p> Walk<'p> {
             operation,
             layer,
             cut,
-        } = site
+        } = segment.op.site
         else {
             self.fault(Rule::CutPair);
             return;
         };
-        if let (Some(operation), Some(orientation)) = (self.operation(operation), self.orientation(held)) {
-            let good = posture_fits(operation, orientation, flank, to.y - from.y);
+        let program = self.program;
+        if let (Some(operation), Some(held)) = (
+            program.operation(operation),
+            program.orientation(from.orientation),
+        ) {
+            let good = posture_fits(operation, held, flank, to.y - from.tip.y);
             self.require(good, Rule::CutPosture);
         }
         self.passes.push(Pass {
@@ -467,26 +433,25 @@ impl<'p> Walk<'p> {
         });
     }
 
-    fn turn(&mut self, site: Site, to: OrientationId, rate: RateId) {
+    fn turn(&mut self, segment: &Segment<'_>, to: OrientationId) {
         self.needs = self.needs.with(Capability::StillTipTurn);
-        self.rate(rate);
-        let Where::Tip(tip, held) = self.at else {
+        let Some(from) = segment.start() else {
             self.fault(Rule::KnownStart);
             return;
         };
-        self.rotation(held, to);
-        self.turns_clear(site, tip, [held, to]);
-        self.at = Where::Tip(tip, to);
+        self.rotation(segment);
+        self.turns_clear(segment.op.site, from.tip, [from.orientation, to]);
     }
 
     /// The blade is clear of the stock in all of the postures with its tip at that point.
     fn turns_clear(&mut self, site: Site, tip: Point3, postures: [OrientationId; 2]) {
-        let operation = site.operation().and_then(|id| Some((id, self.operation(id)?)));
+        let program = self.program;
+        let operation = site.operation().and_then(|id| Some((id, program.operation(id)?)));
         let clear = postures
             .into_iter()
-            .all(|id| match (operation, self.orientation(id)) {
+            .all(|id| match (operation, program.orientation(id)) {
                 (Some((number, operation)), Some(held)) => {
-                    let overhangs = self.overhangs.of((number, id), || overhangs(operation, held));
+                    let overhangs = self.overhangs.of((number, id), operation, held);
                     self.is_clear(tip, overhangs)
                 }
                 _ => true,
@@ -494,23 +459,8 @@ impl<'p> Walk<'p> {
         self.require(clear, Rule::TurnInStock);
     }
 
-    fn ultrasonic(&mut self, state: Switch) {
-        self.needs = self.needs.with(Capability::Output);
-        let wired = self
-            .program
-            .cell
-            .as_ref()
-            .is_some_and(|cell| cell.ultrasonic.is_some());
-        self.require(wired, Rule::TableReference);
-        self.generator = match state {
-            Switch::On => Generator::Starting,
-            Switch::Off => Generator::Off,
-        };
-    }
-
-    fn await_ready(&mut self) {
-        self.require(self.generator == Generator::Starting, Rule::ReadyNotAwaited);
-        self.generator = Generator::Running;
+    fn await_ready(&mut self, generator: Generator) {
+        self.require(generator == Generator::Starting, Rule::ReadyNotAwaited);
         let capability = match self.program.cell.as_ref().map(|cell| cell.ready) {
             Some(Ready::Input(_)) => Capability::AwaitInput,
             Some(Ready::After(_)) | None => Capability::Dwell,
@@ -518,33 +468,37 @@ impl<'p> Walk<'p> {
         self.needs = self.needs.with(capability);
     }
 
-    fn ending(&mut self) {
+    fn ending(&mut self, end: State) {
         self.finish_operation();
-        let rests = match self.at {
-            Where::Start => true,
-            Where::Home => self.has_home(),
-            Where::Tip(tip, _) => !self.has_home() && self.is_outside(tip),
+        let rests = match end.place {
+            Place::Unknown => true,
+            Place::Home => self.has_home(),
+            Place::Pose(pose) => !self.has_home() && self.is_outside(pose.tip),
         };
-        self.require(rests && self.generator == Generator::Off, Rule::Ending);
+        self.require(rests && end.generator == Generator::Off, Rule::Ending);
     }
 
     /// Whether an op of an air cut meets nothing: its tip ends above the stock, and with all tips the straight ways between
     /// them do. The tip is the lowest line of the blade in all postures that may be turned to above the stock, and as long as
     /// the blade is thick, so half of that hangs lower at most.
-    fn is_of_an_air_cut(&self, action: &Action) -> bool {
+    fn is_of_an_air_cut(&self, segment: &Segment<'_>) -> bool {
         let lowest = self.program.stock.height.to_mm() + self.half_thickness - SAME;
-        match *action {
-            Action::Travel { to, .. }
-            | Action::AxisTravel { to, .. }
-            | Action::Approach { to, .. }
-            | Action::Retract { to, .. }
-            | Action::Cut { to, .. } => to.z >= lowest,
+        match segment.op.action {
             Action::Ultrasonic { state: Switch::On } | Action::AwaitReady => false,
+            // The tip stays where the op before has led it.
+            Action::Turn { .. } => true,
             Action::Home
-            | Action::Turn { .. }
+            | Action::Travel { .. }
+            | Action::AxisTravel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
             | Action::Ultrasonic { state: Switch::Off }
             | Action::Dwell { .. }
-            | Action::ToolChange { .. } => true,
+            | Action::ToolChange { .. } => {
+                let to = segment.path.target();
+                to.is_none_or(|to| to.tip.z >= lowest)
+            }
         }
     }
 
@@ -552,36 +506,15 @@ impl<'p> Walk<'p> {
         self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some())
     }
 
-    fn feed(&mut self, id: FeedId) {
-        self.require(
-            self.program.feeds.get(usize::from(id.0)).is_some(),
-            Rule::TableReference,
-        );
+    /// Whether the machine has an output for the generator.
+    fn is_wired(&self) -> bool {
+        let cell = self.program.cell.as_ref();
+        cell.is_some_and(|cell| cell.ultrasonic.is_some())
     }
 
-    fn rate(&mut self, id: RateId) {
-        self.require(
-            self.program.rates.get(usize::from(id.0)).is_some(),
-            Rule::TableReference,
-        );
-    }
-
-    fn operation(&self, id: OperationId) -> Option<&'p Operation> {
-        self.program.operations.get(usize::from(id.0))
-    }
-
-    fn orientation(&self, id: OrientationId) -> Option<Orientation> {
-        self.program.orientations.get(id.0 as usize).copied()
-    }
-
-    fn rotation(&mut self, from: OrientationId, to: OrientationId) {
-        match (self.orientation(from), self.orientation(to)) {
-            (Some(held), Some(next)) => {
-                let turn = self.turns.of([from, to], || held.angle_to(next));
-                self.require(turn < LARGEST_TURN, Rule::AmbiguousTurn);
-            }
-            _ => self.fault(Rule::TableReference),
-        }
+    fn rotation(&mut self, segment: &Segment<'_>) {
+        let turn = segment.path.line().map(|line| line.turn);
+        self.require(turn.is_none_or(|turn| turn < LARGEST_TURN), Rule::AmbiguousTurn);
     }
 
     /// The tip's way through the air stays on one outer side of the stock (which is convex, so both ends tell).

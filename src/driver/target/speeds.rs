@@ -44,8 +44,14 @@ impl Off {
         else {
             return None;
         };
-        let op = program.ops.get(op.0 as usize)?;
+        let op = program.op(*op)?;
         let setup = job.operations.get(usize::from(op.site.operation()?.0))?.setup();
+        // Where the blade turns on its way, either of the two holds it back.
+        let rate = op.action.rate().map(|_| SpeedField::Reorient);
+        let feed = op.action.feed().map(|_| match op.action {
+            Action::Cut { .. } => SpeedField::Cut,
+            _ => SpeedField::Travel,
+        });
         let stated = |field: SpeedField| {
             Some(Stated {
                 field: field.name(),
@@ -54,22 +60,9 @@ impl Off {
                 span: field.span(setup)?,
             })
         };
-        let speeds = match op.action {
-            Action::Cut { .. } => vec![SpeedField::Cut],
-            Action::Approach { .. } | Action::Retract { .. } => vec![SpeedField::Travel],
-            // Where the blade turns on its way, either of the two holds it back.
-            Action::Travel { .. } => vec![SpeedField::Reorient, SpeedField::Travel],
-            Action::Turn { .. } => vec![SpeedField::Reorient],
-            Action::Home
-            | Action::AxisTravel { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => Vec::new(),
-        };
         Some(Self {
             factor: range.factor()?,
-            speeds: speeds.into_iter().filter_map(stated).collect(),
+            speeds: rate.into_iter().chain(feed).filter_map(stated).collect(),
         })
     }
 }

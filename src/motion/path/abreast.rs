@@ -5,18 +5,19 @@
 //! waits. What comes of a course does not depend on who marches beside it.
 
 use super::arm::{Carrying, LANES};
+use super::arm_course::{ArmCourse, Solver};
 use super::bounds::{Bounds, Progress, Stretch};
 use super::course::Turning;
 use super::interval::Interval;
 use super::march::{Effort, March};
-use super::{Breach, Clearance, Course, Machine, Proof, Violation, Way};
+use super::types::{Breach, Clearance, Course, Proof, Violation};
 use crate::rig::Rig;
 use vcutc_backend_api::motion::Branch;
 use vcutc_machine::kinematics::Joints;
 
 /// A course whose proof is under way.
 pub(super) struct Underway<'r> {
-    way: Way<'r>,
+    way: ArmCourse<'r>,
     progress: Progress<'r>,
     march: March,
     /// How good the bounds of the span at hand have to be.
@@ -36,7 +37,7 @@ impl<'r> Underway<'r> {
         least: &Clearance,
     ) -> Result<Self, Breach> {
         let begins_with = |what| Breach { at: 0.0, what };
-        let way = Way::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
+        let way = ArmCourse::new(rig, course, branch).ok_or(begins_with(Violation::OutOfReach))?;
         let start = &way.begun(start).ok_or(begins_with(Violation::OutOfReach))?;
         let bounds = Bounds {
             axes: rig.axes,
@@ -91,9 +92,9 @@ pub(super) fn finish(courses: Vec<Result<Underway<'_>, Breach>>) -> Vec<Result<P
     for (index, course) in courses.into_iter().enumerate() {
         proofs.push(match course {
             Err(breach) => Err(breach),
-            Ok(underway) => match (underway.way.machine, underway.way.flight.turning()) {
-                (Machine::Serial(_), _) => underway.alone(),
-                (Machine::Arm(..), turns) => {
+            Ok(underway) => match (underway.way.solver, underway.way.flight.turning()) {
+                (Solver::Numeric(_), _) => underway.alone(),
+                (Solver::ClosedForm(..), turns) => {
                     let waiting = match turns {
                         Turning::Still => &mut still,
                         Turning::Turns => &mut turning,
@@ -120,7 +121,7 @@ pub(super) fn finish(courses: Vec<Result<Underway<'_>, Breach>>) -> Vec<Result<P
 
 /// Proves courses of one arm on one branch, all of which turn or none, in the order in which they come to their ends.
 fn abreast(waiting: Vec<(usize, Underway<'_>)>) -> Vec<(usize, Result<Proof, Breach>)> {
-    let Some(Machine::Arm(arm, branch)) = waiting.first().map(|(_, first)| first.way.machine) else {
+    let Some(Solver::ClosedForm(arm, branch)) = waiting.first().map(|(_, first)| first.way.solver) else {
         return Vec::new();
     };
     let turning = waiting

@@ -9,7 +9,7 @@ use super::bounds::Stretch;
 use super::course::{CARRIED, Flange, Flight, Span, Turning};
 use super::interval::Interval;
 use super::number::{Number, Wide};
-use super::{Clearance, Singularity, Violation};
+use super::types::{Clearance, Singularity, Violation};
 use core::f64::consts::PI;
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};
@@ -22,6 +22,24 @@ pub(super) struct ArmBranch {
     pub(super) shoulder: Shoulder,
     pub(super) elbow: Elbow,
     pub(super) wrist: Wrist,
+}
+
+impl ArmBranch {
+    /// None for a branch that has only a number.
+    pub(super) const fn of(branch: Branch) -> Option<Self> {
+        match branch {
+            Branch::Arm {
+                shoulder,
+                elbow,
+                wrist,
+            } => Some(Self {
+                shoulder,
+                elbow,
+                wrist,
+            }),
+            Branch::Numbered(_) => None,
+        }
+    }
 }
 
 impl From<ArmBranch> for Branch {

@@ -2,7 +2,7 @@
 
 use super::interval::Interval;
 use super::march::{Effort, Tried};
-use super::{Clearance, Proof, Singularity, Violation};
+use super::types::{Clearance, Proof, Singularity, Violation};
 use core::f64::consts::{PI, TAU};
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
 use vcutc_machine::kinematics::Joints;

@@ -3,7 +3,8 @@
 use super::along::Along;
 use super::interval::Interval;
 use super::number::Number;
-use super::{Course, Rig};
+use super::types::Course;
+use crate::rig::Rig;
 use glam::{DMat3, DQuat, DVec3};
 use vcutc_machine::kinematics::pose::Pose;
 

@@ -30,7 +30,7 @@
 //! between two places that were looked at is thus never missed; a motion that keeps less than about [`FINEST`] from a limit
 //! may be refused, when its bounds do not become fine enough.
 
-use super::{Breach, Clearance, Course, Proof, Violation};
+use super::types::{Breach, Clearance, Course, Proof, Violation};
 use crate::rig::Rig;
 use glam::DVec3;
 use vcutc_backend_api::ir::Axis;

@@ -7,7 +7,8 @@
 //! theorem: somewhere between two samples the axis is at least as fast as from one to the other. That it may have made whole
 //! turns meanwhile changes nothing, for then it went farther still.
 
-use super::{Course, Machine, Way};
+use super::arm_course::{ArmCourse, Solver};
+use super::types::Course;
 use crate::axis_range::{axis_margin, turn_to_middle};
 use crate::rig::Rig;
 use vcutc_backend_api::ir::Axis;
@@ -37,12 +38,12 @@ pub fn refuted(rig: &Rig<'_>, course: &Course, branch: Branch, start: &Joints) -
         // Whether axis values exist is not decided by an iteration; five-axis machines go along other courses.
         Mechanism::Serial(_) | Mechanism::FiveAxis(_) => return None,
     }
-    let Some(way) = Way::new(rig, course, branch) else {
+    let Some(way) = ArmCourse::new(rig, course, branch) else {
         return Some(Refuted::Pose);
     };
-    match way.machine {
-        Machine::Arm(..) => {}
-        Machine::Serial(_) => return None,
+    match way.solver {
+        Solver::ClosedForm(..) => {}
+        Solver::Numeric(_) => return None,
     }
     let (mut before, mut fastest) = (*start, 0.0_f64);
     for place in (1..=PARTS).map(|part| f64::from(part) / f64::from(PARTS)) {

@@ -28,7 +28,7 @@
 use super::bounds::Stretch;
 use super::course::{Flight, Span};
 use super::interval::Interval;
-use super::{Clearance, Violation};
+use super::types::{Clearance, Violation};
 use glam::DVec3;
 use vcutc_backend_api::ir::MOST_AXES;
 use vcutc_machine::kinematics::pose::Pose;
@@ -44,6 +44,8 @@ type Box6 = [Interval; MOST_AXES];
 type Vector = [Interval; 3];
 type Matrix = [Vector; 3];
 type Square = [[f64; MOST_AXES]; MOST_AXES];
+/// A column of numbers: a twist, or rates of the axes.
+type Column = [f64; MOST_AXES];
 
 /// Axis values that bring the flange to a place of the course, to the last digits, if those given do so nearly.
 pub(super) fn verified(arm: &SerialArm, flight: &Flight, place: f64, given: &Joints) -> Option<Joints> {
@@ -145,7 +147,7 @@ struct Contraction<'m> {
 
 impl Contraction<'_> {
     /// All rates with which the axes can follow a twist while they are in a box and the tip in another.
-    fn rates(&self, joints: &Box6, tip: &Vector, twist: &Joints) -> Option<Box6> {
+    fn rates(&self, joints: &Box6, tip: &Vector, twist: &Column) -> Option<Box6> {
         let lines = Lines::of(self.arm, joints, self.tip_in_flange);
         let tip = core::array::from_fn(|i| lines.tip[i].and(tip[i]));
         self.solved(&lines, &tip, &twist.map(Interval::exactly))
@@ -307,7 +309,7 @@ fn inverse_at(arm: &SerialArm, joints: &Joints, tip_in_flange: DVec3) -> Option<
     is_moderate.then_some(inverse)
 }
 
-fn times(matrix: &Square, vector: &Joints) -> Joints {
+fn times(matrix: &Square, vector: &Column) -> Column {
     core::array::from_fn(|i| (0..MOST_AXES).map(|k| matrix[i][k] * vector[k]).sum())
 }
 

@@ -12,6 +12,7 @@ use glam::{DMat3, DQuat, DVec3};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::path_limits::PathLimits;
 use vcutc_machine::{Model, catalogue};
 

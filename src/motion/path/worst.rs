@@ -1,9 +1,10 @@
 //! How badly a course breaks what it breaks, for people: the proof stops where it breaks first.
 
 use super::arm::{Carrying, LANES};
+use super::arm_course::{ArmCourse, Solver};
 use super::bounds::Stretch;
 use super::march::about;
-use super::{Breach, Course, Machine, Singularity, Violation, Way};
+use super::types::{Breach, Course, Singularity, Violation};
 use crate::rig::Rig;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
@@ -39,7 +40,7 @@ pub fn worst(
     breach: &Breach,
     look: Look,
 ) -> Breach {
-    let Some(way) = Way::new(rig, course, branch) else {
+    let Some(way) = ArmCourse::new(rig, course, branch) else {
         return *breach;
     };
     let parts = look.parts();
@@ -64,9 +65,9 @@ pub fn worst(
 }
 
 /// What the axes do about each of some places; of an arm with a closed form several at a time, as the lanes of a vector.
-fn stretches(way: &Way<'_>, samples: &[(f64, Joints)]) -> Vec<Result<Stretch, Violation>> {
-    match way.machine {
-        Machine::Arm(arm, branch) => {
+fn stretches(way: &ArmCourse<'_>, samples: &[(f64, Joints)]) -> Vec<Result<Stretch, Violation>> {
+    match way.solver {
+        Solver::ClosedForm(arm, branch) => {
             let mut carrying = Carrying::new(arm, branch, way.flight.turning());
             (0..LANES).for_each(|lane| carrying.take(lane, &way.flight));
             let mut found = Vec::with_capacity(samples.len());
@@ -79,7 +80,7 @@ fn stretches(way: &Way<'_>, samples: &[(f64, Joints)]) -> Vec<Result<Stretch, Vi
             }
             found
         }
-        Machine::Serial(_) => samples
+        Solver::Numeric(_) => samples
             .iter()
             .map(|(at, joints)| way.stretch(about(*at), joints))
             .collect(),

@@ -1,10 +1,12 @@
 //! The poses that a program teaches, and the few of them that tell whether the machine reaches them all.
 
-use crate::legs::{Leg, Taught, legs};
+use crate::moves::paths;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::OrientationId;
+use vcutc_backend_api::segments::Path;
+use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_machine::kinematics::pose::Pose;
 
@@ -25,16 +27,12 @@ impl TaughtPoses {
     #[must_use]
     pub fn of(program: &VerifiedProgram) -> Self {
         let mut groups: BTreeMap<OrientationId, Group> = BTreeMap::new();
-        let taught = legs(program.program()).into_iter().filter_map(|leg| match leg {
-            Leg::ByAxes(taught) => Some(taught),
-            Leg::Along(stroke) => Some(stroke.to),
-            Leg::Still | Leg::Home => None,
-        });
-        for Taught { tip, held } in taught {
-            let group = groups.entry(held).or_insert_with(|| Group {
+        let paths = paths(program.program());
+        for TipPose { tip, orientation } in paths.iter().filter_map(Path::target) {
+            let group = groups.entry(orientation).or_insert_with(|| Group {
                 held: Pose::from(Frame {
                     origin: Point3::new(0.0, 0.0, 0.0),
-                    orientation: program.orientation(held),
+                    orientation: program.orientation(orientation),
                 }),
                 tips: Vec::new(),
             });

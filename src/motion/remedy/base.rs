@@ -4,9 +4,9 @@
 //! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
 
 use super::{Case, Remedy, trial, wording};
+use crate::place::motions::TellingMotions;
 use crate::place::score::{Effort, Judge};
 use crate::place::search::ask_all;
-use crate::place::strokes::Strokes;
 use crate::place::taught::TaughtPoses;
 use crate::rig::Rig;
 use crate::trouble::Trouble;
@@ -147,13 +147,13 @@ fn stated(machine: &Machine, base: &PlacedFrame) -> Vec<(Span, String)> {
 }
 
 /// The motion that fails.
-fn failing(case: &Case<'_>) -> Strokes {
+fn failing(case: &Case<'_>) -> TellingMotions {
     let program = case.unreachable.program.program();
     match &case.unreachable.trouble {
         Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => {
-            Strokes::only(program, failing.op)
+            TellingMotions::only(program, failing.op)
         }
-        Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => Strokes::default(),
+        Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => TellingMotions::default(),
     }
 }
 
@@ -184,7 +184,10 @@ pub(super) fn nearest(
     if judge.effort() == Effort::Sparing {
         shifts = thinned(shifts);
     }
-    let (failing, others) = (failing(case), Strokes::of(case.unreachable.program.program()));
+    let (failing, others) = (
+        failing(case),
+        TellingMotions::of(case.unreachable.program.program()),
+    );
     let mut proofs = 0;
     let mut failed_at = 0.0;
     for batch in shifts.chunks(JUDGED) {

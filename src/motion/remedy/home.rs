@@ -1,9 +1,8 @@
 //! A home above the first cut.
 
 use super::{Case, Remedy, trial, wording};
-use crate::legs::{Leg, Poses, Taught, legs};
+use crate::moves::above_first_pose;
 use crate::rig::Rig;
-use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_job::Machine;
 
@@ -16,10 +15,6 @@ const MOST_HOMES: usize = 6;
 pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
     let now = case.machine.home?;
     let program = case.unreachable.program.program();
-    let first = legs(program).into_iter().find_map(|leg| match leg {
-        Leg::ByAxes(taught) => Some(taught),
-        Leg::Along(_) | Leg::Still | Leg::Home => None,
-    })?;
     let model = case.machine.model.clone();
     let rig = Rig::new(
         &model,
@@ -28,11 +23,7 @@ pub(super) fn raised(case: &mut Case<'_>) -> Option<Remedy> {
     );
     let mut homes = 0;
     for raised in RAISED {
-        let tip = Point3 {
-            z: first.tip.z + raised,
-            ..first.tip
-        };
-        let above = Poses::of(program).blade_in_work(Taught { tip, ..first })?;
+        let above = above_first_pose(program, raised)?;
         for solution in rig.mechanism.all(&rig.flange_in_root(&above)).iter() {
             let within = model
                 .axes

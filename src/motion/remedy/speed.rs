@@ -7,12 +7,12 @@
 
 use super::{Case, Remedy, trial};
 use crate::demand::Demand;
-use crate::legs::{Leg, Pace, legs};
 use crate::path::Violation;
 use crate::trouble::Trouble;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{Action, AxisKind, MOST_AXES, OpId, Program};
+use vcutc_backend_api::segments::LimitedBy;
 use vcutc_diagnostics::number::show;
 use vcutc_job::setup::SpeedField as Field;
 use vcutc_job::{Operation, Setup};
@@ -54,7 +54,7 @@ pub(super) fn of_a_linear_axis(case: &Case<'_>) -> Option<(Remedy, Loss)> {
     };
     let program = case.unreachable.program.program();
     let field = pacing(program, failing.op)?;
-    let operation = program.ops.get(failing.op.0 as usize)?.site.operation()?;
+    let operation = program.op(failing.op)?.site.operation()?;
     let asked = asked(&case.job.operations, operation.0)?;
     let speed = lower(field.value(asked) / share)?;
     let speeds = Speeds::from([((operation.0, field), speed)]);
@@ -84,7 +84,7 @@ pub(super) fn lowered(case: &mut Case<'_>) -> Option<(Remedy, Loss)> {
             break;
         };
         let field = pacing(program, op)?;
-        let operation = program.ops.get(op.0 as usize)?.site.operation()?;
+        let operation = program.op(op)?.site.operation()?;
         let asked = asked(&case.job.operations, operation.0)?;
         let now = speeds
             .get(&(operation.0, field))
@@ -127,15 +127,11 @@ fn slowest(demand: &Demand, model: &Model) -> Option<(OpId, f64)> {
 /// The field that says how fast an op goes.
 #[must_use]
 pub fn pacing(program: &Program, op: OpId) -> Option<Field> {
-    let index = op.0 as usize;
-    let legs = legs(program);
-    let Leg::Along(stroke) = legs.get(index)? else {
-        return None;
-    };
-    Some(match (stroke.pace, program.ops.get(index)?.action) {
-        (Pace::Rate(_), _) => Field::Reorient,
-        (Pace::Feed(_), Action::Cut { .. }) => Field::Cut,
-        (Pace::Feed(_), _) => Field::Travel,
+    let segment = program.segment(op)?;
+    Some(match (segment.path.line()?.limited_by()?, segment.op.action) {
+        (LimitedBy::Rate(_), _) => Field::Reorient,
+        (LimitedBy::Feed(_), Action::Cut { .. }) => Field::Cut,
+        (LimitedBy::Feed(_), _) => Field::Travel,
     })
 }
 

@@ -5,7 +5,7 @@ use crate::axis_range::axis_margin;
 use crate::demand::Demand;
 use crate::describe::{site_words, value_words};
 use crate::path::Violation;
-use crate::place::strokes::Strokes;
+use crate::place::motions::TellingMotions;
 use crate::rig::Rig;
 use crate::solve::{Changes, LEAST_CLEARANCE, ReachReport, Reached, Unreached, solve_while};
 use crate::trouble::{Failing, Trouble};
@@ -52,7 +52,7 @@ fn carried_out(case: &Case<'_>, job: &CheckedJob) -> Option<Result<Reached, Box<
     // A program that fails as a whole is dear to refute, for every branch is proven from end to end. A few motions usually
     // say as much.
     let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
-    if !Strokes::of(proven.program.program()).are_each_followed(&rig) {
+    if !TellingMotions::of(proven.program.program()).are_each_followed(&rig) {
         return None;
     }
     let (model, changes) = (&machine.model, Changes::Never);

@@ -6,8 +6,6 @@ use super::html::{Column, escaped, table, unbroken};
 use crate::Material;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, Program, Site};
-use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary::time;
 
@@ -76,14 +74,13 @@ fn layers(program: &Program, op_times: &[Duration]) -> Layers {
     let mut layers = Layers::new();
     // Where a cut stands in its layer: its second flank may come after the first ones of all others.
     let mut places: BTreeMap<(u32, u32, u32), usize> = BTreeMap::new();
-    let (mut at, mut now) = (None, Duration::ZERO);
-    for (op, time) in program.ops.iter().zip(op_times) {
-        let stroke = at.and_then(|from| Stroke::of(program, from, &op.action));
+    let mut now = Duration::ZERO;
+    for (segment, time) in program.segments().zip(op_times) {
         if let Site::Cut {
             operation,
             layer,
             cut,
-        } = op.site
+        } = segment.op.site
         {
             let (operation, layer, number) = (u32::from(operation.0) + 1, layer.get(), cut.get());
             let cuts = layers.entry((operation, layer)).or_default();
@@ -100,14 +97,13 @@ fn layers(program: &Program, op_times: &[Duration]) -> Layers {
             }
             if let Some(cut) = cuts.get_mut(place) {
                 cut.time += *time;
-                if let Action::Cut { to, .. } = op.action {
+                if let (Action::Cut { to, .. }, Some(line)) = (segment.op.action, segment.path.line()) {
                     (cut.x, cut.z) = (to.x, to.z);
-                    cut.way += stroke.map_or(0.0, |stroke| stroke.length.to_mm());
+                    cut.way += line.length().to_mm();
                 }
             }
         }
         now += *time;
-        at = pose_after(at, &op.action);
     }
     layers
 }

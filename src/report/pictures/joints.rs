@@ -8,8 +8,6 @@ use super::time::name;
 use crate::Material;
 use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
-use vcutc_backend_api::motion::pose_after;
-use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
 use vcutc_machine::kinematics::Joints;
 use vcutc_motion::axis_range::axis_margin;
@@ -110,16 +108,14 @@ impl Clock {
             layers: Vec::new(),
         };
         let several = program.operations.len() > 1;
-        let (mut at, mut layer) = (None, None);
-        for (op, time) in program.ops.iter().zip(op_times) {
+        let mut layer = None;
+        for (segment, time) in program.segments().zip(op_times) {
             let length = time.to_s();
-            let stroke = at.and_then(|from| Stroke::of(program, from, &op.action));
+            let line = segment.path.line();
             clock.starts.push(clock.total);
             clock.lengths.push(length);
-            clock
-                .programmed
-                .push(stroke.map(|stroke| stroke.duration().to_s()));
-            let now = layer_of(op.site);
+            clock.programmed.push(line.map(|line| line.duration().to_s()));
+            let now = layer_of(segment.op.site);
             if let Some((operation, number)) = now.filter(|_| now != layer) {
                 let name = if several {
                     format!("{operation}.{number}")
@@ -129,13 +125,12 @@ impl Clock {
                 clock.layers.push((clock.total, name));
             }
             layer = now.or(layer);
-            if let Some(kind) = Kind::of(&op.action).filter(|_| length > 0.0) {
+            if let Some(kind) = Kind::of(&segment.op.action).filter(|_| length > 0.0) {
                 let time = [clock.total, clock.total + length];
                 let kind = kind as usize;
                 clock.spans.push(joints::Span { time, kind });
             }
             clock.total += length;
-            at = pose_after(at, &op.action);
         }
         clock
     }

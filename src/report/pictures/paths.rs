@@ -2,8 +2,9 @@
 
 use super::{Machined, machined};
 use crate::Material;
-use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{Action, OrientationId, Program};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{ActionKind, Program};
+use vcutc_backend_api::state::TipPose;
 use vcutc_picture::{Prefix, paths};
 
 /// Both paths, that of the milling program in the axes of the job.
@@ -38,48 +39,26 @@ struct Track {
 impl Track {
     fn of(program: &Program) -> Self {
         let mut track = Self::default();
-        let mut held: Option<OrientationId> = None;
-        for op in &program.ops {
-            match op.action {
-                Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation } => {
-                    held = Some(orientation);
-                    track.go(to);
-                }
-                Action::Turn { to, .. } => held = Some(to),
-                Action::Approach { to, .. } | Action::Retract { to, .. } => track.go(to),
-                Action::Cut { to, .. } => {
-                    let attitude = held.and_then(|held| program.orientations.get(held.0 as usize));
-                    track.stand(attitude.copied(), program);
-                    track.go(to);
-                }
-                Action::Home
-                | Action::Ultrasonic { .. }
-                | Action::AwaitReady
-                | Action::Dwell { .. }
-                | Action::ToolChange { .. } => {}
+        for segment in program.segments() {
+            let kind = segment.op.action.kind();
+            if let (ActionKind::CutLeft | ActionKind::CutRight, Some(start)) = (kind, segment.start()) {
+                track.blades.extend(blade(program, start));
+            }
+            if let Some(to) = segment.path.target().filter(|_| kind != ActionKind::Turn) {
+                track.tip.push([to.tip.x, to.tip.y, to.tip.z]);
             }
         }
         track
     }
+}
 
-    fn go(&mut self, to: Point3) {
-        self.tip.push([to.x, to.y, to.z]);
-    }
-
-    /// The blade from its tip along its axis, as long as its edge.
-    fn stand(&mut self, attitude: Option<Orientation>, program: &Program) {
-        let longest = program
-            .operations
-            .iter()
-            .map(|operation| operation.blade.cutting_length.to_mm());
-        let (Some(&tip), Some(attitude), Some(length)) =
-            (self.tip.last(), attitude, longest.reduce(f64::max))
-        else {
-            return;
-        };
-        let [[_, _, x], [_, _, y], [_, _, z]] = attitude.matrix();
-        let [tx, ty, tz] = tip;
-        self.blades
-            .push([tip, [tx - x * length, ty - y * length, tz - z * length]]);
-    }
+/// The blade at a pose, from its tip along its axis, as long as its edge.
+fn blade(program: &Program, pose: TipPose) -> Option<[[f64; 3]; 2]> {
+    let blades = program.operations.iter();
+    let length = blades
+        .map(|operation| operation.blade.cutting_length.to_mm())
+        .reduce(f64::max)?;
+    let [[_, _, x], [_, _, y], [_, _, z]] = program.orientation(pose.orientation)?.matrix();
+    let Point3 { x: tx, y: ty, z: tz } = pose.tip;
+    Some([[tx, ty, tz], [tx - x * length, ty - y * length, tz - z * length]])
 }

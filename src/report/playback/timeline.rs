@@ -4,7 +4,7 @@
 //! has the program's own numbers again, to the last bit, and can replay the cuts as the proof did.
 
 use vcutc_backend_api::ir::{OpId, Program, Site};
-use vcutc_backend_api::motion::pose_after;
+use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::Duration;
 
 /// The columns. What counts from 1 has 0 where there is none.
@@ -31,23 +31,22 @@ impl Timeline {
     #[must_use]
     pub fn of(program: &Program, times: &[Duration]) -> Self {
         let mut timeline = Self::default();
-        let mut pose = None;
         let mut tip = [0; 3];
         let times = times
             .iter()
             .map(|time| time.to_s())
             .chain(core::iter::repeat(0.0));
-        for (op, seconds) in program.ops.iter().zip(times) {
-            pose = pose_after(pose, &op.action);
-            if let Some((at, _)) = pose {
+        for (segment, seconds) in program.segments().zip(times) {
+            let pose = segment.end();
+            if let Some(TipPose { tip: at, .. }) = pose {
                 tip = [at.x, at.y, at.z].map(micrometres);
             }
-            timeline.kinds.push(op.action.kind() as u8);
-            timeline.site(op.site);
+            timeline.kinds.push(segment.op.action.kind() as u8);
+            timeline.site(segment.op.site);
             timeline.tips.extend(tip);
             timeline
                 .held
-                .push(pose.map_or(0, |(_, held)| held.0.saturating_add(1)));
+                .push(pose.map_or(0, |pose| pose.orientation.0.saturating_add(1)));
             timeline.seconds.push(seconds);
         }
         timeline

@@ -3,8 +3,7 @@
 use super::canon::{Canon, Control, Kinematics, NOTHING, Position};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, OpId, Ready, Switch};
-use vcutc_backend_api::motion::{ReachableProgram, pose_after};
-use vcutc_backend_api::stroke::Stroke;
+use vcutc_backend_api::motion::ReachableProgram;
 
 /// What has to happen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,20 +41,18 @@ pub(super) enum End {
 pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
     let ir = program.program();
     let cell = ir.cell.as_ref().unwrap();
-    let mut at = None;
     let mut deeds = Vec::new();
     let followers = ir.ops.iter().skip(1).map(Some).chain([None]);
-    for ((id, op), next) in (0..).map(OpId).zip(&ir.ops).zip(followers) {
+    for (segment, next) in ir.segments().zip(followers) {
+        let (id, op) = (segment.id, segment.op);
         let axes = program.axes_after(id).unwrap();
-        let stroke = at.and_then(|from| Stroke::of(ir, from, &op.action));
-        at = pose_after(at, &op.action);
-        let deed = match (op.action, stroke) {
-            (_, Some(stroke)) => {
+        let deed = match (op.action, segment.path.line()) {
+            (_, Some(line)) => {
                 let before = program.axes_after(OpId(id.0 - 1)).unwrap();
                 Deed::Straight {
-                    from: pose(cell, stroke.from.0, &before),
-                    to: pose(cell, stroke.to.0, &axes),
-                    seconds: stroke.duration().to_s(),
+                    from: pose(cell, line.from.tip, &before),
+                    to: pose(cell, line.to.tip, &axes),
+                    seconds: line.duration().to_s(),
                     end: end(&op.action, next.map(|next| &next.action)),
                 }
             }

@@ -4,8 +4,9 @@ use super::{Deed, End, Grain, Held, Pace, Reader, Stance, Target};
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
-use crate::script::{Generator, Place as Stand, may_round};
-use crate::stroke::{Pose, Stroke};
+use crate::script::{Place as Stand, may_round};
+use crate::segments::LinearSegment;
+use crate::state::{Generator, State, TipPose};
 use crate::swivel::Apart;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
@@ -86,8 +87,8 @@ pub enum Mismatch {
 pub struct Moment {
     /// The op.
     pub op: OpId,
-    /// The tip and the way the blade is held before it; none before the first motion to a pose.
-    pub at: Option<Pose>,
+    /// What the machine is doing.
+    pub before: State,
 }
 
 /// Compares ops with deeds.
@@ -138,16 +139,18 @@ impl<'p> Judge<'p> {
     pub fn mismatches(&self, moment: Moment, deed: &Deed) -> Vec<Mismatch> {
         let mut found = Vec::new();
         let program = self.program();
-        let Some(op) = program.ops.get(moment.op.0 as usize) else {
+        let Some(op) = program.op(moment.op) else {
             return vec![Mismatch::Kind];
         };
         let axes = self.reachable.axes_after(moment.op);
         let cell = program.cell.as_ref();
         match (op.action, deed, axes) {
             (Action::Home, Deed::Axes(is), Some(should)) => self.axes(is, &should, Which::All, &mut found),
-            (Action::AxisTravel { to, orientation }, deed, Some(should)) => match deed {
+            (Action::AxisTravel { to: tip, orientation }, deed, Some(should)) => match deed {
                 Deed::Axes(is) => self.axes(is, &should, Which::All, &mut found),
-                Deed::AxesToPose(target) => self.target(moment.op, target, (to, orientation), &mut found),
+                Deed::AxesToPose(target) => {
+                    self.target(moment.op, target, TipPose { tip, orientation }, &mut found);
+                }
                 Deed::Straight { .. } | Deed::Switch { .. } | Deed::AwaitInput(_) | Deed::Wait(_) => {
                     found.push(Mismatch::Kind);
                 }
@@ -160,10 +163,10 @@ impl<'p> Judge<'p> {
                 | Action::Turn { .. },
                 Deed::Straight { to, pace, end },
                 Some(_),
-            ) => match moment.at.and_then(|from| Stroke::of(program, from, &op.action)) {
-                Some(stroke) => {
-                    self.target(moment.op, to, stroke.to, &mut found);
-                    self.pace(moment.op, &stroke, *pace, &mut found);
+            ) => match self.line(moment) {
+                Some(line) => {
+                    self.target(moment.op, to, line.to, &mut found);
+                    self.pace(moment.op, &line, *pace, &mut found);
                     self.end(moment, &op.action, *end, &mut found);
                 }
                 None => found.push(Mismatch::Kind),
@@ -219,13 +222,7 @@ impl<'p> Judge<'p> {
     /// Everything in which a deed is not the motion to a waypoint of the op at a moment.
     #[must_use]
     pub fn mismatches_on_the_way(&self, moment: Moment, waypoint: &Waypoint, deed: &Deed) -> Vec<Mismatch> {
-        let program = self.program();
-        let Deed::Straight { to, pace, .. } = deed else {
-            return vec![Mismatch::Kind];
-        };
-        let action = program.ops.get(moment.op.0 as usize).map(|op| op.action);
-        let stroke = action.and_then(|action| Stroke::of(program, moment.at?, &action));
-        let Some(stroke) = stroke else {
+        let (Deed::Straight { to, pace, .. }, Some(line)) = (deed, self.line(moment)) else {
             return vec![Mismatch::Kind];
         };
         let mut found = Vec::new();
@@ -233,20 +230,31 @@ impl<'p> Judge<'p> {
         let stance = branch.and_then(|branch| self.reader.stance(branch, waypoint.axes));
         self.pose(to, waypoint.frame.origin, waypoint.frame.orientation, &mut found);
         self.stance(to, stance, &mut found);
-        self.pace(moment.op, &stroke, *pace, &mut found);
+        self.pace(moment.op, &line, *pace, &mut found);
         found
+    }
+
+    /// The straight motion of the op at a moment.
+    fn line(&self, moment: Moment) -> Option<LinearSegment> {
+        let program = self.program();
+        LinearSegment::of(
+            program,
+            moment.before.place.pose()?,
+            &program.op(moment.op)?.action,
+        )
     }
 
     /// Whether a deed leaves everything as it is before an op: the move to where the machine stands already, the state of
     /// the generator once more.
     #[must_use]
-    pub fn restates(&self, moment: Moment, generator: Generator, deed: &Deed) -> bool {
+    pub fn restates(&self, moment: Moment, deed: &Deed) -> bool {
         let program = self.program();
         let cell = program.cell.as_ref();
         let before = moment.op.0.checked_sub(1).map(OpId);
         let stands = before.and_then(|before| self.reachable.axes_after(before));
+        let generator = moment.before.generator;
         let mut found = Vec::new();
-        match (deed, before, moment.at) {
+        match (deed, before, moment.before.place.pose()) {
             (Deed::Axes(is), _, _) => match stands {
                 Some(should) => self.axes(is, &should, Which::All, &mut found),
                 None => return false,
@@ -302,12 +310,12 @@ impl<'p> Judge<'p> {
         }
     }
 
-    fn target(&self, op: OpId, is: &Target, should: Pose, found: &mut Vec<Mismatch>) {
-        let (tip, held) = should;
-        let orientation = self.program().orientations.get(held.0 as usize);
+    fn target(&self, op: OpId, is: &Target, should: TipPose, found: &mut Vec<Mismatch>) {
+        let tip = should.tip;
+        let orientation = self.program().orientation(should.orientation);
         let axes = self.reachable.axes_after(op);
         match (is.held, orientation, axes) {
-            (Held::Orientation(_, stance), Some(&orientation), Some(axes)) => {
+            (Held::Orientation(_, stance), Some(orientation), Some(axes)) => {
                 self.pose(is, tip, orientation, found);
                 if stance.is_some() || self.must_say_stance(op) {
                     let branch = self.reachable.branch_after(op);
@@ -328,7 +336,7 @@ impl<'p> Judge<'p> {
 
     /// A move of all axes to a pose has no other way to say which way is meant.
     fn must_say_stance(&self, op: OpId) -> bool {
-        let action = self.program().ops.get(op.0 as usize).map(|op| op.action);
+        let action = self.program().op(op).map(|op| op.action);
         matches!(action, Some(Action::AxisTravel { .. }))
     }
 
@@ -363,27 +371,27 @@ impl<'p> Judge<'p> {
         }
     }
 
-    fn pace(&self, op: OpId, stroke: &Stroke, pace: Pace, found: &mut Vec<Mismatch>) {
-        let duration = stroke.duration();
+    fn pace(&self, op: OpId, line: &LinearSegment, pace: Pace, found: &mut Vec<Mismatch>) {
+        let duration = line.duration();
         match pace {
             Pace::Speeds { tip, turn } => {
-                self.tip_speed(stroke, tip, found);
-                if let Some(should) = stroke.rate
-                    && stroke.turn > Angle::ZERO
+                self.tip_speed(line, tip, found);
+                if let Some(should) = line.rate
+                    && line.turn > Angle::ZERO
                     && !turn.is_some_and(|is| self.is_rate(is, should))
                 {
                     found.push(Mismatch::Rate { is: turn, should });
                 }
             }
             Pace::Apart { tip, swivel, twist } => {
-                self.tip_speed(stroke, tip, found);
-                self.turns_apart(stroke, [swivel, twist], found);
+                self.tip_speed(line, tip, found);
+                self.turns_apart(line, [swivel, twist], found);
             }
             Pace::Tip(is) => {
-                let should = stroke.length / duration;
+                let should = line.length() / duration;
                 // A move that goes nowhere takes no time at any speed.
-                let goes = stroke.length > Length::ZERO;
-                if (goes && !self.is_rounded_down(is, should)) || (!goes && stroke.turn > Angle::ZERO) {
+                let goes = line.length() > Length::ZERO;
+                if (goes && !self.is_rounded_down(is, should)) || (!goes && line.turn > Angle::ZERO) {
                     found.push(Mismatch::Feed { is: Some(is), should });
                 }
             }
@@ -405,9 +413,9 @@ impl<'p> Judge<'p> {
         }
     }
 
-    fn tip_speed(&self, stroke: &Stroke, is: Option<Speed>, found: &mut Vec<Mismatch>) {
-        if let Some(should) = stroke.feed
-            && stroke.length > Length::ZERO
+    fn tip_speed(&self, line: &LinearSegment, is: Option<Speed>, found: &mut Vec<Mismatch>) {
+        if let Some(should) = line.feed
+            && line.length() > Length::ZERO
             && !is.is_some_and(|is| self.is_feed(is, should))
         {
             found.push(Mismatch::Feed { is, should });
@@ -415,14 +423,13 @@ impl<'p> Judge<'p> {
     }
 
     /// Swivel and twist each at the rate at which the turn takes its time, rounded down by less than a unit.
-    fn turns_apart(&self, stroke: &Stroke, is: [Option<AngularSpeed>; 2], found: &mut Vec<Mismatch>) {
-        let orientation = |(_, held): Pose| self.program().orientations.get(held.0 as usize).copied();
-        let (Some(rate), Some(from), Some(to)) =
-            (stroke.rate, orientation(stroke.from), orientation(stroke.to))
+    fn turns_apart(&self, line: &LinearSegment, is: [Option<AngularSpeed>; 2], found: &mut Vec<Mismatch>) {
+        let orientation = |pose: TipPose| self.program().orientation(pose.orientation);
+        let (Some(rate), Some(from), Some(to)) = (line.rate, orientation(line.from), orientation(line.to))
         else {
             return;
         };
-        if stroke.turn == Angle::ZERO {
+        if line.turn == Angle::ZERO {
             return;
         }
         let Apart { swivel, twist } = Apart::rates(from, to, rate);
@@ -474,8 +481,10 @@ impl<'p> Judge<'p> {
         let program = self.program();
         let next = program.ops.get(moment.op.0 as usize + 1).map(|op| &op.action);
         let before = moment
-            .at
-            .map_or(Stand::Unknown, |(tip, held)| Stand::Tip(tip, held));
+            .before
+            .place
+            .pose()
+            .map_or(Stand::Unknown, |pose| Stand::Tip(pose.tip, pose.orientation));
         match end {
             End::Exact => {}
             End::Rounded if may_round(program.stock, before, action, next) => {}

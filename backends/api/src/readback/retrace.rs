@@ -2,10 +2,8 @@
 
 use super::{Deed, FrameRole, FrameSetting, Frames, Judge, Mismatch, Moment, Place, Says, Statement};
 use crate::ir::{OpId, PlacedFrame, Program};
-use crate::motion::{Waypoint, pose_after};
-use crate::script::Generator;
-use crate::script::State;
-use crate::stroke::Pose;
+use crate::motion::Waypoint;
+use crate::state::{Generator, State};
 
 /// Follows a program's statements. What is read must be its ops, one after the other, each once; in between only
 /// settings, and at the head of a part a restatement of what holds already.
@@ -15,7 +13,6 @@ pub struct Retrace<'p> {
     /// Where each op was read.
     places: Vec<Place>,
     departure: Option<Departure>,
-    at: Option<Pose>,
     state: State,
     restating: Restating,
     waypoints: core::slice::Iter<'p, Waypoint>,
@@ -84,7 +81,6 @@ impl<'p> Retrace<'p> {
             frames,
             places: Vec::with_capacity(judge.reachable().program().ops.len()),
             departure: None,
-            at: None,
             state: State::START,
             restating: Restating::Over,
             waypoints,
@@ -152,11 +148,10 @@ impl<'p> Retrace<'p> {
         }
         let moment = Moment {
             op: self.next(),
-            at: self.at,
+            before: self.state,
         };
-        let restates =
-            self.restating == Restating::Allowed && self.judge.restates(moment, self.state.generator, deed);
-        let Some(op) = self.program().ops.get(moment.op.0 as usize) else {
+        let restates = self.restating == Restating::Allowed && self.judge.restates(moment, deed);
+        let Some(op) = self.program().op(moment.op) else {
             if !restates {
                 self.depart(Some(place), DepartureKind::More);
             }
@@ -182,7 +177,6 @@ impl<'p> Retrace<'p> {
                 self.waypoint = self.waypoints.next();
             }
             self.places.push(place);
-            self.at = pose_after(self.at, &op.action);
             self.state = self.state.after(&op.action);
         } else if restates {
             // Nothing changes.

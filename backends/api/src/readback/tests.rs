@@ -7,8 +7,8 @@ use super::{
 use crate::backend::Options;
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{Action, AxisValues, OpId, Program, Ready, Switch};
-use crate::motion::{Branch, Motion, ReachableProgram, Waypoint, Wrist, pose_after};
-use crate::stroke::Stroke;
+use crate::motion::{Branch, Motion, ReachableProgram, Waypoint, Wrist};
+use crate::segments::Segment;
 use crate::testkit::{Crossing, Recipe, axes_at, blade_in_work, reachable, samples};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 use crate::verify::verify;
@@ -64,16 +64,13 @@ fn target(program: &ReachableProgram, op: OpId, tip: Point3, orientation: Orient
 fn told(reachable: &ReachableProgram) -> Vec<Deed> {
     let program = reachable.program();
     let cell = program.cell.as_ref().unwrap();
-    let mut at = None;
     let mut deeds = Vec::new();
-    for (id, op) in (0..).map(OpId).zip(&program.ops) {
-        let before = at;
-        at = pose_after(at, &op.action);
+    for segment in program.segments() {
         let target = || {
-            let (tip, held) = at.unwrap();
-            target(reachable, id, tip, program.orientations[held.0 as usize])
+            let there = program.frame(segment.end().unwrap()).unwrap();
+            target(reachable, segment.id, there.origin, there.orientation)
         };
-        deeds.push(match op.action {
+        deeds.push(match segment.op.action {
             Action::Home => Deed::Axes(cell.home.unwrap()),
             Action::AxisTravel { .. } => Deed::AxesToPose(target()),
             Action::Ultrasonic { state } => Deed::Switch {
@@ -90,12 +87,12 @@ fn told(reachable: &ReachableProgram) -> Vec<Deed> {
             | Action::Retract { .. }
             | Action::Cut { .. }
             | Action::Turn { .. } => {
-                let stroke = Stroke::of(program, before.unwrap(), &op.action).unwrap();
+                let line = segment.path.line().unwrap();
                 Deed::Straight {
                     to: target(),
                     pace: Pace::Speeds {
-                        tip: stroke.feed,
-                        turn: stroke.rate,
+                        tip: line.feed,
+                        turn: line.rate,
                     },
                     end: End::Exact,
                 }
@@ -206,17 +203,9 @@ fn parts_restate_what_holds() {
     let cut = ops.iter().position(retracted).unwrap() + 1;
     let (before, after) = deeds.split_at(cut);
     let pose = {
-        let op = OpId(u32::try_from(cut).unwrap() - 1);
-        let at = program.program().ops[..cut]
-            .iter()
-            .fold(None, |at, op| pose_after(at, &op.action));
-        let (tip, held) = at.unwrap();
-        Deed::AxesToPose(target(
-            &program,
-            op,
-            tip,
-            program.program().orientations[held.0 as usize],
-        ))
+        let last = program.program().segments().nth(cut - 1).unwrap();
+        let there = program.program().frame(last.end().unwrap()).unwrap();
+        Deed::AxesToPose(target(&program, last.id, there.origin, there.orientation))
     };
     let cell = program.program().cell.as_ref().unwrap();
     let on = Deed::Switch {
@@ -302,9 +291,8 @@ fn waypoints_are_passed_in_their_order() {
         .iter()
         .position(|op| matches!(op.action, Action::Turn { .. }))
         .unwrap();
-    let at = ops[..turn].iter().fold(None, |at, op| pose_after(at, &op.action));
-    let stroke = Stroke::of(program.program(), at.unwrap(), &ops[turn].action).unwrap();
-    let op = OpId(u32::try_from(turn).unwrap());
+    let Segment { id: op, path, .. } = program.program().segments().nth(turn).unwrap();
+    let line = path.line().unwrap();
     let (before, after) = (
         program.axes_after(OpId(op.0 - 1)).unwrap(),
         program.axes_after(op).unwrap(),
@@ -313,7 +301,7 @@ fn waypoints_are_passed_in_their_order() {
         panic!()
     };
     let waypoint = |done: f64| {
-        let frame = stroke.frame_at(program.program(), done).unwrap();
+        let frame = line.frame_at(program.program(), done).unwrap();
         let near = AxisValues(core::array::from_fn(|axis| {
             before.0[axis] + (after.0[axis] - before.0[axis]) * done
         }));

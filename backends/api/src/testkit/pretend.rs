@@ -12,9 +12,10 @@ use super::pretend_five_axis;
 use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{Action, Axis, AxisKind, AxisValues, MachineKind, Maker, OpId, Program};
 use crate::motion::{
-    Branch, Elbow, Motion, MotionFault, ReachableProgram, Shoulder, Stretch, Waypoint, Wrist, pose_after,
+    Branch, Elbow, Motion, MotionFault, ReachableProgram, Shoulder, Stretch, Waypoint, Wrist,
 };
-use crate::stroke::Stroke;
+use crate::segments::{LinearSegment, Path};
+use crate::state::TipPose;
 use crate::units::Angle;
 use crate::verify::VerifiedProgram;
 use crate::wrist::spaced;
@@ -74,18 +75,19 @@ fn motion(program: &Program) -> Motion {
         stretches: Vec::new(),
         waypoints: Vec::new(),
     };
-    let mut at = None;
     let mut axes = home.unwrap_or(AxisValues([0.0; 6]));
     let mut wrist = Wrist::Negative;
     let kind = kind(program);
-    let axes_at = |tip, held, wrist, before| match kind {
-        MachineKind::Robot => axes_at(tip, orientation(program, held), wrist, before),
-        MachineKind::FiveAxis => pretend_five_axis::axes_at(tip, orientation(program, held)),
+    let axes_at = |TipPose { tip, orientation }, wrist, before| {
+        let held = program.orientation(orientation).unwrap_or(Orientation::IDENTITY);
+        match kind {
+            MachineKind::Robot => axes_at(tip, held, wrist, before),
+            MachineKind::FiveAxis => pretend_five_axis::axes_at(tip, held),
+        }
     };
-    for (from, op) in (0..).map(OpId).zip(&program.ops) {
-        let before = at;
-        at = pose_after(at, &op.action);
-        if matches!(op.action, Action::AxisTravel { .. }) {
+    for segment in program.segments() {
+        let from = segment.id;
+        if matches!(segment.op.action, Action::AxisTravel { .. }) {
             wrist = other(wrist);
             let branch = match kind {
                 MachineKind::Robot => Branch::Arm {
@@ -98,17 +100,17 @@ fn motion(program: &Program) -> Motion {
             motion.stretches.push(Stretch { from, branch });
         }
         let start = axes;
-        axes = match (op.action, at) {
-            (Action::Home, _) => home.unwrap_or(axes),
-            (Action::AxisTravel { .. }, Some((tip, held))) => axes_at(tip, held, wrist, axes),
-            (_, Some((tip, held))) if at != before => axes_at(tip, held, wrist, axes),
-            (_, _) => axes,
+        axes = match segment.path {
+            Path::Home => home.unwrap_or(axes),
+            Path::Axes(to) => axes_at(to, wrist, axes),
+            Path::Linear(line) if line.from != line.to => axes_at(line.to, wrist, axes),
+            Path::Linear(_) | Path::Still => axes,
         };
         motion.ends.push(axes);
-        if let Some(stroke) = before.and_then(|before| Stroke::of(program, before, &op.action)) {
+        if let Some(line) = segment.path.line() {
             motion
                 .waypoints
-                .extend(on_the_way(program, from, &stroke, wrist, [start, axes]));
+                .extend(on_the_way(program, from, line, wrist, [start, axes]));
         }
     }
     motion
@@ -121,7 +123,7 @@ const SAMPLES: u32 = 256;
 fn on_the_way(
     program: &Program,
     op: OpId,
-    stroke: &Stroke,
+    line: &LinearSegment,
     wrist: Wrist,
     [start, end]: [AxisValues; 2],
 ) -> Vec<Waypoint> {
@@ -133,7 +135,7 @@ fn on_the_way(
     let places = (1..SAMPLES).map(|sample| f64::from(sample) / f64::from(SAMPLES));
     let samples: Vec<(f64, AxisValues)> = places
         .filter_map(|done| {
-            let frame = stroke.frame_at(program, done)?;
+            let frame = line.frame_at(program, done)?;
             near = axes_at(frame.origin, frame.orientation, wrist, near);
             Some((done, near))
         })
@@ -141,7 +143,7 @@ fn on_the_way(
     let chosen = spaced(start, &samples, end).into_iter();
     chosen
         .filter_map(|(done, axes)| {
-            let frame = stroke.frame_at(program, done)?;
+            let frame = line.frame_at(program, done)?;
             Some(Waypoint {
                 op,
                 done,
@@ -157,11 +159,6 @@ const fn other(wrist: Wrist) -> Wrist {
         Wrist::Positive => Wrist::Negative,
         Wrist::Negative => Wrist::Positive,
     }
-}
-
-fn orientation(program: &Program, id: crate::ir::OrientationId) -> Orientation {
-    let known = program.orientations.get(id.0 as usize).copied();
-    known.unwrap_or(Orientation::IDENTITY)
 }
 
 /// The axes that hold the blade there, those of A and C as near as may be to where they were.

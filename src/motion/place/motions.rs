@@ -5,48 +5,60 @@
 //! proven there: those between the same two ways to hold the blade, at the same speed, with their ends farthest out.
 
 use super::taught::outermost;
-use crate::legs::{Leg, Pace, Poses, Stroke, legs};
+use crate::moves::path_of;
 use crate::path::{Course, prove};
 use crate::rig::Rig;
 use crate::solve::LEAST_CLEARANCE;
 use crate::survey::middles;
 use glam::DVec3;
 use std::collections::BTreeMap;
-use vcutc_backend_api::ir::{OpId, OrientationId, Program};
+use vcutc_backend_api::ir::{FeedId, OpId, OrientationId, Program, RateId};
+use vcutc_backend_api::segments::{LimitedBy, LinearSegment, Path, Segment};
 use vcutc_machine::kinematics::{Mechanism, Solution, newton};
 
 /// Telling motions of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Strokes {
+pub struct TellingMotions {
     courses: Vec<Course>,
 }
 
 /// Most motions that are proven at a place.
 const MOST: usize = 96;
-/// Motions are of one kind if they lead from the same posture to the same posture at the same speed.
-type Kind = (OrientationId, OrientationId, Pace);
+/// Motions are of one kind if they lead from the same posture to the same posture at the same speed: that of the blade's turn, or
+/// of the tip.
+type Kind = (OrientationId, OrientationId, Option<RateId>, Option<FeedId>);
 
-impl Strokes {
+/// The kind of a straight motion that takes time.
+fn kind(segment: &Segment<'_>, line: &LinearSegment) -> Option<Kind> {
+    let (from, to) = (line.from.orientation, line.to.orientation);
+    let action = &segment.op.action;
+    Some(match line.limited_by()? {
+        LimitedBy::Feed(_) => (from, to, None, action.feed()),
+        LimitedBy::Rate(_) => (from, to, action.rate(), None),
+    })
+}
+
+impl TellingMotions {
     /// The telling motions of a program.
     #[must_use]
     pub fn of(program: &Program) -> Self {
-        let mut kinds: BTreeMap<Kind, Vec<Stroke>> = BTreeMap::new();
-        for leg in legs(program) {
-            if let Leg::Along(stroke) = leg {
-                let kind = (stroke.from.held, stroke.to.held, stroke.pace);
-                kinds.entry(kind).or_default().push(stroke);
+        let mut kinds: BTreeMap<Kind, Vec<LinearSegment>> = BTreeMap::new();
+        for segment in program.segments() {
+            if let Path::Linear(line) = segment.path
+                && let Some(kind) = kind(&segment, &line)
+            {
+                kinds.entry(kind).or_default().push(line);
             }
         }
-        let poses = Poses::of(program);
-        let telling = kinds.values().flat_map(|strokes| {
-            let tips: Vec<DVec3> = strokes
+        let telling = kinds.values().flat_map(|lines| {
+            let tips: Vec<DVec3> = lines
                 .iter()
-                .map(|stroke| DVec3::new(stroke.to.tip.x, stroke.to.tip.y, stroke.to.tip.z))
+                .map(|line| DVec3::new(line.to.tip.x, line.to.tip.y, line.to.tip.z))
                 .collect();
             let chosen = outermost(&tips);
-            chosen.into_iter().filter_map(|index| strokes.get(index))
+            chosen.into_iter().filter_map(|index| lines.get(index))
         });
-        let courses: Vec<Course> = telling.filter_map(|stroke| poses.course(stroke)).collect();
+        let courses: Vec<Course> = telling.filter_map(|line| Course::of(program, line)).collect();
         let step = courses.len().div_ceil(MOST).max(1);
         Self {
             courses: courses.into_iter().step_by(step).collect(),
@@ -56,10 +68,7 @@ impl Strokes {
     /// The motion of one op alone, if it has one along a course.
     #[must_use]
     pub fn only(program: &Program, op: OpId) -> Self {
-        let course = match legs(program).get(op.0 as usize) {
-            Some(Leg::Along(stroke)) => Poses::of(program).course(stroke),
-            Some(Leg::Still | Leg::Home | Leg::ByAxes(_)) | None => None,
-        };
+        let course = path_of(program, op).and_then(|path| Course::of(program, path.line()?));
         Self {
             courses: course.into_iter().collect(),
         }

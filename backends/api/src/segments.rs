@@ -1,0 +1,323 @@
+//! What each op of a program moves: [`Program::segments`].
+//!
+//! An op says where a motion ends. Where it begins, and what holds meanwhile, follows from the ops before it. This is worked
+//! out here, once, for everything that follows a program: the verifier, the proofs, the times, the reports, read-back.
+//!
+//! A [`Segment`] is a plain value without allocation. Another kind of path (an arc, say) is another variant of [`Path`].
+
+use crate::geometry::{Frame, Point3};
+use crate::ir::{Action, Op, OpId, OrientationId, Program};
+use crate::state::{State, TipPose};
+use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
+use core::iter::{Enumerate, FusedIterator};
+use core::slice::Iter;
+
+/// An op with what holds when it begins, and what it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment<'p> {
+    /// Its number.
+    pub id: OpId,
+    /// The op: what of the job it serves, and what is done.
+    pub op: &'p Op,
+    /// The state of the machine when it begins.
+    pub before: State,
+    /// What moves.
+    pub path: Path,
+}
+
+/// What an op moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Path {
+    /// Nothing.
+    Still,
+    /// All axes to their home values.
+    Home,
+    /// All axes to a pose of the blade, each straight to its value.
+    Axes(TipPose),
+    /// The blade, its tip on a straight line.
+    Linear(LinearSegment),
+}
+
+/// A motion of the tip on a straight line while the blade turns about one fixed axis. A turn about the still tip has length
+/// zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearSegment {
+    /// Where it begins.
+    pub from: TipPose,
+    /// Where it ends.
+    pub to: TipPose,
+    /// How far the blade turns.
+    pub turn: Angle,
+    /// Speed of the tip; none for a turn about the still tip.
+    pub feed: Option<Speed>,
+    /// Rate at which the blade turns at most; none for an op that keeps its orientation.
+    pub rate: Option<AngularSpeed>,
+}
+
+/// What decides how long a straight motion takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LimitedBy {
+    /// The speed of the tip.
+    Feed(Speed),
+    /// The rate at which the blade turns.
+    Rate(AngularSpeed),
+}
+
+impl Segment<'_> {
+    /// The pose of the blade when it begins, where that is known.
+    #[must_use]
+    pub const fn start(&self) -> Option<TipPose> {
+        self.before.place.pose()
+    }
+
+    /// The pose of the blade when it ends, where that is known.
+    #[must_use]
+    pub const fn end(&self) -> Option<TipPose> {
+        self.before.after(&self.op.action).place.pose()
+    }
+}
+
+impl Path {
+    /// The pose to which it leads; none for home.
+    #[must_use]
+    pub const fn target(&self) -> Option<TipPose> {
+        match self {
+            Self::Axes(to) => Some(*to),
+            Self::Linear(line) => Some(line.to),
+            Self::Still | Self::Home => None,
+        }
+    }
+
+    /// The straight motion, if it is one.
+    #[must_use]
+    pub const fn line(&self) -> Option<&LinearSegment> {
+        match self {
+            Self::Linear(line) => Some(line),
+            Self::Still | Self::Home | Self::Axes(_) => None,
+        }
+    }
+
+    /// Whether all axes move at once.
+    #[must_use]
+    pub const fn is_of_axes(&self) -> bool {
+        match self {
+            Self::Home | Self::Axes(_) => true,
+            Self::Still | Self::Linear(_) => false,
+        }
+    }
+}
+
+impl LinearSegment {
+    /// The straight motion of an action that begins at a pose; none for an action that moves nothing, or all axes, and for ids
+    /// that are not in the program's tables.
+    #[must_use]
+    pub fn of(program: &Program, from: TipPose, action: &Action) -> Option<Self> {
+        Self::turning(program, from, action, |ids| angle(program, ids))
+    }
+
+    /// The same with the angle between two different orientations from elsewhere.
+    fn turning(
+        program: &Program,
+        from: TipPose,
+        action: &Action,
+        angle: impl FnOnce([OrientationId; 2]) -> Option<Angle>,
+    ) -> Option<Self> {
+        let (feed, rate) = match *action {
+            Action::Travel { feed, rate, .. } => (Some(program.feed(feed)?), Some(program.rate(rate)?)),
+            Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
+                (Some(program.feed(feed)?), None)
+            }
+            Action::Turn { rate, .. } => (None, Some(program.rate(rate)?)),
+            Action::Home
+            | Action::AxisTravel { .. }
+            | Action::Ultrasonic { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => return None,
+        };
+        let to = action.leads_to(Some(from))?;
+        let turn = if from.orientation == to.orientation {
+            Angle::ZERO
+        } else {
+            angle([from.orientation, to.orientation])?
+        };
+        Some(Self {
+            from,
+            to,
+            turn,
+            feed,
+            rate,
+        })
+    }
+
+    /// How far the tip goes.
+    #[must_use]
+    pub fn length(&self) -> Length {
+        self.from.tip.distance(self.to.tip)
+    }
+
+    /// Whether the blade is held otherwise at its end.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        self.from.orientation != self.to.orientation
+    }
+
+    /// How long it takes: as long as the slower of its two parts, as controllers do it.
+    #[must_use]
+    pub fn duration(&self) -> Duration {
+        let [moving, turning] = self.times();
+        moving.max(turning)
+    }
+
+    /// Which of its two parts is the slower one; none for a motion that takes no time.
+    #[must_use]
+    pub fn limited_by(&self) -> Option<LimitedBy> {
+        let [moving, turning] = self.times();
+        if moving.max(turning) <= Duration::ZERO {
+            None
+        } else if moving > turning {
+            self.feed.map(LimitedBy::Feed)
+        } else {
+            self.rate.map(LimitedBy::Rate)
+        }
+    }
+
+    /// How long the tip and the blade's turn take on their own.
+    fn times(&self) -> [Duration; 2] {
+        let moving = self.feed.map_or(Duration::ZERO, |feed| self.length() / feed);
+        let turning = match self.rate {
+            Some(rate) if self.turn > Angle::ZERO => self.turn / rate,
+            Some(_) | None => Duration::ZERO,
+        };
+        [moving, turning]
+    }
+
+    /// The blade frame T in W when so much of the way is done, from 0 to 1: the tip on its line, the blade turned about one
+    /// fixed axis. None for a motion of another program.
+    #[must_use]
+    pub fn frame_at(&self, program: &Program, done: f64) -> Option<Frame> {
+        let [from, to] = [program.frame(self.from)?, program.frame(self.to)?];
+        let between = |from: f64, to: f64| from + (to - from) * done;
+        let (begin, end) = (from.origin, to.origin);
+        Some(Frame {
+            origin: Point3::new(
+                between(begin.x, end.x),
+                between(begin.y, end.y),
+                between(begin.z, end.z),
+            ),
+            orientation: from.orientation.towards(to.orientation, done),
+        })
+    }
+}
+
+impl Program {
+    /// The ops with what each of them moves, one after the other.
+    #[must_use]
+    pub fn segments(&self) -> Segments<'_> {
+        Segments {
+            program: self,
+            ops: self.ops.iter().enumerate(),
+            state: State::START,
+            angles: Angles(Vec::new()),
+        }
+    }
+
+    /// What one op moves. All ops before it are walked.
+    #[must_use]
+    pub fn segment(&self, op: OpId) -> Option<Segment<'_>> {
+        self.segments().nth(op.0 as usize)
+    }
+
+    /// The blade frame T in W at a pose of this program.
+    #[must_use]
+    pub fn frame(&self, pose: TipPose) -> Option<Frame> {
+        Some(Frame {
+            origin: pose.tip,
+            orientation: self.orientation(pose.orientation)?,
+        })
+    }
+}
+
+/// The segments of a program, see [`Program::segments`].
+#[derive(Clone, Debug)]
+pub struct Segments<'p> {
+    program: &'p Program,
+    ops: Enumerate<Iter<'p, Op>>,
+    state: State,
+    angles: Angles,
+}
+
+impl<'p> Iterator for Segments<'p> {
+    type Item = Segment<'p>;
+
+    fn next(&mut self) -> Option<Segment<'p>> {
+        let (index, op) = self.ops.next()?;
+        let before = self.state;
+        self.state = before.after(&op.action);
+        Some(Segment {
+            id: OpId(u32::try_from(index).unwrap_or(u32::MAX)),
+            op,
+            before,
+            path: self.path(before.place.pose(), &op.action),
+        })
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.ops.size_hint()
+    }
+}
+
+impl ExactSizeIterator for Segments<'_> {}
+impl FusedIterator for Segments<'_> {}
+
+impl Segments<'_> {
+    /// The state of the machine before the next op, or after the last.
+    #[must_use]
+    pub const fn state(&self) -> State {
+        self.state
+    }
+
+    fn path(&mut self, from: Option<TipPose>, action: &Action) -> Path {
+        match (*action, from) {
+            (Action::Home, _) => Path::Home,
+            // Before the first pose the blade is at home or somewhere unknown, so there is no line to go along.
+            (Action::AxisTravel { to: tip, orientation }, _)
+            | (
+                Action::Travel {
+                    to: tip, orientation, ..
+                },
+                None,
+            ) => Path::Axes(TipPose { tip, orientation }),
+            (_, None) => Path::Still,
+            (_, Some(from)) => {
+                let Self { program, angles, .. } = self;
+                LinearSegment::turning(program, from, action, |ids| angles.between(program, ids))
+                    .map_or(Path::Still, Path::Linear)
+            }
+        }
+    }
+}
+
+/// Angles between orientations, each computed once: a program has a handful of them for all its ops.
+#[derive(Clone, Debug)]
+struct Angles(Vec<([OrientationId; 2], Angle)>);
+
+impl Angles {
+    /// Programs with more pairs compute the rest each time, so that looking never takes long.
+    const MOST: usize = 32;
+
+    fn between(&mut self, program: &Program, ids: [OrientationId; 2]) -> Option<Angle> {
+        if let Some((_, known)) = self.0.iter().find(|(known, _)| *known == ids) {
+            return Some(*known);
+        }
+        let angle = angle(program, ids)?;
+        if self.0.len() < Self::MOST {
+            self.0.push((ids, angle));
+        }
+        Some(angle)
+    }
+}
+
+fn angle(program: &Program, [from, to]: [OrientationId; 2]) -> Option<Angle> {
+    Some(program.orientation(from)?.angle_to(program.orientation(to)?))
+}

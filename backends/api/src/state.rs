@@ -1,0 +1,120 @@
+//! What the machine is doing between two ops: where it is, and whether the blade vibrates.
+
+use crate::geometry::Point3;
+use crate::ir::{Action, OrientationId, Switch};
+
+/// A pose of the blade frame T in the workpiece frame W, as a program states it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipPose {
+    /// The tip, which is the origin of T, in W.
+    pub tip: Point3,
+    /// The axes of T in W.
+    pub orientation: OrientationId,
+}
+
+/// Where the machine is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// Not known: nothing has moved yet.
+    Unknown,
+    /// At the home angles.
+    Home,
+    /// With the blade in a pose.
+    Pose(TipPose),
+}
+
+/// How far the ultrasonic generator is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Generator {
+    /// Off.
+    Off,
+    /// Switched on.
+    Starting,
+    /// Switched on, and its readiness awaited.
+    Running,
+}
+
+/// The state between two ops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Where the machine is.
+    pub place: Place,
+    /// Whether the blade vibrates.
+    pub generator: Generator,
+}
+
+impl State {
+    /// Before the first op.
+    pub const START: Self = Self {
+        place: Place::Unknown,
+        generator: Generator::Off,
+    };
+
+    /// After an action. One that moves nothing leaves the machine where it is.
+    #[must_use]
+    pub const fn after(mut self, action: &Action) -> Self {
+        match *action {
+            Action::Home => self.place = Place::Home,
+            Action::Ultrasonic { state: Switch::On } => self.generator = Generator::Starting,
+            Action::Ultrasonic { state: Switch::Off } => self.generator = Generator::Off,
+            Action::AwaitReady => self.generator = Generator::Running,
+            Action::Travel { .. }
+            | Action::AxisTravel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. }
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. } => {
+                if let Some(pose) = action.leads_to(self.place.pose()) {
+                    self.place = Place::Pose(pose);
+                }
+            }
+        }
+        self
+    }
+}
+
+impl Place {
+    /// The pose of the blade, where it is known.
+    #[must_use]
+    pub const fn pose(self) -> Option<TipPose> {
+        match self {
+            Self::Pose(pose) => Some(pose),
+            Self::Unknown | Self::Home => None,
+        }
+    }
+}
+
+impl Action {
+    /// The pose to which it leads the blade from another one; none for an action that moves no blade, or only the axes to
+    /// home, and for one that needs to know where it begins.
+    #[must_use]
+    pub const fn leads_to(&self, from: Option<TipPose>) -> Option<TipPose> {
+        match (*self, from) {
+            (
+                Self::Travel {
+                    to: tip, orientation, ..
+                }
+                | Self::AxisTravel { to: tip, orientation },
+                _,
+            ) => Some(TipPose { tip, orientation }),
+            (
+                Self::Approach { to: tip, .. } | Self::Retract { to: tip, .. } | Self::Cut { to: tip, .. },
+                Some(TipPose { orientation, .. }),
+            )
+            | (Self::Turn { to: orientation, .. }, Some(TipPose { tip, .. })) => {
+                Some(TipPose { tip, orientation })
+            }
+            (Self::Approach { .. } | Self::Retract { .. } | Self::Cut { .. } | Self::Turn { .. }, None)
+            | (
+                Self::Home
+                | Self::Ultrasonic { .. }
+                | Self::AwaitReady
+                | Self::Dwell { .. }
+                | Self::ToolChange { .. },
+                _,
+            ) => None,
+        }
+    }
+}
