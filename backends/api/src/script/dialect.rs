@@ -55,6 +55,8 @@ pub struct File<'a> {
     pub place: usize,
     /// The part whose ops it holds; none for a main program that calls its parts.
     pub part: Option<&'a Part>,
+    /// The name of the main program.
+    pub main: &'a str,
     /// How many parts the program has.
     pub parts: usize,
 }

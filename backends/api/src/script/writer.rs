@@ -34,6 +34,7 @@ pub fn write<D: Dialect>(
         name,
         place,
         part,
+        main,
         parts: parts.len(),
     };
     let called: Vec<File<'_>> = (1..)
