@@ -66,6 +66,18 @@ impl FixedDecimal {
         self.decimals
     }
 
+    /// One unit of the last decimal.
+    #[must_use]
+    pub fn unit(self) -> f64 {
+        1.0 / f64::from(self.scale)
+    }
+
+    /// Half of it: by how much a printed number may be off.
+    #[must_use]
+    pub fn half_unit(self) -> f64 {
+        0.5 / f64::from(self.scale)
+    }
+
     /// Appends the value.
     ///
     /// # Errors

@@ -3,6 +3,8 @@
 //!
 //! A dialect has its own words for all of this, and shares the decisions.
 
+mod dialect;
+mod emission;
 mod head;
 mod listing;
 mod options;
@@ -10,7 +12,10 @@ mod split;
 mod state;
 mod tables;
 mod text;
+mod writer;
 
+pub use dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
+pub use emission::emission;
 pub use head::{HeadLine, duration_words, head_lines};
 pub use listing::{Layer, Lead, Modal, first_of, speeds};
 pub use options::{
@@ -20,3 +25,4 @@ pub use split::{Borders, Part, split};
 pub use state::{Generator, Place, State, may_round};
 pub use tables::{feed, operation_heading, rate};
 pub use text::{Layout, Text, Written, push_trimmed, trimmed_text};
+pub use writer::write;

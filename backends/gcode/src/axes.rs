@@ -4,7 +4,6 @@
 //! axes (all rotary axes at zero) whose origin is that of the workpiece frame W. Rotary axes are said by their values, as the
 //! controller counts them and never wrapped.
 
-use crate::options::Settings;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, Cell};
 
@@ -37,10 +36,10 @@ pub(crate) enum NoWord {
 ///
 /// # Errors
 /// When an axis has none.
-pub(crate) fn words(cell: &Cell, settings: &Settings<'_>) -> Result<Vec<Word>, NoWord> {
+pub(crate) fn words(cell: &Cell, spindle: Option<u8>) -> Result<Vec<Word>, NoWord> {
     let mut words: Vec<Word> = Vec::with_capacity(cell.axes.len());
     for (place, axis) in cell.axes.iter().enumerate() {
-        let letter = letter(axis, settings)?;
+        let letter = letter(axis, spindle)?;
         if words.iter().any(|word| word.letter == letter) {
             return Err(NoWord::Taken(char::from(letter)));
         }
@@ -60,11 +59,11 @@ pub(crate) fn words(cell: &Cell, settings: &Settings<'_>) -> Result<Vec<Word>, N
     }
 }
 
-fn letter(axis: &Axis, settings: &Settings<'_>) -> Result<u8, NoWord> {
+fn letter(axis: &Axis, spindle: Option<u8>) -> Result<u8, NoWord> {
     match (axis.name.as_bytes(), axis.kind) {
         ([letter @ (b'X' | b'Y' | b'Z')], AxisKind::Linear) => Ok(*letter),
         ([letter @ (b'A' | b'B' | b'C')], AxisKind::Rotary) => Ok(*letter),
-        (_, AxisKind::Rotary) if axis.name == SPINDLE => settings.spindle_letter.ok_or(NoWord::Spindle),
+        (_, AxisKind::Rotary) if axis.name == SPINDLE => spindle.ok_or(NoWord::Spindle),
         (_, AxisKind::Linear | AxisKind::Rotary) => Err(NoWord::Name),
     }
 }
@@ -109,9 +108,7 @@ impl WorkInOffset {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::options::OPTIONS;
     use proptest::prelude::*;
-    use vcutc_backend_api::backend::{OptionValue, Options};
     use vcutc_backend_api::geometry::Zyx;
     use vcutc_backend_api::testkit::{CellRecipe, Recipe};
     use vcutc_backend_api::units::Angle;
@@ -124,27 +121,24 @@ mod tests {
         recipe.program().cell.unwrap()
     }
 
-    fn letters(cell: &Cell, spindle: &'static str) -> Result<String, NoWord> {
-        let mut options = Options::defaults(OPTIONS);
-        let spec = OPTIONS.iter().find(|spec| spec.key == "spindle_axis").unwrap();
-        options.set(spec, OptionValue::Choice(spindle)).unwrap();
-        let words = words(cell, &Settings::read(&options))?;
+    fn letters(cell: &Cell, spindle: Option<u8>) -> Result<String, NoWord> {
+        let words = words(cell, spindle)?;
         Ok(words.iter().map(|word| char::from(word.letter)).collect())
     }
 
     #[test]
     fn axes_are_their_own_words_and_a_spindle_needs_a_letter() {
         let mut cell = cell();
-        assert_eq!(letters(&cell, "none"), Ok("XYZBA".to_owned()));
+        assert_eq!(letters(&cell, None), Ok("XYZBA".to_owned()));
         cell.axes.push(Axis {
             name: "S".to_owned(),
             ..cell.axes[4].clone()
         });
-        assert_eq!(letters(&cell, "none"), Err(NoWord::Spindle));
-        assert_eq!(letters(&cell, "c"), Ok("XYZBAC".to_owned()));
-        assert_eq!(letters(&cell, "b"), Err(NoWord::Taken('B')));
+        assert_eq!(letters(&cell, None), Err(NoWord::Spindle));
+        assert_eq!(letters(&cell, Some(b'C')), Ok("XYZBAC".to_owned()));
+        assert_eq!(letters(&cell, Some(b'B')), Err(NoWord::Taken('B')));
         cell.axes[0].name = "U".to_owned();
-        assert_eq!(letters(&cell, "c"), Err(NoWord::Name));
+        assert_eq!(letters(&cell, Some(b'C')), Err(NoWord::Name));
     }
 
     /// The one that turns about z alone is worked out by hand.

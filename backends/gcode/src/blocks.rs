@@ -1,8 +1,9 @@
 //! Lines of a file: blocks with their numbers, comments, coordinates.
 
-use crate::dialect::{Dialect, Letters, Numbering, Signs};
+use crate::controller::{Facts, Letters, Signs};
 use crate::names::cased;
 use crate::options::Settings;
+use crate::statement::Style;
 use vcutc_backend_api::number::{FixedDecimal, NotFinite};
 use vcutc_backend_api::profile::LineNumbers;
 use vcutc_backend_api::script::{Text, Written};
@@ -13,7 +14,7 @@ const LARGEST_NUMBER: u32 = 99_999;
 /// Writes the lines of a program's files.
 pub(crate) struct Blocks<'a, 's> {
     text: &'a mut Text<'s>,
-    dialect: &'static dyn Dialect,
+    facts: &'static Facts,
     numbers: Numbers,
 }
 
@@ -30,10 +31,12 @@ enum Numbers {
 
 impl Numbers {
     fn start(settings: &Settings<'_>) -> Self {
-        match (settings.dialect.numbering(), settings.common.profile.line_numbers) {
-            (Numbering::Lines, _) => Self::Lines(0),
-            (Numbering::Words, Some(of)) => Self::Words { next: of.start, of },
-            (Numbering::Words, None) => Self::None,
+        match (settings.facts().style, settings.common.profile.line_numbers) {
+            (Style::Numbered, _) => Self::Lines(0),
+            (Style::Brackets | Style::Blocks | Style::Semicolon, Some(of)) => {
+                Self::Words { next: of.start, of }
+            }
+            (Style::Brackets | Style::Blocks | Style::Semicolon, None) => Self::None,
         }
     }
 }
@@ -43,7 +46,7 @@ impl<'a, 's> Blocks<'a, 's> {
     pub(crate) fn new(text: &'a mut Text<'s>, settings: &Settings<'_>) -> Self {
         Self {
             text,
-            dialect: settings.dialect,
+            facts: settings.facts(),
             numbers: Numbers::start(settings),
         }
     }
@@ -77,22 +80,27 @@ impl<'a, 's> Blocks<'a, 's> {
         self.end()
     }
 
+    /// Blocks in their order.
+    pub(crate) fn all(&mut self, blocks: &[String]) -> Written {
+        blocks.iter().try_for_each(|block| self.block(block))
+    }
+
     /// A comment with words of ours and words that people wrote behind them.
     pub(crate) fn comment(&mut self, ours: &str, theirs: &str) -> Written {
         self.line_number();
-        let comments = self.dialect.comments();
-        self.text.put(comments.open.as_bytes());
-        match comments.letters {
+        let (letters, [open, close]) = (self.facts.comment_letters, self.facts.style.comment_signs());
+        self.text.put(open.as_bytes());
+        match letters {
             Letters::Any => {
                 self.text.words(ours);
                 self.text.words(theirs);
             }
             Letters::Capital | Letters::Small => {
-                self.text.words(&cased(ours, comments.letters));
-                self.text.words(&cased(theirs, comments.letters));
+                self.text.words(&cased(ours, letters));
+                self.text.words(&cased(theirs, letters));
             }
         }
-        self.text.put(comments.close.as_bytes());
+        self.text.put(close.as_bytes());
         self.end()
     }
 
@@ -134,12 +142,6 @@ impl<'a, 's> Blocks<'a, 's> {
     pub(crate) fn end(&mut self) -> Written {
         Ok(self.text.end_line()?)
     }
-}
-
-/// One unit of the last decimal.
-pub(crate) fn last_place(format: FixedDecimal) -> f64 {
-    let decimals = u32::from(format.decimals().min(9));
-    1.0 / f64::from(10_u32.pow(decimals))
 }
 
 /// Appends a coordinate: a blank, its letter and its value.

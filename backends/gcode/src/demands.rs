@@ -1,11 +1,12 @@
 //! Options and profiles that a dialect cannot take, or that it lacks.
 
-use crate::dialect::{AxisPace, Numbering, TcpCodes};
+use crate::controller::{AxisPace, TcpCodes};
 use crate::given;
 use crate::options::{
     DEFAULT_HOME_SPEED, HOME_SPEED, OFF_CODE, ON_CODE, PERCENT, READY_CODE, Settings, TCP_OFF, TCP_ON,
 };
 use crate::profile::objection;
+use crate::statement::Style;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
 use vcutc_backend_api::script::{APPROXIMATION, DECIMALS};
@@ -27,27 +28,33 @@ fn conflict(key: &'static str, why: String) -> BackendIssue {
 }
 
 fn form(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
-    let dialect = settings.dialect;
-    let (decimals, most) = (settings.common.lengths.decimals(), dialect.most_decimals());
+    let controller = settings.controller;
+    let (decimals, most) = (
+        settings.common.lengths.decimals(),
+        controller.facts().most_decimals,
+    );
     if decimals > most {
-        let why = format!("{} reads up to {most} decimals, not {decimals}", dialect.name());
+        let why = format!(
+            "{} reads up to {most} decimals, not {decimals}",
+            controller.facts().name
+        );
         issues.push(conflict(DECIMALS, why));
     }
     if let Some(approximation) = settings.common.approximation
-        && dialect.rounded(approximation).is_none()
+        && controller.rounded(approximation).is_none()
     {
         let why = format!(
             "{} has no word for rounding some corners so far and stopping at others; take `approximation` out",
-            dialect.name()
+            controller.facts().name
         );
         issues.push(conflict(APPROXIMATION, why));
     }
     let is_default = settings.home_speed == f64::from(DEFAULT_HOME_SPEED) / PERCENT;
-    match dialect.axis_pace() {
+    match controller.facts().axis_pace {
         AxisPace::Rapid if !is_default => {
             let why = format!(
                 "on {} moves of all axes are rapid, and their speed is the override's; take `home_speed` out",
-                dialect.name()
+                controller.facts().name
             );
             issues.push(conflict(HOME_SPEED, why));
         }
@@ -60,9 +67,9 @@ fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
         (TCP_ON, settings.codes.tcp_on, "M429"),
         (TCP_OFF, settings.codes.tcp_off, "M428"),
     ];
-    let name = settings.dialect.name();
+    let name = settings.facts().name;
     for (key, given, example) in codes {
-        match (settings.dialect.tcp_codes(), given) {
+        match (settings.facts().tcp_codes, given) {
             (TcpCodes::Given, []) => issues.push(conflict(
                 key,
                 format!(
@@ -80,9 +87,9 @@ fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 }
 
 fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
-    let (dialect, codes) = (settings.dialect, settings.codes);
-    let name = dialect.name();
-    let [on, off, ready] = dialect.example_codes();
+    let (controller, codes) = (settings.controller, settings.codes);
+    let name = controller.facts().name;
+    let [on, off, ready] = controller.facts().example_codes;
     let sides = [
         (ON_CODE, codes.on, Switch::On, "on", on),
         (OFF_CODE, codes.off, Switch::Off, "off", off),
@@ -100,7 +107,7 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
                 "the other code of the generator is given; add `{key} = \"{example}\"`, or take both out"
             );
             issues.push(conflict(key, why));
-        } else if dialect.switch(output, state).is_none() {
+        } else if controller.switch(output, state).is_none() {
             let why = format!(
                 "{name} has no word of its own for outputs; name the block that switches output {output} {side}, such as \
                  `{key} = \"{example}\"`"
@@ -110,7 +117,7 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
     }
     match cell.ready {
         Ready::Input(input) => {
-            if codes.ready.is_empty() && dialect.await_input(input, 1).is_none() {
+            if codes.ready.is_empty() && controller.await_input(input, 1).is_none() {
                 let why = format!(
                     "{name} has no word that waits for input {input}; say which code does, such as `{READY_CODE} = \"{ready}\"`"
                 );
@@ -165,22 +172,26 @@ fn profile(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
             );
         }
     }
-    match (profile.line_numbers, settings.dialect.numbering()) {
-        (Some(_), Numbering::Lines) => refuse(
+    match (profile.line_numbers, settings.facts().style) {
+        (Some(_), Style::Numbered) => refuse(
             "line_numbers",
-            format!("{} numbers every line from 0 by 1", settings.dialect.name()),
+            format!("{} numbers every line from 0 by 1", settings.facts().name),
         ),
-        (Some(of), Numbering::Words) if of.step == 0 || of.start > 99_999 => refuse(
-            "line_numbers",
-            "numbers start at 0 to 99999, and a step is 1 or more".to_owned(),
-        ),
-        (Some(_) | None, Numbering::Words) | (None, Numbering::Lines) => {}
+        (Some(of), Style::Brackets | Style::Blocks | Style::Semicolon)
+            if of.step == 0 || of.start > 99_999 =>
+        {
+            refuse(
+                "line_numbers",
+                "numbers start at 0 to 99999, and a step is 1 or more".to_owned(),
+            )
+        }
+        (Some(_) | None, Style::Brackets | Style::Blocks | Style::Semicolon) | (None, Style::Numbered) => {}
     }
 }
 
 /// Why a line cannot stand in a program as it is.
 fn unfit(line: &str, settings: &Settings<'_>) -> Option<String> {
-    let longest = settings.dialect.longest_line().saturating_sub(ROOM_FOR_NUMBER);
+    let longest = settings.facts().longest_line.saturating_sub(ROOM_FOR_NUMBER);
     let is_printable = line.bytes().all(|byte| matches!(byte, b' '..=b'~'));
     if !is_printable {
         Some(format!("`{}` is not plain text on one line", line.escape_debug()))

@@ -4,7 +4,7 @@
 //! program itself is about: move, change modes, stop, end, call. One M code can do so as well, if the builder wants it to; but
 //! not by a slip.
 
-use crate::dialect::Dialect;
+use crate::controller::Controller;
 use crate::options::{OFF_CODE, ON_CODE, READY_CODE, Settings, TCP_OFF, TCP_ON};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
@@ -30,7 +30,7 @@ struct Given<'p> {
 /// What is wrong with the blocks of a job, each by itself and beside the others and what the program writes. Options of which
 /// something is told already are left out: what is no line at all is told as that.
 pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
-    let dialect = settings.dialect;
+    let controller = settings.controller;
     let own = own_blocks(cell, settings);
     let all = blocks(settings);
     for (place, given) in all.iter().enumerate() {
@@ -42,7 +42,7 @@ pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<Backe
         let fault = given
             .lines
             .iter()
-            .find_map(|line| unfit(line, given, dialect))
+            .find_map(|line| unfit(line, given, controller))
             .or_else(|| {
                 let line = given.lines.iter().find(|line| own.contains(&essence(line)))?;
                 Some(format!(
@@ -69,7 +69,7 @@ fn is_about(issue: &BackendIssue, option: &str) -> bool {
 }
 
 fn blocks<'p>(settings: &Settings<'p>) -> [Given<'p>; 5] {
-    let (codes, [on, off, ready]) = (settings.codes, settings.dialect.example_codes());
+    let (codes, [on, off, ready]) = (settings.codes, settings.facts().example_codes);
     let given = |key, purpose, example, lines| Given {
         key,
         purpose,
@@ -87,24 +87,27 @@ fn blocks<'p>(settings: &Settings<'p>) -> [Given<'p>; 5] {
 
 /// The blocks that the program writes for outputs and inputs, without layout.
 fn own_blocks(cell: &Cell, settings: &Settings<'_>) -> Vec<String> {
-    let (dialect, codes) = (settings.dialect, settings.codes);
+    let (controller, codes) = (settings.controller, settings.codes);
     let mut own = Vec::new();
     for (given, state) in [(codes.on, Switch::On), (codes.off, Switch::Off)] {
         if given.is_empty() {
-            own.extend(cell.ultrasonic.and_then(|output| dialect.switch(output, state)));
+            own.extend(
+                cell.ultrasonic
+                    .and_then(|output| controller.switch(output, state)),
+            );
         }
     }
     match cell.ready {
-        Ready::Input(input) if codes.ready.is_empty() => own.extend(dialect.await_input(input, 1)),
+        Ready::Input(input) if codes.ready.is_empty() => own.extend(controller.await_input(input, 1)),
         Ready::Input(_) | Ready::After(_) => {}
     }
     own.iter().flatten().map(|line| essence(line)).collect()
 }
 
 /// Why a line is no block of a builder.
-fn unfit(line: &str, given: &Given<'_>, dialect: &dyn Dialect) -> Option<String> {
+fn unfit(line: &str, given: &Given<'_>, controller: &dyn Controller) -> Option<String> {
     let example = given.example;
-    let beside = dialect.beside_m();
+    let beside = controller.facts().beside_m;
     let Some(code) = m_code(line, beside) else {
         let words: Vec<String> = beside.chars().map(String::from).collect();
         let words = match words.as_slice() {
@@ -115,26 +118,26 @@ fn unfit(line: &str, given: &Given<'_>, dialect: &dyn Dialect) -> Option<String>
             "`{line}` is not one M code of the machine's builder, such as `{example}`, {words}"
         ));
     };
-    let does = dialect.does_by_m(code).or_else(|| match given.purpose {
+    let does = controller.does_by_m(code).or_else(|| match given.purpose {
         Purpose::Kinematics => None,
-        Purpose::Generator => is_for_signals(code, dialect)
+        Purpose::Generator => is_for_signals(code, controller)
             .then_some("is a word of its own for outputs and inputs, which the machine's block gives"),
     });
     does.map(|does| {
         format!(
             "M{code} {does} on {}; give a code of the machine's builder, such as `{example}`",
-            dialect.name()
+            controller.facts().name
         )
     })
 }
 
 /// Whether an M code is the dialect's own for an output or input.
-fn is_for_signals(code: u32, dialect: &dyn Dialect) -> bool {
-    let signal = *dialect.signals().start();
+fn is_for_signals(code: u32, controller: &dyn Controller) -> bool {
+    let signal = *controller.facts().signals.start();
     let own = [
-        dialect.switch(signal, Switch::On),
-        dialect.switch(signal, Switch::Off),
-        dialect.await_input(signal, 1),
+        controller.switch(signal, Switch::On),
+        controller.switch(signal, Switch::Off),
+        controller.await_input(signal, 1),
     ];
     let mut lines = own.iter().flatten().flatten();
     lines.any(|line| line.split(' ').next() == Some(format!("M{code}").as_str()))

@@ -4,8 +4,8 @@
 //!
 //! All four are one language as far as a knife needs it: blocks of words with a letter and a number, modes that hold until they
 //! are changed, and tool-centre-point control, under which X, Y, Z are those of the tip and the control moves its linear axes
-//! along while the rotary ones turn. So there is one writer (the module `body`), and what a dialect says in its own words it
-//! answers by overriding the small questions of the trait `Dialect`.
+//! along while the rotary ones turn. So all four are one dialect to the writer (the module `dialect`), and what a controller says
+//! in its own words it answers by the small questions of the trait `Controller`, a file for each in the module `controllers`.
 //!
 //! | | LinuxCNC 2.9 | Fanuc 30i | Sinumerik 840D | Heidenhain TNC |
 //! |---|---|---|---|---|
@@ -59,10 +59,13 @@
 
 mod axes;
 mod blocks;
-mod body;
+mod controller;
+mod controllers;
 mod demands;
 mod dialect;
 mod given;
+mod iso;
+mod job;
 mod limits;
 mod names;
 mod options;
@@ -70,22 +73,20 @@ mod pace;
 mod profile;
 mod program;
 mod read;
+mod statement;
 
-use crate::axes::{Word, WorkInOffset};
 use crate::blocks::Blocks;
-use crate::body::Source;
+use crate::dialect::GcodeDialect;
+use crate::job::Job;
 use crate::limits::Sayable;
 use crate::names::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::GcodeReader;
-use vcutc_backend_api::backend::{
-    Backend, BackendIssue, Emission, EmitError, MachineMismatch, OptionSpec, Options,
-};
-use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::ir::{Cell, MachineKind, Maker};
+use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
+use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, LINES_PER_PART, Lead, Part, Text, split};
+use vcutc_backend_api::script::{Borders, Lead, Source, Text, emission, split, write};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// The G-code backend.
@@ -138,52 +139,21 @@ impl Backend for Gcode {
             &|_, lead| headings(lead),
         );
         let Sayable { cell, words } = limits::check(program, &settings, &parts)?;
-        if parts.len() > MOST_PARTS {
-            return Err(vec![too_many_parts(parts.len())]);
-        }
-        Ok(Box::new(GcodeEmission {
+        let source = Source {
             reachable: program,
             cell,
-            settings,
-            words,
-            parts,
-        }))
+        };
+        emission(parts, MOST_PARTS, move |parts, sink| {
+            let main = main_name(&source.program().name, &settings);
+            let mut text = Text::new(sink, settings.facts().layout);
+            let blocks = Blocks::new(&mut text, &settings);
+            let mut gcode = GcodeDialect::new(Job::new(source, &settings, &words), blocks);
+            write(&mut gcode, source, &settings.common, &main, parts)
+        })
     }
 }
 
 /// Lines of comments before an op: the operation and the cut. Words that set a mode are not counted.
 const fn headings(lead: Lead) -> u64 {
     lead.operation.is_some() as u64 + lead.cut.is_some() as u64
-}
-
-fn too_many_parts(count: usize) -> BackendIssue {
-    BackendIssue::OptionConflict {
-        key: LINES_PER_PART,
-        why: format!("the program would need {count} parts, and part names have room for {MOST_PARTS}"),
-    }
-}
-
-/// A program that G-code can say, and how.
-struct GcodeEmission<'p> {
-    reachable: &'p ReachableProgram,
-    cell: &'p Cell,
-    settings: Settings<'p>,
-    words: Vec<Word>,
-    parts: Vec<Part>,
-}
-
-impl Emission for GcodeEmission<'_> {
-    fn write(&self, sink: &mut dyn Sink) -> Result<(), EmitError> {
-        let source = Source {
-            reachable: self.reachable,
-            cell: self.cell,
-            settings: &self.settings,
-            words: &self.words,
-            work_in_offset: WorkInOffset::new(self.cell.base.frame.orientation),
-        };
-        let name = main_name(&self.reachable.program().name, &self.settings);
-        let mut text = Text::new(sink, self.settings.dialect.layout());
-        let mut blocks = Blocks::new(&mut text, &self.settings);
-        program::write(source, &name, &self.parts, &mut blocks)
-    }
 }

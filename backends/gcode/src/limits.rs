@@ -3,19 +3,19 @@
 //! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million times.
 //! What is wrong with the options alone is in the module `demands`.
 
-use crate::axes::{NoWord, Word, WorkInOffset, printed, words};
-use crate::blocks::last_place;
-use crate::body::Source;
+use crate::axes::{NoWord, Word, printed, words};
+use crate::controller::{AxisPace, LARGEST_FEED};
 use crate::demands;
-use crate::dialect::{AxisPace, FeedMode};
+use crate::job::Job;
 use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
 use crate::pace::{self, Pace};
+use crate::statement::FeedMode;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::findings::{Findings, Number};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, MachineKind, OpId, Ready};
 use vcutc_backend_api::motion::{ReachableProgram, pose_after};
-use vcutc_backend_api::script::Part;
+use vcutc_backend_api::script::{Part, Source};
 use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::Duration;
 
@@ -67,7 +67,7 @@ pub(crate) fn check<'p>(
     if let Some(mismatch) = foreign(cell.kind) {
         return Err(wrong(mismatch));
     }
-    let words = match words(cell, settings) {
+    let words = match words(cell, settings.spindle_letter) {
         Ok(words) => words,
         Err(NoWord::Name) => return Err(wrong(MachineMismatch::Arm)),
         Err(NoWord::Spindle) => return Err(vec![spindle_without_letter()]),
@@ -78,13 +78,11 @@ pub(crate) fn check<'p>(
     };
     limits.cell(cell, settings);
     limits.parts(settings, parts);
-    limits.ops(Source {
+    let source = Source {
         reachable: program,
         cell,
-        settings,
-        words: &words,
-        work_in_offset: WorkInOffset::new(cell.base.frame.orientation),
-    });
+    };
+    limits.ops(&Job::new(source, settings, &words));
     limits.found.result().map(|()| Sayable { cell, words })
 }
 
@@ -119,30 +117,33 @@ struct Limits {
 
 impl Limits {
     fn cell(&mut self, cell: &Cell, settings: &Settings<'_>) {
-        let dialect = settings.dialect;
+        let controller = settings.controller;
         if cell.home.is_none() {
             self.found.tell("home", HOME_MISSING);
         }
         self.tool(cell, settings);
         if let Some(number) = cell.base.number {
             self.found
-                .number("base number", number, 1..=dialect.work_offsets());
+                .number("base number", number, 1..=controller.facts().work_offsets);
         }
         match cell.ultrasonic {
             Some(output) if settings.codes.on.is_empty() => {
-                self.found.number("output number", output, dialect.signals());
+                self.found
+                    .number("output number", output, controller.facts().signals.clone());
             }
             Some(_) => {}
             None => self.found.tell("ultrasonic", GENERATOR_MISSING),
         }
         match cell.ready {
             Ready::Input(input) if settings.codes.ready.is_empty() => {
-                self.found.number("input number", input, dialect.signals());
+                self.found
+                    .number("input number", input, controller.facts().signals.clone());
             }
             Ready::Input(_) => {}
             Ready::After(time) => self.wait(None, "time until ready", time),
         }
-        if dialect.axis_pace() != AxisPace::Rapid && cell.axes.iter().any(|axis| axis.rate.is_none()) {
+        if controller.facts().axis_pace != AxisPace::Rapid && cell.axes.iter().any(|axis| axis.rate.is_none())
+        {
             let issue = BackendIssue::OptionConflict {
                 key: HOME_SPEED,
                 why: "the machine's sheet does not state the rates of all its axes, so a part of them is not a speed; \
@@ -156,10 +157,10 @@ impl Limits {
     /// The control knows of the tool one length, along the spindle.
     fn tool(&mut self, cell: &Cell, settings: &Settings<'_>) {
         let number = cell.tool.number.unwrap_or(settings.tool_number);
-        let what = settings.dialect.tool_number_name();
-        self.found.number(what, number, 1..=settings.dialect.most_tools());
+        let what = settings.facts().tool_number_name;
+        self.found.number(what, number, 1..=settings.facts().most_tools);
         let Point3 { x, y, z } = cell.tool.frame.origin;
-        let half_a_unit = 0.5 * last_place(settings.common.lengths);
+        let half_a_unit = settings.common.lengths.half_unit();
         for (what, value) in [("tool X", x), ("tool Y", y)] {
             let unit = "mm";
             self.found
@@ -169,7 +170,7 @@ impl Limits {
     }
 
     fn length(&mut self, op: Option<OpId>, what: &'static str, value: f64, settings: &Settings<'_>) {
-        let farthest = settings.dialect.farthest(settings.common.lengths.decimals());
+        let farthest = settings.controller.farthest(settings.common.lengths.decimals());
         let unit = "mm";
         self.found
             .range(op, &Number { what, value, unit }, (-farthest, farthest));
@@ -177,7 +178,7 @@ impl Limits {
 
     fn parts(&mut self, settings: &Settings<'_>, parts: &[Part]) {
         let last = u64::from(settings.program_number).saturating_add(parts.len() as u64);
-        if settings.dialect.numbers_programs() && last > LARGEST_O_NUMBER {
+        if settings.facts().numbers_programs && last > LARGEST_O_NUMBER {
             let issue = BackendIssue::OptionConflict {
                 key: PROGRAM_NUMBER,
                 why: format!(
@@ -188,22 +189,22 @@ impl Limits {
         }
     }
 
-    fn ops(&mut self, source: Source<'_>) {
-        let program = source.program();
+    fn ops(&mut self, job: &Job<'_>) {
+        let program = job.source.program();
         let mut at = None;
-        for (id, op) in source.reachable.verified().ops() {
+        for (id, op) in job.source.reachable.verified().ops() {
             if let Some(operation) = op.site.operation() {
                 self.found.blade(program, id, operation);
             }
             match op.action {
-                Action::Home | Action::AxisTravel { .. } => self.axes(source, id),
+                Action::Home | Action::AxisTravel { .. } => self.axes(job, id),
                 Action::Travel { .. }
                 | Action::Approach { .. }
                 | Action::Retract { .. }
                 | Action::Cut { .. }
                 | Action::Turn { .. } => {
                     if let Some(stroke) = at.and_then(|from| Stroke::of(program, from, &op.action)) {
-                        self.stroke(source, id, &stroke);
+                        self.stroke(job, id, &stroke);
                     }
                 }
                 Action::Ultrasonic { .. } | Action::AwaitReady => {}
@@ -217,29 +218,29 @@ impl Limits {
         }
     }
 
-    fn axes(&mut self, source: Source<'_>, op: OpId) {
-        let Some(to) = source.reachable.axes_after(op) else {
+    fn axes(&mut self, job: &Job<'_>, op: OpId) {
+        let Some(to) = job.source.reachable.axes_after(op) else {
             return;
         };
-        self.words(source, op, &to, AxisKind::Linear);
-        self.words(source, op, &to, AxisKind::Rotary);
+        self.words(job, op, &to, AxisKind::Linear);
+        self.words(job, op, &to, AxisKind::Rotary);
         let before = op.0.checked_sub(1).map(OpId);
-        let before = before.and_then(|before| source.reachable.axes_after(before));
+        let before = before.and_then(|before| job.source.reachable.axes_after(before));
         for from in [before.as_ref(), None] {
-            if let Some(pace) = pace::of_axes(source.settings, source.cell, source.words, from, &to) {
-                self.feed(source, op, "speed of all axes", pace);
+            if let Some(pace) = pace::of_axes(job, from, &to) {
+                self.feed(job, op, "speed of all axes", pace);
             }
         }
     }
 
-    fn words(&mut self, source: Source<'_>, op: OpId, axes: &AxisValues, kind: AxisKind) {
-        let settings = source.settings;
+    fn words(&mut self, job: &Job<'_>, op: OpId, axes: &AxisValues, kind: AxisKind) {
+        let settings = job.settings;
         let (what, unit, decimals) = match kind {
             AxisKind::Linear => ("axis position", "mm", settings.common.lengths.decimals()),
             AxisKind::Rotary => ("axis angle", "deg", settings.angles.decimals()),
         };
-        let farthest = settings.dialect.farthest(decimals);
-        for &word in source.words.iter().filter(|word| word.kind == kind) {
+        let farthest = settings.controller.farthest(decimals);
+        for &word in job.words.iter().filter(|word| word.kind == kind) {
             if let Some(value) = printed(word, axes) {
                 self.found
                     .range(Some(op), &Number { what, value, unit }, (-farthest, farthest));
@@ -247,40 +248,36 @@ impl Limits {
         }
     }
 
-    fn stroke(&mut self, source: Source<'_>, op: OpId, stroke: &Stroke) {
-        let to = source.work_in_offset.in_offset(stroke.to.0);
+    fn stroke(&mut self, job: &Job<'_>, op: OpId, stroke: &Stroke) {
+        let to = job.work_in_offset.in_offset(stroke.to.0);
         for (what, value) in [("X", to.x), ("Y", to.y), ("Z", to.z)] {
-            self.length(Some(op), what, value, source.settings);
+            self.length(Some(op), what, value, job.settings);
         }
         let before = op.0.checked_sub(1).map(OpId);
-        let before = before.and_then(|before| source.reachable.axes_after(before));
-        let (Some(from), Some(to)) = (before, source.reachable.axes_after(op)) else {
+        let before = before.and_then(|before| job.source.reachable.axes_after(before));
+        let (Some(from), Some(to)) = (before, job.source.reachable.axes_after(op)) else {
             return;
         };
-        self.words(source, op, &to, AxisKind::Rotary);
-        if let Some(pace) = pace::of_stroke(source.settings, source.words, stroke, &from, &to) {
+        self.words(job, op, &to, AxisKind::Rotary);
+        if let Some(pace) = pace::of_stroke(job, stroke, &from, &to) {
             let what = match pace.mode {
                 FeedMode::Tip => "tip speed",
                 FeedMode::InverseTime | FeedMode::Rotary => "reorientation rate",
             };
-            self.feed(source, op, what, pace);
+            self.feed(job, op, what, pace);
         }
     }
 
-    fn feed(&mut self, source: Source<'_>, op: OpId, what: &'static str, pace: Pace) {
-        let dialect = source.settings.dialect;
+    fn feed(&mut self, job: &Job<'_>, op: OpId, what: &'static str, pace: Pace) {
         let unit = match pace.mode {
             FeedMode::Tip => "mm/min",
             FeedMode::InverseTime => "1/min",
             FeedMode::Rotary => "deg/min",
         };
-        let smallest = SMALLEST_FEED_UNITS * last_place(source.settings.fine());
+        let smallest = SMALLEST_FEED_UNITS * job.settings.fine().unit();
         let value = pace.feed;
-        self.found.range(
-            Some(op),
-            &Number { what, value, unit },
-            (smallest, dialect.largest_feed()),
-        );
+        self.found
+            .range(Some(op), &Number { what, value, unit }, (smallest, LARGEST_FEED));
     }
 
     fn wait(&mut self, op: Option<OpId>, what: &'static str, time: Duration) {

@@ -3,7 +3,7 @@
 //! One rule serves all dialects: letters, digits and `_`, two letters first [S-JP], at most 18 characters so that the name of a
 //! part has at most 24, which every control takes. Case is the dialect's.
 
-use crate::dialect::Letters;
+use crate::controller::Letters;
 use crate::options::Settings;
 use vcutc_backend_api::namer::{NameRules, Namer};
 
@@ -31,12 +31,12 @@ pub(crate) fn main_name(job: &str, settings: &Settings<'_>) -> String {
     } else {
         format!("{PREFIX}{job}")
     };
-    cased(&namer.name(&wanted), settings.dialect.name_letters())
+    cased(&namer.name(&wanted), settings.facts().name_letters)
 }
 
 /// The name of a part, counted from 1.
 pub(crate) fn part_name(main: &str, part: usize, settings: &Settings<'_>) -> String {
-    cased(&format!("{main}_p{part:03}"), settings.dialect.name_letters())
+    cased(&format!("{main}_p{part:03}"), settings.facts().name_letters)
 }
 
 /// Text with the letters that are allowed.

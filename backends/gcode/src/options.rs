@@ -3,7 +3,8 @@
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
 //! crate never asks for a key by its name.
 
-use crate::dialect::{Controller, Dialect};
+use crate::controller::{Codes, Controller, Facts};
+use crate::controllers;
 use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
 use vcutc_backend_api::ir::Purpose;
 use vcutc_backend_api::number::FixedDecimal;
@@ -32,7 +33,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         key: DIALECT,
         kind: OptionKind::Choice {
-            of: Controller::WORDS,
+            of: controllers::WORDS,
         },
         help: "The controller that is to read the program.",
     },
@@ -102,30 +103,13 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     },
 ];
 
-/// Blocks that only the builder of a machine knows. Empty where the job gives none.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Codes<'p> {
-    /// Tool-centre-point control on.
-    pub(crate) tcp_on: &'p [String],
-    /// Tool-centre-point control off.
-    pub(crate) tcp_off: &'p [String],
-    /// Generator on.
-    pub(crate) on: &'p [String],
-    /// Generator off.
-    pub(crate) off: &'p [String],
-    /// Until the generator is ready.
-    pub(crate) ready: &'p [String],
-}
-
 /// The options as types.
 #[derive(Clone)]
 pub(crate) struct Settings<'p> {
     /// What every dialect takes.
     pub(crate) common: Common<'p>,
     /// Who reads the program.
-    pub(crate) controller: Controller,
-    /// How it is written for it.
-    pub(crate) dialect: &'static dyn Dialect,
+    pub(crate) controller: &'static dyn Controller,
     /// Format of angles in degrees.
     pub(crate) angles: FixedDecimal,
     /// Speed of the moves of all axes as a part of the axes' rates.
@@ -146,15 +130,17 @@ const AIR_NUMBERS: u32 = 4000;
 impl<'p> Settings<'p> {
     /// Reads the options of a job.
     pub(crate) fn read(options: &'p Options) -> Self {
-        let controller = Controller::of(options.choice(DIALECT));
-        let dialect = controller.dialect();
+        let controller = controllers::of(options.choice(DIALECT));
         // The compiler has set them to what the profile says, unless the job says otherwise.
         let common = Common::read(options);
         Self {
             common,
             controller,
-            dialect,
-            angles: FixedDecimal::new(dialect.angle_decimals(common.decimals)),
+            angles: FixedDecimal::new(
+                common
+                    .decimals
+                    .saturating_add(controller.facts().more_decimals_of_angles),
+            ),
             home_speed: f64::from(options.integer(HOME_SPEED)) / PERCENT,
             tool_number: options.integer(TOOL_NUMBER),
             program_number: options.integer(PROGRAM_NUMBER),
@@ -185,9 +171,14 @@ impl<'p> Settings<'p> {
         self
     }
 
+    /// What is fixed of the controller.
+    pub(crate) fn facts(&self) -> &'static Facts {
+        self.controller.facts()
+    }
+
     /// Format of speeds, inverse times and waits: written without trailing zeros, so these are the most decimals.
     pub(crate) fn fine(&self) -> FixedDecimal {
-        FixedDecimal::new(self.dialect.fine_decimals())
+        FixedDecimal::new(self.controller.facts().fine_decimals)
     }
 }
 
@@ -221,7 +212,7 @@ mod tests {
             options.set(spec, value).unwrap();
         }
         let settings = Settings::read(&options);
-        assert_eq!(settings.dialect.name(), "Fanuc");
+        assert_eq!(settings.controller.facts().name, "Fanuc");
         assert_eq!(settings.common.lengths.decimals(), 4);
         assert_eq!(settings.common.approximation, Some(Length::mm(2.5)));
         assert_eq!(settings.home_speed.to_bits(), 0.3_f64.to_bits());
@@ -233,17 +224,17 @@ mod tests {
     #[test]
     fn every_dialect_has_its_word() {
         let spec = OPTIONS.iter().find(|spec| spec.key == DIALECT).unwrap();
-        let names: BTreeSet<&str> = Controller::WORDS
+        let names: BTreeSet<&str> = controllers::WORDS
             .iter()
             .map(|word| {
                 let mut options = Options::defaults(OPTIONS);
                 options.set(spec, OptionValue::Choice(word)).unwrap();
-                let name = Settings::read(&options).dialect.name();
+                let name = Settings::read(&options).controller.facts().name;
                 assert_eq!(name.to_ascii_lowercase(), *word);
                 name
             })
             .collect();
-        assert_eq!(names.len(), Controller::WORDS.len());
+        assert_eq!(names.len(), controllers::WORDS.len());
     }
 
     #[test]

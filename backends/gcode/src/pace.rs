@@ -7,9 +7,10 @@
 //! A move of all axes takes as long as the slowest axis needs at the part of its rate that the job allows (`home_speed`).
 
 use crate::axes::{Word, printed};
-use crate::blocks::last_place;
-use crate::dialect::{AxisPace, FeedMode};
+use crate::controller::AxisPace;
+use crate::job::Job;
 use crate::options::Settings;
+use crate::statement::FeedMode;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, Cell};
 use vcutc_backend_api::stroke::Stroke;
@@ -28,25 +29,20 @@ const SECONDS_A_MINUTE: f64 = 60.0;
 
 /// Two points that a control cannot tell apart, being nearer than the last decimal in each direction.
 fn is_same_place(settings: &Settings<'_>, a: Point3, b: Point3) -> bool {
-    let unit = last_place(settings.common.lengths);
+    let unit = settings.common.lengths.unit();
     [(a.x, b.x), (a.y, b.y), (a.z, b.z)]
         .into_iter()
         .all(|(a, b)| (a - b).abs() < unit)
 }
 
 /// The pace of a straight motion between two axis values. None when the program is not one that can be carried out.
-pub(crate) fn of_stroke(
-    settings: &Settings<'_>,
-    words: &[Word],
-    stroke: &Stroke,
-    from: &AxisValues,
-    to: &AxisValues,
-) -> Option<Pace> {
+pub(crate) fn of_stroke(job: &Job<'_>, stroke: &Stroke, from: &AxisValues, to: &AxisValues) -> Option<Pace> {
+    let Job { settings, words, .. } = *job;
     let seconds = stroke.duration().to_s();
     let is_still = stroke.turn > Angle::ZERO && is_same_place(settings, stroke.from.0, stroke.to.0);
     let per_minute = |way: f64| way / seconds * SECONDS_A_MINUTE;
     let pace = if is_still {
-        let mode = settings.dialect.still_tip();
+        let mode = settings.facts().still_tip;
         let feed = match mode {
             FeedMode::InverseTime => per_minute(1.0),
             FeedMode::Rotary => per_minute(way(words, from, to, Counted::Rotary)),
@@ -66,14 +62,9 @@ pub(crate) fn of_stroke(
 
 /// The pace of a move of all axes, none where it is rapid. From an unknown place the way is not known, so it is taken as long
 /// as the axes are.
-pub(crate) fn of_axes(
-    settings: &Settings<'_>,
-    cell: &Cell,
-    words: &[Word],
-    from: Option<&AxisValues>,
-    to: &AxisValues,
-) -> Option<Pace> {
-    match settings.dialect.axis_pace() {
+pub(crate) fn of_axes(job: &Job<'_>, from: Option<&AxisValues>, to: &AxisValues) -> Option<Pace> {
+    let (settings, cell) = (job.settings, job.source.cell);
+    match settings.facts().axis_pace {
         AxisPace::Rapid => None,
         AxisPace::InverseTime => {
             let seconds = axis_time(settings, cell, from, to);
@@ -87,7 +78,7 @@ pub(crate) fn of_axes(
             let mode = FeedMode::Tip;
             let known = from.map(|from| {
                 (
-                    way(words, from, to, Counted::All),
+                    way(job.words, from, to, Counted::All),
                     axis_time(settings, cell, Some(from), to),
                 )
             });

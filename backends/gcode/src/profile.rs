@@ -4,38 +4,62 @@
 //! another program or switch the generator would never be complete. On the list are comments, messages, M codes that pause,
 //! control the coolant or belong to the builder of the machine, S words, and settings of the control that only make its axes
 //! run more smoothly. Which M codes belong to the builder is a question for the dialect
-//! ([`Dialect::builders_codes`]); those that the job has named for the generator, its
+//! ([`Facts::builders_codes`]); those that the job has named for the generator, its
 //! readiness or the kinematics are the program's own.
 
-use crate::dialect::Dialect;
+use crate::controller::{Controller, Facts};
 use crate::options::Settings;
-use crate::read::statement_of_line;
+use crate::statement::Code;
 
 /// Stop, optional stop, coolant on and off.
 const COMMON_CODES: [u32; 5] = [0, 1, 7, 8, 9];
 
 /// What speaks against a line.
 pub(crate) fn objection(line: &str, settings: &Settings<'_>) -> Option<String> {
-    let dialect = settings.dialect;
-    let is_fine = match statement_of_line(line, settings.controller) {
+    let controller = settings.controller;
+    let is_fine = match statement_of_line(line, settings.facts()) {
         Some("") => true,
         Some(code) => {
             let code = code.to_ascii_uppercase();
-            is_listed(&code, dialect) || is_message(&code, dialect) || has_harmless_words(&code, settings)
+            is_listed(&code, controller)
+                || is_message(&code, controller)
+                || has_harmless_words(&code, settings)
         }
         None => false,
     };
     (!is_fine).then(|| {
         format!(
             "`{line}` may change what the program does; a line may be {}",
-            allowed(dialect)
+            allowed(controller)
         )
     })
 }
 
+/// The statement of a line that is to be one block as it stands, empty for a comment. None where the control would read
+/// something else into it: a number of its own, a comment in front, signs that mean something even in comments.
+fn statement_of_line<'l>(line: &'l str, facts: &Facts) -> Option<&'l str> {
+    let is_sign = |byte: &u8| !matches!(byte, b'(' | b')');
+    let signs = facts.layout.kept_out_of_comments;
+    let has_sign = |byte| {
+        signs
+            .iter()
+            .filter(|sign| is_sign(sign))
+            .any(|sign| *sign == byte)
+    };
+    if line.bytes().any(has_sign) {
+        return None;
+    }
+    let line = line.trim();
+    match facts.style.code(line, 0) {
+        Code::Is(span, code) => (span.start == 0).then_some(code),
+        Code::None => line.starts_with(['(', ';', '*']).then_some(""),
+        Code::Broken(..) | Code::Active(_) => None,
+    }
+}
+
 /// The list in words.
-fn allowed(dialect: &dyn Dialect) -> String {
-    let ranges = dialect.builders_codes().iter();
+fn allowed(controller: &dyn Controller) -> String {
+    let ranges = controller.facts().builders_codes.iter();
     let codes: Vec<String> = ranges
         .map(|range| format!("M{} to M{}", range.start(), range.end()))
         .collect();
@@ -43,23 +67,27 @@ fn allowed(dialect: &dyn Dialect) -> String {
         "a comment, an S word, or one of M0, M1, M7, M8, M9, {} that the job does not use itself",
         codes.join(", ")
     );
-    for statement in dialect.smoothing() {
+    for statement in controller.facts().smoothing {
         words.push_str(&format!(", `{statement}`"));
     }
-    if dialect.has_messages() {
+    if controller.facts().has_messages {
         words.push_str(", `MSG(\"...\")`");
     }
     words
 }
 
-fn is_listed(code: &str, dialect: &dyn Dialect) -> bool {
+fn is_listed(code: &str, controller: &dyn Controller) -> bool {
     let words = |text: &str| text.split_ascii_whitespace().collect::<String>();
     let code = words(code);
-    dialect.smoothing().iter().any(|listed| words(listed) == code)
+    controller
+        .facts()
+        .smoothing
+        .iter()
+        .any(|listed| words(listed) == code)
 }
 
 /// `MSG("...")`, or `MSG()`, which takes it away.
-fn is_message(code: &str, dialect: &dyn Dialect) -> bool {
+fn is_message(code: &str, controller: &dyn Controller) -> bool {
     let inner = code
         .strip_prefix("MSG")
         .and_then(|rest| rest.trim_start().strip_prefix('(')?.strip_suffix(')'))
@@ -68,7 +96,7 @@ fn is_message(code: &str, dialect: &dyn Dialect) -> bool {
         let text = inner.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
         inner.is_empty() || text.is_some_and(|text| !text.contains('"'))
     };
-    dialect.has_messages() && inner.is_some_and(is_text)
+    controller.facts().has_messages && inner.is_some_and(is_text)
 }
 
 /// Whether a statement in capitals is nothing but M codes that are allowed, and S words.
@@ -82,7 +110,7 @@ fn has_harmless_words(code: &str, settings: &Settings<'_>) -> bool {
             'M' => number
                 .parse()
                 .is_ok_and(|number| is_harmless_code(number, settings)),
-            'S' => number.parse::<f64>().is_ok() && settings.dialect.has_spindle_words(),
+            'S' => number.parse::<f64>().is_ok() && settings.facts().has_spindle_words,
             _ => false,
         };
         if !is_fine {
@@ -97,7 +125,7 @@ fn is_harmless_code(number: u32, settings: &Settings<'_>) -> bool {
     let codes = settings.codes;
     let own = [codes.tcp_on, codes.tcp_off, codes.on, codes.off, codes.ready];
     let is_own = own.into_iter().flatten().any(|line| names_code(line, number));
-    let builders = settings.dialect.builders_codes();
+    let builders = settings.facts().builders_codes;
     let is_allowed = COMMON_CODES.contains(&number) || builders.iter().any(|range| range.contains(&number));
     is_allowed && !is_own
 }
@@ -118,16 +146,16 @@ fn names_code(line: &str, number: u32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dialect::Controller;
-    use crate::options::{Codes, OPTIONS};
+    use crate::controller::Codes;
+    use crate::controllers;
+    use crate::options::OPTIONS;
     use vcutc_backend_api::backend::Options;
 
-    fn is_refused(line: &str, controller: Controller) -> bool {
+    fn is_refused(line: &str, controller: &str) -> bool {
         let options = Options::defaults(OPTIONS);
         let (on, off) = (["M50".to_owned()], ["M 051 (off)".to_owned()]);
         let settings = Settings {
-            controller,
-            dialect: controller.dialect(),
+            controller: controllers::of(controller),
             codes: Codes {
                 on: &on,
                 off: &off,
@@ -138,12 +166,12 @@ mod tests {
         objection(line, &settings).is_some()
     }
 
-    const LINUXCNC: Controller = Controller::LinuxCnc;
-    const FANUC: Controller = Controller::Fanuc;
-    const SINUMERIK: Controller = Controller::Sinumerik;
-    const HEIDENHAIN: Controller = Controller::Heidenhain;
+    const LINUXCNC: &str = "linuxcnc";
+    const FANUC: &str = "fanuc";
+    const SINUMERIK: &str = "sinumerik";
+    const HEIDENHAIN: &str = "heidenhain";
 
-    const ALL: [Controller; 4] = [LINUXCNC, FANUC, SINUMERIK, HEIDENHAIN];
+    const ALL: [&str; 4] = [LINUXCNC, FANUC, SINUMERIK, HEIDENHAIN];
 
     #[test]
     fn nothing_that_changes_the_program_gets_through() {
@@ -243,7 +271,7 @@ mod tests {
             ("FFWON", &ALL[2..3]),
         ] {
             for dialect in dialects {
-                assert!(!is_refused(line, *dialect), "{dialect:?}: {line}");
+                assert!(!is_refused(line, dialect), "{dialect:?}: {line}");
             }
         }
     }

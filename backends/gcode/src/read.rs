@@ -19,24 +19,17 @@
 //! job's `home_speed` ([`rates`]).
 
 mod codes;
+mod context;
 mod control;
-mod lines;
-mod order;
 mod profile;
 mod rates;
 mod scripts;
-mod tongue;
 mod walk;
-mod words;
 
-pub(crate) use profile::statement_of_line;
-
-use crate::blocks::last_place;
 use crate::options::Settings;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
-use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::readback::{Frames, Grain, Reader, Sources, Stance, Statement};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
@@ -48,11 +41,6 @@ pub(crate) struct GcodeReader;
 const EXTENSIONS: [&str; 8] = ["ngc", "nc", "mpf", "spf", "h", "cnc", "tap", "gcode"];
 
 const SECONDS_A_MINUTE: f64 = 60.0;
-
-/// Half a unit of the last decimal.
-fn half_a_unit(format: FixedDecimal) -> f64 {
-    0.5 * last_place(format)
-}
 
 impl Reader for GcodeReader {
     fn recognises(&self, file: &str) -> bool {
@@ -66,12 +54,12 @@ impl Reader for GcodeReader {
 
     fn grain(&self, options: &Options) -> Grain {
         let settings = Settings::read(options);
-        let fine = half_a_unit(settings.fine());
-        let angle = Angle::deg(half_a_unit(settings.angles));
+        let fine = settings.fine().half_unit();
+        let angle = Angle::deg(settings.angles.half_unit());
         Grain {
             // Printed in the frame of the machine, compared in that of the work: a coordinate of one may be made of all three
             // of the other.
-            length: Length::mm(half_a_unit(settings.common.lengths) * 3.0_f64.sqrt()),
+            length: Length::mm(settings.common.lengths.half_unit() * 3.0_f64.sqrt()),
             attitude: angle,
             axis: angle,
             speed: Speed::mm_per_s(fine / SECONDS_A_MINUTE),

@@ -61,8 +61,8 @@
 //! No output of this crate has been run on a controller by its authors; `docs/backends/krl.md` says what to check first.
 
 mod attitude;
-mod body;
 mod configuration;
+mod dialect;
 mod keywords;
 mod limits;
 mod module;
@@ -72,19 +72,16 @@ pub mod read;
 mod turns;
 
 use crate::attitude::Attitudes;
-use crate::body::Source;
+use crate::dialect::KrlDialect;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
 use crate::turns::Turns;
-use vcutc_backend_api::backend::{
-    Backend, BackendIssue, Emission, EmitError, MachineMismatch, OptionSpec, Options,
-};
-use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::ir::{Cell, MachineKind, Maker};
+use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
+use vcutc_backend_api::ir::{MachineKind, Maker, Program};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, LINES_PER_PART, Layout, Part, Text, split};
+use vcutc_backend_api::script::{Borders, Layout, Source, Text, emission, split, write};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
@@ -149,52 +146,24 @@ impl Backend for Krl {
             Ok(_) => return Err(issues),
             Err(more) => return Err(more.into_iter().chain(issues).collect()),
         };
-        if parts.len() > MOST_PARTS {
-            return Err(vec![too_many_parts(parts.len())]);
-        }
-        Ok(Box::new(KrlEmission {
+        let source = Source {
             reachable: program,
             cell,
-            settings,
-            parts,
-            turns,
-        }))
-    }
-}
-
-fn too_many_parts(count: usize) -> BackendIssue {
-    BackendIssue::OptionConflict {
-        key: LINES_PER_PART,
-        why: format!("the program would need {count} parts, and part names have room for {MOST_PARTS}"),
-    }
-}
-
-/// A program that KRL can say, and how.
-struct KrlEmission<'p> {
-    reachable: &'p ReachableProgram,
-    cell: &'p Cell,
-    settings: Settings<'p>,
-    parts: Vec<Part>,
-    turns: Turns,
-}
-
-impl Emission for KrlEmission<'_> {
-    fn write(&self, sink: &mut dyn Sink) -> Result<(), EmitError> {
-        let program = self.reachable.program();
-        let attitudes = Attitudes::new(&program.orientations, self.settings.angles)?;
-        let source = Source {
-            program,
-            reachable: self.reachable,
-            cell: self.cell,
-            settings: &self.settings,
-            attitudes: &attitudes,
-            turns: &self.turns,
         };
-        let name = main_name(
-            &program.name,
-            self.parts.len(),
-            &self.settings.common.profile.reserved,
-        );
-        module::write(source, &name, &self.parts, &mut Text::new(sink, LAYOUT))
+        emission(parts, MOST_PARTS, move |parts, sink| {
+            let Program {
+                name, orientations, ..
+            } = source.program();
+            let main = main_name(name, parts.len(), &settings.common.profile.reserved);
+            let mut krl = KrlDialect {
+                source,
+                settings: &settings,
+                attitudes: &Attitudes::new(orientations, settings.angles)?,
+                turns: &turns,
+                text: &mut Text::new(sink, LAYOUT),
+                rates: None,
+            };
+            write(&mut krl, source, &settings.common, &main, parts)
+        })
     }
 }

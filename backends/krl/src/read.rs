@@ -39,7 +39,6 @@ pub mod variables;
 use crate::configuration::Configuration;
 use crate::options::Settings;
 use crate::turns::RATES;
-use setup::half_a_unit;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
@@ -63,14 +62,14 @@ impl Reader for KrlReader {
 
     fn grain(&self, options: &Options) -> Grain {
         let settings = Settings::read(options);
-        let angle = Angle::deg(half_a_unit(settings.angles));
+        let angle = Angle::deg(settings.angles.half_unit());
         Grain {
-            length: Length::mm(half_a_unit(settings.common.lengths)),
+            length: Length::mm(settings.common.lengths.half_unit()),
             // A, B and C may each be off by as much, and at B = 90 deg A and C turn about the same line.
             attitude: angle * 3.0,
             axis: angle,
             speed: Speed::m_per_s(FINE),
-            rate: AngularSpeed::deg_per_s(half_a_unit(RATES)),
+            rate: AngularSpeed::deg_per_s(RATES.half_unit()),
             per_minute: 0.0,
             time: Duration::s(FINE),
         }

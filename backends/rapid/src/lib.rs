@@ -51,7 +51,7 @@
 //!
 //! No output of this crate has been run on a controller by its authors; `docs/backends/rapid.md` says what to check first.
 
-mod body;
+mod dialect;
 mod keywords;
 mod limits;
 mod module;
@@ -61,20 +61,15 @@ mod profile;
 mod read;
 mod speeds;
 
-use crate::body::Source;
+use crate::dialect::RapidDialect;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
-use crate::orient::Quaternion;
 use crate::read::RapidReader;
-use crate::speeds::Speeds;
-use vcutc_backend_api::backend::{
-    Backend, BackendIssue, Emission, EmitError, MachineMismatch, OptionSpec, Options,
-};
-use vcutc_backend_api::bundle::Sink;
-use vcutc_backend_api::ir::{Cell, MachineKind, Maker};
+use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
+use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, LINES_PER_PART, Layout, Part, Text, split};
+use vcutc_backend_api::script::{Borders, Layout, Lead, Source, Text, emission, split, write};
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that RobotStudio writes.
@@ -129,19 +124,29 @@ impl Backend for Rapid {
             &program.program().ops,
             settings.common.lines_per_part,
             Borders::BetweenCuts,
-            &|at, lead| body::lines_of(lead) + waypoints_of(program, at),
+            &|at, lead| lines_before(program, at, lead),
         );
         let cell = limits::check(program, &settings, parts.len())?;
-        if parts.len() > MOST_PARTS {
-            return Err(vec![too_many_parts(parts.len())]);
-        }
-        Ok(Box::new(RapidEmission {
+        let source = Source {
             reachable: program,
             cell,
-            settings,
-            parts,
-        }))
+        };
+        emission(parts, MOST_PARTS, move |parts, sink| {
+            let main = main_name(
+                &source.program().name,
+                &limits::taken_names(&settings, source.cell),
+            );
+            let mut text = Text::new(sink, LAYOUT);
+            let mut rapid = RapidDialect::new(source, &settings, &mut text);
+            write(&mut rapid, source, &settings.common, &main, parts)
+        })
     }
+}
+
+/// How many lines stand before the line of an op itself: comments and waypoints, for speeds are named by the moves.
+fn lines_before(program: &ReachableProgram, at: usize, lead: Lead) -> u64 {
+    let comments = u64::from(lead.operation.is_some()) + u64::from(lead.open.is_some() || lead.cut.is_some());
+    comments + waypoints_of(program, at)
 }
 
 /// How many points on the way the op at this place has: each is a line.
@@ -149,42 +154,4 @@ fn waypoints_of(program: &ReachableProgram, at: usize) -> u64 {
     let waypoints = &program.motion().waypoints;
     let before = |at| waypoints.partition_point(|waypoint| (waypoint.op.0 as usize) < at);
     (before(at.saturating_add(1)) - before(at)) as u64
-}
-
-fn too_many_parts(count: usize) -> BackendIssue {
-    BackendIssue::OptionConflict {
-        key: LINES_PER_PART,
-        why: format!("the program would need {count} parts, and part names have room for {MOST_PARTS}"),
-    }
-}
-
-/// A program that RAPID can say, and how.
-struct RapidEmission<'p> {
-    reachable: &'p ReachableProgram,
-    cell: &'p Cell,
-    settings: Settings<'p>,
-    parts: Vec<Part>,
-}
-
-impl Emission for RapidEmission<'_> {
-    fn write(&self, sink: &mut dyn Sink) -> Result<(), EmitError> {
-        let program = self.reachable.program();
-        let rounded = program.orientations.iter().copied().map(Quaternion::rounded);
-        let quaternions: Vec<Quaternion> = rounded.collect();
-        let (tool, work_object) = (
-            self.settings.tool(self.cell),
-            self.settings.work_object(self.cell),
-        );
-        let source = Source {
-            program,
-            reachable: self.reachable,
-            cell: self.cell,
-            settings: &self.settings,
-            speeds: &Speeds::of(program),
-            quaternions: &quaternions,
-            frames: &format!(",{tool}\\WObj:={work_object};"),
-        };
-        let name = main_name(&program.name, &limits::taken_names(&self.settings, self.cell));
-        module::write(source, &name, &self.parts, &mut Text::new(sink, LAYOUT))
-    }
 }

@@ -30,6 +30,7 @@ use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::readback::{Frames, Grain, Place, Reader, Says, Sources, Stance, Statement, essence};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
@@ -54,11 +55,11 @@ impl Reader for RapidReader {
 
     fn grain(&self, options: &Options) -> Grain {
         let settings = Settings::read(options);
-        let trimmed = half_unit(TRIMMED_DECIMALS);
+        let trimmed = FixedDecimal::new(TRIMMED_DECIMALS).half_unit();
         Grain {
-            length: Length::mm(half_unit(settings.common.lengths.decimals())),
+            length: Length::mm(settings.common.lengths.half_unit()),
             attitude: Angle::rad(GRAIN_RAD),
-            axis: Angle::deg(half_unit(settings.angles.decimals())),
+            axis: Angle::deg(settings.angles.half_unit()),
             speed: Speed::mm_per_s(trimmed),
             rate: AngularSpeed::deg_per_s(trimmed),
             per_minute: trimmed,
@@ -101,11 +102,6 @@ impl Reader for RapidReader {
         teller.follow();
         teller.never_carried_out();
     }
-}
-
-/// Half a unit of the last of so many decimals.
-fn half_unit(decimals: u8) -> f64 {
-    (0..decimals).fold(0.5, |unit, _| unit / 10.0)
 }
 
 /// The statements that the profile of the machine puts into programs, without their layout.

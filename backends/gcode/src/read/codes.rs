@@ -3,8 +3,8 @@
 //! They are compared as texts, for nobody knows what they mean but the job, which says what they are for. One that has several
 //! lines is there when its last line is.
 
-use super::lines::{Code, Style};
-use crate::options::Codes;
+use crate::controller::Codes;
+use crate::statement::{Code, Style};
 use vcutc_backend_api::readback::essence;
 
 /// What blocks of the job are for.

@@ -5,14 +5,15 @@
 //! a meaning of F, a way to stop. Coordinates that a block leaves out are those of the block before, which is the controller's rule
 //! too; behind a switch of tool-centre-point control the linear ones mean something else and have to be said anew.
 
-use super::order::{
-    Act, Context, Coordinates, Cycle, HABITS, Habit, Mode, Motion, Once, Order, Parsed, Tcp, Trouble,
-    expected,
-};
+use super::codes::Role;
+use super::context::Context;
 use super::rates::is_too_fast;
-use super::tongue::{Tongue, WorkOffset};
 use crate::axes::WorkInOffset;
-use crate::dialect::{AxisPace, FeedMode, TcpCodes};
+use crate::controller::{AxisPace, Facts, TcpCodes, Unnumbered};
+use crate::statement::{
+    Act, CONVENTIONS, Convention, Coordinates, Cycle, FeedMode, Mode, Motion, Once, Order, Parsed, ReadError,
+    Tcp, expected,
+};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, MOST_AXES, Ready, Switch};
 use vcutc_backend_api::readback::{Deed, End, FrameRole, FrameSetting, Held, Pace, Says, Target};
@@ -25,7 +26,6 @@ const SECONDS_A_MINUTE: f64 = 60.0;
 
 /// The state of a control.
 pub(super) struct Control<'a> {
-    tongue: &'static dyn Tongue,
     context: Context<'a>,
     work_in_offset: WorkInOffset,
     modes: Modes,
@@ -45,7 +45,7 @@ pub(super) struct Control<'a> {
 /// What holds, as far as it has been said.
 #[derive(Clone, Copy, Debug, Default)]
 struct Modes {
-    habits: [Once; HABITS],
+    conventions: [Once; CONVENTIONS],
     feed: Option<FeedMode>,
     stop: Option<End>,
     tcp: Option<Tcp>,
@@ -61,20 +61,19 @@ enum Reading {
 }
 
 impl Modes {
-    fn habit(&mut self, habit: Habit) -> Option<&mut Once> {
-        self.habits.get_mut(habit as usize)
+    fn convention(&mut self, convention: Convention) -> Option<&mut Once> {
+        self.conventions.get_mut(convention as usize)
     }
 
-    fn has(&self, habit: Habit) -> bool {
-        self.habits.get(habit as usize) == Some(&Once::Yes)
+    fn has(&self, convention: Convention) -> bool {
+        self.conventions.get(convention as usize) == Some(&Once::Yes)
     }
 }
 
 impl<'a> Control<'a> {
     /// Nothing said yet.
-    pub(super) fn new(tongue: &'static dyn Tongue, context: Context<'a>) -> Self {
+    pub(super) fn new(context: Context<'a>) -> Self {
         let mut control = Self {
-            tongue,
             context,
             work_in_offset: WorkInOffset::new(context.cell.base.frame.orientation),
             modes: Modes::default(),
@@ -92,7 +91,7 @@ impl<'a> Control<'a> {
     /// A part begins: it has to say everything again.
     pub(super) fn restart(&mut self) {
         self.modes = Modes::default();
-        for &mode in self.tongue.unsaid() {
+        for &mode in self.facts().unsaid {
             self.set(mode);
         }
         (self.motion, self.feed) = (None, None);
@@ -155,24 +154,24 @@ impl<'a> Control<'a> {
     /// Sets modes; what is told if they are all that a block has.
     fn modes(&mut self, modes: &[Mode]) -> Parsed<Says> {
         let mut says = Says::Setting;
-        let mut trouble = None;
+        let mut error = None;
         for &mode in modes {
             self.set(mode);
             match self.judged(mode) {
                 Ok(Says::Setting) => {}
                 Ok(other) => says = other,
-                Err(wrong) => trouble = Some(wrong),
+                Err(wrong) => error = Some(wrong),
             }
         }
-        trouble.map_or(Ok(says), Err)
+        error.map_or(Ok(says), Err)
     }
 
     fn set(&mut self, mode: Mode) {
         match mode {
-            Mode::Habit(habit) | Mode::Not(habit) => {
-                let is_habit = matches!(mode, Mode::Habit(_));
-                if let Some(held) = self.modes.habit(habit) {
-                    *held = if is_habit { Once::Yes } else { Once::No };
+            Mode::Convention(convention) | Mode::Not(convention) => {
+                let is_kept = matches!(mode, Mode::Convention(_));
+                if let Some(held) = self.modes.convention(convention) {
+                    *held = if is_kept { Once::Yes } else { Once::No };
                 }
             }
             Mode::Feed(feed) => {
@@ -191,8 +190,7 @@ impl<'a> Control<'a> {
             }
             Mode::Tool(tool) => {
                 // A kinematics that the machine's builder switches takes the offset at hand: the axes would have to jump.
-                let jumps =
-                    self.context.settings.dialect.tcp_codes() == TcpCodes::Given && self.modes.tool != tool;
+                let jumps = self.facts().tcp_codes == TcpCodes::Given && self.modes.tool != tool;
                 if jumps && self.modes.tcp == Some(Tcp::On) {
                     self.set(Mode::Tcp(None));
                 }
@@ -216,26 +214,37 @@ impl<'a> Control<'a> {
     fn judged(&self, mode: Mode) -> Parsed<Says> {
         let cell = self.context.cell;
         match mode {
-            Mode::Habit(_) | Mode::Feed(Some(_)) | Mode::Stop(Some(_)) | Mode::Tcp(_) | Mode::Cycle(_) => {
-                Ok(Says::Setting)
-            }
-            Mode::Not(habit) => match self.tongue.habits().iter().find(|(known, _)| *known == habit) {
+            Mode::Convention(_)
+            | Mode::Feed(Some(_))
+            | Mode::Stop(Some(_))
+            | Mode::Tcp(_)
+            | Mode::Cycle(_) => Ok(Says::Setting),
+            Mode::Not(convention) => match self
+                .facts()
+                .conventions
+                .iter()
+                .find(|(known, _)| *known == convention)
+            {
                 Some((_, words)) => expected(format!("`{words}`")),
-                None => Err(Trouble::Unknown),
+                None => Err(ReadError::Unknown),
             },
             Mode::Feed(None) => expected("a speed in mm/min or inverse time"),
             Mode::Stop(None) => expected(match self.context.settings.common.approximation {
                 Some(distance) => format!(
                     "`{}`, or rounding by {} mm",
-                    self.tongue.exact(),
+                    self.facts().exact_word,
                     distance.to_mm()
                 ),
-                None => format!("`{}`", self.tongue.exact()),
+                None => format!("`{}`", self.facts().exact_word),
             }),
             Mode::Tool(None | Some(0)) => Ok(Says::Setting),
             Mode::Tool(Some(is)) => frame(FrameRole::Tool, is, cell.tool.number, self.tool()),
             Mode::Work(is) => frame(FrameRole::Base, is, cell.base.number, FIRST_OFFSET),
         }
+    }
+
+    fn facts(&self) -> &'static Facts {
+        self.context.settings.facts()
     }
 
     /// The number of the blade in the controller's table.
@@ -245,12 +254,12 @@ impl<'a> Control<'a> {
     }
 
     /// What both kinds of motion depend on.
-    fn habits(&self) -> Parsed<()> {
+    fn conventions(&self) -> Parsed<()> {
         let missing = self
-            .tongue
-            .habits()
+            .facts()
+            .conventions
             .iter()
-            .find(|(habit, _)| !self.modes.has(*habit));
+            .find(|(convention, _)| !self.modes.has(*convention));
         match missing {
             Some((_, words)) => expected(format!("`{words}` before a motion")),
             None => Ok(()),
@@ -259,7 +268,7 @@ impl<'a> Control<'a> {
 
     /// A motion of the tip.
     fn straight(&mut self, order: &Order<'_>) -> Parsed<Deed> {
-        self.habits()?;
+        self.conventions()?;
         if self.modes.tcp != Some(Tcp::On) {
             return expected("tool-centre-point control on, or coordinates of the machine");
         }
@@ -267,9 +276,9 @@ impl<'a> Control<'a> {
             return expected(format!("tool {} before a motion of the tip", self.tool()));
         }
         let offset = self.context.cell.base.number.unwrap_or(FIRST_OFFSET);
-        let is_said = match (self.tongue.work_offset(), self.context.cell.base.number) {
-            (WorkOffset::Said, _) | (WorkOffset::Preset, Some(_)) => true,
-            (WorkOffset::Preset, None) => false,
+        let is_said = match (self.facts().unnumbered, self.context.cell.base.number) {
+            (Unnumbered::First, _) | (Unnumbered::Operators, Some(_)) => true,
+            (Unnumbered::Operators, None) => false,
         };
         if is_said && self.modes.work != Some(offset) {
             return expected(format!("work offset {offset} before a motion of the tip"));
@@ -281,7 +290,7 @@ impl<'a> Control<'a> {
         let end = match (order.exact_once, self.modes.stop) {
             (Once::Yes, _) => End::Exact,
             (Once::No, Some(end)) => end,
-            (Once::No, None) => return expected(format!("`{}` before a motion", self.tongue.exact())),
+            (Once::No, None) => return expected(format!("`{}` before a motion", self.facts().exact_word)),
         };
         let before = self.tip;
         self.take(order);
@@ -302,24 +311,27 @@ impl<'a> Control<'a> {
 
     /// A motion of all axes.
     fn all_axes(&mut self, order: &Order<'_>) -> Parsed<Deed> {
-        self.habits_of_axes()?;
+        self.conventions_of_axes()?;
         if self.modes.tcp != Some(Tcp::Off) {
             return expected("tool-centre-point control off before coordinates of the machine");
         }
-        if let Some(tool) = self.tongue.tool_of_axis_moves()
+        if let Some(tool) = self.facts().tool_of_axis_moves
             && self.modes.tool != Some(tool)
         {
             return expected("`D0` with coordinates of the machine");
         }
         if order.exact_once == Once::No && self.modes.stop != Some(End::Exact) {
-            return expected(format!("`{}` before a motion of all axes", self.tongue.exact()));
+            return expected(format!(
+                "`{}` before a motion of all axes",
+                self.facts().exact_word
+            ));
         }
         let from = self.axes;
         self.tip = [None; 3];
         for (known, said) in self.axes.iter_mut().zip(order.axes) {
             *known = said.or(*known);
         }
-        let pace = self.context.settings.dialect.axis_pace();
+        let pace = self.facts().axis_pace;
         match (pace, self.motion) {
             (AxisPace::Rapid, Some(Motion::Rapid)) => {}
             (AxisPace::Rapid, Some(Motion::AtFeed) | None) => {
@@ -349,16 +361,16 @@ impl<'a> Control<'a> {
         Ok(Deed::Axes(axes))
     }
 
-    /// Coordinates of the machine need no habits of the tip.
-    fn habits_of_axes(&self) -> Parsed<()> {
-        let needed = |habit: Habit| match habit {
-            Habit::Absolute | Habit::Millimetres | Habit::AsWritten => true,
-            Habit::ByAxes | Habit::MachineAngles | Habit::FeedOfTip => false,
+    /// Coordinates of the machine need no conventions of the tip.
+    fn conventions_of_axes(&self) -> Parsed<()> {
+        let needed = |convention: Convention| match convention {
+            Convention::Absolute | Convention::Millimetres | Convention::AsWritten => true,
+            Convention::ByAxes | Convention::MachineAngles | Convention::FeedOfTip => false,
         };
-        let missing = self.tongue.habits().iter();
+        let missing = self.facts().conventions.iter();
         let missing = missing
-            .filter(|(habit, _)| needed(*habit))
-            .find(|(habit, _)| !self.modes.has(*habit));
+            .filter(|(convention, _)| needed(*convention))
+            .find(|(convention, _)| !self.modes.has(*convention));
         match missing {
             Some((_, words)) => expected(format!("`{words}` before a motion")),
             None => Ok(()),
@@ -429,7 +441,7 @@ impl<'a> Control<'a> {
 
     /// Whether the tip goes farther than by its last decimal.
     fn moves_the_tip(&self, before: [Option<f64>; 3]) -> bool {
-        let unit = 2.0 * super::half_a_unit(self.context.settings.common.lengths);
+        let unit = self.context.settings.common.lengths.unit();
         let ways = self.tip.into_iter().zip(before);
         ways.filter_map(|(to, from)| Some((to? - from?).abs()))
             .any(|way| way > unit * 1.5)
@@ -444,12 +456,12 @@ impl<'a> Control<'a> {
             Act::Switch(output, state) => Deed::Switch { output, state },
             Act::Generator(state) => match cell.ultrasonic {
                 Some(output) => Deed::Switch { output, state },
-                None => return Err(Trouble::Unknown),
+                None => return Err(ReadError::Unknown),
             },
             Act::Await(input) => Deed::AwaitInput(input),
             Act::AwaitReady => match cell.ready {
                 Ready::Input(input) => Deed::AwaitInput(input),
-                Ready::After(_) => return Err(Trouble::Unknown),
+                Ready::After(_) => return Err(ReadError::Unknown),
             },
             Act::Wait(time) => Deed::Wait(time),
             Act::CycleWait(time) => match cycle {
@@ -518,8 +530,7 @@ fn frame(role: FrameRole, is: u32, given: Option<u32>, otherwise: u32) -> Parsed
 }
 
 /// What a block that the job gives does.
-pub(super) fn given(role: super::codes::Role) -> Order<'static> {
-    use super::codes::Role;
+pub(super) fn given(role: Role) -> Order<'static> {
     match role {
         Role::On => Order::act(Act::Generator(Switch::On)),
         Role::Off => Order::act(Act::Generator(Switch::Off)),

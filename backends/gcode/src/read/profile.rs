@@ -1,34 +1,9 @@
 //! Lines of the machine's profile, which stand in the main program as they are and are not understood.
 
 use super::codes::essences;
-use super::lines::{Code, Style};
-use super::tongue;
-use crate::dialect::Controller;
 use crate::options::Settings;
+use crate::statement::Style;
 use vcutc_backend_api::readback::essence;
-
-/// The statement of a line that is to be one block as it stands, empty for a comment. None where the control would read
-/// something else into it: a number of its own, a comment in front, signs that mean something even in comments.
-pub(crate) fn statement_of_line(line: &str, controller: Controller) -> Option<&str> {
-    let is_sign = |byte: &u8| !matches!(byte, b'(' | b')');
-    let signs: Vec<u8> = controller.dialect().layout().kept_out_of_comments.to_vec();
-    let has_sign = |byte| {
-        signs
-            .iter()
-            .filter(|sign| is_sign(sign))
-            .any(|sign| *sign == byte)
-    };
-    if line.bytes().any(has_sign) {
-        return None;
-    }
-    let line = line.trim();
-    let style = tongue::of(controller).style();
-    match style.code(line, 0) {
-        Code::Is(span, code) => (span.start == 0).then_some(code),
-        Code::None => line.starts_with(['(', ';', '*']).then_some(""),
-        Code::Broken(..) | Code::Active(_) => None,
-    }
-}
 
 /// Those that are still to come.
 pub(super) struct OfProfile {

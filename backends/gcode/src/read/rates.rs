@@ -3,9 +3,8 @@
 //! The proof of reach says nothing about these motions but where they end, so their speed is held against the rates of the
 //! axes, as far as the text says where the axes come from. Behind motions of the tip it says so of rotary axes only.
 
-use super::half_a_unit;
-use super::order::Context;
-use crate::dialect::AxisPace;
+use super::context::Context;
+use crate::controller::AxisPace;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
 
 /// Positions of axes in mm and degrees, where they are known.
@@ -24,7 +23,7 @@ pub(super) fn is_too_fast(
     from: &Positions,
     to: &Positions,
 ) -> bool {
-    let fine = half_a_unit(context.settings.fine());
+    let fine = context.settings.fine().half_unit();
     let feed = (feed - fine).max(0.0);
     let seconds = match pace {
         AxisPace::Rapid => return false,
@@ -89,8 +88,9 @@ fn printed(axis: &Axis, value: f64) -> f64 {
 }
 
 fn grain(context: Context<'_>, axis: &Axis) -> f64 {
-    half_a_unit(match axis.kind {
+    let format = match axis.kind {
         AxisKind::Linear => context.settings.common.lengths,
         AxisKind::Rotary => context.settings.angles,
-    })
+    };
+    format.half_unit()
 }

@@ -1,8 +1,7 @@
 //! The files of a program: their statements one by one, and which is called by which name.
 
-use super::lines::{self, Code, Span, Style};
-use super::order::{Context, Flow, Routine, Trouble};
-use super::tongue::Tongue;
+use super::context::Context;
+use crate::statement::{Code, Flow, ReadError, Routine, Span, Style, line};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use vcutc_backend_api::readback::{Place, ProgramFile};
@@ -20,12 +19,12 @@ pub(super) struct Script<'t> {
 }
 
 impl<'t> Script<'t> {
-    pub(super) fn new(file: u32, source: &'t ProgramFile, tongue: &dyn Tongue) -> Self {
+    pub(super) fn new(file: u32, source: &'t ProgramFile, context: Context<'_>) -> Self {
         let text = source.text.as_str();
         Self {
             file,
             text,
-            routine: tongue.routine(&source.name, text),
+            routine: context.settings.controller.routine(&source.name, text),
             at: 0,
             entered: false,
             begun: false,
@@ -35,14 +34,14 @@ impl<'t> Script<'t> {
     /// The next statement.
     pub(super) fn next(&mut self, style: Style) -> Option<Line<'t>> {
         loop {
-            let (line, next) = lines::line(self.text, self.at)?;
+            let (line, next) = line(self.text, self.at)?;
             let code = style.code(line, self.at);
             self.at = next;
             let (span, code) = match code {
                 Code::None => continue,
                 Code::Is(span, code) => (span, Ok(code)),
-                Code::Broken(span, expected) => (span, Err(Trouble::Expected(expected.to_owned()))),
-                Code::Active(span) => (span, Err(Trouble::Unknown)),
+                Code::Broken(span, expected) => (span, Err(ReadError::Expected(expected.to_owned()))),
+                Code::Active(span) => (span, Err(ReadError::Unknown)),
             };
             return Some(Line {
                 place: self.place(span),
@@ -81,7 +80,7 @@ pub(super) struct Line<'t> {
     /// Bytes of the whole line.
     pub(super) length: usize,
     /// The statement, or why there is none to be read.
-    pub(super) code: Result<&'t str, Trouble>,
+    pub(super) code: Result<&'t str, ReadError>,
 }
 
 /// The files by the names under which they are called.
@@ -125,18 +124,13 @@ impl<'t> Directory<'t> {
 }
 
 /// The first file that no other calls.
-pub(super) fn main(
-    scripts: &[Script<'_>],
-    directory: &Directory<'_>,
-    tongue: &dyn Tongue,
-    context: Context<'_>,
-) -> Option<usize> {
+pub(super) fn main(scripts: &[Script<'_>], directory: &Directory<'_>, context: Context<'_>) -> Option<usize> {
     if scripts.len() < 2 {
         return (!scripts.is_empty()).then_some(0);
     }
     let mut called = vec![false; scripts.len()];
     for (place, script) in scripts.iter().enumerate() {
-        for routine in calls(script, tongue, context) {
+        for routine in calls(script, context) {
             let to = directory.find(routine).filter(|&to| to != place);
             if let Some(called) = to.and_then(|to| called.get_mut(to)) {
                 *called = true;
@@ -150,14 +144,14 @@ pub(super) fn main(
 const LONGEST_CALL: usize = 128;
 
 /// The parts that a file calls.
-fn calls<'t>(script: &Script<'t>, tongue: &dyn Tongue, context: Context<'_>) -> Vec<Routine<'t>> {
+fn calls<'t>(script: &Script<'t>, context: Context<'_>) -> Vec<Routine<'t>> {
     let mut found = Vec::new();
     let mut at = 0;
-    while let Some((line, next)) = lines::line(script.text, at) {
-        if let Code::Is(_, code) = tongue.style().code(line, at)
+    while let Some((line, next)) = line(script.text, at) {
+        if let Code::Is(_, code) = context.settings.facts().style.code(line, at)
             && code.len() <= LONGEST_CALL
             && may_be_call(code)
-            && let Ok(order) = tongue.order(code, context)
+            && let Ok(order) = context.settings.controller.order(code, context.scope())
             && let Some(Flow::Call(routine)) = order.flow
         {
             found.push(routine);

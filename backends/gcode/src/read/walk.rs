@@ -1,21 +1,21 @@
 //! The statements of all files in the order in which a control carries them out.
 
 use super::codes::{Found, Given, Role};
+use super::context::Context;
 use super::control::{Control, given};
-use super::order::{Context, Flow, Order, Routine, Trouble};
 use super::profile::{OfProfile, Stage};
 use super::scripts::{self, Directory, Line, Script};
-use super::tongue::{self, Heads, Tongue};
 use crate::axes;
+use crate::controller::Heads;
 use crate::options::Settings;
+use crate::statement::{Flow, Order, ReadError, Routine};
 use vcutc_backend_api::readback::{Deed, Place, Says, Sources, Statement};
 
 /// Tells all statements of a program.
 pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
     let settings = Settings::read(sources.options);
     // Without words every coordinate is unknown, which is what it is.
-    let words = axes::words(sources.cell, &settings).unwrap_or_default();
-    let tongue = tongue::of(settings.controller);
+    let words = axes::words(sources.cell, settings.spindle_letter).unwrap_or_default();
     let context = Context {
         cell: sources.cell,
         settings: &settings,
@@ -23,16 +23,15 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
     };
     let scripts: Vec<Script<'_>> = (0..)
         .zip(sources.files)
-        .map(|(place, file)| Script::new(place, file, tongue))
+        .map(|(place, file)| Script::new(place, file, context))
         .collect();
     let directory = Directory::new(&scripts);
-    let main = scripts::main(&scripts, &directory, tongue, context);
+    let main = scripts::main(&scripts, &directory, context);
     let mut walk = Walk {
-        tongue,
         context,
-        control: Control::new(tongue, context),
-        given: Given::new(settings.codes, tongue.style()),
-        profile: OfProfile::new(&settings, tongue.style()),
+        control: Control::new(context),
+        given: Given::new(settings.codes, settings.facts().style),
+        profile: OfProfile::new(&settings, settings.facts().style),
         scripts,
         directory,
         stack: Vec::new(),
@@ -46,7 +45,6 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
 }
 
 struct Walk<'t, 'h> {
-    tongue: &'static dyn Tongue,
     context: Context<'t>,
     control: Control<'t>,
     given: Given,
@@ -81,7 +79,7 @@ impl<'t> Walk<'t, '_> {
 
     fn follow(&mut self) {
         while let Some(&script) = self.stack.last() {
-            let style = self.tongue.style();
+            let style = self.context.settings.facts().style;
             let Some(current) = self.scripts.get_mut(script) else {
                 return;
             };
@@ -107,7 +105,7 @@ impl<'t> Walk<'t, '_> {
 
     /// A file has no more lines, but nothing said that the program or part ends.
     fn ends_too_soon(&mut self, place: Place) {
-        let [of_main, of_part] = self.tongue.endings();
+        let [of_main, of_part] = self.context.settings.facts().endings;
         let missing = if self.stack.len() > 1 { of_part } else { of_main };
         let expected = format!("`{missing}` at the end");
         self.tell(place, Says::Unreadable { expected });
@@ -118,10 +116,13 @@ impl<'t> Walk<'t, '_> {
     fn leave(&mut self) {
         let Some(script) = self.stack.pop() else { return };
         while let Some(line) = self.next_of(script) {
-            let order = line
-                .code
-                .ok()
-                .and_then(|code| self.tongue.order(code, self.context).ok());
+            let order = line.code.ok().and_then(|code| {
+                self.context
+                    .settings
+                    .controller
+                    .order(code, self.context.scope())
+                    .ok()
+            });
             let is_end = match order.and_then(|order| order.flow) {
                 Some(Flow::Tape | Flow::End) => true,
                 Some(Flow::Close(routine)) => self.is_own(script, routine),
@@ -141,7 +142,7 @@ impl<'t> Walk<'t, '_> {
     }
 
     fn next_of(&mut self, script: usize) -> Option<Line<'t>> {
-        let style = self.tongue.style();
+        let style = self.context.settings.facts().style;
         self.scripts.get_mut(script)?.next(style)
     }
 
@@ -159,10 +160,10 @@ impl<'t> Walk<'t, '_> {
     }
 
     fn statement(&mut self, script: usize, line: &Line<'t>) -> (Says, Onward) {
-        let longest = self.context.settings.dialect.longest_line();
+        let longest = self.context.settings.facts().longest_line;
         let understood = match &line.code {
-            Err(trouble) => Err(trouble.clone()),
-            Ok(_) if line.length > longest => Err(Trouble::Expected(format!(
+            Err(error) => Err(error.clone()),
+            Ok(_) if line.length > longest => Err(ReadError::Expected(format!(
                 "a line of at most {longest} characters"
             ))),
             Ok(code) => self.understood(script, line.place, code),
@@ -178,11 +179,11 @@ impl<'t> Walk<'t, '_> {
         }
         match understood {
             Ok((says, onward)) => (self.in_its_stage(says), onward),
-            Err(trouble) => {
+            Err(error) => {
                 self.control.forget();
-                let says = match trouble {
-                    Trouble::Unknown => Says::Unknown,
-                    Trouble::Expected(expected) => Says::Unreadable { expected },
+                let says = match error {
+                    ReadError::Unknown => Says::Unknown,
+                    ReadError::Expected(expected) => Says::Unreadable { expected },
                 };
                 (says, Onward::Next)
             }
@@ -203,7 +204,12 @@ impl<'t> Walk<'t, '_> {
         }
     }
 
-    fn understood(&mut self, script: usize, place: Place, code: &'t str) -> Result<(Says, Onward), Trouble> {
+    fn understood(
+        &mut self,
+        script: usize,
+        place: Place,
+        code: &'t str,
+    ) -> Result<(Says, Onward), ReadError> {
         let order = match self.given.heed(code) {
             Found::Part(Role::TcpOn | Role::TcpOff) => {
                 self.control.switch_tcp(None);
@@ -211,7 +217,11 @@ impl<'t> Walk<'t, '_> {
             }
             Found::Part(Role::On | Role::Off | Role::Ready) => return Ok((Says::Setting, Onward::Next)),
             Found::Whole(role) => given(role),
-            Found::Nothing => self.tongue.order(code, self.context)?,
+            Found::Nothing => self
+                .context
+                .settings
+                .controller
+                .order(code, self.context.scope())?,
         };
         let begun = self.scripts.get_mut(script).map(|script| {
             let is_tape = order.flow == Some(Flow::Tape);
@@ -221,7 +231,7 @@ impl<'t> Walk<'t, '_> {
         });
         let says = self.control.carry_out(&order)?;
         let is_main = self.stack.len() == 1;
-        let needs_head = match self.tongue.heads() {
+        let needs_head = match self.context.settings.facts().heads {
             Heads::None => false,
             Heads::OfParts => !is_main,
             Heads::All => true,
@@ -230,7 +240,7 @@ impl<'t> Walk<'t, '_> {
             Some(Flow::Tape | Flow::Head(_) | Flow::PartHead(_)) => {}
             Some(Flow::Call(_) | Flow::Return | Flow::ReturnFrom(_) | Flow::Close(_) | Flow::End) | None => {
                 if needs_head && begun == Some(false) {
-                    return Err(Trouble::Expected(
+                    return Err(ReadError::Expected(
                         "the name of the file, at its beginning".to_owned(),
                     ));
                 }
@@ -248,20 +258,22 @@ impl<'t> Walk<'t, '_> {
         flow: Flow<'_>,
         begun: bool,
         order: &Order<'_>,
-    ) -> Result<(Says, Onward), Trouble> {
+    ) -> Result<(Says, Onward), ReadError> {
         let is_main = self.stack.len() == 1;
         let is_own = |routine: Routine<'_>| self.is_own(script, routine);
         if order.feed.is_some() {
-            return Err(Trouble::Expected("nothing else in the block".to_owned()));
+            return Err(ReadError::Expected("nothing else in the block".to_owned()));
         }
         match flow {
             Flow::Tape if !begun => Ok((Says::Setting, Onward::Next)),
-            Flow::Tape => Err(Trouble::Expected("the end of the program before `%`".to_owned())),
+            Flow::Tape => Err(ReadError::Expected(
+                "the end of the program before `%`".to_owned(),
+            )),
             Flow::Head(routine) if !begun && is_own(routine) => Ok((Says::Setting, Onward::Next)),
             Flow::PartHead(routine) if !begun && is_own(routine) && !is_main => {
                 Ok((Says::Setting, Onward::Next))
             }
-            Flow::Head(_) | Flow::PartHead(_) => Err(Trouble::Expected(
+            Flow::Head(_) | Flow::PartHead(_) => Err(ReadError::Expected(
                 "the name of the file, at its beginning".to_owned(),
             )),
             Flow::Call(routine) => {
@@ -272,14 +284,16 @@ impl<'t> Walk<'t, '_> {
                         self.control.restart();
                         Ok((Says::PartBegins, Onward::Enter(to)))
                     }
-                    None => Err(Trouble::Expected(self.tongue.callable(routine))),
+                    None => Err(ReadError::Expected(
+                        self.context.settings.controller.callable(routine),
+                    )),
                 }
             }
             Flow::Return if !is_main => Ok((Says::Setting, Onward::Leave)),
             Flow::ReturnFrom(routine) if !is_main && is_own(routine) => Ok((Says::Setting, Onward::Leave)),
-            Flow::Return | Flow::ReturnFrom(_) => Err(Trouble::Unknown),
+            Flow::Return | Flow::ReturnFrom(_) => Err(ReadError::Unknown),
             Flow::Close(routine) if !is_own(routine) => {
-                Err(Trouble::Expected("the name of the file".to_owned()))
+                Err(ReadError::Expected("the name of the file".to_owned()))
             }
             Flow::Close(_) if is_main => Ok((Says::Setting, Onward::Over)),
             Flow::Close(_) => Ok((Says::Setting, Onward::Leave)),
@@ -288,7 +302,7 @@ impl<'t> Walk<'t, '_> {
     }
 }
 
-fn is_motion(understood: &Result<(Says, Onward), Trouble>) -> bool {
+fn is_motion(understood: &Result<(Says, Onward), ReadError>) -> bool {
     match understood {
         Ok((Says::Deed(deed), _)) => match deed {
             Deed::Axes(_) | Deed::AxesToPose(_) | Deed::Straight { .. } => true,

@@ -233,12 +233,7 @@ fn is_number(value: &Value<'_>, should: f64, format: FixedDecimal) -> bool {
 
 fn is_near(is: f64, should: f64, format: FixedDecimal) -> bool {
     let rounding = 1e-9 * should.abs().max(1.0);
-    (is - should).abs() <= half_a_unit(format) * (1.0 + 1e-6) + rounding
-}
-
-/// Half a unit of the last decimal of a format.
-pub(super) fn half_a_unit(format: FixedDecimal) -> f64 {
-    0.5 / f64::from(10_u32.pow(u32::from(format.decimals())))
+    (is - should).abs() <= format.half_unit() * (1.0 + 1e-6) + rounding
 }
 
 fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>) -> bool {

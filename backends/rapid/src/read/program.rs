@@ -9,6 +9,7 @@ use crate::keywords::MAIN;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::Registered;
+use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::readback::{FrameRole, FrameSetting, ProgramFile, Says};
 
 /// A file with a module.
@@ -410,12 +411,12 @@ fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Says> {
     let Some(Registered::Value(should)) = machine.cell.load else {
         return None;
     };
-    let length = super::half_unit(machine.settings.common.lengths.decimals());
+    let length = machine.settings.common.lengths.half_unit();
     let near = |is: f64, should: f64, grain: f64| (is - should).abs() <= grain * (1.0 + 1e-6);
     let is_load = near(
         load.mass.to_kg(),
         should.mass.to_kg(),
-        super::half_unit(super::TRIMMED_DECIMALS),
+        FixedDecimal::new(super::TRIMMED_DECIMALS).half_unit(),
     ) && near(load.centre.x, should.centre.x, length)
         && near(load.centre.y, should.centre.y, length)
         && near(load.centre.z, should.centre.z, length);

@@ -1,26 +1,26 @@
 //! Letters with numbers: the words of a block.
 
 use super::lines::Style;
-use super::order::{Context, Order, Parsed, Trouble, expected};
+use super::order::{Order, Parsed, ReadError, Scope, expected};
 
 /// A number as it is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Number {
-    pub(super) value: f64,
+pub(crate) struct Number {
+    pub(crate) value: f64,
     /// Whether it has a point.
-    pub(super) point: Point,
+    pub(crate) point: Point,
 }
 
 /// Whether a number has a point: where it has none some controls count in thousandths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Point {
+pub(crate) enum Point {
     Written,
     LeftOut,
 }
 
 impl Number {
     /// It as a whole number from 0 on.
-    pub(super) fn whole(self) -> Option<u32> {
+    pub(crate) fn whole(self) -> Option<u32> {
         let is_whole = self.value >= 0.0 && self.value <= f64::from(u32::MAX) && self.value.fract() == 0.0;
         is_whole.then_some(self.value as u32)
     }
@@ -35,14 +35,14 @@ impl Number {
 
 /// A place in a statement.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cursor<'t> {
+pub(crate) struct Cursor<'t> {
     text: &'t str,
     at: usize,
     style: Style,
 }
 
 impl<'t> Cursor<'t> {
-    pub(super) const fn new(text: &'t str, style: Style) -> Self {
+    pub(crate) const fn new(text: &'t str, style: Style) -> Self {
         Self { text, at: 0, style }
     }
 
@@ -51,7 +51,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// The next byte that is neither blank nor comment.
-    pub(super) fn peek(&mut self) -> Option<u8> {
+    pub(crate) fn peek(&mut self) -> Option<u8> {
         loop {
             match (self.byte(self.at)?, self.style) {
                 (b' ' | b'\t', _) => self.at += 1,
@@ -68,7 +68,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Goes over a sign.
-    pub(super) fn skip(&mut self, sign: u8) -> bool {
+    pub(crate) fn skip(&mut self, sign: u8) -> bool {
         let is_there = self.peek() == Some(sign);
         if is_there {
             self.at += 1;
@@ -77,7 +77,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Goes over a sign that must be there.
-    pub(super) fn must(&mut self, sign: u8) -> Parsed<()> {
+    pub(crate) fn must(&mut self, sign: u8) -> Parsed<()> {
         if self.skip(sign) {
             Ok(())
         } else {
@@ -86,7 +86,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Nothing may follow.
-    pub(super) fn end(&mut self) -> Parsed<()> {
+    pub(crate) fn end(&mut self) -> Parsed<()> {
         match self.peek() {
             None => Ok(()),
             Some(_) => expected("the end of the block"),
@@ -94,14 +94,14 @@ impl<'t> Cursor<'t> {
     }
 
     /// A letter, as a capital.
-    pub(super) fn letter(&mut self) -> Option<u8> {
+    pub(crate) fn letter(&mut self) -> Option<u8> {
         let letter = self.peek().filter(u8::is_ascii_alphabetic)?;
         self.at += 1;
         Some(letter.to_ascii_uppercase())
     }
 
     /// A name: letters, digits and `_`, beginning with a letter.
-    pub(super) fn name(&mut self) -> Option<&'t str> {
+    pub(crate) fn name(&mut self) -> Option<&'t str> {
         self.peek().filter(u8::is_ascii_alphabetic)?;
         let start = self.at;
         while self.byte(self.at).is_some_and(is_of_name) {
@@ -111,7 +111,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Everything up to the next blank.
-    pub(super) fn token(&mut self) -> Option<&'t str> {
+    pub(crate) fn token(&mut self) -> Option<&'t str> {
         self.peek()?;
         let rest = self.text.get(self.at..)?;
         let token = rest.split([' ', '\t']).next().unwrap_or(rest);
@@ -120,12 +120,12 @@ impl<'t> Cursor<'t> {
     }
 
     /// Everything that is left, as it stands.
-    pub(super) fn rest(&self) -> &'t str {
+    pub(crate) fn rest(&self) -> &'t str {
         self.text.get(self.at..).unwrap_or_default()
     }
 
     /// How many letters and `_` follow.
-    pub(super) fn letters_ahead(&mut self) -> usize {
+    pub(crate) fn letters_ahead(&mut self) -> usize {
         self.peek();
         let rest = self.text.as_bytes().get(self.at..).unwrap_or_default();
         rest.iter()
@@ -134,7 +134,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Goes over this word, small and capital letters alike.
-    pub(super) fn word(&mut self, word: &str) -> bool {
+    pub(crate) fn word(&mut self, word: &str) -> bool {
         let mut ahead = *self;
         let is_there = ahead.name().is_some_and(|name| name.eq_ignore_ascii_case(word));
         if is_there {
@@ -144,7 +144,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// A number with its sign, without exponent. None where there is none.
-    pub(super) fn number(&mut self) -> Option<Number> {
+    pub(crate) fn number(&mut self) -> Option<Number> {
         let sign = self.peek()?;
         let before = *self;
         if matches!(sign, b'+' | b'-') {
@@ -193,7 +193,7 @@ const MOST_CODES: usize = 12;
 
 /// G codes or M codes of a block, in tenths.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Codes {
+pub(crate) struct Codes {
     codes: [u32; MOST_CODES],
     count: usize,
 }
@@ -201,42 +201,42 @@ pub(super) struct Codes {
 impl Codes {
     fn push(&mut self, code: u32) -> Parsed<()> {
         let place = self.codes.get_mut(self.count);
-        *place.ok_or_else(|| Trouble::Expected("fewer codes in a block".to_owned()))? = code;
+        *place.ok_or_else(|| ReadError::Expected("fewer codes in a block".to_owned()))? = code;
         self.count += 1;
         Ok(())
     }
 
     /// All of them.
-    pub(super) fn iter(&self) -> impl Iterator<Item = u32> + use<> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = u32> + use<> {
         self.codes.into_iter().take(self.count)
     }
 
     /// How many there are.
-    pub(super) const fn count(&self) -> usize {
+    pub(crate) const fn count(&self) -> usize {
         self.count
     }
 }
 
 /// The words of a block.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Block {
-    pub(super) g: Codes,
-    pub(super) m: Codes,
+pub(crate) struct Block {
+    pub(crate) g: Codes,
+    pub(crate) m: Codes,
     values: [Option<Number>; 26],
 }
 
 impl Block {
     /// Adds a word.
-    pub(super) fn add(&mut self, letter: u8, number: Number) -> Parsed<()> {
+    pub(crate) fn add(&mut self, letter: u8, number: Number) -> Parsed<()> {
         let name = char::from(letter);
-        let code = || number.code().ok_or(Trouble::Unknown);
+        let code = || number.code().ok_or(ReadError::Unknown);
         match letter {
             b'G' => self.g.push(code()?),
             b'M' => self.m.push(code()?),
             _ => {
                 let place = letter.checked_sub(b'A').map(usize::from);
                 let place = place.and_then(|place| self.values.get_mut(place));
-                match place.ok_or(Trouble::Unknown)?.replace(number) {
+                match place.ok_or(ReadError::Unknown)?.replace(number) {
                     Some(_) => expected(format!("`{name}` once in a block")),
                     None => Ok(()),
                 }
@@ -245,26 +245,26 @@ impl Block {
     }
 
     /// Takes the word of a letter out.
-    pub(super) fn take(&mut self, letter: u8) -> Option<Number> {
+    pub(crate) fn take(&mut self, letter: u8) -> Option<Number> {
         let place = letter.checked_sub(b'A').map(usize::from)?;
         self.values.get_mut(place)?.take()
     }
 
     /// Takes the word of a letter out, which must be there.
-    pub(super) fn must(&mut self, letter: u8) -> Parsed<Number> {
+    pub(crate) fn must(&mut self, letter: u8) -> Parsed<Number> {
         let found = self.take(letter);
-        found.ok_or_else(|| Trouble::Expected(format!("the word `{}`", char::from(letter))))
+        found.ok_or_else(|| ReadError::Expected(format!("the word `{}`", char::from(letter))))
     }
 
     /// Takes a whole number out, which must be there.
-    pub(super) fn whole(&mut self, letter: u8) -> Parsed<u32> {
+    pub(crate) fn whole(&mut self, letter: u8) -> Parsed<u32> {
         let whole = self.must(letter)?.whole();
-        whole.ok_or_else(|| Trouble::Expected(format!("a whole number after `{}`", char::from(letter))))
+        whole.ok_or_else(|| ReadError::Expected(format!("a whole number after `{}`", char::from(letter))))
     }
 
     /// Hands over coordinates and F; nothing may be left.
-    pub(super) fn finish(mut self, context: Context<'_>, order: &mut Order<'_>) -> Parsed<()> {
-        for word in context.words {
+    pub(crate) fn finish(mut self, scope: Scope<'_>, order: &mut Order<'_>) -> Parsed<()> {
+        for word in scope.words {
             let value = self.take(word.letter).map(|number| number.value);
             if let (Some(place), Some(value)) = (order.axes.get_mut(word.place), value) {
                 *place = Some(value);
@@ -272,13 +272,13 @@ impl Block {
         }
         order.feed = self.take(b'F').map(|number| number.value);
         match self.values.iter().any(Option::is_some) {
-            true => Err(Trouble::Unknown),
+            true => Err(ReadError::Unknown),
             false => Ok(()),
         }
     }
 
     /// Whether a coordinate is written without a point.
-    pub(super) fn lacks_a_point(&self, letter: u8) -> bool {
+    pub(crate) fn lacks_a_point(&self, letter: u8) -> bool {
         let place = letter.checked_sub(b'A').map(usize::from);
         let number = place.and_then(|place| self.values.get(place).copied().flatten());
         number.is_some_and(|number| number.point == Point::LeftOut)
@@ -286,20 +286,20 @@ impl Block {
 }
 
 /// The words of a statement that has nothing else.
-pub(super) fn block(code: &str, style: Style) -> Parsed<Block> {
+pub(crate) fn block(code: &str, style: Style) -> Parsed<Block> {
     let mut block = Block::default();
     let mut cursor = Cursor::new(code, style);
     while let Some(byte) = cursor.peek() {
         let Some(letter) = cursor.letter() else {
             return match byte {
                 // Variables, expressions, blocks that may be left out.
-                b'#' | b'[' | b'/' | b'$' | b'=' => Err(Trouble::Unknown),
+                b'#' | b'[' | b'/' | b'$' | b'=' => Err(ReadError::Unknown),
                 _ => expected("a letter with a number"),
             };
         };
         let number = match cursor.number() {
             Some(number) => number,
-            None if matches!(cursor.peek(), Some(b'#' | b'[' | b'=')) => return Err(Trouble::Unknown),
+            None if matches!(cursor.peek(), Some(b'#' | b'[' | b'=')) => return Err(ReadError::Unknown),
             None => return expected(format!("a number after `{}`", char::from(letter))),
         };
         block.add(letter, number)?;
@@ -346,7 +346,7 @@ mod tests {
             assert_eq!(values(code), expected(what), "{code}");
         }
         for code in ["G1 X#1", "X[1+2]", "G-1", "/G1", "G1.23", "A3=0.5"] {
-            assert_eq!(values(code), Err(Trouble::Unknown), "{code}");
+            assert_eq!(values(code), Err(ReadError::Unknown), "{code}");
         }
     }
 

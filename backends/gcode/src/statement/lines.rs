@@ -2,16 +2,16 @@
 
 /// A stretch of bytes of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Span {
+pub(crate) struct Span {
     /// First byte.
-    pub(super) start: usize,
+    pub(crate) start: usize,
     /// One past the last byte.
-    pub(super) end: usize,
+    pub(crate) end: usize,
 }
 
 /// What comments and block numbers look like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Style {
+pub(crate) enum Style {
     /// `( )` and `;`, numbers behind N.
     Brackets,
     /// `( )`, numbers behind N; `;` ends the block.
@@ -24,7 +24,7 @@ pub(super) enum Style {
 
 /// What of a line is statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Code<'t> {
+pub(crate) enum Code<'t> {
     /// Nothing: it is blank, or a comment.
     None,
     /// This, without number and outer comments.
@@ -51,7 +51,7 @@ const ACTIVE: [&str; 8] = [
 ///
 /// LF or CR LF ends a line. A CR alone ends it for some controls and is a blank to others, so it stays in the line, which it
 /// breaks.
-pub(super) fn line(text: &str, start: usize) -> Option<(&str, usize)> {
+pub(crate) fn line(text: &str, start: usize) -> Option<(&str, usize)> {
     let rest = text.get(start..)?;
     if rest.is_empty() {
         return None;
@@ -78,8 +78,16 @@ fn unprintable(line: &str) -> Option<&'static str> {
 }
 
 impl Style {
+    /// What begins and ends a comment that is written.
+    pub(crate) const fn comment_signs(self) -> [&'static str; 2] {
+        match self {
+            Self::Brackets | Self::Blocks => ["(", ")"],
+            Self::Semicolon | Self::Numbered => ["; ", ""],
+        }
+    }
+
     /// The statement of a line that begins at a byte of its text.
-    pub(super) fn code(self, line: &str, start: usize) -> Code<'_> {
+    pub(crate) fn code(self, line: &str, start: usize) -> Code<'_> {
         let whole = || {
             let (from, to) = trimmed(line);
             Span {

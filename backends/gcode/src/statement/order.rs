@@ -1,27 +1,36 @@
 //! What a block orders, in terms that all dialects share.
 //!
 //! An [`Order`] is the block alone: what it leaves to what was said before (the meaning of F, coordinates that stay) is filled
-//! in by the [`control`](super::control).
+//! in by the model of the control.
 
 use crate::axes::Word;
-use crate::dialect::FeedMode;
-use crate::options::Settings;
-use vcutc_backend_api::ir::{Cell, MOST_AXES, Switch};
+use vcutc_backend_api::ir::{MOST_AXES, Switch};
 use vcutc_backend_api::readback::End;
-use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::units::{Duration, Length};
 
-/// For whom a block is read.
+/// What a block is read with.
 #[derive(Clone, Copy)]
-pub(super) struct Context<'a> {
-    pub(super) cell: &'a Cell,
-    pub(super) settings: &'a Settings<'a>,
+pub(crate) struct Scope<'a> {
     /// The machine's axes as words.
-    pub(super) words: &'a [Word],
+    pub(crate) words: &'a [Word],
+    /// How far the job rounds corners.
+    pub(crate) approximation: Option<Length>,
+}
+
+/// What the word F means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FeedMode {
+    /// Speed of the tip, in mm/min.
+    Tip,
+    /// Inverse time: the block takes a minute divided by F.
+    InverseTime,
+    /// Rate of the rotary axes together, in deg/min.
+    Rotary,
 }
 
 /// Why a block is not understood.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Trouble {
+pub(crate) enum ReadError {
     /// A word, or a combination of words, that no program of this crate has.
     Unknown,
     /// Something else was expected.
@@ -29,39 +38,39 @@ pub(super) enum Trouble {
 }
 
 /// What became of a part of a block.
-pub(super) type Parsed<T> = Result<T, Trouble>;
+pub(crate) type Parsed<T> = Result<T, ReadError>;
 
 /// That something else was expected.
-pub(super) fn expected<T>(what: impl Into<String>) -> Parsed<T> {
-    Err(Trouble::Expected(what.into()))
+pub(crate) fn expected<T>(what: impl Into<String>) -> Parsed<T> {
+    Err(ReadError::Expected(what.into()))
 }
 
 /// A block.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Order<'t> {
+pub(crate) struct Order<'t> {
     /// The kind of motion that it names.
-    pub(super) motion: Option<Motion>,
+    pub(crate) motion: Option<Motion>,
     /// What its coordinates are.
-    pub(super) coordinates: Coordinates,
+    pub(crate) coordinates: Coordinates,
     /// It ends at a standstill, whatever holds for others.
-    pub(super) exact_once: Once,
+    pub(crate) exact_once: Once,
     /// Values of the axes' words in mm and degrees, at their places among the machine's axes.
-    pub(super) axes: [Option<f64>; MOST_AXES],
+    pub(crate) axes: [Option<f64>; MOST_AXES],
     /// The word F.
-    pub(super) feed: Option<f64>,
+    pub(crate) feed: Option<f64>,
     /// What holds from here on.
-    pub(super) modes: Vec<Mode>,
+    pub(crate) modes: Vec<Mode>,
     /// What is done besides motion.
-    pub(super) act: Option<Act>,
+    pub(crate) act: Option<Act>,
     /// It is done in time only behind a stop of reading ahead.
-    pub(super) behind_stop: Once,
+    pub(crate) behind_stop: Once,
     /// What is carried out next.
-    pub(super) flow: Option<Flow<'t>>,
+    pub(crate) flow: Option<Flow<'t>>,
 }
 
 /// A kind of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Motion {
+pub(crate) enum Motion {
     /// As fast as may be.
     Rapid,
     /// At the speed of F.
@@ -70,7 +79,7 @@ pub(super) enum Motion {
 
 /// What coordinates are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Coordinates {
+pub(crate) enum Coordinates {
     /// Those of the tip, from the zero of the work.
     #[default]
     Work,
@@ -80,7 +89,7 @@ pub(super) enum Coordinates {
 
 /// Whether something is said for one block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Once {
+pub(crate) enum Once {
     /// It is not.
     #[default]
     No,
@@ -90,11 +99,11 @@ pub(super) enum Once {
 
 /// Something that holds from here on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Mode {
-    /// A habit that every program of this crate has.
-    Habit(Habit),
+pub(crate) enum Mode {
+    /// A convention that every program of this crate has.
+    Convention(Convention),
     /// The opposite of it.
-    Not(Habit),
+    Not(Convention),
     /// The meaning of F; none for one that no program of this crate has.
     Feed(Option<FeedMode>),
     /// How moves end; none for a way that is not that of the job.
@@ -112,7 +121,7 @@ pub(super) enum Mode {
 /// What a mode is about: a block says it once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Group {
-    Habit(Habit),
+    Convention(Convention),
     Feed,
     Stop,
     Tcp,
@@ -124,7 +133,7 @@ enum Group {
 impl Mode {
     const fn group(self) -> Group {
         match self {
-            Self::Habit(habit) | Self::Not(habit) => Group::Habit(habit),
+            Self::Convention(convention) | Self::Not(convention) => Group::Convention(convention),
             Self::Feed(_) => Group::Feed,
             Self::Stop(_) => Group::Stop,
             Self::Tcp(_) => Group::Tcp,
@@ -137,7 +146,7 @@ impl Mode {
 
 /// What has been said of something that takes several lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cycle {
+pub(crate) enum Cycle {
     /// A wait.
     Dwell,
     /// A work offset is called up.
@@ -150,14 +159,14 @@ pub(super) enum Cycle {
 
 /// Whether tool-centre-point control is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Tcp {
+pub(crate) enum Tcp {
     On,
     Off,
 }
 
-/// Habits of the programs of this crate.
+/// Conventions of the programs of this crate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Habit {
+pub(crate) enum Convention {
     /// Coordinates are absolute.
     Absolute,
     /// Lengths are in mm.
@@ -172,12 +181,12 @@ pub(super) enum Habit {
     AsWritten,
 }
 
-/// How many habits there are.
-pub(super) const HABITS: usize = 6;
+/// How many conventions there are.
+pub(crate) const CONVENTIONS: usize = 6;
 
 /// What is done besides motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Act {
+pub(crate) enum Act {
     /// An output is switched.
     Switch(u32, Switch),
     /// The generator is switched, by blocks that the job gives.
@@ -202,7 +211,7 @@ pub(super) enum Act {
 
 /// What is carried out next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Flow<'t> {
+pub(crate) enum Flow<'t> {
     /// The mark around a file on tape.
     Tape,
     /// A file begins, with its name.
@@ -223,7 +232,7 @@ pub(super) enum Flow<'t> {
 
 /// The name of a program or part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Routine<'t> {
+pub(crate) enum Routine<'t> {
     /// In letters, small and capital ones alike.
     Name(&'t str),
     /// A number.
@@ -232,7 +241,7 @@ pub(super) enum Routine<'t> {
 
 impl Routine<'_> {
     /// Whether two names are the same.
-    pub(super) fn is(self, other: Routine<'_>) -> bool {
+    pub(crate) fn is(self, other: Routine<'_>) -> bool {
         match (self, other) {
             (Self::Name(a), Routine::Name(b)) => a.eq_ignore_ascii_case(b),
             (Self::Number(a), Routine::Number(b)) => a == b,
@@ -243,7 +252,7 @@ impl Routine<'_> {
 
 impl<'t> Order<'t> {
     /// A block that only says where things go on.
-    pub(super) fn flow(flow: Flow<'t>) -> Self {
+    pub(crate) fn flow(flow: Flow<'t>) -> Self {
         Self {
             flow: Some(flow),
             ..Self::default()
@@ -251,7 +260,7 @@ impl<'t> Order<'t> {
     }
 
     /// A block that does one thing besides motion.
-    pub(super) fn act(act: Act) -> Self {
+    pub(crate) fn act(act: Act) -> Self {
         Self {
             act: Some(act),
             ..Self::default()
@@ -259,7 +268,7 @@ impl<'t> Order<'t> {
     }
 
     /// A block that sets these.
-    pub(super) fn modes(modes: Vec<Mode>) -> Self {
+    pub(crate) fn modes(modes: Vec<Mode>) -> Self {
         Self {
             modes,
             ..Self::default()
@@ -267,7 +276,7 @@ impl<'t> Order<'t> {
     }
 
     /// Adds what holds from here on.
-    pub(super) fn set(&mut self, mode: Mode) -> Parsed<()> {
+    pub(crate) fn set(&mut self, mode: Mode) -> Parsed<()> {
         if self.modes.iter().any(|known| known.group() == mode.group()) {
             return expected("one word of a group");
         }
@@ -276,7 +285,7 @@ impl<'t> Order<'t> {
     }
 
     /// Names the kind of motion.
-    pub(super) fn moves(&mut self, motion: Motion) -> Parsed<()> {
+    pub(crate) fn moves(&mut self, motion: Motion) -> Parsed<()> {
         match self.motion.replace(motion) {
             Some(_) => expected("one word for the motion"),
             None => Ok(()),
@@ -284,7 +293,7 @@ impl<'t> Order<'t> {
     }
 
     /// Adds what is done.
-    pub(super) fn does(&mut self, act: Act) -> Parsed<()> {
+    pub(crate) fn does(&mut self, act: Act) -> Parsed<()> {
         match self.act.replace(act) {
             Some(_) => expected("one thing that is done in a block"),
             None => Ok(()),
@@ -292,7 +301,7 @@ impl<'t> Order<'t> {
     }
 
     /// Adds where things go on.
-    pub(super) fn goes(&mut self, flow: Flow<'t>) -> Parsed<()> {
+    pub(crate) fn goes(&mut self, flow: Flow<'t>) -> Parsed<()> {
         match self.flow.replace(flow) {
             Some(_) => expected("one way to go on"),
             None => Ok(()),
@@ -300,7 +309,7 @@ impl<'t> Order<'t> {
     }
 
     /// Whether it has coordinates.
-    pub(super) fn has_axes(&self) -> bool {
+    pub(crate) fn has_axes(&self) -> bool {
         self.axes.iter().any(Option::is_some)
     }
 }

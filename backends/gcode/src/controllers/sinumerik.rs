@@ -1,68 +1,153 @@
-//! Siemens Sinumerik 840D and ONE.
+//! Siemens Sinumerik 840D, 840D sl, 828D with the option, and ONE.
+//!
+//! `TRAORI` switches the five-axis transformation on; `ORIAXES` and `ORIMKS` make the rotary axes go straight to their values,
+//! whichever of the two a machine's data asks for [S-840b]. `FGROUP` makes F the speed of the tip alone. `TRAFOOF` cancels
+//! tool corrections in part, so D stands behind every switch [S-840].
+//!
+//! No tool is selected, for the knife is in the spindle; D is one of its edges, of which a tool has nine where D numbers are
+//! not managed apart from tools.
+//!
+//! `SUPA` suppresses all offsets for one block, and with `D0` the words are positions of the axes. Outputs are written behind
+//! `STOPRE`, so that they switch where they stand and not when the block is read ahead.
 //!
 //! Besides letters with numbers it has words, values behind `=`, and labels. A word that stands alone and is none of the
 //! control's is the name of a part.
 
-use super::{Heads, Tongue, WorkOffset, rounding, seconds, standard_g, stem};
-use crate::read::lines::Style;
-use crate::read::order::{
-    Act, Context, Coordinates, Flow, Habit, Mode, Once, Order, Parsed, Routine, Tcp, Trouble, expected,
+use crate::controller::{Codes, Controller, Facts, File, Heads};
+use crate::iso::{g_code, m_code, rounding, seconds, stem};
+use crate::statement::{
+    Act, Block, Convention, Coordinates, Cursor, Flow, Mode, Number, Once, Order, Parsed, ReadError, Routine,
+    Scope, Style, Tcp, expected,
 };
-use crate::read::words::{Block, Cursor, Number};
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::readback::End;
+use vcutc_backend_api::script::{Layout, trimmed_text};
+use vcutc_backend_api::units::Length;
 
 pub(super) struct Sinumerik;
 
 /// M codes that a block may have.
 const MOST_M_CODES: usize = 5;
 
-impl Tongue for Sinumerik {
-    fn style(&self) -> Style {
-        Style::Semicolon
+const FACTS: Facts = Facts {
+    name: "Sinumerik",
+    extensions: ["MPF", "SPF"],
+    style: Style::Semicolon,
+    layout: Layout {
+        line_end: b"\n",
+        longest_comment: 100,
+        // `;$PATH=` and the like mean something to the archive.
+        kept_out_of_comments: b"$%",
+    },
+    longest_line: 255,
+    most_tools: 9,
+    tool_number_name: "D number (the edge of the tool in the spindle, not the number of a tool)",
+    work_offsets: 99,
+    axis_move: ["SUPA G1", " D0"],
+    exact: Some("G60"),
+    exact_word: "G60",
+    beside_m: "HS",
+    // Not M17, M19, M20, M30, M40 to M45, M70 (end, orientation, strokes, gears, axis) and M98, M99 of the ISO mode.
+    builders_codes: &[10..=16, 21..=29, 31..=39, 46..=69, 71..=95, 100..=197],
+    smoothing: &["SOFT", "FFWON", "FFWOF"],
+    has_messages: true,
+    signals: 1..=1024,
+    conventions: &[
+        (Convention::Absolute, "G90"),
+        (Convention::Millimetres, "G710"),
+        (Convention::ByAxes, "ORIAXES"),
+        (Convention::MachineAngles, "ORIMKS"),
+        (Convention::FeedOfTip, "FGROUP(X,Y,Z)"),
+    ],
+    // With `D0` the words behind `SUPA` are positions of the axes.
+    tool_of_axis_moves: Some(0),
+    heads: Heads::None,
+    endings: ["M30", "M17"],
+    ..Facts::STANDARD
+};
+
+impl Controller for Sinumerik {
+    fn facts(&self) -> &'static Facts {
+        &FACTS
     }
 
-    fn habits(&self) -> &'static [(Habit, &'static str)] {
-        &[
-            (Habit::Absolute, "G90"),
-            (Habit::Millimetres, "G710"),
-            (Habit::ByAxes, "ORIAXES"),
-            (Habit::MachineAngles, "ORIMKS"),
-            (Habit::FeedOfTip, "FGROUP(X,Y,Z)"),
+    fn tool_name(&self, number: u32) -> String {
+        format!("the tool in the spindle, edge D{number}")
+    }
+
+    fn opening(&self, _: File<'_>) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn setup(&self, _: u32) -> Vec<String> {
+        vec!["G17 G40 G90 G94 G710".to_owned(), "G60 G601".to_owned()]
+    }
+
+    fn work_offset(&self, number: u32) -> Option<String> {
+        match number {
+            1..=4 => Some(format!("G{}", 53 + number)),
+            5..=99 => Some(format!("G{}", 500 + number)),
+            _ => None,
+        }
+    }
+
+    fn closing(&self, file: File<'_>) -> Vec<String> {
+        vec![file.ending(&FACTS)]
+    }
+
+    fn call(&self, part: File<'_>) -> String {
+        part.name.to_owned()
+    }
+
+    fn tcp_on(&self, _: Codes<'_>, tool: u32) -> Vec<String> {
+        vec![
+            "TRAORI".to_owned(),
+            "ORIAXES ORIMKS".to_owned(),
+            "FGROUP(X,Y,Z)".to_owned(),
+            format!("D{tool}"),
         ]
     }
 
-    fn unsaid(&self) -> &'static [Mode] {
-        &[]
+    fn tcp_off(&self, _: Codes<'_>) -> Vec<String> {
+        vec!["TRAFOOF".to_owned()]
     }
 
-    fn work_offset(&self) -> WorkOffset {
-        WorkOffset::Said
+    fn rounded(&self, approximation: Length) -> Option<String> {
+        Some(format!("G641 ADIS={}", trimmed_text(approximation.to_mm())))
     }
 
-    /// With `D0` the words behind `SUPA` are positions of the axes.
-    fn tool_of_axis_moves(&self) -> Option<u32> {
-        Some(0)
+    fn dwell(&self, seconds: &str) -> Vec<String> {
+        vec![format!("G4 F{seconds}")]
     }
 
-    fn exact(&self) -> &'static str {
-        "G60"
+    fn switch(&self, output: u32, state: Switch) -> Option<Vec<String>> {
+        let value = match state {
+            Switch::On => 1,
+            Switch::Off => 0,
+        };
+        Some(vec!["STOPRE".to_owned(), format!("$A_OUT[{output}]={value}")])
     }
 
-    fn heads(&self) -> Heads {
-        Heads::None
+    fn await_input(&self, input: u32, label: u32) -> Option<Vec<String>> {
+        Some(vec![format!(
+            "READY{label}: IF $A_IN[{input}]==FALSE GOTOB READY{label}"
+        )])
     }
 
-    fn endings(&self) -> [&'static str; 2] {
-        ["M30", "M17"]
+    fn does_by_m(&self, code: u32) -> Option<&'static str> {
+        match code {
+            17 => Some("ends a part"),
+            70 => Some("makes an axis of the spindle"),
+            _ => m_code(code),
+        }
     }
 
     fn routine<'t>(&self, file: &'t str, _: &'t str) -> Option<Routine<'t>> {
         Some(Routine::Name(stem(file)))
     }
 
-    fn order<'t>(&self, code: &'t str, context: Context<'_>) -> Parsed<Order<'t>> {
-        let mut cursor = Cursor::new(code, self.style());
+    fn order<'t>(&self, code: &'t str, scope: Scope<'_>) -> Parsed<Order<'t>> {
+        let mut cursor = Cursor::new(code, FACTS.style);
         if cursor.peek() == Some(b'$') {
             return output(&mut cursor);
         }
@@ -74,7 +159,7 @@ impl Tongue for Sinumerik {
         let mut rounded = None;
         while let Some(byte) = cursor.peek() {
             match cursor.letters_ahead() {
-                0 if matches!(byte, b'[' | b'/' | b'$' | b'=') => return Err(Trouble::Unknown),
+                0 if matches!(byte, b'[' | b'/' | b'$' | b'=') => return Err(ReadError::Unknown),
                 0 => return expected("a word"),
                 1 => address(&mut cursor, &mut words)?,
                 _ => keyword(&mut cursor, &mut order, &mut rounded)?,
@@ -89,20 +174,20 @@ impl Tongue for Sinumerik {
                 &mut words,
                 &mut order,
                 rounded.take_if(|_| code == 6410),
-                context,
+                scope,
             )?;
         }
         for code in words.m.iter() {
             m(code, &mut order)?;
         }
         if let Some(tool) = words.take(b'D') {
-            let number = tool.whole().ok_or(Trouble::Unknown)?;
+            let number = tool.whole().ok_or(ReadError::Unknown)?;
             order.set(Mode::Tool(Some(number)))?;
         }
         if rounded.is_some() {
             return expected("`G641` before `ADIS`");
         }
-        words.finish(context, &mut order)?;
+        words.finish(scope, &mut order)?;
         Ok(order)
     }
 }
@@ -122,7 +207,7 @@ fn address(cursor: &mut Cursor<'_>, words: &mut Block) -> Parsed<()> {
     };
     // `A3=0.5` is an address of its own.
     if cursor.skip(b'=') {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
     words.add(letter, number)
 }
@@ -137,7 +222,7 @@ fn assigned(cursor: &mut Cursor<'_>) -> Parsed<Option<Number>> {
     match cursor.letters_ahead() {
         0 => Ok(cursor.number()),
         // `DC`, `ACP`, `ACN`, `IC` and variables.
-        _ => Err(Trouble::Unknown),
+        _ => Err(ReadError::Unknown),
     }
 }
 
@@ -149,10 +234,10 @@ fn keyword<'t>(cursor: &mut Cursor<'t>, order: &mut Order<'t>, rounded: &mut Opt
     match name.to_ascii_uppercase().as_str() {
         "TRAORI" => switched(Tcp::On, cursor, order),
         "TRAFOOF" => switched(Tcp::Off, cursor, order),
-        "ORIAXES" => order.set(Mode::Habit(Habit::ByAxes)),
-        "ORIVECT" => order.set(Mode::Not(Habit::ByAxes)),
-        "ORIMKS" => order.set(Mode::Habit(Habit::MachineAngles)),
-        "ORIWKS" => order.set(Mode::Not(Habit::MachineAngles)),
+        "ORIAXES" => order.set(Mode::Convention(Convention::ByAxes)),
+        "ORIVECT" => order.set(Mode::Not(Convention::ByAxes)),
+        "ORIMKS" => order.set(Mode::Convention(Convention::MachineAngles)),
+        "ORIWKS" => order.set(Mode::Not(Convention::MachineAngles)),
         "FGROUP" => {
             let mode = feed_group(cursor)?;
             order.set(mode)
@@ -176,7 +261,7 @@ fn keyword<'t>(cursor: &mut Cursor<'t>, order: &mut Order<'t>, rounded: &mut Opt
         "RET" => order.goes(Flow::Return),
         _ => match cursor.peek() {
             None => order.goes(Flow::Call(Routine::Name(name))),
-            Some(_) => Err(Trouble::Unknown),
+            Some(_) => Err(ReadError::Unknown),
         },
     }
 }
@@ -184,7 +269,7 @@ fn keyword<'t>(cursor: &mut Cursor<'t>, order: &mut Order<'t>, rounded: &mut Opt
 /// Both switches cancel the tool's corrections in part, so it has to be said again [S-840].
 fn switched(tcp: Tcp, cursor: &mut Cursor<'_>, order: &mut Order<'_>) -> Parsed<()> {
     if cursor.peek() == Some(b'(') {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
     order.set(Mode::Tcp(Some(tcp)))?;
     order.set(Mode::Tool(None))
@@ -196,7 +281,7 @@ fn feed_group(cursor: &mut Cursor<'_>) -> Parsed<Mode> {
     let mut axes = Vec::new();
     while let Some(letter) = cursor.letter() {
         if axes.len() > 8 {
-            return Err(Trouble::Unknown);
+            return Err(ReadError::Unknown);
         }
         axes.push(letter);
         if !cursor.skip(b',') {
@@ -206,9 +291,9 @@ fn feed_group(cursor: &mut Cursor<'_>) -> Parsed<Mode> {
     cursor.must(b')')?;
     axes.sort_unstable();
     Ok(if axes == *b"XYZ" {
-        Mode::Habit(Habit::FeedOfTip)
+        Mode::Convention(Convention::FeedOfTip)
     } else {
-        Mode::Not(Habit::FeedOfTip)
+        Mode::Not(Convention::FeedOfTip)
     })
 }
 
@@ -216,7 +301,7 @@ fn feed_group(cursor: &mut Cursor<'_>) -> Parsed<Mode> {
 fn output<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     cursor.must(b'$')?;
     if !cursor.word("A_OUT") {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
     let number = index(cursor)?;
     cursor.must(b'=')?;
@@ -224,7 +309,7 @@ fn output<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
         Some(0) => Switch::Off,
         Some(1) => Switch::On,
         Some(_) => return expected("0 or 1"),
-        None => return Err(Trouble::Unknown),
+        None => return Err(ReadError::Unknown),
     };
     cursor.end()?;
     Ok(Order {
@@ -238,18 +323,18 @@ fn index(cursor: &mut Cursor<'_>) -> Parsed<u32> {
     cursor.must(b'[')?;
     let number = cursor.number().and_then(Number::whole);
     cursor.must(b']')?;
-    number.ok_or(Trouble::Unknown)
+    number.ok_or(ReadError::Unknown)
 }
 
 /// `READY1: IF $A_IN[7]==FALSE GOTOB READY1` stays in its line until the input is high. No other label is known.
 fn labelled<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
-    let label = cursor.name().ok_or(Trouble::Unknown)?;
+    let label = cursor.name().ok_or(ReadError::Unknown)?;
     if !cursor.skip(b':') || !cursor.word("IF") || !cursor.skip(b'$') || !cursor.word("A_IN") {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
     let input = index(cursor)?;
     if !cursor.skip(b'=') || !cursor.skip(b'=') || !cursor.word("FALSE") || !cursor.word("GOTOB") {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
     match cursor.name() {
         Some(to) if to.eq_ignore_ascii_case(label) => {}
@@ -265,7 +350,7 @@ fn g(
     words: &mut Block,
     order: &mut Order<'_>,
     rounded: Option<Number>,
-    context: Context<'_>,
+    scope: Scope<'_>,
 ) -> Parsed<()> {
     match code {
         40 => {
@@ -277,17 +362,17 @@ fn g(
             Ok(())
         }
         // `G71` leaves speeds as they were.
-        700 | 710 | 7000 => order.set(Mode::Not(Habit::Millimetres)),
-        7100 => order.set(Mode::Habit(Habit::Millimetres)),
+        700 | 710 | 7000 => order.set(Mode::Not(Convention::Millimetres)),
+        7100 => order.set(Mode::Convention(Convention::Millimetres)),
         540 | 550 | 560 | 570 => order.set(Mode::Work(code / 10 - 53)),
         5050..=5990 if code.is_multiple_of(10) => order.set(Mode::Work(code / 10 - 500)),
         600 => order.set(Mode::Stop(Some(End::Exact))),
         // The fine window of the exact stop.
         6010 => Ok(()),
         640 => order.set(Mode::Stop(None)),
-        6410 => order.set(rounding(rounded, context)),
-        _ if standard_g(code, order)? => Ok(()),
-        _ => Err(Trouble::Unknown),
+        6410 => order.set(rounding(rounded, scope)),
+        _ if g_code(code, order)? => Ok(()),
+        _ => Err(ReadError::Unknown),
     }
 }
 
@@ -295,6 +380,6 @@ fn m(code: u32, order: &mut Order<'_>) -> Parsed<()> {
     match code {
         20 | 300 => order.goes(Flow::End),
         170 => order.goes(Flow::Return),
-        _ => Err(Trouble::Unknown),
+        _ => Err(ReadError::Unknown),
     }
 }

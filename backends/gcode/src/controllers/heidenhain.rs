@@ -1,67 +1,163 @@
-//! Heidenhain TNC in Klartext.
+//! Heidenhain TNC (iTNC 530, TNC 640, TNC7) in Klartext.
+//!
+//! Every line has a number, from 0 and without gaps, and every coordinate a sign [H-430]. `FUNCTION TCPM` holds the tip; with
+//! `F TCP` F is the speed of the tip, with `F CONT` that along the way of the axes that the block names [H-620]. The dialect has
+//! no inverse time, so a turn about the still tip names the rotary axes alone under `F CONT`, and F is their rate in deg/min.
+//!
+//! `M91` makes the words of one block positions of the axes, without the tool's length [H-620]; before it TCPM is reset. Their
+//! speed is that along the way of all axes, mm and degrees counted alike.
+//!
+//! Cycle 247 activates a preset where the job gives its number; without one that is the operator's. `~` at the end of its line
+//! says that the block goes on in the next line, which has no number of its own (TNC 640, Cycle Programming).
+//!
+//! `R0` blocks stop at corners; there is no word that allows rounding at one of them and not at the next. M codes for outputs
+//! are the builder's.
 //!
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
 
-use super::{Heads, Tongue, WorkOffset, seconds, stem};
-use crate::dialect::FeedMode;
-use crate::read::lines::Style;
-use crate::read::order::{
-    Act, Context, Coordinates, Cycle, Flow, Habit, Mode, Motion, Order, Parsed, Routine, Tcp, Trouble,
-    expected,
+use crate::controller::{AxisPace, Codes, Controller, Facts, File, Signs, Unnumbered};
+use crate::iso::{m_code, seconds, stem};
+use crate::statement::{
+    Act, Block, Convention, Coordinates, Cursor, Cycle, FeedMode, Flow, Mode, Motion, Number, Order, Parsed,
+    ReadError, Routine, Scope, Style, Tcp, expected,
 };
-use crate::read::words::{Block, Cursor, Number};
 use vcutc_backend_api::readback::End;
+use vcutc_backend_api::script::Layout;
 
 pub(super) struct Heidenhain;
+
+const F_TCP: &str = "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS";
+
+const F_CONT: &str = "FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS";
 
 /// M codes that a block may have.
 const MOST_M_CODES: usize = 2;
 
-impl Tongue for Heidenhain {
-    fn style(&self) -> Style {
-        Style::Numbered
+const FACTS: Facts = Facts {
+    name: "Heidenhain",
+    extensions: ["H", "H"],
+    style: Style::Numbered,
+    layout: Layout {
+        line_end: b"\n",
+        longest_comment: 80,
+        // `~` goes on in the next line.
+        kept_out_of_comments: b"~%",
+    },
+    signs: Signs::Always,
+    most_decimals: 4,
+    fine_decimals: 3,
+    work_offsets: 9999,
+    unnumbered: Unnumbered::Operators,
+    feed_mode_of_tcp: Some(FeedMode::Tip),
+    straight: "L",
+    before_feed: " R0",
+    axis_move: ["L", " M91"],
+    axis_pace: AxisPace::Path,
+    still_tip: FeedMode::Rotary,
+    exact: None,
+    exact_word: "R0",
+    // Not M13 and M14 (spindle on), M19, M30, M60 (pallet), nor M89 and above, which are the control's own.
+    builders_codes: &[10..=12, 15..=18, 20..=29, 31..=59, 61..=88],
+    has_spindle_words: false,
+    signals: 0..=152,
+    conventions: &[
+        (Convention::Millimetres, "BEGIN PGM ... MM"),
+        (Convention::AsWritten, "M127"),
+    ],
+    unsaid: &[
+        Mode::Convention(Convention::Absolute),
+        Mode::Stop(Some(End::Exact)),
+    ],
+    endings: ["M30", "END PGM"],
+    ..Facts::STANDARD
+};
+
+impl Controller for Heidenhain {
+    fn facts(&self) -> &'static Facts {
+        &FACTS
     }
 
-    fn habits(&self) -> &'static [(Habit, &'static str)] {
-        &[
-            (Habit::Millimetres, "BEGIN PGM ... MM"),
-            (Habit::AsWritten, "M127"),
+    fn opening(&self, file: File<'_>) -> Vec<String> {
+        vec![format!("BEGIN PGM {} MM", file.name)]
+    }
+
+    fn setup(&self, tool: u32) -> Vec<String> {
+        // M127: rotary axes go to the value that is written, not the shorter way round.
+        vec![format!("TOOL CALL {tool} Z"), "M127".to_owned()]
+    }
+
+    /// Cycle 247 activates a preset; its parameter stands in a line without number.
+    fn work_offset(&self, _: u32) -> Option<String> {
+        Some("CYCL DEF 247 DATUM SETTING ~".to_owned())
+    }
+
+    fn rest_of_work_offset(&self, number: u32) -> Option<String> {
+        Some(format!("  Q339=+{number} ;DATUM NUMBER"))
+    }
+
+    fn work_offset_name(&self, number: u32) -> String {
+        format!("preset {number}")
+    }
+
+    fn closing(&self, file: File<'_>) -> Vec<String> {
+        let end = format!("END PGM {} MM", file.name);
+        match file.place {
+            0 => vec!["M30".to_owned(), end],
+            _ => vec![end],
+        }
+    }
+
+    fn call(&self, part: File<'_>) -> String {
+        format!("CALL PGM {}", part.name)
+    }
+
+    fn tcp_on(&self, _: Codes<'_>, _: u32) -> Vec<String> {
+        vec![F_TCP.to_owned()]
+    }
+
+    fn tcp_off(&self, _: Codes<'_>) -> Vec<String> {
+        vec!["FUNCTION RESET TCPM".to_owned()]
+    }
+
+    fn feed_mode(&self, mode: FeedMode) -> &'static str {
+        match mode {
+            FeedMode::Tip | FeedMode::InverseTime => F_TCP,
+            FeedMode::Rotary => F_CONT,
+        }
+    }
+
+    fn dwell(&self, seconds: &str) -> Vec<String> {
+        vec![
+            "CYCL DEF 9.0 DWELL TIME".to_owned(),
+            format!("CYCL DEF 9.1 DWELL {seconds}"),
         ]
     }
 
-    fn unsaid(&self) -> &'static [Mode] {
-        &[Mode::Habit(Habit::Absolute), Mode::Stop(Some(End::Exact))]
+    fn await_input(&self, input: u32, _: u32) -> Option<Vec<String>> {
+        Some(vec![format!("FN 20: WAIT FOR I{input}==1")])
     }
 
-    fn work_offset(&self) -> WorkOffset {
-        WorkOffset::Preset
-    }
-
-    fn exact(&self) -> &'static str {
-        "R0"
-    }
-
-    fn heads(&self) -> Heads {
-        Heads::All
-    }
-
-    fn endings(&self) -> [&'static str; 2] {
-        ["M30", "END PGM"]
+    /// From M89 on the control's own codes say how it moves [H-620].
+    fn does_by_m(&self, code: u32) -> Option<&'static str> {
+        match code {
+            89..=149 | 197 | 198 => Some("changes how the control moves or calls"),
+            _ => m_code(code),
+        }
     }
 
     fn routine<'t>(&self, file: &'t str, _: &'t str) -> Option<Routine<'t>> {
         Some(Routine::Name(stem(file)))
     }
 
-    fn order<'t>(&self, code: &'t str, context: Context<'_>) -> Parsed<Order<'t>> {
-        let mut cursor = Cursor::new(code, self.style());
+    fn order<'t>(&self, code: &'t str, scope: Scope<'_>) -> Parsed<Order<'t>> {
+        let mut cursor = Cursor::new(code, FACTS.style);
         if cursor.word("L") {
             let order = Order {
                 motion: Some(Motion::AtFeed),
                 ..Order::default()
             };
-            return line(&mut cursor, order, context);
+            return line(&mut cursor, order, scope);
         }
         // The second line of a cycle begins with a parameter.
         if cursor.word("Q339") {
@@ -69,7 +165,7 @@ impl Tongue for Heidenhain {
         }
         // A block of M codes alone has no word of its own.
         if cursor.letters_ahead() == 1 && code.starts_with(['M', 'm']) {
-            return line(&mut cursor, Order::default(), context);
+            return line(&mut cursor, Order::default(), scope);
         }
         let order = if cursor.word("FUNCTION") {
             function(&mut cursor)?
@@ -86,17 +182,17 @@ impl Tongue for Heidenhain {
         } else if cursor.word("FN") {
             await_input(&mut cursor)?
         } else {
-            return Err(Trouble::Unknown);
+            return Err(ReadError::Unknown);
         };
         match cursor.peek() {
             None => Ok(order),
-            Some(_) => Err(Trouble::Unknown),
+            Some(_) => Err(ReadError::Unknown),
         }
     }
 }
 
 /// What follows `L`, or a block of M codes.
-fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, context: Context<'_>) -> Parsed<Order<'t>> {
+fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, scope: Scope<'_>) -> Parsed<Order<'t>> {
     let mut words = Block::default();
     while cursor.peek().is_some() {
         if cursor.word("FMAX") {
@@ -109,7 +205,7 @@ fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, context: Context<'_>)
         let Some(number) = cursor.number() else {
             return match letter {
                 // `IX+1` is incremental, `RL` and `RR` correct for a radius, `Q` begins a variable.
-                b'I' | b'R' => Err(Trouble::Unknown),
+                b'I' | b'R' => Err(ReadError::Unknown),
                 _ => expected(format!("a number after `{}`", char::from(letter))),
             };
         };
@@ -122,15 +218,15 @@ fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, context: Context<'_>)
         match code {
             20 | 300 => order.goes(Flow::End)?,
             910 => order.coordinates = Coordinates::Machine,
-            1260 => order.set(Mode::Not(Habit::AsWritten))?,
-            1270 => order.set(Mode::Habit(Habit::AsWritten))?,
-            _ => return Err(Trouble::Unknown),
+            1260 => order.set(Mode::Not(Convention::AsWritten))?,
+            1270 => order.set(Mode::Convention(Convention::AsWritten))?,
+            _ => return Err(ReadError::Unknown),
         }
     }
     if words.g.count() > 0 || words.take(b'R').is_some_and(|radius| radius.value != 0.0) {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
-    words.finish(context, &mut order)?;
+    words.finish(scope, &mut order)?;
     Ok(order)
 }
 
@@ -173,9 +269,9 @@ fn program<'t>(cursor: &mut Cursor<'t>) -> Parsed<(Routine<'t>, Mode)> {
         return expected("the name of the program");
     };
     let unit = if cursor.word("MM") {
-        Mode::Habit(Habit::Millimetres)
+        Mode::Convention(Convention::Millimetres)
     } else if cursor.word("INCH") {
-        Mode::Not(Habit::Millimetres)
+        Mode::Not(Convention::Millimetres)
     } else {
         return expected("`MM`");
     };
@@ -193,7 +289,7 @@ fn begin<'t>(cursor: &mut Cursor<'t>) -> Parsed<Order<'t>> {
 /// `CALL PGM NAME`.
 fn call<'t>(cursor: &mut Cursor<'t>) -> Parsed<Order<'t>> {
     if !cursor.word("PGM") {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
     match cursor.token() {
         Some(name) => Ok(Order::flow(Flow::Call(Routine::Name(stem_of_part(name))))),
@@ -240,7 +336,7 @@ fn cycle<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
             Some(time) => Ok(Order::act(Act::CycleWait(seconds(time)?))),
             None => expected("a time in seconds"),
         },
-        Some(_) | None => Err(Trouble::Unknown),
+        Some(_) | None => Err(ReadError::Unknown),
     }
 }
 
@@ -258,13 +354,16 @@ fn preset<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
 fn await_input<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     let function = cursor.number().and_then(Number::whole);
     if function != Some(20) || !cursor.skip(b':') {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
     must(cursor, &["WAIT", "FOR"])?;
     if cursor.letter() != Some(b'I') {
-        return Err(Trouble::Unknown);
+        return Err(ReadError::Unknown);
     }
-    let input = cursor.number().and_then(Number::whole).ok_or(Trouble::Unknown)?;
+    let input = cursor
+        .number()
+        .and_then(Number::whole)
+        .ok_or(ReadError::Unknown)?;
     cursor.must(b'=')?;
     cursor.must(b'=')?;
     match cursor.number().map(|state| state.value) {

@@ -1,0 +1,265 @@
+//! The one writer of programs: files, headings and ops in their order. How each of them reads is the [`Dialect`]'s.
+
+use super::dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
+use super::head::head_lines;
+use super::listing::{Lead, Modal, first_of};
+use super::options::Common;
+use super::split::Part;
+use super::state::{Generator, Place, State, may_round};
+use super::tables::operation_heading;
+use super::text::Written;
+use crate::backend::EmitError;
+use crate::ir::{Action, Op, OpId, Ready, Switch};
+use crate::readback::End;
+
+/// Writes all files of a program: the main program, and the parts that it calls where there are several.
+///
+/// # Errors
+/// What the sink reports, or a fault of the compiler.
+pub fn write<D: Dialect>(
+    dialect: &mut D,
+    source: Source<'_>,
+    common: &Common<'_>,
+    main: &str,
+    parts: &[Part],
+) -> Written {
+    let (whole, called) = match parts {
+        [only] => (Some(only), &[][..]),
+        parts => (None, parts),
+    };
+    let names: Vec<String> = (1..=called.len())
+        .map(|part| dialect.part_name(main, part))
+        .collect();
+    let file = |name, place, part| File {
+        name,
+        place,
+        part,
+        main,
+        parts: parts.len(),
+    };
+    let called: Vec<File<'_>> = (1..)
+        .zip(names.iter().zip(called))
+        .map(|(place, (name, part))| file(name, place, Some(part)))
+        .collect();
+    let file = file(main, 0, whole);
+    dialect.open(file)?;
+    for line in head_lines(source.program(), &source.cell.name) {
+        dialect.head_comment(&line.ours, line.theirs)?;
+    }
+    for line in common.header {
+        dialect.note(line)?;
+    }
+    dialect.setup(file)?;
+    for &part in &called {
+        call(dialect, source, part)?;
+    }
+    if let Some(part) = whole {
+        PartWriter::new(dialect, source, common, part).write(part)?;
+    }
+    for line in &common.profile.footer {
+        dialect.verbatim(line)?;
+    }
+    dialect.close(file)?;
+    for &file in &called {
+        dialect.open(file)?;
+        continuation(dialect, main, file, &called)?;
+        dialect.setup(file)?;
+        if let Some(part) = file.part {
+            PartWriter::new(dialect, source, common, part).write(part)?;
+        }
+        dialect.close(file)?;
+    }
+    dialect.finish(main)
+}
+
+/// The call of a part.
+fn call(dialect: &mut impl Dialect, source: Source<'_>, file: File<'_>) -> Written {
+    if let Some(op) = file.part.and_then(|part| source.ops(part).first()) {
+        dialect.comment(&first_of(op), "")?;
+    }
+    dialect.call(file)
+}
+
+/// What someone who opens a part should know.
+fn continuation(dialect: &mut impl Dialect, main: &str, file: File<'_>, all: &[File<'_>]) -> Written {
+    let File { place, parts, .. } = file;
+    dialect.head_comment(&format!("part {place} of {parts}: start {main}, not this"), "")?;
+    let before = place.checked_sub(2).and_then(|before| all.get(before));
+    for line in before
+        .map(|before| dialect.caution(before.name))
+        .unwrap_or_default()
+    {
+        dialect.head_comment(&line, "")?;
+    }
+    Ok(())
+}
+
+/// Writes the ops of a part.
+struct PartWriter<'a, 'd, D> {
+    dialect: &'d mut D,
+    source: Source<'a>,
+    common: &'a Common<'a>,
+    modal: Modal,
+    state: State,
+}
+
+impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
+    fn new(dialect: &'d mut D, source: Source<'a>, common: &'a Common<'a>, part: &Part) -> Self {
+        Self {
+            dialect,
+            source,
+            common,
+            modal: Modal::default(),
+            state: part.start,
+        }
+    }
+
+    fn write(mut self, part: &Part) -> Written {
+        let mut rest = self.source.ops(part);
+        // Both speeds are said at the head of a part, because its first motion may set only one of them.
+        let (feed, rate) = self.modal.first_speeds(rest);
+        if let Some(feed) = feed {
+            self.dialect.feed(feed)?;
+        }
+        self.dialect.part_begins(part, rate)?;
+        self.restate(part.ops.start)?;
+        let mut index = part.ops.start;
+        while let [op, after @ ..] = rest {
+            self.lead(op)?;
+            self.op(index, op, after.first())?;
+            rest = after;
+            index += 1;
+        }
+        if let Some(layer) = self.modal.open_layer() {
+            self.dialect.layer_ends(layer)?;
+        }
+        self.dialect.part_ends()
+    }
+
+    /// Repeats the state in which the part begins, whose first op has this index. Called from the main program this changes
+    /// nothing; a part started alone is brought to the pose, on the branch and with the blade vibrating, that its first move
+    /// was checked from.
+    fn restate(&mut self, first: usize) -> Written {
+        if let (Some(before), Some(to)) = (first.checked_sub(1), joint_target(self.state.place)) {
+            self.joint_move(before, to, None)?;
+        }
+        match self.state.generator {
+            Generator::Off => Ok(()),
+            Generator::Starting => self.switch(Switch::On),
+            Generator::Running => {
+                self.switch(Switch::On)?;
+                self.await_ready()
+            }
+        }
+    }
+
+    /// What comes before an op: headings and speeds.
+    fn lead(&mut self, op: &Op) -> Written {
+        let Lead {
+            close,
+            operation,
+            open,
+            cut,
+            feed,
+            rate: _,
+        } = self.modal.lead(op);
+        if let Some(layer) = close {
+            self.dialect.layer_ends(layer)?;
+        }
+        if let Some(operation) = operation {
+            let (ours, blade) = operation_heading(self.source.program(), operation)?;
+            self.dialect.comment(&ours, blade)?;
+        }
+        if let Some(layer) = open {
+            self.dialect.layer_begins(layer, cut.map(|(_, cut)| cut))?;
+        }
+        if let Some((layer, cut)) = cut {
+            self.dialect
+                .comment(&format!("layer {} cut {cut}", layer.number), "")?;
+        }
+        match feed {
+            Some(feed) => self.dialect.feed(feed),
+            None => Ok(()),
+        }
+    }
+
+    fn op(&mut self, index: usize, op: &Op, next: Option<&Op>) -> Written {
+        let before = self.state;
+        self.state = before.after(&op.action);
+        match op.action {
+            Action::Home | Action::AxisTravel { .. } => {
+                let to = joint_target(self.state.place)
+                    .ok_or(EmitError::Internal("a move of all axes leads nowhere"))?;
+                let from = match before.place {
+                    Place::Unknown => None,
+                    Place::Home | Place::Tip(..) => index.checked_sub(1),
+                };
+                self.joint_move(index, to, from)
+            }
+            Action::Travel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. } => self.linear_move(index, op, before.place, next),
+            Action::Ultrasonic { state } => self.switch(state),
+            Action::AwaitReady => self.await_ready(),
+            Action::Dwell { time } => self.dialect.wait(time),
+            Action::ToolChange { .. } => Err(EmitError::Internal("a tool change was not refused")),
+        }
+    }
+
+    /// A move of all axes to where they are after an op, from where they are after another.
+    fn joint_move(&mut self, index: usize, to: JointTarget, from: Option<usize>) -> Written {
+        let op = op_id(index)?;
+        let from = from
+            .map(|from| self.source.axes_after(op_id(from)?))
+            .transpose()?;
+        let axes = self.source.axes_after(op)?;
+        self.dialect.joint_move(&JointMove { op, to, from, axes })
+    }
+
+    fn linear_move(&mut self, index: usize, op: &Op, before: Place, next: Option<&Op>) -> Written {
+        let (Place::Tip(tip, held), Place::Tip(to, then)) = (before, self.state.place) else {
+            return Err(EmitError::Internal("a move starts from an unknown pose"));
+        };
+        let next = next.map(|next| &next.action);
+        let stock = self.source.program().stock;
+        let end = match self.common.approximation {
+            Some(_) if may_round(stock, before, &op.action, next) => End::Rounded,
+            Some(_) | None => End::Exact,
+        };
+        self.dialect.linear_move(&LinearMove {
+            op: op_id(index)?,
+            action: &op.action,
+            from: (tip, held),
+            to: (to, then),
+            end,
+        })
+    }
+
+    fn switch(&mut self, state: Switch) -> Written {
+        let output = self.source.cell.ultrasonic;
+        self.dialect
+            .switch(output.ok_or(EmitError::Internal("no ultrasonic output"))?, state)
+    }
+
+    fn await_ready(&mut self) -> Written {
+        match self.source.cell.ready {
+            Ready::Input(input) => self.dialect.await_input(input),
+            Ready::After(time) => self.dialect.wait(time),
+        }
+    }
+}
+
+const fn joint_target(place: Place) -> Option<JointTarget> {
+    match place {
+        Place::Unknown => None,
+        Place::Home => Some(JointTarget::Home),
+        Place::Tip(tip, held) => Some(JointTarget::Pose((tip, held))),
+    }
+}
+
+fn op_id(index: usize) -> Result<OpId, EmitError> {
+    let id = u32::try_from(index).map_err(|_| EmitError::Internal("more ops than have numbers"))?;
+    Ok(OpId(id))
+}

@@ -1,0 +1,70 @@
+//! Codes that mean the same on all controllers that have them (ISO 6983).
+
+use crate::statement::{Convention, FeedMode, Mode, Motion, Number, Order, Parsed, ReadError, Scope};
+use vcutc_backend_api::readback::End;
+use vcutc_backend_api::units::Duration;
+
+/// What M codes do on all controls, as the rest of a sentence.
+pub(crate) const fn m_code(code: u32) -> Option<&'static str> {
+    match code {
+        0 | 1 => Some("stops the program"),
+        2 | 30 => Some("ends the program"),
+        6 => Some("changes the tool"),
+        19 => Some("turns the spindle"),
+        98 => Some("calls a program"),
+        99 => Some("ends a part"),
+        _ => None,
+    }
+}
+
+/// The G codes that mean the same in all dialects that have them, in tenths. False for others.
+pub(crate) fn g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> {
+    match code {
+        0 => order.moves(Motion::Rapid)?,
+        10 => order.moves(Motion::AtFeed)?,
+        // A plane is for arcs, `G40` ends a correction for the tool's radius.
+        170 | 400 => {}
+        900 => order.set(Mode::Convention(Convention::Absolute))?,
+        910 => order.set(Mode::Not(Convention::Absolute))?,
+        930 => order.set(Mode::Feed(Some(FeedMode::InverseTime)))?,
+        940 => order.set(Mode::Feed(Some(FeedMode::Tip)))?,
+        950 => order.set(Mode::Feed(None))?,
+        _ => return Ok(false),
+    }
+    Ok(true)
+}
+
+/// The G codes that LinuxCNC and Fanuc share besides, in tenths. False for others.
+pub(crate) fn american_g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> {
+    match code {
+        // The end of a cycle for holes.
+        800 => {}
+        200 => order.set(Mode::Not(Convention::Millimetres))?,
+        210 => order.set(Mode::Convention(Convention::Millimetres))?,
+        _ => return g_code(code, order),
+    }
+    Ok(true)
+}
+
+/// Rounding as far as the job says, or else a way to stop that is not its.
+pub(crate) fn rounding(distance: Option<Number>, scope: Scope<'_>) -> Mode {
+    let is_that_of_the_job = match (distance, scope.approximation) {
+        (Some(is), Some(should)) => (is.value - should.to_mm()).abs() < 0.6e-6,
+        (Some(_), None) | (None, _) => false,
+    };
+    Mode::Stop(is_that_of_the_job.then_some(End::Rounded))
+}
+
+/// A wait of some seconds.
+pub(crate) fn seconds(number: Number) -> Parsed<Duration> {
+    if number.value >= 0.0 {
+        Ok(Duration::s(number.value))
+    } else {
+        Err(ReadError::Expected("a time that is not negative".to_owned()))
+    }
+}
+
+/// The name of a file without its extension.
+pub(crate) fn stem(file: &str) -> &str {
+    file.rfind('.').and_then(|at| file.get(..at)).unwrap_or(file)
+}

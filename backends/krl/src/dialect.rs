@@ -1,0 +1,198 @@
+//! How a program is put in KRL.
+
+use crate::attitude::Attitudes;
+use crate::configuration::Configuration;
+use crate::keywords::{HOME, part_name};
+use crate::options::Settings;
+use crate::turns::{Rates, Turns, rounded_down};
+use core::num::NonZeroU32;
+use vcutc_backend_api::backend::EmitError;
+use vcutc_backend_api::ir::{FeedId, RateId, Switch};
+use vcutc_backend_api::readback::End;
+use vcutc_backend_api::script::{
+    Dialect, File, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written, feed, rate,
+};
+use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::units::Duration;
+
+/// KRL, as far as a program is written.
+pub(crate) struct KrlDialect<'a, 't, 's> {
+    /// What it is written from.
+    pub(crate) source: Source<'a>,
+    /// The options.
+    pub(crate) settings: &'a Settings<'a>,
+    /// The program's orientations as text.
+    pub(crate) attitudes: &'a Attitudes,
+    /// How fast its turns are.
+    pub(crate) turns: &'a Turns,
+    /// Where lines go.
+    pub(crate) text: &'t mut Text<'s>,
+    /// The rates of swivel and twist as last said.
+    pub(crate) rates: Option<Rates>,
+}
+
+impl Dialect for KrlDialect<'_, '_, '_> {
+    fn part_name(&self, main: &str, part: usize) -> String {
+        part_name(main, part)
+    }
+
+    fn open(&mut self, file: File<'_>) -> Written {
+        self.begin_source(file)
+    }
+
+    fn setup(&mut self, file: File<'_>) -> Written {
+        self.initialise(file)
+    }
+
+    fn call(&mut self, part: File<'_>) -> Written {
+        Ok(self.text.line(&format!("{}( )", part.name))?)
+    }
+
+    fn close(&mut self, file: File<'_>) -> Written {
+        self.text.line("END")?;
+        self.data(file)
+    }
+
+    fn finish(&mut self, _: &str) -> Written {
+        Ok(self.text.flush()?)
+    }
+
+    fn comment(&mut self, ours: &str, theirs: &str) -> Written {
+        self.text.put(b"; ");
+        Ok(self.text.comment(ours, theirs)?)
+    }
+
+    fn verbatim(&mut self, line: &str) -> Written {
+        Ok(self.text.line(line)?)
+    }
+
+    fn caution(&self, before: &str) -> Vec<String> {
+        vec![
+            format!("goes on where {before} stopped"),
+            "if started alone: in T1, the blade clear of the work, watching the way to the first point"
+                .to_owned(),
+        ]
+    }
+
+    /// Rates stand at the head of a part, because what `BAS (#INITMOV,0 )` leaves is the fastest there is.
+    fn part_begins(&mut self, part: &Part, first: Option<RateId>) -> Written {
+        self.rates = None;
+        let turning = part.ops.clone().find_map(|index| self.turns.at(index));
+        match (turning, first) {
+            (Some(_), _) => self.turn_rates(turning),
+            (None, Some(id)) => {
+                // The part turns nothing, and does not leave the rates open all the same.
+                let swivel = rounded_down(rate(self.source.program(), id)?);
+                let twist = swivel;
+                self.turn_rates(Some(Rates { swivel, twist }))
+            }
+            (None, None) => Ok(()),
+        }
+    }
+
+    fn layer_begins(&mut self, layer: Layer, _: Option<NonZeroU32>) -> Written {
+        self.text.put(b";FOLD layer ");
+        self.text.whole(layer.number.get());
+        Ok(self.text.end_line()?)
+    }
+
+    fn layer_ends(&mut self, layer: Layer) -> Written {
+        self.text.put(b";ENDFOLD (layer ");
+        self.text.whole(layer.number.get());
+        Ok(self.text.line(")")?)
+    }
+
+    fn feed(&mut self, id: FeedId) -> Written {
+        let feed = feed(self.source.program(), id)?;
+        self.assign(b"$VEL.CP=", feed.to_m_per_s())
+    }
+
+    /// To home, or to a pose with the status and turn that the arm has there.
+    fn joint_move(&mut self, motion: &JointMove) -> Written {
+        self.text.put(self.settings.planner.axes());
+        self.text.put(b" ");
+        let pose = match motion.to {
+            JointTarget::Home => return Ok(self.text.line(HOME)?),
+            JointTarget::Pose(pose) => pose,
+        };
+        let branch = self.source.reachable.branch_after(motion.op);
+        let Configuration { status, turn } = branch
+            .and_then(|branch| Configuration::of(branch, motion.axes))
+            .ok_or(EmitError::Internal("a pose has no status"))?;
+        self.text.put(b"{X ");
+        self.pose(pose)?;
+        self.text.put(b",S ");
+        self.text.whole(status);
+        self.text.put(b",T ");
+        self.text.whole(turn);
+        Ok(self.text.line("}")?)
+    }
+
+    fn linear_move(&mut self, motion: &LinearMove<'_>) -> Written {
+        self.turn_rates(self.turns.at(motion.op.0 as usize))?;
+        let planner = self.settings.planner;
+        self.text.put(planner.straight());
+        self.pose(motion.to)?;
+        self.text.put(b"}");
+        match motion.end {
+            End::Exact => {}
+            End::Rounded => self.text.put(planner.approximate()),
+        }
+        Ok(self.text.end_line()?)
+    }
+
+    /// Without `CONTINUE`: the output waits for the robot to arrive (advance run stop) [K-SI].
+    fn switch(&mut self, output: u32, state: Switch) -> Written {
+        self.text.put(b"$OUT[");
+        self.text.whole(output);
+        Ok(self.text.line(match state {
+            Switch::On => "]=TRUE",
+            Switch::Off => "]=FALSE",
+        })?)
+    }
+
+    fn await_input(&mut self, input: u32) -> Written {
+        self.text.put(b"WAIT FOR $IN[");
+        self.text.whole(input);
+        Ok(self.text.line("]")?)
+    }
+
+    fn wait(&mut self, time: Duration) -> Written {
+        self.assign(b"WAIT SEC ", time.to_s())
+    }
+}
+
+impl KrlDialect<'_, '_, '_> {
+    /// The rates of a turn, where they are others than before. The controller limits the swivel of the tool's direction
+    /// (ORI1) and the twist about it (ORI2) apart [K-SI].
+    fn turn_rates(&mut self, rates: Option<Rates>) -> Written {
+        match rates {
+            Some(now) if self.rates != rates => {
+                self.rates = rates;
+                self.assign(b"$VEL.ORI1=", now.swivel)?;
+                self.assign(b"$VEL.ORI2=", now.twist)
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
+
+    /// Sets a variable, or says another instruction that ends in a number.
+    pub(crate) fn assign(&mut self, target: &[u8], value: f64) -> Written {
+        self.text.put(target);
+        self.text.trimmed(value)?;
+        Ok(self.text.end_line()?)
+    }
+
+    /// A target from the value of X on, without its closing bracket.
+    #[inline]
+    fn pose(&mut self, (tip, held): Pose) -> Written {
+        let (lengths, text) = (self.settings.common.lengths, &mut *self.text);
+        text.fixed(lengths, tip.x)?;
+        text.put(b",Y ");
+        text.fixed(lengths, tip.y)?;
+        text.put(b",Z ");
+        text.fixed(lengths, tip.z)?;
+        text.put(self.attitudes.text(held)?);
+        Ok(())
+    }
+}

@@ -1,0 +1,292 @@
+//! How a program is put in RAPID.
+
+use crate::keywords::{AXES_SPEED, HOME, SPEED, ZONE, part_routine};
+use crate::options::Settings;
+use crate::orient::Quaternion;
+use crate::speeds::Speeds;
+use core::num::NonZeroU32;
+use vcutc_backend_api::backend::EmitError;
+use vcutc_backend_api::confdata::confdata;
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{AxisValues, Cell, OpId, OrientationId, RateId, Switch};
+use vcutc_backend_api::motion::Waypoint;
+use vcutc_backend_api::readback::End;
+use vcutc_backend_api::script::{
+    Dialect, File, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written,
+};
+use vcutc_backend_api::units::Duration;
+
+/// External axes that no machine of the program has [A-INS].
+pub(crate) const NO_EXTERNAL_AXES: &[u8] = b"[9E9,9E9,9E9,9E9,9E9,9E9]";
+
+/// Instructions stand so far in.
+const INDENT: &[u8] = b"    ";
+
+/// How a move of all axes says where it leads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum AxisTarget {
+    /// By the axis values, which leave no doubt about how the arm stands.
+    Axes,
+    /// By the pose, because the frames are those of the controller, which may be calibrated anew.
+    Pose,
+}
+
+impl AxisTarget {
+    const fn of(cell: &Cell) -> Self {
+        match (cell.tool.number, cell.base.number) {
+            (None, None) => Self::Axes,
+            (Some(_), _) | (_, Some(_)) => Self::Pose,
+        }
+    }
+}
+
+/// RAPID, as far as a program is written.
+pub(crate) struct RapidDialect<'a, 't, 's> {
+    /// What it is written from.
+    pub(crate) source: Source<'a>,
+    /// The options.
+    pub(crate) settings: &'a Settings<'a>,
+    /// Its speeddata.
+    pub(crate) speeds: Speeds,
+    /// Its orientations, rounded.
+    pub(crate) quaternions: Vec<Quaternion>,
+    /// What ends every move: `,TOOL\WObj:=WOBJ;`.
+    pub(crate) frames: String,
+    /// Where lines go.
+    pub(crate) text: &'t mut Text<'s>,
+    /// The files of modules so far.
+    pub(crate) modules: Vec<String>,
+    /// The quaternion written last, whose sign the next one follows.
+    turned: Option<Quaternion>,
+    /// Those that are not passed yet.
+    waypoints: &'a [Waypoint],
+}
+
+impl<'a, 't, 's> RapidDialect<'a, 't, 's> {
+    /// Nothing written yet.
+    pub(crate) fn new(source: Source<'a>, settings: &'a Settings<'a>, text: &'t mut Text<'s>) -> Self {
+        let program = source.program();
+        let (tool, work_object) = (settings.tool(source.cell), settings.work_object(source.cell));
+        let rounded = program.orientations.iter().copied().map(Quaternion::rounded);
+        Self {
+            source,
+            settings,
+            speeds: Speeds::of(program),
+            quaternions: rounded.collect(),
+            frames: format!(",{tool}\\WObj:={work_object};"),
+            text,
+            modules: Vec::new(),
+            turned: None,
+            waypoints: &[],
+        }
+    }
+}
+
+impl Dialect for RapidDialect<'_, '_, '_> {
+    fn part_name(&self, main: &str, part: usize) -> String {
+        part_routine(main, part)
+    }
+
+    fn open(&mut self, file: File<'_>) -> Written {
+        self.begin_module(file)
+    }
+
+    fn setup(&mut self, file: File<'_>) -> Written {
+        self.begin_routine(file)
+    }
+
+    fn call(&mut self, part: File<'_>) -> Written {
+        self.begin(part.name.as_bytes());
+        Ok(self.text.line(";")?)
+    }
+
+    fn close(&mut self, _: File<'_>) -> Written {
+        self.text.line("  ENDPROC")?;
+        Ok(self.text.line("ENDMODULE")?)
+    }
+
+    fn finish(&mut self, main: &str) -> Written {
+        self.list(main)?;
+        Ok(self.text.flush()?)
+    }
+
+    fn comment(&mut self, ours: &str, theirs: &str) -> Written {
+        self.begin(b"! ");
+        Ok(self.text.comment(ours, theirs)?)
+    }
+
+    fn head_comment(&mut self, ours: &str, theirs: &str) -> Written {
+        self.text.put(b"  ! ");
+        Ok(self.text.comment(ours, theirs)?)
+    }
+
+    fn verbatim(&mut self, line: &str) -> Written {
+        Ok(self.text.line(line)?)
+    }
+
+    fn caution(&self, before: &str) -> Vec<String> {
+        vec![
+            format!("goes on where {before} stopped"),
+            "if started alone: in manual mode, the blade clear of the work, watching the way to the first point"
+                .to_owned(),
+        ]
+    }
+
+    fn part_begins(&mut self, part: &Part, _: Option<RateId>) -> Written {
+        let waypoints = &self.source.reachable.motion().waypoints;
+        let passed = waypoints.partition_point(|waypoint| (waypoint.op.0 as usize) < part.ops.start);
+        self.waypoints = waypoints.get(passed..).unwrap_or_default();
+        self.turned = None;
+        Ok(())
+    }
+
+    /// The comment of a cut names its layer.
+    fn layer_begins(&mut self, layer: Layer, cut: Option<NonZeroU32>) -> Written {
+        match cut {
+            Some(_) => Ok(()),
+            None => self.comment(&format!("layer {}", layer.number), ""),
+        }
+    }
+
+    fn joint_move(&mut self, motion: &JointMove) -> Written {
+        match (motion.to, AxisTarget::of(self.source.cell)) {
+            (JointTarget::Home, _) => {
+                self.begin(b"MoveAbsJ ");
+                self.text.put(HOME.as_bytes());
+                self.text.put(b"\\NoEOffs");
+                self.turned = None;
+            }
+            (JointTarget::Pose((_, held)), AxisTarget::Axes) => {
+                self.begin(b"MoveAbsJ [");
+                self.joints(motion.axes)?;
+                self.text.put(b",");
+                self.text.put(NO_EXTERNAL_AXES);
+                self.text.put(b"]\\NoEOffs");
+                self.turned = Some(self.quaternion(held)?);
+            }
+            (JointTarget::Pose((tip, held)), AxisTarget::Pose) => {
+                self.begin(b"MoveJ ");
+                let quaternion = self.quaternion(held)?;
+                self.target(motion.op, tip, quaternion, motion.axes)?;
+            }
+        }
+        self.text.put(b",");
+        self.text.put(AXES_SPEED.as_bytes());
+        self.text.put(b",fine");
+        Ok(self.text.line(&self.frames)?)
+    }
+
+    /// Past the waypoints of an op to where it ends. The robot stops at waypoints.
+    fn linear_move(&mut self, motion: &LinearMove<'_>) -> Written {
+        let speed = self.speeds.number(motion.action);
+        let speed = speed.ok_or(EmitError::Internal("a move has no speed"))?;
+        while let [waypoint, rest @ ..] = self.waypoints
+            && waypoint.op == motion.op
+        {
+            let quaternion = Quaternion::rounded(waypoint.frame.orientation);
+            self.begin(b"MoveL ");
+            self.target(motion.op, waypoint.frame.origin, quaternion, waypoint.axes)?;
+            self.motion_end(speed, End::Exact)?;
+            self.waypoints = rest;
+        }
+        let (tip, held) = motion.to;
+        let quaternion = self.quaternion(held)?;
+        let axes = self.source.axes_after(motion.op)?;
+        self.begin(b"MoveL ");
+        self.target(motion.op, tip, quaternion, axes)?;
+        self.motion_end(speed, motion.end)
+    }
+
+    /// Every move before this ends in a stop point, where the controller waits for the arm [A-IO].
+    fn switch(&mut self, output: u32, state: Switch) -> Written {
+        self.begin(b"SetDO ");
+        self.text.put(self.settings.output(output).as_bytes());
+        Ok(self.text.line(match state {
+            Switch::On => ",1;",
+            Switch::Off => ",0;",
+        })?)
+    }
+
+    fn await_input(&mut self, input: u32) -> Written {
+        self.begin(b"WaitDI ");
+        self.text.put(self.settings.input(input).as_bytes());
+        Ok(self.text.line(",1;")?)
+    }
+
+    fn wait(&mut self, time: Duration) -> Written {
+        self.begin(b"WaitTime ");
+        self.text.trimmed(time.to_s())?;
+        Ok(self.text.line(";")?)
+    }
+}
+
+impl RapidDialect<'_, '_, '_> {
+    /// Starts a line of the routine.
+    fn begin(&mut self, start: &[u8]) {
+        self.text.put(INDENT);
+        self.text.put(start);
+    }
+
+    fn motion_end(&mut self, speed: u32, end: End) -> Written {
+        self.text.put(b",");
+        self.text.put(SPEED.as_bytes());
+        self.text.whole(speed);
+        self.text.put(b",");
+        self.text.put(match end {
+            End::Exact => b"fine",
+            End::Rounded => ZONE.as_bytes(),
+        });
+        Ok(self.text.line(&self.frames)?)
+    }
+
+    /// A robtarget on the branch of an op.
+    fn target(&mut self, op: OpId, tip: Point3, quaternion: Quaternion, axes: AxisValues) -> Written {
+        let branch = self.source.reachable.branch_after(op);
+        let conf = branch
+            .and_then(|branch| confdata(branch, &axes))
+            .ok_or(EmitError::Internal("a pose has no confdata"))?;
+        let quaternion = self.turned.map_or(quaternion, |last| quaternion.nearer_to(last));
+        self.turned = Some(quaternion);
+        self.text.put(b"[");
+        self.point(tip)?;
+        self.text.put(b",");
+        quaternion.push(self.text.buffer());
+        for (start, quarter) in [",[", ",", ",", ","].into_iter().zip(conf) {
+            self.text.put(start.as_bytes());
+            if quarter < 0 {
+                self.text.put(b"-");
+            }
+            self.text.whole(quarter.unsigned_abs());
+        }
+        self.text.put(b"],");
+        self.text.put(NO_EXTERNAL_AXES);
+        self.text.put(b"]");
+        Ok(())
+    }
+
+    /// `[x,y,z]` in mm.
+    pub(crate) fn point(&mut self, point: Point3) -> Written {
+        let lengths = self.settings.common.lengths;
+        for (start, value) in [(b"[", point.x), (b",", point.y), (b",", point.z)] {
+            self.text.put(start);
+            self.text.fixed(lengths, value)?;
+        }
+        self.text.put(b"]");
+        Ok(())
+    }
+
+    /// The angles of axes, `[j1,j2,j3,j4,j5,j6]` in degrees.
+    pub(crate) fn joints(&mut self, axes: AxisValues) -> Written {
+        for (start, angle) in [b'[', b',', b',', b',', b',', b','].into_iter().zip(axes.0) {
+            self.text.put(&[start]);
+            self.text.fixed(self.settings.angles, angle.to_degrees())?;
+        }
+        self.text.put(b"]");
+        Ok(())
+    }
+
+    fn quaternion(&self, held: OrientationId) -> Result<Quaternion, EmitError> {
+        let known = self.quaternions.get(held.0 as usize).copied();
+        known.ok_or(EmitError::Internal("an orientation is not in its table"))
+    }
+}
