@@ -253,7 +253,7 @@ fn refuse(first: &Unit, second: &Unit, path: &str, list: Option<&SourceMap>, con
     } else {
         format!("{} and {} would both write {path}", first.job, second.job)
     };
-    let help = "give them folders of their own, or rename one of the jobs; nothing was written";
+    let help = "give them separate folders, or rename one of the jobs; nothing was written";
     if let (Some(sources), Some(first), Some(place)) = (list, first.asked_at, second.asked_at) {
         let diagnostic = Diagnostic::new(Code::SameFile, message, place, "asked for here");
         let diagnostic = if first == place {

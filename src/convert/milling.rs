@@ -53,7 +53,7 @@ pub struct Move {
     pub place: Span,
     /// On which way.
     pub way: Way,
-    /// Where it ends: x, y, z in the program's base, in mm. None where nobody knows, as behind moves of all axes.
+    /// Where it ends: x, y, z in the program's base, in mm. None where nobody knows, as behind axis moves.
     pub to: Option<[f64; 3]>,
     /// How the tool is held at its end, if the program says so.
     pub attitude: Option<Orientation>,

@@ -166,11 +166,11 @@ codes! {
     AxisLimit = "VC0511", Error, "axis beyond its limit";
     /// A motion that is too fast for an axis.
     AxisRate = "VC0512", Error, "motion too fast for an axis";
-    /// A motion too near to a singular pose.
+    /// A motion too close to a singularity.
     NearSingular = "VC0513", Error, "motion too close to a singularity";
     /// Motions that need different branches where none can be changed.
     NoCommonBranch = "VC0514", Error, "no common arm configuration";
-    /// A move of all axes that leads through the stock.
+    /// An axis move that leads through the stock.
     WayThroughStock = "VC0515", Error, "way to or from home through the stock";
     /// A posture for which the machine lacks an axis.
     PostureNeedsAxis = "VC0516", Error, "posture that needs a missing axis";
@@ -180,7 +180,7 @@ codes! {
     AirCut = "VC0521", Error, "air cut at an unsuitable height";
     /// A tool frame that no mount gives.
     ToolFrame = "VC0522", Warning, "suspicious tool frame";
-    /// Travels that became moves of all axes.
+    /// Travels that became axis moves.
     ManyAxisMoves = "VC0527", Warning, "travels turned into axis moves";
     /// A turn of a five-axis machine that takes the blade through the work.
     SweepThroughWork = "VC0528", Error, "blade turning through the work";

@@ -67,7 +67,7 @@ pub enum Reason {
     NotStated,
     /// What is described of machines has no place for it.
     NoPlaceForIt,
-    /// The arm has no closed form, and its distance from singular poses is not measured.
+    /// The arm has no closed form, and its distance from singularities is not measured.
     NotMeasured,
     /// Neither arm nor holder has a body.
     NoBody,
@@ -256,7 +256,7 @@ fn kept_rate(axis: &Axis, index: usize, report: &ReachReport) -> Outcome {
     }
 }
 
-/// Arms with a closed form measure their distance from singular poses. Machines of linear axes have none that matter: their
+/// Arms with a closed form measure their distance from singularities. Machines of linear axes have none that matter: their
 /// rotary axes are interpolated, and go each at a constant rate whatever the pose.
 fn singular_poses(mechanism: &Mechanism, report: &ReachReport) -> Option<Checked> {
     let is_measured = || {

@@ -181,7 +181,7 @@ fn baseline(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Baseline> {
         })
         .collect();
     if !names.iter().any(|name| section.has(name)) {
-        let message = format!("`[{BASELINE}]` holds programs to nothing");
+        let message = format!("`[{BASELINE}]` does not limit any figure");
         let help = format!(
             "add a line such as `time = \"2 %\"`; figures are {}",
             names.join(", ")
@@ -336,9 +336,9 @@ fn twice(sections: &[Table<'_>], flaws: &mut Vec<Flaw>) {
                 Flaw::new(
                     section.span_of(NAME),
                     format!("two programs are called `{name}`"),
-                    "called so again",
+                    "named again here",
                 )
-                .help("give each a name of its own, or none"),
+                .help("give each a different name, or none"),
             );
         }
     }

@@ -92,14 +92,14 @@ impl FkCheck {
         let missed = Flaw::new(
             self.span.clone(),
             format!(
-                "the numbers of this sheet put the flange {apart:.3} mm and {turned:.3} deg away from a pose that is known"
+                "the numbers of this sheet put the flange {apart:.3} mm and {turned:.3} deg away from a known pose"
             ),
             format!(
                 "known to {} mm and {} deg",
                 self.position_tolerance_mm, self.rotation_tolerance_deg
             ),
         );
-        Some(missed.help("compare lengths, `joint_offsets_deg` and `joint_signs` with the machine's own, or the pose with its source"))
+        Some(missed.help("compare lengths, `joint_offsets_deg` and `joint_signs` with those of the machine, or the pose with its source"))
     }
 }
 

@@ -62,7 +62,7 @@ pub struct Stroke {
     pub duration: f64,
     /// What decides how long it takes.
     pub pace: Pace,
-    /// Whether a move of all axes may take its place.
+    /// Whether an axis move may take its place.
     pub detour: Detour,
 }
 
@@ -75,7 +75,7 @@ pub enum Pace {
     Rate(RateId),
 }
 
-/// Whether a move of all axes may take a motion's place.
+/// Whether an axis move may take a motion's place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detour {
     /// It may: the motion goes through the air, and both of its ends lie above the stock.

@@ -21,9 +21,9 @@ pub(super) struct Station {
 pub(super) enum StationKind {
     /// The machine is at home.
     Home,
-    /// A run that is reached by a move of all axes.
+    /// A run that is reached by an axis move.
     Run(Taught),
-    /// A run that is reached along a course, which a move of all axes could take the place of.
+    /// A run that is reached along a course, which an axis move could take the place of.
     Joined(Stroke),
 }
 

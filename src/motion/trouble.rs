@@ -34,7 +34,7 @@ pub enum Trouble {
         /// A branch that carries that motion, and where it fails itself.
         other: Failing,
     },
-    /// A move of all axes that leads the blade below the top of the stock.
+    /// An axis move that leads the blade below the top of the stock.
     Way {
         /// Its op.
         op: OpId,
@@ -83,7 +83,7 @@ pub struct Failing {
     pub worst: Breach,
 }
 
-/// Where a move of all axes leads.
+/// Where an axis move leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leads {
     /// From home or from another pose to a pose.
@@ -423,7 +423,7 @@ fn proven_breach(
     prove(&survey.rig, &course, run.branch, &start, &survey.least).err()
 }
 
-/// Says what is wrong with a move of all axes.
+/// Says what is wrong with an axis move.
 pub(super) fn on_the_way(stations: &[Station], refused: Option<Refused>, stuck: usize) -> Trouble {
     let station = refused.map_or(stuck, |refused| refused.station);
     match (stations.get(station), refused) {

@@ -9,7 +9,7 @@ use vcutc_diff::align::{Pair, common};
 pub(super) enum Step {
     /// It is there, and reads the same.
     Same { fresh: usize, given: usize },
-    /// Another one of its kind stands in its place.
+    /// Another one of its kind is there instead.
     Changed { fresh: usize, given: usize },
     /// It stands elsewhere.
     Moved { fresh: usize, given: usize },

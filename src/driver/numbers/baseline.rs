@@ -52,9 +52,9 @@ pub fn read(text: &str) -> Result<Vec<Record>, Flaw> {
         Flaw::new(
             place..place,
             format!("these are not the figures of programs: {reason}"),
-            "cannot be read on from here",
+            "cannot be read from here on",
         )
-        .help("take the file as it was committed, or remove it and let `vcutc build --accept` write it anew")
+        .help("restore the committed file, or delete it and let `vcutc build --accept` create it")
     })
 }
 

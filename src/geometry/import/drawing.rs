@@ -151,7 +151,7 @@ impl Why {
             Self::Frozen => "on a layer that is frozen",
             Self::NoExtent => "without extent",
             Self::OtherFile => "in another file",
-            Self::NotApplied => "not applied, what it hides is read",
+            Self::NotApplied => "not applied, so what it hides is read",
         }
     }
 }

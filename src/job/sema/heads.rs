@@ -96,7 +96,7 @@ fn unknown(word: &str, at: Span) -> Diagnostic {
 fn with_list(diagnostic: Diagnostic) -> Diagnostic {
     let names: Vec<&str> = FORMS.iter().map(|(word, _)| *word).collect();
     diagnostic.note(format!(
-        "a job holds `job`, `use`, `let` and the blocks {}",
+        "a job contains `job`, `use`, `let` and the blocks {}",
         names.join(", ")
     ))
 }
@@ -114,7 +114,7 @@ fn surplus(first: &str, at: Span) -> Box<Diagnostic> {
     let form = form_of(first);
     let diagnostic = Diagnostic::new(
         Code::Misplaced,
-        format!("there is something after the head of `{first}`"),
+        format!("unexpected text after the head of `{first}`"),
         at,
         "does not belong here",
     );

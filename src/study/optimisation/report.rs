@@ -88,7 +88,8 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
     text += &proven_text(operation);
     text += &binding_text(operation.objective, &operation.binding);
     text += &operation.faster.as_ref().map_or(String::new(), faster_text);
-    text += "\n  Other limits of the scallop, planned at programmed speeds, and what the formula says of them:\n\n";
+    text +=
+        "\n  Other limits of the scallop, planned at programmed speeds, and the times by the formula:\n\n";
     let points = operation
         .trade_off
         .points
@@ -271,12 +272,12 @@ pub fn why_not(problem: &Problem, infeasible: &Infeasible) -> String {
                 .collect();
             let parties = match &names[..] {
                 [] => "the limits".to_owned(),
-                [one] => return format!("none: {one} cannot be kept{}", would_do(bounds, nearest)),
+                [one] => return format!("none: {one} cannot be satisfied{}", would_do(bounds, nearest)),
                 [first @ .., last] => format!("{} and {last}", first.join(", ")),
             };
             format!("none: {parties} conflict{}", would_do(bounds, nearest))
         }
-        Infeasible::Unbounded => "none: the objective falls with the layer for ever".to_owned(),
+        Infeasible::Unbounded => "none: the objective falls with the layer without end".to_owned(),
     }
 }
 

@@ -39,7 +39,7 @@ pub enum Altered {
         /// How far apart the sides are there.
         gap: f64,
     },
-    /// Points of a side inside of its outline, where x runs back: they are left out.
+    /// Points of a side inside its outline, where x runs back: they are left out.
     Inside {
         /// Of this side.
         side: Side,
@@ -55,7 +55,7 @@ pub enum Altered {
         /// The length of that line in x.
         by: f64,
     },
-    /// A side that ends before the other one: it is led on straight.
+    /// A side that ends before the other one: it is extended straight.
     LedOn {
         /// This one.
         side: Side,

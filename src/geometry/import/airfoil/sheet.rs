@@ -194,7 +194,7 @@ impl<'a> Reading<'a> {
             .collect();
         ends.dedup();
         let message = format!(
-            "lines like this separate the {} elements of the file: keep the one that is meant in a file of its own",
+            "lines like this separate the {} elements of the file: keep the one you need in a separate file",
             ends.len() + 1
         );
         Err(DataError::new(place.clone(), message))
