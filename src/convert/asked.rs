@@ -6,9 +6,8 @@ use core::fmt;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_job::sema::units;
 
-/// The words of the user.
+/// The words of the user: each field is the text of the option with its name.
 #[derive(Clone, Copy, Debug, Default)]
-#[expect(missing_docs, reason = "each is the text of the option of its name")]
 pub struct Words<'a> {
     pub rake: &'a str,
     pub swing: &'a str,
