@@ -14,7 +14,6 @@ pub(super) struct Sheet {
     pub(super) title: String,
     /// The points in the order written, without the line of counts.
     pub(super) points: Vec<Vertex>,
-    /// Where the rows stand.
     rows: Vec<Range<usize>>,
     /// Where the points stand.
     pub(super) range: Range<usize>,

@@ -153,7 +153,6 @@ impl Alignment {
     }
 }
 
-/// The page.
 pub(super) struct Page {
     /// The unit of the drawing.
     pub(super) unit: Unit,

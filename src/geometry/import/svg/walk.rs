@@ -95,7 +95,6 @@ pub(super) fn drawing(
     })
 }
 
-/// Whether something is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shown {
     Yes,
