@@ -17,7 +17,6 @@ const LONGEST_TAG: usize = 1 << 15;
 const MOST_NAMESPACES: usize = 64;
 /// Most nodes (elements, comments and stretches of text).
 const MOST_NODES: u32 = 100_000;
-/// Most joints.
 const MOST_JOINTS: usize = 1000;
 /// How far joints may lie from one another, in m along each axis.
 const FARTHEST: f64 = 100.0;
