@@ -20,7 +20,6 @@ pub struct Taught {
 /// What an op moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Leg {
-    /// Nothing.
     Still,
     /// All axes to their home values.
     Home,
@@ -54,9 +53,7 @@ impl Leg {
 /// A course between two taught poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
-    /// Where it begins.
     pub from: Taught,
-    /// Where it ends.
     pub to: Taught,
     /// How long it takes, in s; positive.
     pub duration: f64,
@@ -215,7 +212,6 @@ pub struct Poses<'p> {
 }
 
 impl<'p> Poses<'p> {
-    /// Of a program.
     #[must_use]
     pub const fn of(program: &'p Program) -> Self {
         Self { program }

@@ -10,7 +10,6 @@ use vcutc_backend_api::ir::OpId;
 /// A stretch of a program, beginning with the op that leads to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Station {
-    /// What it is.
     pub(super) kind: StationKind,
     /// Its ops, as places in the program; the first leads to it.
     pub(super) ops: Range<usize>,

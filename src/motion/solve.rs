@@ -104,7 +104,6 @@ pub enum Unreached {
 /// A program that its machine cannot carry out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unreachable {
-    /// The program.
     pub program: VerifiedProgram,
     /// What keeps the machine from it.
     pub trouble: Trouble,

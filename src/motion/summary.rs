@@ -29,14 +29,12 @@ pub struct ReachFigures {
     pub solves: u64,
 }
 
-/// A branch.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BranchFigure {
     /// The op that ends on it first.
     pub op: u32,
     /// How many ops end on it before the next begins.
     pub ops: u32,
-    /// What it is.
     pub words: String,
     /// Whether it has a number only, of a machine whose branches have no names.
     #[serde(skip)]
@@ -49,7 +47,6 @@ pub struct BranchFigure {
 /// A place in the program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlaceFigure {
-    /// The op.
     pub op: u32,
     /// What of the job it serves.
     pub words: String,
@@ -60,21 +57,18 @@ pub struct PlaceFigure {
 pub struct Least {
     /// The axis, or the kind of singular pose.
     pub of: String,
-    /// Where.
     pub at: PlaceFigure,
 }
 
 /// What is asked of an axis, in deg or mm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AxisFigure {
-    /// Its name.
     pub name: String,
     /// `deg` or `mm`.
     pub unit: &'static str,
     /// Its lowest value.
     #[serde(serialize_with = "rounded")]
     pub low: f64,
-    /// Its highest value.
     #[serde(serialize_with = "rounded")]
     pub high: f64,
     /// Its lower limit.

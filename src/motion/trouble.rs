@@ -36,9 +36,7 @@ pub enum Trouble {
     },
     /// An axis move that leads the blade below the top of the stock.
     Way {
-        /// Its op.
         op: OpId,
-        /// Where it leads.
         leads: Leads,
         /// Where the blade is too low.
         obstacle: Obstacle,
@@ -64,7 +62,6 @@ impl Trouble {
 /// A number of cuts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
-    /// All of them.
     Exactly(usize),
     /// So many were found before the search was ended.
     AtLeast(usize),
@@ -73,9 +70,7 @@ pub enum Count {
 /// A motion that a branch does not carry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failing {
-    /// The op.
     pub op: OpId,
-    /// The branch.
     pub branch: Option<Branch>,
     /// Where it fails first, and why.
     pub breach: Breach,
@@ -88,7 +83,6 @@ pub struct Failing {
 pub enum Leads {
     /// From home or from another pose to a pose.
     ToPose,
-    /// To home.
     ToHome,
 }
 

@@ -96,7 +96,6 @@ impl<'w> Ways<'w> {
         }
     }
 
-    /// A rung.
     pub(super) fn rung(&self, station: usize, rung: usize) -> Option<&Rung> {
         self.rungs.get(station)?.get(rung)
     }

@@ -41,7 +41,6 @@ pub enum AxesViolation {
     Limit {
         /// The axis, from 0.
         axis: usize,
-        /// Where it is.
         value: f64,
     },
     /// The blade cannot be told to be outside of the stock.

@@ -31,7 +31,6 @@ pub(super) enum Loss {
 /// A speed of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Field {
-    /// Of cuts.
     Cut,
     /// Of ways beside and above the work.
     Travel,
