@@ -20,7 +20,6 @@ const MOST_IN_FULL: usize = 20;
 /// Most characters of a statement that a message repeats.
 const LONGEST_QUOTE: usize = 120;
 
-/// What differs.
 pub(super) struct Differences {
     /// The first of them in full.
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -29,7 +28,6 @@ pub(super) struct Differences {
 }
 
 impl Differences {
-    /// How many there are.
     pub(super) fn count(&self) -> usize {
         self.counts.iter().map(|(_, count)| count).sum()
     }
@@ -93,7 +91,6 @@ enum Follow {
     /// Nothing was told before.
     #[default]
     Nothing,
-    /// Something was.
     Cause,
 }
 
