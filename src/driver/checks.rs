@@ -52,9 +52,7 @@ pub enum Check {
 /// What came of a check. A check that was made found nothing wrong: otherwise there is no program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It was made.
     Made,
-    /// It was not.
     NotMade(Reason),
 }
 
@@ -78,7 +76,6 @@ pub enum Reason {
 /// A check, and what came of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checked {
-    /// Which.
     pub check: Check,
     /// What came of it.
     pub outcome: Outcome,

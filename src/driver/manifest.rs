@@ -43,9 +43,7 @@ const BLANKS: [&str; 2] = ["{job}", "{target}"];
 /// A value with where it stands, in bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed<T> {
-    /// The value.
     pub value: T,
-    /// Where it stands.
     pub span: Range<usize>,
 }
 
@@ -70,7 +68,6 @@ pub struct Baseline {
 /// By how much a figure may become worse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Which figure.
     pub figure: Figure,
     /// By how many percent; zero or more.
     pub percent: Placed<f64>,
@@ -81,9 +78,7 @@ pub struct Tolerance {
 pub struct Entry {
     /// A name by which `vcutc build NAME` chooses it.
     pub name: Option<String>,
-    /// Its jobs.
     pub jobs: Vec<Placed<Pattern>>,
-    /// Its targets.
     pub targets: Vec<Placed<String>>,
     /// Where programs go, relative to the folder of the list; may hold `{job}` and `{target}`.
     pub output: String,

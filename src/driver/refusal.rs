@@ -68,7 +68,6 @@ impl Patience for Unhelped {
 
 /// Why a job is not compiled.
 pub(super) enum Refused<'j> {
-    /// There is no plan.
     Unplanned(Complaints<'j>),
     /// The plan's program breaks a rule, which is a fault of the compiler.
     Broken(Box<PlannedJob>, Box<Diagnostic>),

@@ -52,7 +52,6 @@ fn unknown_target(block: &TargetOptions, known: &[&str]) -> Diagnostic {
 
 /// What a target of the job's machine does not take.
 pub(super) struct Objection {
-    /// In words.
     pub(super) told: Diagnostic,
     /// The speeds that decide it, and by which factor they are off.
     off: Option<speeds::Off>,

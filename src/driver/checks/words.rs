@@ -11,7 +11,6 @@ pub struct CheckFigure {
     /// The axis that it is about, if it is about one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<String>,
-    /// Whether it was made.
     pub made: bool,
     /// The permanent name of the reason, where it was not made.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -192,7 +191,6 @@ impl Reason {
         }
     }
 
-    /// In words.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {

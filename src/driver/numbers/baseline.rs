@@ -14,7 +14,6 @@ pub const LARGEST: usize = 1 << 23;
 pub struct Name {
     /// The job's path as the list of programs has it.
     pub job: String,
-    /// The target.
     pub target: String,
     /// The folder that the program goes to, as the list has it.
     pub output: String,
@@ -26,7 +25,6 @@ pub struct Record {
     /// Of which program.
     #[serde(flatten)]
     pub name: Name,
-    /// What they are.
     pub numbers: Numbers,
 }
 
@@ -90,11 +88,8 @@ pub fn write(mut records: Vec<Record>) -> String {
 /// A figure that has become worse by more than it may.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worse {
-    /// Which.
     pub figure: Figure,
-    /// What it was.
     pub was: f64,
-    /// What it is.
     pub is: f64,
 }
 

@@ -19,7 +19,6 @@ pub struct OperationFigures {
 pub struct ParameterFigure {
     /// The field of the language.
     pub name: &'static str,
-    /// Its value.
     pub value: Value,
     /// Its unit; none for shares and words.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -22,11 +22,9 @@ pub struct TimeFigures {
     /// Of the whole program.
     #[serde(flatten)]
     pub all: KindFigures,
-    /// Layer by layer.
     pub layers: Vec<LayerFigure>,
 }
 
-/// Whether there are none.
 const fn is_none(count: &usize) -> bool {
     *count == 0
 }
@@ -34,7 +32,6 @@ const fn is_none(count: &usize) -> bool {
 /// Time by what it is spent on, in s.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct KindFigures {
-    /// All of it.
     pub total_s: f64,
     /// Through the work.
     pub cutting_s: f64,
@@ -44,7 +41,6 @@ pub struct KindFigures {
     pub travel_s: f64,
     /// Axis moves.
     pub axes_s: f64,
-    /// Waiting.
     pub waiting_s: f64,
 }
 
@@ -55,7 +51,6 @@ pub struct LayerFigure {
     pub operation: u16,
     /// The layer, from 1.
     pub layer: u32,
-    /// Its time.
     #[serde(flatten)]
     pub time: KindFigures,
 }
