@@ -54,7 +54,6 @@ pub(super) struct Unit {
 
 /// Who asks for programs: a list.
 pub(super) struct Asking<'a> {
-    /// Its text.
     pub(super) sources: &'a SourceMap,
     /// The figures that it holds programs to.
     pub(super) keeper: Option<&'a Keeper>,
@@ -62,7 +61,6 @@ pub(super) struct Asking<'a> {
 
 /// What came of a run.
 pub(super) struct Ran {
-    /// How it ended.
     pub(super) exit: Exit,
     /// The figures of the programs that were made.
     pub(super) records: Vec<Record>,

@@ -24,7 +24,6 @@ use vcutc_driver::{self as driver, Compiled, Outcome, Request, RequestError, Sta
 
 /// What is made of a job.
 pub(super) enum Product {
-    /// A program.
     Program(Program),
     /// One of its inner forms.
     Inner(InnerForm, Destination),
@@ -35,7 +34,6 @@ pub(super) enum Product {
     },
 }
 
-/// A program to make.
 pub(super) struct Program {
     backend: &'static dyn Backend,
     to: Destination,

@@ -80,7 +80,6 @@ fn standard_input(fate: Fate, console: &Console) -> Exit {
 struct Tally {
     /// Those that were not in the layout.
     formatted: Vec<String>,
-    /// How many were.
     unchanged: usize,
     /// How many have mistakes, or could not be read or written.
     refused: usize,
