@@ -56,9 +56,7 @@ pub struct Asked {
     pub clearance: Option<Length>,
     /// The blade's cutting length.
     pub edge: Option<Length>,
-    /// Half its apex angle.
     pub half_apex: Option<Angle>,
-    /// Its thickness.
     pub thickness: Option<Length>,
     /// How close to one another the points of a pass lie, across and in height.
     pub tolerance: Length,
@@ -104,7 +102,6 @@ impl FeedUnit {
 pub struct BadOption {
     /// The option, such as `--rake`.
     pub option: &'static str,
-    /// Its text.
     pub given: String,
     /// What would be right.
     pub why: String,

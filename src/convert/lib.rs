@@ -77,7 +77,6 @@ pub struct Request<'a> {
 /// A program as a job.
 #[derive(Debug)]
 pub struct Conversion {
-    /// The job.
     pub job: JobText,
     /// The passes.
     pub raster: Raster,
@@ -107,7 +106,6 @@ pub struct Inference {
     pub subject: &'static str,
     /// What was taken.
     pub what: String,
-    /// From what.
     pub why: String,
 }
 
