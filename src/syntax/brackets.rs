@@ -90,7 +90,6 @@ struct Scan<'t> {
     is_matched: bool,
     /// The token before, comments left out.
     previous: Option<Token>,
-    /// The one before that.
     before_previous: Option<Token>,
     /// Where the last block of the file ended.
     last_end: usize,
