@@ -10,7 +10,6 @@ use vcutc_process::plan::parameters::show;
 /// A bound that binds, and what relaxing it would buy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relaxed {
-    /// Which one.
     pub bound: Bound,
     /// The bound in words: `scallop <= 10 mm`.
     pub words: String,

@@ -12,7 +12,6 @@ use vcutc_process::plan::optimum::{Bound, Infeasible, Optimum, Problem};
 use vcutc_process::plan::parameters::VcutParameters;
 use vcutc_process::plan::parameters::show;
 
-/// An objective in words.
 #[must_use]
 pub const fn objective(objective: Objective) -> &'static str {
     match objective {
