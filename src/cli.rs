@@ -83,7 +83,6 @@ use vcutc_backend_api::backend::Backend;
 enum Exit {
     /// All is well.
     Success,
-    /// A job has errors.
     JobHasErrors,
     /// There was nothing to judge: wrong usage, or a file that cannot be read or written.
     CannotRun,

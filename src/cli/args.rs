@@ -30,7 +30,7 @@ const VERSION: &str = env!("VCUTC_VERSION");
 /// Compiler for V-shaped ultrasonic knife cutting of honeycomb core.
 ///
 /// Reads a job file (.vcut), plans the cuts, proves that every chip comes free and that no cut enters the part, and
-/// writes the program for the machine. A job with errors leaves no program behind, neither whole nor in part.
+/// writes the program for the machine. A job with errors never leaves a program, neither complete nor partial.
 #[derive(Debug, Parser)]
 #[command(
     name = "vcutc",
@@ -138,22 +138,24 @@ fn suggest_command(mut error: clap::Error) -> clap::Error {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Look for errors in jobs; write nothing
+    /// Check jobs for errors; write nothing
     Check(CheckArgs),
     /// Write all programs that vcut.toml lists, or check that they are up to date
     ///
-    /// vcut.toml is looked for in the current folder and above it. Programs are compiled side by side and told of in the
-    /// order of the list; each is written whole or not at all, and files that would not change are left alone.
+    /// vcutc searches for vcut.toml in the current folder and in those above it. It compiles programs in parallel and
+    /// reports them in the order of the list. Each program is written completely or not at all; unchanged files are not
+    /// touched.
     Build(BuildArgs),
-    /// Turn a KUKA milling program of three axes into V-cuts
+    /// Convert a three-axis KUKA milling program to V-cuts
     ///
-    /// Reads the passes of a raster from the program of any CAM system, and cuts each of them as a V: left flank there, right
-    /// flank back. What the command line does not say is taken from the program where that leaves one possibility, and told.
+    /// Reads the passes of a raster from the program of any CAM system, and cuts each of them as a V: the left flank on
+    /// the way out, the right flank on the way back. What the command line does not state is inferred from the program,
+    /// if there is only one possibility, and reported.
     #[cfg(feature = "krl")]
     Convert(Box<ConvertArgs>),
-    /// Print what a shell needs to complete commands, options and their values
+    /// Print a completion script for a shell
     ///
-    /// Put it where your shell looks for completions: docs/command_line.md says where that is.
+    /// It completes commands, options and their values. docs/command_line.md says where your shell looks for it.
     Completions {
         /// The shell
         #[arg(value_enum)]
@@ -161,59 +163,60 @@ pub(super) enum Command {
     },
     /// Explain a diagnostic code, or list them all
     ///
-    /// Every error and warning has a permanent code such as VC0203. Its page says what it means, shows a job that has
-    /// the error, and how to mend it.
+    /// Every error and warning has a permanent code such as VC0203. Its page explains the meaning, shows a job with the
+    /// error, and how to fix it.
     Explain {
-        /// The code, such as VC0203 (203 will do); without it, the list of all codes
+        /// The code, such as VC0203 or just 203 [default: list all codes]
         code: Option<String>,
     },
     /// Format job files
     ///
-    /// Comments stay where they are, and what a job says does not change; a file with mistakes is left as it is. Files are
-    /// replaced whole or not at all. docs/fmt.md says what the layout is.
+    /// Comments stay in place, and the meaning of a job does not change; files with errors are left unchanged. Files
+    /// are replaced completely or not at all. docs/fmt.md describes the layout.
     Fmt(FmtArgs),
-    /// Write a first job that compiles, to change into one of your own
+    /// Write a first job that compiles, to adapt to your part
     ///
-    /// With --robot the job has that machine, with a tool, a base and a home with which it was compiled before it is written.
-    /// A file that is there is not written over.
+    /// With --robot the job has that machine, with a tool, a base and a home, and is compiled before it is written.
+    /// Existing files are not overwritten.
     Init(InitArgs),
-    /// Search the base frame that leaves the machine the most room
+    /// Find the base frame with the largest margin
     ///
-    /// Looks for the place of the work (and its turn about z) where the smallest margin of the whole job is largest, proves
-    /// the whole program there, and prints the frame to paste. The job file is not changed.
+    /// Searches for the position of the work (and its rotation about z) with the largest minimum margin over the whole
+    /// job, proves the whole program there, and prints the frame to paste. The job file is not changed.
     Place(PlaceArgs),
     /// Show what `auto` chose, which limits are active, and the cost of a finer surface
     ///
-    /// Solves each operation's parameters on every lattice, by the formulas of the paper and by the exact ones; plans and
-    /// simulates the chosen ones; tells which limits bind and what relaxing each by 1 % would save; and lists the least
-    /// time for a row of limits of the scallop. The job file is not changed.
+    /// Optimizes the parameters of each operation on every lattice, with the formulas of the paper and with the exact
+    /// ones; plans and simulates the chosen ones; reports which limits are active and what relaxing each by 1 % would
+    /// save; and lists the shortest time for a series of scallop limits. The job file is not changed.
     Optimize(OptimizeArgs),
-    /// List the machines of the catalogue, or show one
+    /// List the machines in the catalogue, or show one
     ///
-    /// A part of a name, such as kuka or r3100, lists those that have it.
+    /// Part of a name, such as kuka or r3100, lists the machines whose names contain it.
     ///
-    /// Shown are lengths, limits and speeds, where the numbers come from, where sources differ, and how far they can be
-    /// trusted.
+    /// Shows lengths, limits and speeds, the sources of the numbers, where sources differ, and how reliable they are.
     Machines {
-        /// A name of the catalogue or a part of one, or a file that describes a machine (.toml, .urdf); without it, the list
+        /// A name in the catalogue or part of one, or a file that describes a machine (.toml, .urdf) [default: list all
+        /// machines]
         machine: Option<String>,
     },
-    /// Tell where axis values bring a machine's flange or blade
+    /// Compute the pose of the flange or blade from axis values (forward kinematics)
     ///
-    /// Lengths are in mm, angles in deg. For robots the way to stand comes along in the terms of their controllers: status
-    /// and turn (KUKA), confdata (ABB).
+    /// Lengths are in mm, angles in deg. For robots the arm configuration is shown too, in the controller's terms:
+    /// status and turn (KUKA), confdata (ABB).
     Fk {
         #[command(flatten)]
         cell: CellArgs,
 
-        /// The axis values, in the controller's order and sense: deg for rotary axes, mm for linear ones
+        /// The axis values, in the controller's order and direction: deg for rotary axes, mm for linear ones
         #[arg(long, value_name = "J1,J2,...", allow_hyphen_values = true)]
         joints: String,
     },
-    /// List all axis values that bring a machine's flange or blade to a pose
+    /// List all axis values for a pose of the flange or blade (inverse kinematics)
     ///
-    /// All ways to stand are listed, with all turns of each axis within its limits; with --verbose those that leave the limits
-    /// too, with the axes that do and by how much. For robots each comes with status and turn (KUKA) or confdata (ABB).
+    /// Lists all arm configurations, with all turns of each axis within its limits. With --verbose it also lists
+    /// solutions outside the limits, with the axes concerned and by how much. For robots each has status and turn
+    /// (KUKA) or confdata (ABB).
     Ik {
         #[command(flatten)]
         cell: CellArgs,
@@ -222,23 +225,23 @@ pub(super) enum Command {
         #[arg(long, value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true)]
         pose: String,
 
-        /// The orientation of the pose as a unit quaternion, the order of ABB's controllers
+        /// The orientation of the pose as a unit quaternion, in the order of ABB controllers
         #[arg(long, value_name = "W,X,Y,Z", allow_hyphen_values = true)]
         quaternion: Option<String>,
     },
-    /// Answer an editor's questions about job files, over standard input and output
+    /// Run the language server for editors, over standard input and output
     ///
-    /// Speaks the Language Server Protocol: diagnostics while typing, fixes, explanations, completion, definitions, renaming.
-    /// Editors start it; docs/editors.md says how.
+    /// Speaks the Language Server Protocol: diagnostics while typing, fixes, explanations, completion, definitions,
+    /// renaming. Editors start it; docs/editors.md explains the setup.
     #[cfg(feature = "lsp")]
     Lsp {
-        /// Over standard input and output, which is the only way; some editors say so
+        /// Use standard input and output; this is always so, but some editors pass the option
         #[arg(long)]
         stdio: bool,
     },
     /// Write the manual pages of all commands into a folder
     ///
-    /// For those who make packages: vcutc.1, vcutc-check.1 and so on.
+    /// For package maintainers: vcutc.1, vcutc-check.1 and so on.
     #[command(hide = true)]
     Man {
         /// The folder
@@ -247,29 +250,29 @@ pub(super) enum Command {
     },
     /// Draw pictures of a job as SVG
     ///
-    /// Compiles the job once and draws all there is to see of it, or with --what one aspect. docs/pictures.md shows each of them.
+    /// Compiles the job once and draws all pictures, or with --what only one. docs/pictures.md shows each of them.
     Plot(PlotArgs),
     /// List the targets and their options, or describe one
     ///
-    /// Programs `vcutc-backend-NAME` on the PATH are listed by their names; they are only run to be described.
+    /// The list includes programs `vcutc-backend-NAME` on the PATH by name; they run only when described.
     Targets {
-        /// A target; without it, the list
+        /// A target [default: list all targets]
         target: Option<String>,
     },
-    /// Write a page that shows all there is to see of a job
+    /// Write an HTML report of a job
     ///
-    /// One HTML file that needs nothing else: cross-section, deviations, axes, times, parameters with where each came from, and
-    /// the cuts played back. A job with errors writes nothing.
+    /// A single self-contained file with the cross-section, deviations, axes, times, parameters with their sources, and
+    /// a playback of the cuts. A job with errors writes nothing.
     Report(ReportArgs),
     /// Compile a job again whenever one of its files changes
     ///
-    /// Writes programs as `vcutc JOB --target` does. With --serve the report is shown in a browser on this machine, and follows.
-    /// Ctrl-C ends it.
+    /// Writes programs as `vcutc JOB --target` does. With --serve, a browser on this machine shows the report and
+    /// updates it. Press Ctrl-C to stop.
     Watch(WatchArgs),
-    /// Compare a program with the job that it was made from
+    /// Check a program against its job
     ///
-    /// Compiles the job, reads the program as its controller would, and reports every operation that is not the job's: at its
-    /// line of the program and at its place in the job. Comments and layout may differ. Nothing is written.
+    /// Compiles the job, reads the program as its controller would, and reports every operation that differs from the
+    /// job, with its line in the program and its place in the job. Comments and layout may differ. Nothing is written.
     Verify(VerifyArgs),
 }
 
@@ -278,13 +281,13 @@ pub(super) struct VerifyArgs {
     /// The job file (.vcut), or - to read it from standard input
     pub(super) job: String,
 
-    /// All files of one program, in any order, or the folder that holds them
+    /// All files of one program, in any order, or the folder that contains them
     ///
-    /// Of a folder only the files of this job's program are read.
+    /// From a folder, only the files of this job's program are read.
     #[arg(required = true, value_name = "PROGRAM")]
     pub(super) programs: Vec<String>,
 
-    /// The target that the program was written for [default: the one whose files have such names]
+    /// The target that the program was written for [default: inferred from the file names]
     #[arg(short, long, value_name = "TARGET")]
     pub(super) target: Option<String>,
 
@@ -301,52 +304,52 @@ pub(super) struct VerifyArgs {
 /// A machine and the frames between its flange and the blade, its root and the work.
 #[derive(Debug, Args)]
 pub(super) struct CellArgs {
-    /// A machine of the catalogue (see `vcutc machines`), or a file that describes one (.toml, .urdf)
+    /// A machine in the catalogue (see `vcutc machines`), or a file that describes one (.toml, .urdf)
     pub(super) machine: String,
 
-    /// The blade seen from the flange [default: the flange itself]
+    /// The blade's frame relative to the flange [default: the flange itself]
     #[arg(long, value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true)]
     pub(super) tool: Option<String>,
 
-    /// The work seen from the machine's root [default: the root itself]
+    /// The work's frame relative to the machine's root [default: the root itself]
     #[arg(long, value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true)]
     pub(super) base: Option<String>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct CompileArgs {
-    /// The job file (.vcut), or - to read it from standard input; with --target there can be several
+    /// The job file (.vcut), or - to read it from standard input; with --target, one or more
     ///
-    /// Files that the job names are looked for beside it; those of a job from standard input in the current folder.
+    /// Paths in a job are relative to the job file, or to the current folder for a job from standard input.
     #[arg(required = true, value_name = "JOB")]
     pub(super) jobs: Vec<String>,
 
     /// Write a program for this kind of machine (see `vcutc targets`)
     ///
-    /// Without --target and --emit the job is only checked.
+    /// Without --target or --emit the job is only checked.
     #[arg(short, long, value_name = "TARGET", conflicts_with = "emit")]
     pub(super) target: Option<String>,
 
-    /// Where files go: a folder, or - for standard output [default: the current folder]
+    /// Write files to this folder, or - for standard output [default: the current folder]
     ///
-    /// The folder is made if there is none. Files are written beside their place under passing names and only
-    /// renamed when all of them are complete, so a run that fails leaves earlier versions as they were.
+    /// The folder is created if it does not exist. Files are first written under temporary names and renamed only when
+    /// all of them are complete, so a run that fails leaves earlier versions unchanged.
     ///
-    /// On standard output each file of a program is headed by a line `; file: NAME`.
+    /// On standard output each file of a program begins with a line `; file: NAME`.
     #[arg(short, long, value_name = "DIR|-")]
     pub(super) output: Option<String>,
 
-    /// Compare with the files that are in the folder, and write nothing
+    /// Compare with the existing files in the folder; write nothing
     ///
-    /// Fails with the differences, a diff for each file, when the folder does not hold the program that the job gives
-    /// now. Parts of an earlier program that the job no longer gives are differences too.
+    /// Fails with a diff for each file if the program in the folder differs from what the job gives now. Leftover parts
+    /// of an earlier program count as differences too.
     #[arg(long, requires = "target")]
     pub(super) check: bool,
 
-    /// Show an inner form of the job instead of writing a program
+    /// Print an intermediate representation instead of writing a program
     ///
-    /// It goes to standard output, or with -o into a file of the folder. Tree and plan are shown for a job with
-    /// errors too, as far as it got.
+    /// Prints to standard output, or with -o writes a file in the folder. The syntax tree and the plan are printed for
+    /// jobs with errors too, as far as compilation got.
     #[arg(long, value_name = "FORM")]
     pub(super) emit: Option<InnerForm>,
 
@@ -366,15 +369,15 @@ pub(super) struct CompileArgs {
 /// How warnings are taken.
 #[derive(Clone, Debug, Args)]
 pub(super) struct WarningArgs {
-    /// End with 1 and write nothing where there is a warning
+    /// Treat warnings as errors: exit with 1 and write nothing
     ///
-    /// For continuous integration: what a person would read and accept then fails the run.
+    /// For continuous integration, where nobody reads and accepts warnings.
     #[arg(long)]
     deny_warnings: bool,
 
-    /// A warning that does not end a run with --deny-warnings, such as VC0529
+    /// Allow this warning despite --deny-warnings, such as VC0529
     ///
-    /// It is shown and counted all the same. May be given several times.
+    /// The warning is still shown and counted. Can be given several times.
     #[arg(long, value_name = "CODE", requires = "deny_warnings", value_parser = warning_code)]
     allow: Vec<Code>,
 }
@@ -434,11 +437,11 @@ pub(super) struct WatchArgs {
     #[arg(short, long, value_name = "TARGET")]
     pub(super) target: Option<String>,
 
-    /// The folder that programs go into [default: the current folder]
+    /// Write programs to this folder [default: the current folder]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<String>,
 
-    /// Show the report at http://127.0.0.1:PORT/, for browsers on this machine only [default port: 8228]
+    /// Serve the report at http://127.0.0.1:PORT/, for browsers on this machine only [default port: 8228]
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8228")]
     pub(super) serve: Option<u16>,
 
@@ -471,9 +474,9 @@ pub(super) struct FmtArgs {
     #[arg(value_name = "FILE|DIR|-", default_value = ".")]
     pub(super) paths: Vec<String>,
 
-    /// Show what would change, and write nothing
+    /// Show what would change; write nothing
     ///
-    /// Fails with a diff for each file that is not in the layout.
+    /// Fails with a diff for each file that is not formatted.
     #[arg(long)]
     pub(super) check: bool,
 }
@@ -483,22 +486,23 @@ pub(super) struct InitArgs {
     /// The name of the job; its file is NAME.vcut [default: first]
     pub(super) name: Option<String>,
 
-    /// The robot or five-axis machine that cuts it: a name of the catalogue (see `vcutc machines`), or a file (.toml, .urdf)
+    /// The robot or five-axis machine for the job: a name in the catalogue (see `vcutc machines`), or a file (.toml,
+    /// .urdf)
     #[arg(long, visible_alias = "machine", value_name = "MODEL")]
     pub(super) robot: Option<String>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct BuildArgs {
-    /// Only these: names of sections, names of jobs, or paths of job files
+    /// Build only these: names of sections, names of jobs, or paths of job files
     #[arg(value_name = "NAME|JOB")]
     pub(super) programs: Vec<String>,
 
-    /// Compare with the files that are there, and write nothing
+    /// Compare with the existing files; write nothing
     #[arg(long)]
     pub(super) check: bool,
 
-    /// Take the figures of these programs for the baseline that vcut.toml names
+    /// Accept the figures of these programs as the new baseline (see `baseline` in vcut.toml)
     #[arg(long, conflicts_with = "check")]
     pub(super) accept: bool,
 
@@ -515,21 +519,21 @@ pub(super) struct PlaceArgs {
     /// The job file (.vcut), or - to read it from standard input
     pub(super) job: String,
 
-    /// Where x of the base may be, in the machine's root [default: 500 mm either way from now]
+    /// The range for x of the base, in the machine's root [default: within 500 mm of its present value]
     ///
-    /// A range such as 1000..2500 (in mm), 1 m..2.5 m, or one value that must be kept.
+    /// A range such as 1000..2500 (in mm) or 1 m..2.5 m, or a single fixed value.
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(super) x: Option<String>,
 
-    /// Where y of the base may be [default: 500 mm either way from now]
+    /// The range for y of the base [default: within 500 mm of its present value]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(super) y: Option<String>,
 
-    /// Where z of the base may be [default: 300 mm either way from now]
+    /// The range for z of the base [default: within 300 mm of its present value]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(super) z: Option<String>,
 
-    /// By how much the work may be turned about the root's z against now [default: -90..90 deg]
+    /// The range of rotation of the work about the root's z, relative to its present value [default: -90..90 deg]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(super) yaw: Option<String>,
 
@@ -546,13 +550,13 @@ pub(super) struct OptimizeArgs {
     /// The job file (.vcut), or - to read it from standard input
     pub(super) job: String,
 
-    /// How many limits of the scallop are tried for the trade-off
+    /// The number of scallop limits to try for the trade-off
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(2..=100))]
     pub(super) points: u32,
 
-    /// Draw time against scallop into this file
+    /// Draw time against scallop in this file
     ///
-    /// Jobs of several operations get a picture for each, with its number behind the name.
+    /// A job with several operations gets one picture for each, with its number after the name.
     #[arg(short, long, value_name = "FILE.svg")]
     pub(super) output: Option<String>,
 
@@ -565,13 +569,13 @@ pub(super) struct OptimizeArgs {
 pub(super) struct Overrides {
     /// Replace the value of a `let` of the job; can be given several times
     ///
-    /// The value is written as in the job, with its unit: --set width=90mm, --set 'height = 2 in'.
+    /// Write the value as in the job, with its unit: --set width=90mm, --set 'height = 2 in'.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub(super) set: Vec<String>,
 
-    /// Cut on this machine of the job, whatever its `cell` block says
+    /// Use this machine of the job, regardless of its `cell` block
     ///
-    /// For jobs that see several machines, such as all cells of a shop.
+    /// For jobs that define or use several machines, such as all cells of a shop.
     #[arg(long, value_name = "NAME")]
     pub(super) machine: Option<String>,
 }
@@ -596,9 +600,9 @@ impl Overrides {
 pub(super) struct TargetOptions {
     /// Set an option of the target; can be given several times
     ///
-    /// Keys and values are those of the target's block in the machine (see `vcutc targets`), and go before what stands there:
-    /// --option lines_per_part=0, --option 'header=("; cell 4", "; rib")'. The word `default` takes back what the block says:
-    /// --option header=default. Files are looked for from the current folder.
+    /// Keys and values are those of the target's block in the machine (see `vcutc targets`), and override that block:
+    /// --option lines_per_part=0, --option 'header=("; cell 4", "; rib")'. The word `default` restores the default
+    /// value: --option header=default. Paths are relative to the current folder.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) option: Vec<String>,
 }
@@ -606,9 +610,9 @@ pub(super) struct TargetOptions {
 /// Where targets outside of the compiler are, and how long they may take.
 #[derive(Debug, Args)]
 pub(super) struct OutsideArgs {
-    /// Look for programs `vcutc-backend-NAME` in this folder, too; can be given several times
+    /// Also search this folder for programs `vcutc-backend-NAME`; can be given several times
     ///
-    /// Such a program is the target NAME. These folders come before those of the PATH.
+    /// Such a program provides the target NAME. These folders are searched before those of the PATH.
     #[arg(
         long,
         global = true,
@@ -618,7 +622,7 @@ pub(super) struct OutsideArgs {
     )]
     pub(super) backend_path: Vec<String>,
 
-    /// Stop a program `vcutc-backend-NAME` that is not done after so many seconds
+    /// Stop a program `vcutc-backend-NAME` that has not finished after this many seconds
     #[arg(long, global = true, value_name = "SECONDS", help_heading = "Targets of your own", hide_short_help = true, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     pub(super) backend_timeout: u64,
 }
@@ -629,7 +633,7 @@ const MESSAGES: &str = "Messages";
 /// How to talk to the user.
 #[derive(Debug, Args)]
 pub(super) struct DisplayArgs {
-    /// How diagnostics are written to standard error
+    /// The format of diagnostics on standard error
     #[arg(long, value_enum, global = true, default_value_t, value_name = "FORMAT", help_heading = MESSAGES)]
     pub(super) message_format: MessageFormat,
 
@@ -637,18 +641,19 @@ pub(super) struct DisplayArgs {
     #[arg(long, value_enum, global = true, default_value_t, value_name = "WHEN", help_heading = MESSAGES)]
     pub(super) color: Color,
 
-    /// Look for changes that help a refused job for this long, such as 5s, or none for no limit [default: 1s; none with --message-format json]
+    /// Time limit of the search for changes that fix a refused job, such as 5s or none [default: 1s; none with
+    /// --message-format json]
     ///
-    /// With none the search ends after a bounded amount of work, so that what is offered depends on the job alone; with 0s
-    /// nothing is searched.
+    /// With none, the search ends after a bounded amount of work, so its suggestions depend only on the job; with 0s
+    /// there is no search.
     #[arg(long, global = true, value_name = "TIME", value_parser = help_budget)]
     pub(super) help_budget: Option<HelpBudget>,
 
-    /// Print diagnostics only: no summary, no progress
+    /// Print only diagnostics: no summary, no progress
     #[arg(short, long, global = true, conflicts_with = "verbose", help_heading = MESSAGES)]
     pub(super) quiet: bool,
 
-    /// Print what is asked of every axis of the machine and how long each stage took, too; and what a long run does
+    /// Also print the use of every axis, the time of each stage, and the progress of long runs
     #[arg(short, long, global = true, help_heading = MESSAGES)]
     pub(super) verbose: bool,
 }
@@ -658,9 +663,9 @@ pub(super) enum MessageFormat {
     /// For people
     #[default]
     Human,
-    /// For programs: one JSON object a line, the last one of kind "summary"
+    /// For programs: one JSON object per line, the last one of kind "summary"
     Json,
-    /// For GitHub Actions: as for people, and annotations for the lines of a change
+    /// For GitHub Actions: as for people, plus annotations on the changed lines
     Github,
 }
 
@@ -684,6 +689,6 @@ pub(super) enum InnerForm {
     Plan,
     /// The verified intermediate program, as JSON
     Ir,
-    /// The machine's axes all along the program, as CSV with a row at least every 5 mm or 2 degrees
+    /// The machine's axis values along the program, as CSV with a row at least every 5 mm or 2 degrees
     Joints,
 }

@@ -97,8 +97,8 @@ impl Keeper {
             span,
             format!("{grown}, {percent} % are allowed"),
         )
-        .and(self.named_at, "the figures it is held to")
-        .help("take back what made it worse, or accept the new figures with `vcutc build --accept`")
+        .and(self.named_at, "the figures it is compared with")
+        .help("undo what made it worse, or accept the new figures with `vcutc build --accept`")
     }
 
     fn unknown(&self, name: &Name, asked_at: Option<Span>) -> Diagnostic {
@@ -108,12 +108,12 @@ impl Keeper {
         );
         let diagnostic = match asked_at {
             Some(place) => Diagnostic::new(Code::NoBaseline, message, place, "asked for here")
-                .and(self.named_at, "the figures programs are held to"),
+                .and(self.named_at, "the figures that programs are compared with"),
             None => Diagnostic::new(
                 Code::NoBaseline,
                 message,
                 self.named_at,
-                "the figures programs are held to",
+                "the figures that programs are compared with",
             ),
         };
         diagnostic.help("add them with `vcutc build --accept`")
@@ -151,7 +151,7 @@ impl Keeper {
         match read {
             Some(Ok(records)) => Ok(records),
             Some(Err(_)) | None => Err(format!(
-                "{} holds no figures of programs, so it is not overwritten",
+                "{} does not contain figures of programs, so it is not overwritten",
                 self.path
             )),
         }
@@ -176,7 +176,7 @@ fn records(path: &str, named_at: Span, sources: &mut SourceMap) -> Result<Vec<Re
         }
     };
     let Ok(text) = text_from_bytes(bytes) else {
-        return Err(unusable(format!("{path} is not text in UTF-8"), "no text"));
+        return Err(unusable(format!("{path} is not UTF-8 text"), "no text"));
     };
     baseline::read(&text).map_err(|flaw| {
         let file = sources.add(path.to_owned(), text.clone());

@@ -55,7 +55,6 @@ pub(super) struct Unit {
 
 /// Who asks for programs: a list.
 pub(super) struct Asking<'a> {
-    /// Its text.
     pub(super) sources: &'a SourceMap,
     /// The figures that it holds programs to.
     pub(super) keeper: Option<&'a Keeper>,
@@ -63,7 +62,6 @@ pub(super) struct Asking<'a> {
 
 /// What came of a run.
 pub(super) struct Ran {
-    /// How it ended.
     pub(super) exit: Exit,
     /// The figures of the programs that were made.
     pub(super) records: Vec<Record>,
@@ -255,7 +253,7 @@ fn refuse(first: &Unit, second: &Unit, path: &str, list: Option<&SourceMap>, con
     } else {
         format!("{} and {} would both write {path}", first.job, second.job)
     };
-    let help = "give them folders of their own, or rename one of the jobs; nothing was written";
+    let help = "give them separate folders, or rename one of the jobs; nothing was written";
     if let (Some(sources), Some(first), Some(place)) = (list, first.asked_at, second.asked_at) {
         let diagnostic = Diagnostic::new(Code::SameFile, message, place, "asked for here");
         let diagnostic = if first == place {

@@ -93,7 +93,7 @@ fn list(given: Option<&str>) -> Result<(String, String), Failure> {
     };
     match text_from_bytes(bytes) {
         Ok(text) => Ok((path, text)),
-        Err(_) => Err(Failure::new(format!("{path} is not text in UTF-8"))),
+        Err(_) => Err(Failure::new(format!("{path} is not UTF-8 text"))),
     }
 }
 
@@ -108,7 +108,7 @@ fn nearest_list() -> Result<(String, Vec<u8>), Failure> {
     }
     Err(
         Failure::new(format!("there is no {FILE_NAME} in this folder or above it"))
-            .help("write one (docs/ci.md has the form), or name it with --manifest FILE"),
+            .help("write one (see docs/ci.md), or name it with --manifest FILE"),
     )
 }
 

@@ -24,7 +24,6 @@ use vcutc_driver::{self as driver, Compiled, Outcome, Request, RequestError, Sta
 
 /// What is made of a job.
 pub(super) enum Product {
-    /// A program.
     Program(Program),
     /// One of its inner forms.
     Inner(InnerForm, Destination),
@@ -35,7 +34,6 @@ pub(super) enum Product {
     },
 }
 
-/// A program to make.
 pub(super) struct Program {
     backend: &'static dyn Backend,
     to: Destination,
@@ -75,7 +73,7 @@ fn units(
                 Some((word, command)) => Failure::new(format!("there is no command `{word}`"))
                     .help(format!("did you mean `vcutc {command}`?")),
                 None => Failure::new("several jobs were given without `--target`")
-                    .help("use `vcutc check JOB...` to look for errors in all of them"),
+                    .help("use `vcutc check JOB...` to check them all for errors"),
             });
         }
     };
@@ -84,7 +82,7 @@ fn units(
             .help("give a folder with `-o`, or compile one job at a time"));
     };
     if jobs.iter().any(|job| job == "-") {
-        return Err(Failure::new("a job from standard input is compiled by itself"));
+        return Err(Failure::new("a job from standard input must be compiled alone"));
     }
     let unit = |job: &String| Unit {
         job: job.clone(),
@@ -337,7 +335,7 @@ fn shortened(outcome: &Outcome, placed: &[Placed]) -> Option<String> {
     let is_shortened = job.chars().filter(|&c| is_written_in_full(c)).count() > own.len();
     is_shortened.then(|| {
         format!(
-            "the program is called `{main}`, because its control takes no name as long as that of the job"
+            "the program is called `{main}`, because its controller does not accept names as long as the job's"
         )
     })
 }

@@ -46,7 +46,6 @@ pub(super) struct Console {
 /// How much is told besides diagnostics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
-    /// Nothing.
     DiagnosticsOnly,
     /// The summary, and progress.
     Summary,
@@ -75,7 +74,6 @@ impl Failure {
         &self.message
     }
 
-    /// Says what to do.
     pub(super) fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());
         self
@@ -85,7 +83,6 @@ impl Failure {
 /// What is made of warnings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Warnings {
-    /// They are shown.
     Shown,
     /// They end a run as errors do: nothing is written.
     Denied {
@@ -122,13 +119,11 @@ pub(super) struct Summary<'a> {
     pub(super) lines: &'a [String],
     /// The figures of the program.
     pub(super) numbers: Option<&'a Numbers>,
-    /// Where the time goes.
     pub(super) times: Option<&'a TimeFigures>,
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
     /// Which checks were made of the program, and which were not.
     pub(super) checks: Option<Checks>,
-    /// Its parameters.
     pub(super) parameters: &'a [OperationFigures],
     /// Files of its program, as people see them.
     pub(super) placed: &'a [Placed],

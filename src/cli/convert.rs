@@ -167,9 +167,8 @@ fn job_written(
             .map_err(Failure::new)?;
         (placed, path.to_string_lossy().into_owned())
     };
-    let remark = has_errors(&outcome.diagnostics).then(|| {
-        format!("{name} is written with its errors, to be mended there; no program comes of it so far")
-    });
+    let remark = has_errors(&outcome.diagnostics)
+        .then(|| format!("{name} is written with its errors, to be fixed there; it does not compile yet"));
     Ok(Amended {
         placed,
         remarks: remark.into_iter().collect(),

@@ -104,7 +104,7 @@ fn stale(found: &Differences) -> String {
         .take(MOST_STALE)
         .map(|name| {
             format!(
-                "{name} is left from an earlier version; the program has no such part any more, remove it\n"
+                "{name} is left from an earlier version; the program no longer has this part, so remove it\n"
             )
         })
         .collect();

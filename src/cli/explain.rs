@@ -63,7 +63,7 @@ fn list() -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}  {severity:<8} {}", code.number(), code.title());
     }
-    text.push_str("\nRun `vcutc explain CODE` for what one means and how to mend it.\n");
+    text.push_str("\nRun `vcutc explain CODE` for its meaning and how to fix it.\n");
     text
 }
 

@@ -191,7 +191,9 @@ fn understood<T: DeserializeOwned>(reply: &[u8]) -> Result<T, Fault> {
         let error = line(&error.to_string());
         Fault {
             said: vec![beginning(reply)],
-            ..fault(format!("answers something else than the protocol says: {error}"))
+            ..fault(format!(
+                "answers something other than the protocol requires: {error}"
+            ))
         }
     };
     let Versioned { protocol } = serde_json::from_slice(reply).map_err(other)?;

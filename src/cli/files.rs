@@ -54,7 +54,7 @@ impl Disk {
         // What is not there cannot be written over.
         match fs::canonicalize(path) {
             Ok(whole) if self.read.borrow().contains(&whole) => Err(format!(
-                "{} is a file that the job is made from: give what is written another name",
+                "{} is an input of the job: choose another name for the output",
                 path.display()
             )),
             Ok(_) | Err(_) => Ok(()),

@@ -30,7 +30,7 @@ pub(super) fn fmt(args: &FmtArgs, console: &Console) -> Exit {
     if args.paths.iter().any(|path| path == "-") {
         return match args.paths.as_slice() {
             [_] => standard_input(fate, console),
-            _ => console.failure(&Failure::new("a job from standard input is formatted by itself")),
+            _ => console.failure(&Failure::new("a job from standard input must be formatted alone")),
         };
     }
     let mut run = Run {
@@ -80,7 +80,6 @@ fn standard_input(fate: Fate, console: &Console) -> Exit {
 struct Tally {
     /// Those that were not in the layout.
     formatted: Vec<String>,
-    /// How many were.
     unchanged: usize,
     /// How many have mistakes, or could not be read or written.
     refused: usize,
@@ -120,7 +119,9 @@ impl Run<'_> {
             .max()
             .unwrap_or(Exit::Success);
         match (depth, exit) {
-            (0, Exit::Success) if self.count() == count => self.refuse(path, "it holds no job files (.vcut)"),
+            (0, Exit::Success) if self.count() == count => {
+                self.refuse(path, "it contains no job files (.vcut)")
+            }
             _ => exit,
         }
     }

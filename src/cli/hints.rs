@@ -22,7 +22,7 @@ pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Dur
     }
     if let Some(limit) = found.ended_after {
         console.remark(&format!(
-            "the search for what makes this job faster ended after {:.1} s; `--help-budget {:.0}s` looks further",
+            "the search for changes that make this job faster ended after {:.1} s; `--help-budget {:.0}s` searches longer",
             limit.as_secs_f64(),
             (limit.as_secs_f64() * 10.0).ceil()
         ));

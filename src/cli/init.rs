@@ -77,7 +77,7 @@ fn file(args: &InitArgs) -> Result<PathBuf, Failure> {
     let has_folder = file.parent().is_some_and(|folder| folder != Path::new(""));
     match args.robot.as_deref().map(Origin::of) {
         Some(Origin::File(_)) if has_folder => Err(Failure::new(
-            "a job names the file of its machine as it is seen from the job's own folder",
+            "a job names the file of its machine relative to its own folder",
         )
         .help("change to that folder, and give both names from there")),
         Some(Origin::File(_) | Origin::Catalogue) | None => Ok(file),
@@ -86,9 +86,9 @@ fn file(args: &InitArgs) -> Result<PathBuf, Failure> {
 
 fn no_place(machine: &str) -> Failure {
     Failure::new(format!(
-        "`{machine}` cuts the first job in none of the places that were tried"
+        "`{machine}` cannot cut the first job in any of the places that were tried"
     ))
-    .help("write the job without --robot, add your machine by hand (docs/language.md), and ask `vcutc place`")
+    .help("write the job without --robot, add your machine by hand (docs/language.md), and use `vcutc place`")
 }
 
 /// Says what was written, and how to go on.

@@ -82,7 +82,7 @@ fn of_file(path: &str, kind: FileKind, console: &Console) -> Result<Description,
     let bytes = disk.load(disk.job()).map_err(|error| refuse(error.to_string()))?;
     let text = text_from_bytes(bytes).map_err(|at| {
         refuse(format!(
-            "it is not a text file in UTF-8, byte {} is not valid",
+            "it is not a UTF-8 text file, byte {} is not valid",
             at + 1
         ))
     })?;

@@ -15,7 +15,6 @@ pub(super) enum Driven<'a> {
     Unknown,
     /// The job states no machine.
     NoMachine,
-    /// Its machine.
     Machine {
         /// As messages say it.
         words: String,

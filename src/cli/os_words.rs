@@ -18,7 +18,7 @@ pub(super) fn os_words(error: &io::Error) -> String {
         ErrorKind::InvalidFilename => {
             "its name is too long, or has characters that the disk does not take: choose another"
         }
-        ErrorKind::InvalidData => "it is not text in UTF-8: save it in that encoding",
+        ErrorKind::InvalidData => "it is not UTF-8 text: save it in that encoding",
         _ => return plain(error),
     };
     known.to_owned()

@@ -36,7 +36,6 @@ pub(super) enum Destination {
 /// Whether files on standard output are headed by a line `; file: NAME`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Headings {
-    /// They are.
     Shown,
     /// They are not: there is one file only, and its format is not ours to add to.
     Omitted,
@@ -49,7 +48,6 @@ pub(super) enum Placed {
     Written(String),
     /// It took the place of a program of another job.
     Replaced {
-        /// Its path.
         path: String,
         /// The job whose program was there, as the head of that says it.
         job: String,
@@ -59,7 +57,6 @@ pub(super) enum Placed {
 }
 
 impl Placed {
-    /// Its path.
     pub(super) fn path(&self) -> &str {
         match self {
             Self::Written(path) | Self::Replaced { path, .. } | Self::Unchanged(path) => path,

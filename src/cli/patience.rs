@@ -93,7 +93,7 @@ impl Patience for Waiting<'_, '_> {
         match self.budget {
             HelpBudget::Unlimited | HelpBudget::Of(Duration::ZERO) => None,
             HelpBudget::Of(limit) => Some(format!(
-                "the search for a fix ended after {} s; `vcutc check --help-budget {}s` looks further",
+                "the search for a fix ended after {} s; `vcutc check --help-budget {}s` searches longer",
                 limit.as_secs_f64(),
                 limit.as_secs_f64() * 10.0
             )),

@@ -23,7 +23,6 @@ const TICK: Duration = Duration::from_millis(100);
 /// How a run is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Following {
-    /// Not at all.
     Silent,
     /// By a line on a terminal that vanishes at the end.
     PassingLine,
@@ -90,7 +89,6 @@ impl Progress {
 
 /// What the line is told.
 enum Event {
-    /// A stage begins.
     Stage(Stage),
     /// The job is refused, with this headline.
     Refused(String),

@@ -60,7 +60,6 @@ pub(super) struct Complete {
 pub(super) enum Ready {
     /// Under passing names, with what there is to warn of.
     Staged(Box<Output>, Vec<Diagnostic>),
-    /// Compared.
     Compared(Differences),
 }
 

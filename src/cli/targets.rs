@@ -65,7 +65,7 @@ pub(super) fn find<'d>(
 }
 
 fn broken(id: &str, fault: &Fault) -> Failure {
-    let failure = Failure::new(format!("the program behind target `{id}` {}", fault.what));
+    let failure = Failure::new(format!("the program of target `{id}` {}", fault.what));
     let failure = fault
         .said
         .iter()

@@ -71,7 +71,6 @@ impl CircularArc {
         }
     }
 
-    /// Where it ends.
     pub(super) fn end(&self) -> [f64; 3] {
         self.at(self.sweep)
     }

@@ -6,9 +6,8 @@ use core::fmt;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_job::sema::units;
 
-/// The words of the user.
+/// The words of the user: each field is the text of the option with its name.
 #[derive(Clone, Copy, Debug, Default)]
-#[expect(missing_docs, reason = "each is the text of the option of its name")]
 pub struct Words<'a> {
     pub rake: &'a str,
     pub swing: &'a str,
@@ -57,9 +56,7 @@ pub struct Asked {
     pub clearance: Option<Length>,
     /// The blade's cutting length.
     pub edge: Option<Length>,
-    /// Half its apex angle.
     pub half_apex: Option<Angle>,
-    /// Its thickness.
     pub thickness: Option<Length>,
     /// How close to one another the points of a pass lie, across and in height.
     pub tolerance: Length,
@@ -105,7 +102,6 @@ impl FeedUnit {
 pub struct BadOption {
     /// The option, such as `--rake`.
     pub option: &'static str,
-    /// Its text.
     pub given: String,
     /// What would be right.
     pub why: String,

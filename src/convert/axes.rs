@@ -3,19 +3,14 @@
 /// An axis of the program's base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// x.
     X,
-    /// y.
     Y,
-    /// z.
     Z,
 }
 
 impl Axis {
-    /// All of them.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
-    /// Its letter.
     #[must_use]
     pub const fn letter(self) -> char {
         match self {
@@ -46,7 +41,6 @@ impl Axis {
 /// A sense along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sense {
-    /// With it.
     Positive,
     /// Against it.
     Negative,
@@ -71,7 +65,6 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// Along an axis.
     #[must_use]
     pub const fn along(axis: Axis) -> Self {
         Self {

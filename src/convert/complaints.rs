@@ -62,7 +62,7 @@ pub(super) fn curve(place: Span, word: &str) -> Diagnostic {
         place,
         "a curve",
     )
-    .help("let the post processor write curves as lines (`LIN`), and keep those out of the material")
+    .help("set the post processor to write curves as lines (`LIN`), and keep those out of the material")
 }
 
 pub(super) fn unknown_arc(place: Span) -> Diagnostic {
@@ -72,7 +72,7 @@ pub(super) fn unknown_arc(place: Span) -> Diagnostic {
         place,
         "where it begins is not known, or its points lie on one line",
     )
-    .help("let the post processor write curves as lines (`LIN`), or arcs without `CA`")
+    .help("set the post processor to write curves as lines (`LIN`), or arcs without `CA`")
 }
 
 pub(super) fn unknown_start(place: Span) -> Diagnostic {
@@ -88,7 +88,7 @@ pub(super) fn unknown_start(place: Span) -> Diagnostic {
 pub(super) fn with(place: Span, name: &str) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        format!("`WITH` sets `{name}` for this motion, and what that does is not followed"),
+        format!("`WITH` sets `{name}` for this motion, which is not supported"),
         place,
         "more than a speed, a frame or how the motion is planned",
     )
@@ -99,12 +99,12 @@ pub(super) fn block_with(place: Span, word: &str) -> Diagnostic {
     let word = word.to_ascii_uppercase();
     Diagnostic::new(
         Code::NotFollowed,
-        format!("`{word}` sets something for all segments of its block, and that is not followed"),
+        format!("`{word}` sets something for all segments of its block, which is not supported"),
         place,
         "holds to the end of the block",
     )
     .help(format!(
-        "write what is behind `{word}` in front of the block, as statements such as `$VEL.CP = 0.2`, or after each segment"
+        "write what follows `{word}` before the block, as statements such as `$VEL.CP = 0.2`, or after each segment"
     ))
 }
 
@@ -112,7 +112,7 @@ pub(super) fn missing_routine(place: Span, name: &str, first: &str) -> Diagnosti
     let file = format!("{}.src", name.to_ascii_lowercase());
     Diagnostic::new(
         Code::MissingRoutine,
-        format!("the routine `{name}` is in none of the files given, and its motions would be missing"),
+        format!("the routine `{name}` is not in any of the files given, and its motions would be missing"),
         place,
         "called here",
     )
@@ -124,7 +124,7 @@ pub(super) fn external_axis(place: Span, first: Span, (name, from, to): (&str, f
     Diagnostic::new(
         Code::ExternalAxis,
         format!(
-            "the external axis {name} goes from {} to {}, and what that does to the work is not followed",
+            "the external axis {name} goes from {} to {}, which is not supported",
             show(from),
             show(to)
         ),
@@ -133,7 +133,7 @@ pub(super) fn external_axis(place: Span, first: Span, (name, from, to): (&str, f
     )
     .and(first, format!("and {} from here on", show(from)))
     .help(format!(
-        "let the post processor write each stand of {name} as a program of its own, and convert them one by one"
+        "set the post processor to write each stand of {name} as a separate program, and convert them one by one"
     ))
 }
 
@@ -154,23 +154,23 @@ pub(super) fn too_far(place: Span, value: f64) -> Diagnostic {
         place,
         "beyond every cell",
     )
-    .help("mend the number; coordinates are in mm")
+    .help("correct the number; coordinates are in mm")
 }
 
 pub(super) fn frame_changes(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        "the tool or the base changes between motions, and what that does to the motions after it is not followed",
+        "the tool or the base changes between motions, which is not supported",
         place,
         "another frame from here on",
     )
-    .help("let the post processor write the whole program in one base with one tool, or convert its parts one by one")
+    .help("set the post processor to write the whole program in one base with one tool, or convert its parts one by one")
 }
 
 pub(super) fn arguments(place: Span, name: &str) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        format!("`{name}` is called with arguments, and what its motions do with them is not followed"),
+        format!("`{name}` is called with arguments, which is not supported"),
         place,
         "this call",
     )
@@ -193,13 +193,13 @@ pub(super) fn unknown_motion(place: Span, said: &str) -> Diagnostic {
         place,
         what,
     )
-    .help("let the post processor write the motion with numbers, such as `{X 1.0,Y 2.0,Z 3.0}`")
+    .help("set the post processor to write the motion with numbers, such as `{X 1.0,Y 2.0,Z 3.0}`")
 }
 
 pub(super) fn jump(place: Span, word: &str) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        format!("`{word}` leads away from here, and where the program goes on is not followed"),
+        format!("`{word}` leads away from here, which is not supported"),
         place,
         "not followed",
     )
@@ -253,10 +253,10 @@ pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
     };
     let help = match stretch.kind {
         Kind::Curve => {
-            "keep arcs above the blank or beside it, or say where the blank lies with `--origin X,Y,Z`"
+            "keep arcs above the blank or beside it, or give the place of the blank with `--origin X,Y,Z`"
         }
         Kind::Across | Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright | Kind::Landing => {
-            "let the tool leave the blank before it goes to the next pass, or say where the blank lies with `--origin X,Y,Z`"
+            "let the tool leave the blank before it goes to the next pass, or give the place of the blank with `--origin X,Y,Z`"
         }
     };
     Diagnostic::new(
@@ -290,7 +290,7 @@ pub(super) fn plunge(plunge: &Plunge) -> Diagnostic {
     let [x, y, z] = plunge.low.map(show);
     Diagnostic::new(Code::NoPass, headline, plunge.place, format!("down to ({x}, {y}, {z})"))
         .note(COORDINATES)
-        .help("let a pass run as deep there, keep the tool above the blank, or say where the blank lies with `--origin X,Y,Z`")
+        .help("let a pass run as deep there, keep the tool above the blank, or give the place of the blank with `--origin X,Y,Z`")
 }
 
 pub(super) fn leans(place: Span, earlier: Option<Span>) -> Diagnostic {
@@ -417,7 +417,7 @@ pub(super) fn both_sides([deepest, highest]: [&Run; 2], [below, above]: [usize; 
 }
 
 /// That nothing but the user says where the blank lies; offers follow.
-const SAY_WHERE: &str = "say where the blank's lowest corner lies in the file with `--origin X,Y,Z`";
+const SAY_WHERE: &str = "give the place of the blank's lowest corner in the file with `--origin X,Y,Z`";
 
 /// Passes over no blank of that width with its zero at an edge or in the middle.
 pub(super) fn unclear_place(
@@ -522,7 +522,7 @@ pub(super) fn both_ways(
 pub(super) fn no_speed(place: Span) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
-        "the program says no speed for this pass",
+        "the program states no speed for this pass",
         place,
         "no `$VEL.CP` with a number before it",
     )
@@ -539,7 +539,7 @@ pub(super) fn two_speeds(one: Written, other: Written) -> Box<Diagnostic> {
             show(other.value)
         ),
         other.place,
-        "this one holds for later passes",
+        "this one applies to later passes",
     )
     .and(one.place, "and this one for the first")
     .help("give the one speed in the material with `--feed`, for example `--feed 200mm/s`")

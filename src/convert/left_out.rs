@@ -45,9 +45,11 @@ fn left_out(places: &[Span], lines: &dyn Fn(Span) -> usize) -> Option<Diagnostic
     if let Some(further) = further(rest.get(SHOWN - 1..).unwrap_or_default(), lines) {
         diagnostic = diagnostic.note(format!("so are those in {further}"));
     }
-    Some(diagnostic.help(
-        "see to it that nothing depends on them; what the machine needs can be said in its `machine` block",
-    ))
+    Some(
+        diagnostic.help(
+            "make sure that nothing depends on them; the `machine` block can state what the machine needs",
+        ),
+    )
 }
 
 /// Most lines that a warning lists.
@@ -98,7 +100,7 @@ fn passes_left_out(
         None => diagnostic,
     };
     Some(diagnostic.help(
-        "if the blank lies elsewhere in the file, say where its lowest corner is with `--origin X,Y,Z`",
+        "if the blank lies elsewhere in the file, give the place of its lowest corner with `--origin X,Y,Z`",
     ))
 }
 
@@ -129,7 +131,7 @@ fn plunges(plunges: &[Plunge], lines: &dyn Fn(Span) -> usize) -> Option<Diagnost
     );
     let rest: Vec<Span> = rest.iter().map(|plunge| plunge.place).collect();
     let diagnostic = match further(&rest, lines) {
-        Some(further) => diagnostic.note(format!("the others stand in {further}")),
+        Some(further) => diagnostic.note(format!("the others are in {further}")),
         None => diagnostic,
     };
     Some(
@@ -153,9 +155,9 @@ fn ends_early(place: Span) -> Diagnostic {
 fn uncalled(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::LeftOut,
-        "nobody calls this routine, and its motions are left out",
+        "this routine is never called; its motions are left out",
         place,
         "never called",
     )
-    .help("call it where it belongs, or convert it as a program of its own")
+    .help("call it where it belongs, or convert it as a separate program")
 }

@@ -77,7 +77,6 @@ pub struct Request<'a> {
 /// A program as a job.
 #[derive(Debug)]
 pub struct Conversion {
-    /// The job.
     pub job: JobText,
     /// The passes.
     pub raster: Raster,
@@ -107,7 +106,6 @@ pub struct Inference {
     pub subject: &'static str,
     /// What was taken.
     pub what: String,
-    /// From what.
     pub why: String,
 }
 
@@ -326,7 +324,7 @@ fn check(
 fn in_passes(milling: &Milling, raster: &Raster) -> Inference {
     let count = raster.passes.len();
     let what = format!(
-        "{count} V-cuts, two ways each, out of {} motions",
+        "{count} V-cuts, two passes each, from {} motions",
         milling.moves.len()
     );
     let mut others = vec![format!(
@@ -381,7 +379,7 @@ fn standing(milling: &Milling) -> Option<Inference> {
     (!stands.is_empty()).then(|| {
         Inference::new(
             "external",
-            format!("axes outside of the arm stand still: {}", stands.join(", ")),
+            format!("external axes do not move: {}", stands.join(", ")),
             "all along the program; the job does not move them",
         )
     })

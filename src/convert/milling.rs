@@ -8,7 +8,6 @@ use vcutc_diagnostics::source::Span;
 /// A milling program as its motions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Milling {
-    /// Where its text begins.
     pub start: Span,
     /// The motions in the order in which they are made.
     pub moves: Vec<Move>,
@@ -49,11 +48,9 @@ impl Milling {
 /// A motion to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
-    /// Where it is said.
     pub place: Span,
-    /// On which way.
     pub way: Way,
-    /// Where it ends: x, y, z in the program's base, in mm. None where nobody knows, as behind moves of all axes.
+    /// Where it ends: x, y, z in the program's base, in mm. None where nobody knows, as behind axis moves.
     pub to: Option<[f64; 3]>,
     /// How the tool is held at its end, if the program says so.
     pub attitude: Option<Orientation>,
@@ -78,7 +75,6 @@ pub enum Way {
 /// A number of the program with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Written {
-    /// The number.
     pub value: f64,
     /// Where it is set.
     pub place: Span,

@@ -14,7 +14,6 @@ use vcutc_simulation::surface::{Surface, Vee};
 pub(super) struct Sorted {
     /// Where a pass cuts later.
     pub(super) cut_later: Vec<Plunge>,
-    /// Where none does.
     pub(super) alone: Vec<Plunge>,
 }
 

@@ -112,7 +112,6 @@ pub(super) struct Reader<'t, 'i> {
     index: &'i Index<'t>,
     pub(super) variables: Variables,
     pub(super) milling: Milling,
-    /// Where the tool is.
     pub(super) tool: Tool,
     pub(super) speed: Option<Written>,
     /// Statements that decide what is made, and are open; each with whether a motion in it was told.

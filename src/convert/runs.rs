@@ -24,7 +24,6 @@ pub(super) struct Stretch<'m> {
 /// What a motion is, by what changes along it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Nothing.
     Still,
     /// Only y.
     Along,
@@ -120,7 +119,6 @@ pub(super) struct Run {
     pub(super) second_speed: Option<Written>,
     /// Whether a motion of all axes is among them.
     pub(super) way: Way,
-    /// How many they are.
     pub(super) pieces: usize,
     /// How far they lead one by one, to and fro added up.
     pub(super) travelled: f64,

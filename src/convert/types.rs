@@ -49,7 +49,6 @@ pub struct Pass {
 /// A motion that ends, or begins, below the top of the blank, in its axes from its corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plunge {
-    /// Where it is said.
     pub place: Span,
     /// From where it leads.
     pub start: Start,

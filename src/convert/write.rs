@@ -16,7 +16,6 @@ use vcutc_syntax::parse;
 /// A job's text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobText {
-    /// The text.
     pub text: String,
     /// Where its tips stand in it, each with the pass that it stands for.
     pub origins: Vec<Origin>,
@@ -40,9 +39,7 @@ pub enum Blade {
     Own {
         /// Usable edge.
         cutting_length: Length,
-        /// Half the apex angle.
         half_apex: Angle,
-        /// Thickness.
         thickness: Length,
     },
 }
@@ -50,7 +47,6 @@ pub enum Blade {
 /// A file with a profile, as a job names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProfileFile {
-    /// What it is.
     pub form: ProfileForm,
     /// Where it lies, seen from the job.
     pub path: String,
@@ -98,7 +94,6 @@ impl ProfileForm {
 pub enum Part {
     /// Its profile is in a file.
     File(ProfileFile),
-    /// A polyline.
     Polyline(Vec<Point2>),
 }
 

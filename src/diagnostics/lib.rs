@@ -31,7 +31,6 @@ pub enum Severity {
 /// A remark at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// The place.
     pub span: Span,
     /// The remark.
     pub text: String,
@@ -51,7 +50,6 @@ pub struct Fix {
 pub struct Edit {
     /// What is replaced; an empty span is an insertion.
     pub span: Span,
-    /// By what.
     pub replacement: String,
 }
 
@@ -109,7 +107,6 @@ impl Diagnostic {
         self
     }
 
-    /// Says what to do.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());

@@ -13,7 +13,6 @@ pub struct FileId(u32);
 /// A stretch of bytes in a file.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The file.
     pub file: FileId,
     /// First byte.
     pub start: u32,
@@ -78,9 +77,7 @@ impl fmt::Debug for Span {
 /// Something together with where it stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Spanned<T> {
-    /// The thing.
     pub node: T,
-    /// Where it stands.
     pub span: Span,
 }
 
@@ -109,12 +106,10 @@ impl<T: fmt::Debug> fmt::Debug for Spanned<T> {
     }
 }
 
-/// One source text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceFile {
     /// The name people see, such as `shop/blades.vcut` or `--set width=90mm`.
     pub name: String,
-    /// The text.
     pub text: String,
 }
 
@@ -181,9 +176,7 @@ pub trait Loader {
 /// Something in a folder, by its name there.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Entry {
-    /// A folder.
     Folder(String),
-    /// A file.
     File(String),
 }
 

@@ -138,7 +138,7 @@ impl Lifted<'_> {
         let lift = show(self.lift.to_mm());
         let diagnostic = Diagnostic::new(
             Code::AirCut,
-            format!("the machine does not carry out the air cut {lift} mm above the program"),
+            format!("the machine cannot carry out the air cut {lift} mm above the program"),
             base.unwrap_or(self.job.name_span),
             "with the work in this place",
         );
@@ -149,11 +149,11 @@ impl Lifted<'_> {
         let least = show(self.least.to_mm());
         if let Some(highest) = self.highest() {
             let highest = show(highest.to_mm());
-            return diagnostic.help(format!("use `--air-cut {highest}mm`, which it carries out"));
+            return diagnostic.help(format!("use `--air-cut {highest}mm`, which works"));
         }
         let diagnostic = if self.least < self.lift {
             diagnostic.note(format!(
-                "nor {least} mm above it, the least that keeps the blade clear of the stock"
+                "nor {least} mm above it, the smallest height that keeps the blade clear of the stock"
             ))
         } else {
             diagnostic
@@ -197,7 +197,7 @@ fn too_low(job: &CheckedJob, lift: Length, least: Length) -> Diagnostic {
         job.stock_span,
         "this stock",
     )
-    .note("the lowest tip has to pass above the stock by the job's `clearance` and half the blade's thickness, at least")
+    .note("the lowest tip must pass above the stock by at least the job's `clearance` and half the blade's thickness")
     .help(format!("use `--air-cut {}mm`, or more", show(least.to_mm())))
 }
 

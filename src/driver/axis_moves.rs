@@ -27,11 +27,11 @@ pub(super) fn many(job: &CheckedJob, reached: &Reached) -> Option<Diagnostic> {
     Some(
         Diagnostic::new(
             Code::ManyAxisMoves,
-            format!("in {changes} of {all} travels all axes move at once, because the arm cannot keep its posture"),
+            format!("{changes} of {all} travels are axis moves, because the arm cannot keep its configuration"),
             machine.base.span.unwrap_or(machine.head_span),
             "with the work in this place",
         )
-        .note("the blade does not go along a line there, and such moves take longer than the travels that they replace")
-        .help("run `vcutc place` on this job: it searches for a place of the work where one posture carries all of it"),
+        .note("the blade does not follow a line there, and axis moves take longer than the travels that they replace")
+        .help("run `vcutc place` on this job: it searches for a place of the work where one configuration is enough"),
     )
 }

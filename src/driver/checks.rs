@@ -52,9 +52,7 @@ pub enum Check {
 /// What came of a check. A check that was made found nothing wrong: otherwise there is no program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It was made.
     Made,
-    /// It was not.
     NotMade(Reason),
 }
 
@@ -67,7 +65,7 @@ pub enum Reason {
     NotStated,
     /// What is described of machines has no place for it.
     NoPlaceForIt,
-    /// The arm has no closed form, and its distance from singular poses is not measured.
+    /// The arm has no closed form, and its distance from singularities is not measured.
     NotMeasured,
     /// Neither arm nor holder has a body.
     NoBody,
@@ -78,7 +76,6 @@ pub enum Reason {
 /// A check, and what came of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checked {
-    /// Which.
     pub check: Check,
     /// What came of it.
     pub outcome: Outcome,
@@ -256,7 +253,7 @@ fn kept_rate(axis: &Axis, index: usize, report: &ReachReport) -> Outcome {
     }
 }
 
-/// Arms with a closed form measure their distance from singular poses. Machines of linear axes have none that matter: their
+/// Arms with a closed form measure their distance from singularities. Machines of linear axes have none that matter: their
 /// rotary axes are interpolated, and go each at a constant rate whatever the pose.
 fn singular_poses(mechanism: &Mechanism, report: &ReachReport) -> Option<Checked> {
     let is_measured = || {

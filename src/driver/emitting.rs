@@ -61,7 +61,7 @@ pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>
     Written::read_back(&reached.program, backend, options, bundle)
         .map(Some)
         .map_err(|Astray(notes)| {
-            let what = "the program that was written does not say what it was made from";
+            let what = "the written program does not match the program that it was made from";
             EmitFailure::Diagnostics(vec![match backend.ready() {
                 Ok(()) => match backend.origin() {
                     Origin::Linked => not_written(job, what, &notes),

@@ -1,4 +1,4 @@
-//! A home outside of the limits of its axes: of the homes within that are offered, those with which the job compiles.
+//! A home outside of the position limits of its axes: of the homes within that are offered, those with which the job compiles.
 //!
 //! The nearest home within the limits may be one from which no clear way leads to the work. That is known only after the job was
 //! planned and carried out with it, as every other offer is ([`Trials`]).

@@ -146,7 +146,6 @@ pub enum Finished {
 }
 
 impl Finished {
-    /// The program.
     #[must_use]
     pub const fn verified(&self) -> &VerifiedProgram {
         match self {
@@ -179,7 +178,6 @@ impl Finished {
 /// A job that can be emitted.
 #[derive(Debug)]
 pub struct Compiled {
-    /// The program.
     pub program: Finished,
     /// What it asks of the machine.
     pub figures: Option<ReachFigures>,
@@ -331,7 +329,6 @@ pub fn compile_checked(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob,
 enum Ended<'j> {
     /// It cannot be planned, is not sound, or its machine does not carry it out, along whatever route.
     Refused(Refused<'j>),
-    /// It is compiled.
     Compiled(Box<PlannedJob>, Vec<Diagnostic>, Box<Compiled>),
     /// Nobody wants to know any more.
     Overtaken,

@@ -43,9 +43,7 @@ const BLANKS: [&str; 2] = ["{job}", "{target}"];
 /// A value with where it stands, in bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed<T> {
-    /// The value.
     pub value: T,
-    /// Where it stands.
     pub span: Range<usize>,
 }
 
@@ -70,7 +68,6 @@ pub struct Baseline {
 /// By how much a figure may become worse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Which figure.
     pub figure: Figure,
     /// By how many percent; zero or more.
     pub percent: Placed<f64>,
@@ -81,9 +78,7 @@ pub struct Tolerance {
 pub struct Entry {
     /// A name by which `vcutc build NAME` chooses it.
     pub name: Option<String>,
-    /// Its jobs.
     pub jobs: Vec<Placed<Pattern>>,
-    /// Its targets.
     pub targets: Vec<Placed<String>>,
     /// Where programs go, relative to the folder of the list; may hold `{job}` and `{target}`.
     pub output: String,
@@ -181,7 +176,7 @@ fn baseline(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Baseline> {
         })
         .collect();
     if !names.iter().any(|name| section.has(name)) {
-        let message = format!("`[{BASELINE}]` holds programs to nothing");
+        let message = format!("`[{BASELINE}]` does not limit any figure");
         let help = format!(
             "add a line such as `time = \"2 %\"`; figures are {}",
             names.join(", ")
@@ -336,9 +331,9 @@ fn twice(sections: &[Table<'_>], flaws: &mut Vec<Flaw>) {
                 Flaw::new(
                     section.span_of(NAME),
                     format!("two programs are called `{name}`"),
-                    "called so again",
+                    "named again here",
                 )
-                .help("give each a name of its own, or none"),
+                .help("give each a different name, or none"),
             );
         }
     }

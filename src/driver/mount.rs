@@ -42,9 +42,9 @@ fn back(job: &CheckedJob, machine: &Machine, frame: Frame) -> Option<Diagnostic>
             job,
             machine,
             format!("the blade of `{}` points back at its flange", machine.name),
-            "the axis z of this frame leads from the tip towards the flange",
+            "the z axis of this frame points from the tip towards the flange",
         )
-        .note("z of a tool frame leads from the shank out through the tip, so the shank would lie beyond the tip")
+        .note("z of a tool frame points from the shank out through the tip, so the shank would lie beyond the tip")
         .help("turn the frame by half a turn about its x axis, `c` by 180 deg, and look at the figure of `tool` in docs/language.md")
     })
 }

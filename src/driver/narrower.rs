@@ -19,9 +19,7 @@ use vcutc_process::verdict;
 
 /// A plan that the machine follows along a slower route, perhaps.
 pub(super) struct Slower {
-    /// The plan.
     pub(super) plan: Box<PlannedJob>,
-    /// Its warnings.
     pub(super) warnings: Vec<Diagnostic>,
     /// What came of it.
     pub(super) compiled: Box<Compiled>,
@@ -63,7 +61,6 @@ pub(super) fn or_with_a_narrower_swing<'j>(
 
 /// What came of a narrower swing.
 enum Tried {
-    /// It is faster.
     Faster(Box<Slower>),
     /// It takes as long or longer, or there is no such plan.
     Slower,

@@ -26,7 +26,6 @@ pub struct Numbers {
     /// Highest material left on the part: the machined contour's largest distance from it.
     #[serde(deserialize_with = "not_negative")]
     pub scallop_mm: f64,
-    /// Its mean.
     #[serde(deserialize_with = "not_negative")]
     pub mean_scallop_mm: f64,
     /// Longest edge that a cut uses.
@@ -84,7 +83,6 @@ pub enum Figure {
     Time,
     /// Highest material left on the part.
     Scallop,
-    /// Its mean.
     MeanScallop,
     /// V-cuts.
     Cuts,
@@ -102,7 +100,6 @@ impl Figure {
         ("edge", Self::Edge),
     ];
 
-    /// Its value.
     #[must_use]
     pub fn of(self, numbers: &Numbers) -> f64 {
         match self {

@@ -39,7 +39,6 @@ const RAISED: f64 = 100.0;
 
 /// What a first job is asked for.
 pub struct Asked<'a> {
-    /// Its name.
     pub name: &'a str,
     /// Its path, as it will be called.
     pub path: &'a str,

@@ -52,7 +52,6 @@ fn unknown_target(block: &TargetOptions, known: &[&str]) -> Diagnostic {
 
 /// What a target of the job's machine does not take.
 pub(super) struct Objection {
-    /// In words.
     pub(super) told: Diagnostic,
     /// The speeds that decide it, and by which factor they are off.
     off: Option<speeds::Off>,
@@ -171,7 +170,7 @@ fn set_decimals(
     );
     let diagnostic = Diagnostic::new(Code::BadOption, message, profile.span, "this profile");
     Some(diagnostic.help(format!(
-        "give the block a `{DECIMALS}` of its own, which goes before the profile's"
+        "give the block its own `{DECIMALS}`, which overrides the profile's"
     )))
 }
 
@@ -357,11 +356,11 @@ fn objection(
         }
         BackendIssue::Unsupported { op, what } => Diagnostic::new(
             Code::Unsupported,
-            format!("target `{target}` cannot say this: {what}"),
+            format!("target `{target}` cannot express this: {what}"),
             place_of(job, program, *op),
             "needed by this operation",
         )
-        .help("choose another target, or leave this to a job of its own"),
+        .help("choose another target, or move this to a separate job"),
         BackendIssue::Failed(fault) => {
             let place = fault.op.map_or(job.name_span, |op| place_of(job, program, op));
             failed(target, fault, place)
@@ -392,7 +391,7 @@ fn objection(
 pub(super) fn departed(target: &str, notes: &[String], place: Span) -> Diagnostic {
     let fault = Fault {
         op: None,
-        what: "wrote something else than the program it was given, or reads it otherwise".to_owned(),
+        what: "wrote something other than the program it was given, or reads it back differently".to_owned(),
         said: Vec::new(),
     };
     let diagnostic = failed(target, &fault, place);
@@ -401,14 +400,14 @@ pub(super) fn departed(target: &str, notes: &[String], place: Span) -> Diagnosti
 
 /// An outside program that did not do its work.
 pub(super) fn failed(target: &str, fault: &Fault, place: Span) -> Diagnostic {
-    let message = format!("the program behind target `{target}` {}", fault.what);
+    let message = format!("the program of target `{target}` {}", fault.what);
     let diagnostic = Diagnostic::new(Code::OutsideProgram, message, place, "asked to write this");
     let said = fault.said.iter();
     said.fold(diagnostic, |diagnostic, line| {
         diagnostic.note(format!("it says: {line}"))
     })
     .help(format!(
-        "nothing was written; tell the authors of `{PROGRAM_PREFIX}{target}`, the job is not at fault"
+        "nothing was written; report this to the authors of `{PROGRAM_PREFIX}{target}`: the job is not at fault"
     ))
 }
 
@@ -460,11 +459,11 @@ fn wrong_machine(
         (MachineMismatch::Maker, Some(Maker::Kuka)) => (by_maker(model), "its controller is by KUKA"),
         (MachineMismatch::Maker, Some(Maker::Other) | None) => (
             by_maker(model),
-            "nothing says that its controller takes such programs",
+            "its controller is not known to accept such programs",
         ),
         (MachineMismatch::Arm, _) => (
             format!("{kind} with other axes, or another wrist"),
-            "its postures have no name in this target's programs",
+            "this target's programs cannot state its configurations",
         ),
     };
     let message = format!("target `{target}` does not drive `{name}`, {is}");

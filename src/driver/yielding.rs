@@ -40,7 +40,6 @@ const NARROWEST: Angle = Angle::deg(10.0);
 /// The plan that a job makes of itself, where its machine does not follow it and another one was taken.
 #[derive(Clone, Debug)]
 pub struct Yielded {
-    /// The plan.
     pub plan: PlannedJob,
     /// What keeps the machine from it.
     pub unreachable: Unreachable,

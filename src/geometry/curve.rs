@@ -226,7 +226,6 @@ impl Curve {
         })
     }
 
-    /// Where it starts.
     #[must_use]
     pub fn start(&self) -> Point2 {
         let start = match &self.shape {

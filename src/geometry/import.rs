@@ -109,7 +109,7 @@ fn coordinate_of(text: &str, shown: &str) -> Result<f64, String> {
     let value = number(text).ok_or_else(|| format!("`{}` is not a number", shortened(shown)))?;
     if value.abs() > LARGEST_COORDINATE {
         return Err(format!(
-            "coordinates go up to {LARGEST_COORDINATE:e}, this is beyond"
+            "this is larger than the largest coordinate, {LARGEST_COORDINATE:e}"
         ));
     }
     Ok(value)

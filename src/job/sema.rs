@@ -117,7 +117,7 @@ fn cut_short(found: &mut Vec<Diagnostic>) {
     found.truncate(MOST_SHOWN);
     if let Some(last) = found.last_mut().filter(|_| rest > 0) {
         last.notes.push(format!(
-            "there are {rest} more faults like these; mend the first ones, then look again"
+            "there are {rest} more faults like these; fix the first ones, then run again"
         ));
     }
 }

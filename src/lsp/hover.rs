@@ -211,13 +211,13 @@ fn auto(analysis: &Analysis, path: &str, site: &Site<'_>) -> Option<String> {
             } else {
                 format!("\n\n{why}")
             };
-            format!("`auto` came out as `{value}`{why}")
+            format!("`auto` is `{value}`{why}")
         }
         Chosen::Unknown => {
-            "`auto`: what it comes out as is known when the job has no errors and has been planned".to_owned()
+            "`auto`: its value is known once the job has no errors and has been planned".to_owned()
         }
     };
-    let rule = rule.map_or(String::new(), |rule| format!("\n\nComes out as: {rule}"));
+    let rule = rule.map_or(String::new(), |rule| format!("\n\nChosen as: {rule}"));
     Some(found + &rule)
 }
 

@@ -95,7 +95,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
         Table::Calls => headed("| Value | Meaning |"),
         Table::Functions => headed("| Function |"),
         Table::Residuals => headed("| `residual` | Such a cut is |"),
-        Table::Auto => headed("| Field | Comes out as |"),
+        Table::Auto => headed("| Field | Chosen as |"),
         Table::Formulas => headed("| Value | Enters |"),
     };
     let body = start.map_or("", |at| REFERENCE.get(at..).unwrap_or_default());

@@ -132,7 +132,7 @@ pub(super) fn refused(analyses: &[&Analysis], old: &str, new: &str) -> Option<St
         .chain(vocabulary::JOINTS_OF_CURVES)
         .copied();
     if taken.chain(curves).any(|word| word == new) {
-        return Some(format!("`{new}` has a meaning of its own in the language"));
+        return Some(format!("`{new}` is reserved by the language"));
     }
     analyses.iter().find_map(|analysis| clash(analysis, new))
 }
@@ -217,7 +217,7 @@ fn unread(analysis: &Analysis, name: &str) -> Option<String> {
                 && !is_known
         })?;
         Some(format!(
-            "`{name}` stands in {}:{} too, in a part that cannot be read: mend that first",
+            "`{name}` stands in {}:{} too, in a part that cannot be read: fix that first",
             source.name,
             token.line + 1
         ))

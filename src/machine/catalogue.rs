@@ -178,7 +178,6 @@ pub fn near(wanted: &str) -> Vec<&'static str> {
 pub struct Summary {
     /// Its name in jobs.
     pub name: &'static str,
-    /// What it is.
     pub kind: MachineKind,
     /// Its model as its maker writes it.
     pub model: String,

@@ -11,7 +11,6 @@ use vcutc_diagnostics::document::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Ta
 /// For people.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Facts {
-    /// Where numbers come from.
     pub sources: Vec<Sources>,
     /// What else there is to know of a group of numbers.
     pub remarks: Vec<String>,
@@ -49,7 +48,6 @@ pub struct FkCheck {
     pub position_tolerance_mm: f64,
     /// How far the model may be turned, in deg.
     pub rotation_tolerance_deg: f64,
-    /// Where it comes from.
     pub source: Option<String>,
     /// In what way that source is independent of the model.
     pub independence: Option<String>,
@@ -92,14 +90,14 @@ impl FkCheck {
         let missed = Flaw::new(
             self.span.clone(),
             format!(
-                "the numbers of this sheet put the flange {apart:.3} mm and {turned:.3} deg away from a pose that is known"
+                "the numbers of this sheet put the flange {apart:.3} mm and {turned:.3} deg away from a known pose"
             ),
             format!(
                 "known to {} mm and {} deg",
                 self.position_tolerance_mm, self.rotation_tolerance_deg
             ),
         );
-        Some(missed.help("compare lengths, `joint_offsets_deg` and `joint_signs` with the machine's own, or the pose with its source"))
+        Some(missed.help("compare lengths, `joint_offsets_deg` and `joint_signs` with those of the machine, or the pose with its source"))
     }
 }
 
@@ -108,7 +106,6 @@ impl FkCheck {
 pub struct Dynamics {
     /// How far they can be used.
     pub note: Option<String>,
-    /// Where they come from.
     pub sources: Vec<String>,
     /// All links together, in kg, when stated.
     pub total_mass: Option<f64>,
@@ -119,7 +116,6 @@ pub struct Dynamics {
 /// A link with its mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// Its name.
     pub name: String,
     /// Its mass in kg.
     pub mass: f64,

@@ -80,17 +80,15 @@ fn line_flaw(key: &str, line: &str, span: &Range<usize>) -> Option<Flaw> {
         };
         let flaw = Flaw::new(
             span.clone(),
-            format!("a line of `{key}` has {letter}, which not every controller reads"),
+            format!("a line of `{key}` has {letter}, which some controllers cannot read"),
             "not plain ASCII",
         );
-        return Some(
-            flaw.help("write every line as a text of its own, in letters, digits and signs of ASCII"),
-        );
+        return Some(flaw.help("write every line as a separate text, in ASCII letters, digits and symbols"));
     }
     (letters > LONGEST_LINE).then(|| {
         Flaw::new(
             span.clone(),
-            format!("a line of `{key}` has {letters} characters, at most {LONGEST_LINE} are taken"),
+            format!("a line of `{key}` has {letters} characters, at most {LONGEST_LINE} are allowed"),
             format!("{letters} characters"),
         )
         .help("break it into several texts")
@@ -101,7 +99,7 @@ fn too_many(root: &Table<'_>, key: &str, count: usize, most: usize, flaws: &mut 
     if count > most {
         flaws.push(Flaw::new(
             root.span_of(key),
-            format!("`{key}` has {count} entries, at most {most} are taken"),
+            format!("`{key}` has {count} entries, at most {most} are allowed"),
             "too many",
         ));
     }
@@ -116,12 +114,12 @@ fn extension(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<String> {
     let flaw = Flaw::new(
         root.span_of(EXTENSION),
         format!("`{EXTENSION}` takes 1 to {LONGEST_EXTENSION} letters or digits"),
-        "no such extension",
+        "not a valid extension",
     );
     let letters = given.chars().filter(char::is_ascii_alphanumeric);
     let near: String = letters.take(LONGEST_EXTENSION).collect();
     flaws.push(if near.is_empty() {
-        flaw.help("write `extension = \"nc\"`, or leave it out for the usual one")
+        flaw.help("write `extension = \"nc\"`, or omit it for the default")
     } else {
         flaw.help(format!("write `extension = \"{near}\"`"))
     });
@@ -150,9 +148,9 @@ fn reserved(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Vec<String> {
                 Flaw::new(
                     span.clone(),
                     format!("a name of `{RESERVED}` has letters, digits and `_`, at most {LONGEST_NAME}, no digit first"),
-                    "no name that a program could take",
+                    "not a name that a program could have",
                 )
-                .help("take it out: no program has a name of this form"),
+                .help("delete it: programs never have such names"),
             );
         }
     }
@@ -225,17 +223,17 @@ step = 5
             (
                 "header = [\"a\", \"Fräsen\"]",
                 "\"Fräsen\"",
-                "a line of `header` has `ä`, which not every controller reads",
+                "a line of `header` has `ä`, which some controllers cannot read",
             ),
             (
                 "footer = [\"a\\nb\"]",
                 "\"a\\nb\"",
-                "a line of `footer` has a line break, which not every controller reads",
+                "a line of `footer` has a line break, which some controllers cannot read",
             ),
             (
                 &long,
                 &long[10..long.len() - 1],
-                "a line of `header` has 121 characters, at most 120 are taken",
+                "a line of `header` has 121 characters, at most 120 are allowed",
             ),
             (
                 "line_numbers = { start = 1, step = 0 }",

@@ -52,7 +52,6 @@ pub enum Mechanism {
 /// the caller to add.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {
-    /// The branch.
     pub branch: Branch,
     /// The axes.
     pub joints: Joints,

@@ -34,7 +34,6 @@ pub struct Model {
 }
 
 impl Model {
-    /// What it is.
     #[must_use]
     pub const fn kind(&self) -> MachineKind {
         self.mechanism.kind()
@@ -44,9 +43,7 @@ impl Model {
 /// Where a machine that a job names is described.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// In the catalogue.
     Catalogue,
-    /// In a file.
     File(FileKind),
 }
 

@@ -22,7 +22,6 @@ use vcutc_diagnostics::document::{self, Wording};
 pub struct Sheet {
     /// Its model as its maker writes it, such as `KUKA KR 210 R3100 ultra`.
     pub model: String,
-    /// Its manufacturer, when stated.
     pub manufacturer: Option<String>,
     /// Rated payload in kg, when stated.
     pub payload: Option<f64>,
@@ -157,7 +156,6 @@ impl Sheet {
         maker(self.manufacturer.as_deref())
     }
 
-    /// What it is.
     #[must_use]
     pub const fn kind(&self) -> MachineKind {
         self.mechanism.kind()

@@ -25,9 +25,7 @@ pub const FULL: Clearance = Clearance {
 /// A largest or smallest value, and the op that has it first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
-    /// The value.
     pub value: f64,
-    /// The op.
     pub op: OpId,
 }
 

@@ -34,7 +34,6 @@ pub struct Cost {
 
 /// Runs with their rungs, and links between the rungs of neighbours.
 pub trait Ladder {
-    /// How many runs.
     fn runs(&self) -> usize;
     /// The rungs of a run.
     fn rungs(&self, run: usize) -> &[Cost];

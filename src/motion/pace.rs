@@ -10,7 +10,7 @@
 //!   and the angle of the blade. Without numbers of the axes the profile is closed ([`profile`]). With their accelerations it
 //!   is the fastest that the axes can follow ([`phase`]), with jerk one that is proven and close to it ([`smooth`]); how the
 //!   axes move along the way is told by [`track`].
-//! - **Moves of all axes** are synchronous: all axes do the same part of their way, so that the one that needs longest decides.
+//! - **Axis moves** are synchronous: all axes do the same part of their way, so that the one that needs longest decides.
 //! - **The rest** waits as long as it says.
 //!
 //! A sheet without accelerations leaves speeds alone: stopping and starting then take no time ([`Kept`]). Nothing is assumed that
@@ -58,7 +58,7 @@ pub enum Kept {
 pub struct Basis {
     /// What they keep.
     pub kept: Kept,
-    /// How many moves of all axes have no time: the machine, where they begin, or the rate of an axis is not known.
+    /// How many axis moves have no time: the machine, where they begin, or the rate of an axis is not known.
     pub untimed: usize,
     /// How many straight motions and turns have their programmed time after all: the axes could not be followed along them.
     pub unfollowed: usize,

@@ -227,7 +227,6 @@ impl Remedy {
     }
 }
 
-/// Where to look on.
 pub const LOOK_ON: &str = "run `vcutc place` on this job: it searches around the base, or as far as `--x`, `--y`, `--z` and `--yaw` say, for a place that works";
 
 /// Adds remedies to a diagnostic; says where to look on when there are none.

@@ -11,7 +11,6 @@ use vcutc_machine::kinematics::{Joints, Mechanism};
 pub struct Rig<'m> {
     /// How the axes carry the flange.
     pub mechanism: &'m Mechanism,
-    /// The axes.
     pub axes: &'m [Axis],
     /// The flange seen from the blade frame T.
     pub flange_in_blade: Pose,

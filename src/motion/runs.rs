@@ -12,7 +12,6 @@ use vcutc_backend_api::state::TipPose;
 /// A stretch of a program, beginning with the op that leads to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Station {
-    /// What it is.
     pub(super) kind: StationKind,
     /// Its ops, as places in the program; the first leads to it.
     pub(super) ops: Range<usize>,
@@ -23,9 +22,9 @@ pub(super) struct Station {
 pub(super) enum StationKind {
     /// The machine is at home.
     Home,
-    /// A run that is reached by a move of all axes.
+    /// A run that is reached by an axis move.
     Run(TipPose),
-    /// A run that is reached along a course, which a move of all axes could take the place of.
+    /// A run that is reached along a course, which an axis move could take the place of.
     Joined(LinearSegment),
 }
 

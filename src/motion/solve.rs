@@ -8,7 +8,7 @@
 //! mostly the margin, are not both proven.
 //!
 //! A program that a branch carries but for the rates of axes, by a factor of two at most, is refused: its speeds are the
-//! user's to choose, and moves of all axes in the place of its travels would only hide that they are too high.
+//! user's to choose, and axis moves in the place of its travels would only hide that they are too high.
 //!
 //! Where no branch carries the program otherwise, it is taken apart wherever all axes could move at once in the air above the stock,
 //! every branch is proven on every part, and the [`super::ladder`] says where to change. A `Travel` at which the branch
@@ -106,7 +106,6 @@ pub enum Unreached {
 /// A program that its machine cannot carry out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unreachable {
-    /// The program.
     pub program: VerifiedProgram,
     /// What keeps the machine from it.
     pub trouble: Trouble,
@@ -255,7 +254,7 @@ fn joined_to(program: VerifiedProgram, rig: &Rig<'_>, found: Found) -> Result<Re
     Ok(Reached { program, report })
 }
 
-/// The program with moves of all axes in place of some of its travels.
+/// The program with axis moves in place of some of its travels.
 fn with_changes(program: &Program, changes: &[OpId]) -> Program {
     let mut program = program.clone();
     for &id in changes {

@@ -14,7 +14,7 @@ use vcutc_diagnostics::number::show;
 pub struct ReachFigures {
     /// The branches, in order.
     pub branches: Vec<BranchFigure>,
-    /// How many travels through the air became moves of all axes, because no branch carries the program without.
+    /// How many travels through the air became axis moves, because no branch carries the program without.
     pub changes: usize,
     /// The smallest share that anything has left; see `src/motion/demand.rs`.
     #[serde(serialize_with = "rounded")]
@@ -29,14 +29,12 @@ pub struct ReachFigures {
     pub solves: u64,
 }
 
-/// A branch.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BranchFigure {
     /// The op that ends on it first.
     pub op: u32,
     /// How many ops end on it before the next begins.
     pub ops: u32,
-    /// What it is.
     pub words: String,
     /// Whether it has a number only, of a machine whose branches have no names.
     #[serde(skip)]
@@ -49,7 +47,6 @@ pub struct BranchFigure {
 /// A place in the program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlaceFigure {
-    /// The op.
     pub op: u32,
     /// What of the job it serves.
     pub words: String,
@@ -60,21 +57,18 @@ pub struct PlaceFigure {
 pub struct Least {
     /// The axis, or the kind of singular pose.
     pub of: String,
-    /// Where.
     pub at: PlaceFigure,
 }
 
 /// What is asked of an axis, in deg or mm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AxisFigure {
-    /// Its name.
     pub name: String,
     /// `deg` or `mm`.
     pub unit: &'static str,
     /// Its lowest value.
     #[serde(serialize_with = "rounded")]
     pub low: f64,
-    /// Its highest value.
     #[serde(serialize_with = "rounded")]
     pub high: f64,
     /// Its lower limit.
@@ -298,8 +292,8 @@ fn reach_line(figures: &ReachFigures) -> String {
     let words: Vec<String> = ops.iter().map(|(branch, _)| named(branch)).collect();
     let changes = match figures.changes {
         0 => String::new(),
-        1 => "; all axes move at once in 1 travel through the air, which is not timed".to_owned(),
-        times => format!("; all axes move at once in {times} travels through the air, which are not timed"),
+        1 => "; 1 travel is an axis move, which is not timed".to_owned(),
+        times => format!("; {times} travels are axis moves, which are not timed"),
     };
     if words.is_empty() {
         return "nothing moves".to_owned();
@@ -314,7 +308,7 @@ fn reach_line(figures: &ReachFigures) -> String {
                 _,
             ),
         ] => "same configuration throughout".to_owned(),
-        _ => words.join("; for less of it "),
+        _ => words.join("; for a smaller part "),
     };
     format!("{words}{changes}")
 }
@@ -350,7 +344,7 @@ fn rates_line(figures: &ReachFigures) -> Option<String> {
         .max_by(|(_, a), (_, b)| a.total_cmp(b))
         .map(|(axis, share)| {
             format!(
-                "{} comes nearest to its limit: {:.0} % at {}",
+                "{} comes nearest to its speed limit: {:.0} % at {}",
                 axis.name,
                 share * 100.0,
                 axis.rate_at.words
@@ -362,7 +356,7 @@ fn rates_line(figures: &ReachFigures) -> Option<String> {
 #[must_use]
 pub fn table(figures: &ReachFigures) -> Vec<String> {
     let heading = format!(
-        "{:<5} {:>9} {:>9}   {:>9} {:>9} {:>8}  {:>9} {:>9}  nearest to its limit, moves of all axes aside",
+        "{:<5} {:>9} {:>9}   {:>9} {:>9} {:>8}  {:>9} {:>9}  nearest to its limit, without axis moves",
         "axis", "low", "high", "min", "max", "margin", "rate", "of"
     );
     let rows = figures.axes.iter().map(|axis| {
@@ -434,7 +428,7 @@ mod tests {
         };
         assert_eq!(
             rates_line(&figures).unwrap(),
-            "A3 comes nearest to its limit: 83 % at layer 3, cut 4"
+            "A3 comes nearest to its speed limit: 83 % at layer 3, cut 4"
         );
         figures.axes.truncate(0);
         assert_eq!(rates_line(&figures), None);

@@ -65,7 +65,6 @@ pub(super) enum Extent {
     /// Up to a motion that is not carried for another reason than the rates of axes, or [`ENOUGH_TOO_FAST`] that are not for
     /// this one.
     OtherThanRates,
-    /// All of it.
     Whole,
 }
 

@@ -45,7 +45,6 @@ const ROOM_STEP: f64 = 0.01;
 /// A motion that sweeps the blade through the work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sweep {
-    /// Its op.
     pub op: OpId,
     /// Where on its way the blade is in the work, from 0 to 1.
     pub at: f64,
@@ -132,7 +131,6 @@ fn judge(turn: &Turn<'_, '_>, surface: &mut Surface, found: &mut Option<Sweep>) 
 enum Stands {
     /// Beside the work, which is in the other direction along y.
     Beside(f64),
-    /// Above it.
     Above,
 }
 

@@ -45,7 +45,6 @@ impl Spacing {
 /// The axes at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The op.
     pub op: OpId,
     /// How much of its motion is done, from 0 (exclusive) to 1.
     pub done: f64,

@@ -34,11 +34,9 @@ pub enum Trouble {
         /// A branch that carries that motion, and where it fails itself.
         other: Failing,
     },
-    /// A move of all axes that leads the blade below the top of the stock.
+    /// An axis move that leads the blade below the top of the stock.
     Way {
-        /// Its op.
         op: OpId,
-        /// Where it leads.
         leads: Leads,
         /// Where the blade is too low.
         obstacle: Obstacle,
@@ -64,7 +62,6 @@ impl Trouble {
 /// A number of cuts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
-    /// All of them.
     Exactly(usize),
     /// So many were found before the search was ended.
     AtLeast(usize),
@@ -73,9 +70,7 @@ pub enum Count {
 /// A motion that a branch does not carry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failing {
-    /// The op.
     pub op: OpId,
-    /// The branch.
     pub branch: Option<Branch>,
     /// Where it fails first, and why.
     pub breach: Breach,
@@ -83,12 +78,11 @@ pub struct Failing {
     pub worst: Breach,
 }
 
-/// Where a move of all axes leads.
+/// Where an axis move leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leads {
     /// From home or from another pose to a pose.
     ToPose,
-    /// To home.
     ToHome,
 }
 
@@ -423,7 +417,7 @@ fn proven_breach(
     prove(&survey.rig, &course, run.branch, &start, &survey.least).err()
 }
 
-/// Says what is wrong with a move of all axes.
+/// Says what is wrong with an axis move.
 pub(super) fn on_the_way(stations: &[Station], refused: Option<Refused>, stuck: usize) -> Trouble {
     let station = refused.map_or(stuck, |refused| refused.station);
     match (stations.get(station), refused) {

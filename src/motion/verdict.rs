@@ -96,7 +96,7 @@ impl<'s> Scene<'s> {
         match &unreachable.trouble {
             Trouble::Motion { failing, hardest, .. } => match failing.worst.what {
                 Violation::OutOfReach => {
-                    "move the work nearer to the machine with `base`, or choose a machine of longer reach".to_owned()
+                    "move the work closer to the machine with `base`, or choose a machine with a longer reach".to_owned()
                 }
                 Violation::Limit { .. } => {
                     "turn or shift the work with `base`, so that this axis stays in its range".to_owned()
@@ -308,7 +308,7 @@ impl<'s> Scene<'s> {
                 ),
                 None => format!("worst at {place}"),
             },
-            Violation::Singular(_) => format!("{place} comes nearest to a singular pose"),
+            Violation::Singular(_) => format!("{place} comes closest to a singularity"),
         }
     }
 
@@ -338,7 +338,7 @@ impl<'s> Scene<'s> {
         };
         let name = &axis.name;
         let fastest = axis.rate.map_or_else(String::new, |fastest| {
-            format!("{name} does {}/s at most", value_words(axis, fastest))
+            format!("the limit of {name} is {}/s", value_words(axis, fastest))
         });
         let limit = axis.rate.map_or_else(String::new, |fastest| {
             format!("; its limit is {}/s", value_words(axis, fastest))
@@ -360,21 +360,21 @@ impl<'s> Scene<'s> {
         let (what, label) = match singularity {
             Singularity::Wrist(angle) => (
                 format!(
-                    "the hand within {} of stretched, where two axes fall into one line",
+                    "the wrist within {} of straight, where two axes align",
                     degrees(angle)
                 ),
                 format!(
-                    "the axis between them must be bent by {} at least",
+                    "the axis between them must be bent by at least {}",
                     degrees(least.wrist)
                 ),
             ),
             Singularity::Elbow(angle) => (
                 format!("the arm within {} of stretched or folded", degrees(angle)),
-                format!("its elbow must be bent by {} at least", degrees(least.elbow)),
+                format!("its elbow must be bent by at least {}", degrees(least.elbow)),
             ),
             Singularity::Shoulder(distance) => (
                 format!("the wrist within {} mm of the first axis", show(distance)),
-                format!("it must be {} mm away at least", show(least.shoulder)),
+                format!("it must be at least {} mm away", show(least.shoulder)),
             ),
         };
         Diagnostic::new(
@@ -404,7 +404,7 @@ impl<'s> Scene<'s> {
         Diagnostic::new(
             Code::NoCommonBranch,
             format!(
-                "no one way to stand carries all motions between {} and {}",
+                "no single configuration works for all motions between {} and {}",
                 self.place(failing.op.min(other.op)),
                 self.place(failing.op.max(other.op))
             ),
@@ -413,7 +413,7 @@ impl<'s> Scene<'s> {
         )
         .and(
             self.machine.model_span,
-            "each motion is possible, but the arm cannot change its posture within them",
+            "each motion is possible, but the arm cannot change its configuration within them",
         )
         .note(words(failing))
         .note(words(other))
@@ -432,7 +432,7 @@ impl<'s> Scene<'s> {
                 Some(axis) => format!("{place} takes {} to {}/s", axis.name, value_words(axis, rate)),
                 None => format!("{place} is too fast for an axis"),
             },
-            Violation::Singular(_) => format!("{place} comes too near to a singular pose"),
+            Violation::Singular(_) => format!("{place} comes too close to a singularity"),
         }
     }
 
@@ -441,8 +441,8 @@ impl<'s> Scene<'s> {
         let span = home.unwrap_or(self.machine.head_span);
         let place = self.place(op);
         let way = match leads {
-            Leads::ToPose => format!("the move of all axes to {place}"),
-            Leads::ToHome => "the move of all axes home".to_owned(),
+            Leads::ToPose => format!("the axis move to {place}"),
+            Leads::ToHome => "the axis move home".to_owned(),
         };
         let headline = match obstacle.lowest {
             Some(lowest) => format!(
@@ -457,7 +457,7 @@ impl<'s> Scene<'s> {
             Code::WayThroughStock,
             headline,
             span,
-            "the machine comes from here, and goes back to it",
+            "the machine starts here and returns here",
         )
         .and(self.base(), "the work is here")
         .note(format!(
@@ -465,7 +465,7 @@ impl<'s> Scene<'s> {
             show(self.program.stock.height.to_mm()),
             show((obstacle.at * 1000.0).round() / 10.0)
         ))
-        .note("all axes move at once, each straight to its value, so the blade does not go along a line")
+        .note("in an axis move each axis goes straight to its value, so the blade does not follow a line")
     }
 
     fn sweep(&self, sweep: &Sweep) -> Diagnostic {

@@ -1,4 +1,4 @@
-//! The way of a move of all axes: whether the blade stays out of the stock.
+//! The way of an axis move: whether the blade stays out of the stock.
 
 use super::path::{AxesViolation, Block, are_axes_refuted, prove_axes};
 use super::survey::Survey;
@@ -16,7 +16,7 @@ pub struct Obstacle {
     pub lowest: Option<Point3>,
 }
 
-/// Proves that a move of all axes keeps blade and tool out of the stock.
+/// Proves that an axis move keeps blade and tool out of the stock.
 pub(super) fn clear(survey: &Survey<'_>, from: &Joints, to: &Joints) -> Result<(), Obstacle> {
     let points = outline(survey);
     prove_axes(&survey.rig, from, to, &points, &stock(survey.program)).map_err(|breach| Obstacle {

@@ -49,7 +49,7 @@ pub(super) struct Ways<'w> {
     carried: &'w [Vec<OnBranch>],
     rungs: Vec<Vec<Rung>>,
     costs: Vec<Vec<Cost>>,
-    /// The move of all axes that was refused first.
+    /// The axis move that was refused first.
     pub(super) refused: Option<Refused>,
 }
 
@@ -96,7 +96,6 @@ impl<'w> Ways<'w> {
         }
     }
 
-    /// A rung.
     pub(super) fn rung(&self, station: usize, rung: usize) -> Option<&Rung> {
         self.rungs.get(station)?.get(rung)
     }

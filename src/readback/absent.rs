@@ -45,7 +45,7 @@ pub(super) fn not_given(names: &[&str], sources: &[FileId]) -> Option<Diagnostic
         _ => format!("{} of the program's files were not given: {listed}", names.len()),
     };
     let diagnostic = Diagnostic::new(Code::MissingOperation, message, first, "needs it")
-        .note("nothing was compared or checked: a program can be read as a whole only")
+        .note("nothing was compared or checked: a program can only be read as a whole")
         .help(format!("give all files of the program; add {listed}"));
     Some(diagnostic)
 }

@@ -85,13 +85,13 @@ impl Bench<'_> {
         let diagnostic = Diagnostic::new(
             Code::ProgramReach,
             format!(
-                "{}: the way to stand that the program states is not the one that was proven",
+                "{}: the arm configuration that the program states is not the one that was proven",
                 op_words(&rebuilt.program, op)
             ),
             self.span(given),
             "stated here",
         )
-        .note("with the program's own way to stand, nobody knows whether the axes stay within their limits")
+        .note("with the program's own configuration, the axes may leave their limits")
         .help("restore the line, or compile the job again");
         vec![and_more(diagnostic, other.len() - 1)]
     }
@@ -106,17 +106,17 @@ pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
     let (given, why, label) = match obstacle {
         Obstacle::NotUnderstood(given) => (
             given,
-            "nobody knows what this statement does",
+            "the effect of this statement is unknown",
             "could do anything",
         ),
         Obstacle::Depends(given) => (
             given,
-            "motions depend on this, and nobody knows what they do now that it is not what the compiler writes",
+            "motions depend on this, and their effect is unknown because it differs from what the compiler writes",
             "motions depend on this",
         ),
         Obstacle::OtherFrame(given) => (
             given,
-            "the program sets a frame that is not the job's, and nobody knows where the work is then",
+            "the program sets a frame that is not the job's, so the position of the work is unknown",
             "not the job's frame",
         ),
         Obstacle::TooManyKinds(given) => (
@@ -126,7 +126,7 @@ pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
         ),
         Obstacle::SpeedUnknown(given) => (
             given,
-            "how fast this motion goes is not said, or depends on the control",
+            "the speed of this motion is not stated, or depends on the controller",
             "of unknown speed",
         ),
     };
@@ -138,7 +138,7 @@ pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
         label,
     )
     .note(why)
-    .help("mend this line first, then verify again")
+    .help("fix this line first, then verify again")
 }
 
 fn deed<'s>(scene: &'s Scene<'_>, given: usize) -> Option<&'s Deed> {
@@ -151,8 +151,8 @@ fn deed<'s>(scene: &'s Scene<'_>, given: usize) -> Option<&'s Deed> {
 fn and_more(diagnostic: Diagnostic, others: usize) -> Diagnostic {
     match others {
         0 => diagnostic,
-        1 => diagnostic.note("it is so in one more line"),
-        _ => diagnostic.note(format!("it is so in {others} more lines")),
+        1 => diagnostic.note("the same applies to one more line"),
+        _ => diagnostic.note(format!("the same applies to {others} more lines")),
     }
 }
 
@@ -349,7 +349,7 @@ impl Read<'_> {
                 let head_span = plan.operation(operation)?.asked().setup().head_span;
                 let height = show(report.scallop.height.to_mm());
                 let message = format!(
-                    "{height} mm of material stay on the part at x {} mm, the limit is {} mm",
+                    "{height} mm of material remain on the part at x {} mm, the limit is {} mm",
                     show(report.scallop.peak.x),
                     show(limit.value.to_mm())
                 );
@@ -384,7 +384,7 @@ impl Read<'_> {
                 "its chip is not cut free".to_owned(),
             ),
             CutFault::Blocked { at } => (
-                format!("above {place}, uncut material stands in the way of the blade"),
+                format!("above {place}, uncut material is in the way of the blade"),
                 format!("the blade meets it at x {} mm, z {} mm", show(at.x), show(at.z)),
             ),
             // The slits of changed cuts have been told already, and are the same.
@@ -418,14 +418,14 @@ impl Read<'_> {
 
     fn needs_change(&self, op: OpId) -> Diagnostic {
         let message = format!(
-            "{}: no one way to stand carries the motions before and after it",
+            "{}: no single configuration works for the motions before and after it",
             op_words(self.program(), op)
         );
         self.at(
             Code::ProgramReach,
             message,
             op,
-            "the arm would have to change its posture on this straight way",
+            "the arm would have to change its configuration on this straight motion",
         )
         .help("restore the changed lines, or compile the job again")
     }
@@ -440,7 +440,7 @@ impl Read<'_> {
         diagnostic.secondary.push(words.primary);
         diagnostic.secondary.extend(words.secondary);
         diagnostic.notes = words.notes;
-        Some(diagnostic.help("restore the line, or change the job so that it asks for this"))
+        Some(diagnostic.help("restore the line, or change the job to match"))
     }
 }
 
@@ -454,7 +454,7 @@ const fn rule_words(rule: Rule) -> &'static str {
             "the program does something that this machine does not have"
         }
         Rule::Number => "a speed or a time of the program is zero or less",
-        Rule::KnownStart => "a straight motion begins where nobody knows",
+        Rule::KnownStart => "a straight motion begins at an unknown position",
         Rule::AmbiguousTurn => "the blade turns by nearly half a revolution, and either way round would do",
         Rule::AirMoveThroughStock => "the blade enters the stock outside of a cut",
         Rule::TurnInStock => "the blade turns within the stock",

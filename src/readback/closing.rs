@@ -113,12 +113,12 @@ pub(super) fn lines(purpose: Purpose, others: &[OtherSpeed]) -> Vec<String> {
         ));
     }
     lines.push(
-        "not judged: outputs other than the generator's, settings that only the control weighs, rates of moves of all \
-         axes, and what the control does between two lines"
+        "not checked: outputs other than the generator's, settings that only the controller uses, speeds of axis moves, and \
+         what the controller does between two lines"
             .to_owned(),
     );
     lines.push(
-        "the differences remain: before this program cuts, put the job's lines back, or change the job and compile it"
+        "the differences remain: before this program cuts, restore the job's lines, or change the job and compile it"
             .to_owned(),
     );
     lines

@@ -19,7 +19,6 @@ const MOST_IN_FULL: usize = 20;
 /// Most characters of a statement that a message repeats.
 const LONGEST_QUOTE: usize = 120;
 
-/// What differs.
 pub(super) struct Differences {
     /// The first of them in full.
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -28,7 +27,6 @@ pub(super) struct Differences {
 }
 
 impl Differences {
-    /// How many there are.
     pub(super) fn count(&self) -> usize {
         self.counts.iter().map(|(_, count)| count).sum()
     }
@@ -92,7 +90,6 @@ enum Follow {
     /// Nothing was told before.
     #[default]
     Nothing,
-    /// Something was.
     Cause,
 }
 
@@ -144,12 +141,12 @@ impl Teller<'_> {
             "the beginning of the program is missing".to_owned()
         } else if is.len() == should.len() {
             format!(
-                "the {} begin elsewhere than where the compiler begins them",
+                "the {} begin at other places than in the compiled program",
                 parts(is.len().max(1))
             )
         } else {
             format!(
-                "the program is split otherwise: {}, the compiler writes {}",
+                "the program is split differently: {}, the compiler writes {}",
                 parts(is.len().max(1)),
                 parts(should.len().max(1))
             )
@@ -158,7 +155,7 @@ impl Teller<'_> {
         self.tell(
             Diagnostic::new(Code::OtherSetting, message, span, label)
                 .and(self.scene.job.name_span, "the job")
-                .note("what the parts do is compared all the same, and what each sets up and restates is not a difference")
+                .note("the effect of the parts is still compared; what each part sets up and restates does not count as a difference")
                 .help(help),
         );
         // How a program is split changes nothing of what its statements do.
@@ -210,9 +207,9 @@ impl Teller<'_> {
             0 => {}
             1 => cause
                 .notes
-                .push("1 statement after it depends on it: what it does now is not known".to_owned()),
+                .push("1 statement after it depends on it: its effect is now unknown".to_owned()),
             lost => cause.notes.push(format!(
-                "{lost} statements after it depend on it: what they do now is not known"
+                "{lost} statements after it depend on it: their effect is now unknown"
             )),
         }
         let Some(first) = effects.first else {
@@ -277,7 +274,7 @@ impl Teller<'_> {
         };
         match what {
             Some(what) => format!("{words}: {what}"),
-            None => format!("{words} is not the same any more"),
+            None => format!("{words} has changed"),
         }
     }
 
@@ -308,11 +305,9 @@ impl Teller<'_> {
                 let what = match (mismatches.first(), is) {
                     (Some(Mismatch::Kind), Says::Deed(deed)) => format!("instead, {}", deed_words(deed)),
                     (Some(mismatch), Says::Deed(_)) => self.in_words(mismatch),
-                    (None, Says::Deed(_)) => {
-                        "written otherwise, by no more than the rounding of its numbers".to_owned()
-                    }
+                    (None, Says::Deed(_)) => "differs by no more than the rounding of its numbers".to_owned(),
                     (_, Says::Frame(..) | Says::Setting | Says::PartBegins) => {
-                        format!("{} stands in its place", kind_words(is))
+                        format!("{} is there instead", kind_words(is))
                     }
                     (_, Says::Unknown | Says::Unreadable { .. }) => "not understood".to_owned(),
                 };
@@ -360,7 +355,7 @@ impl Teller<'_> {
         if let [should, is] = texts.map(essence)
             && should == is
         {
-            return diagnostic.help("the line itself is as it should be: mend what it depends on");
+            return diagnostic.help("the line itself is as it should be: fix what it depends on");
         }
         diagnostic.fix(
             "restore the compiler's line, or change the job to match",
@@ -420,7 +415,7 @@ impl Teller<'_> {
         };
         let diagnostic = Diagnostic::new(
             Code::OtherOrder,
-            format!("{what} comes in another place"),
+            format!("{what} is in another place"),
             self.span(given),
             "the compiler writes this elsewhere",
         )
@@ -446,14 +441,14 @@ impl Teller<'_> {
             (None, None) => (Code::OtherSetting, "a statement".to_owned()),
         };
         let (span, label) = match self.scene.given.statements.get(given) {
-            Some(_) => (self.span(given), "it belongs in front of this"),
+            Some(_) => (self.span(given), "it belongs before this"),
             None => (self.span(given), "the program ends here"),
         };
         Diagnostic::new(code, format!("{what} is missing"), span, label)
             .and(self.asked(owner), "asked for here")
             .note(format!("the compiler writes `{text}` here"))
             .help(format!(
-                "put `{text}` back, or change the job so that it is not needed"
+                "restore `{text}`, or change the job so that it is not needed"
             ))
     }
 
@@ -464,31 +459,34 @@ impl Teller<'_> {
             Some(Says::Unreadable { expected }) => self.unreadable(given, expected),
             Some(Says::Deed(deed)) => Diagnostic::new(
                 Code::AddedOperation,
-                format!("the job asks for nothing of the kind: {}", deed_words(deed)),
+                format!("the job does not ask for this: {}", deed_words(deed)),
                 span,
                 "added to the program",
             )
             .and(self.scene.job.name_span, "the job")
-            .help("take this line out, or change the job so that it asks for it"),
+            .help("delete this line, or change the job to match"),
             Some(says) => Diagnostic::new(
                 Code::OtherSetting,
                 format!("{} that the compiler does not write", kind_words(says)),
                 span,
                 "added to the program",
             )
-            .help("take this line out"),
-            None => Diagnostic::new(Code::OtherSetting, "a statement more", span, "here"),
+            .help("delete this line"),
+            None => Diagnostic::new(Code::OtherSetting, "an additional statement", span, "here"),
         }
     }
 
     fn not_understood(&self, given: usize) -> Diagnostic {
         Diagnostic::new(
             Code::UnknownStatement,
-            format!("nobody knows what `{}` does", quote(self.scene.given.text(given))),
+            format!(
+                "the effect of `{}` is unknown",
+                quote(self.scene.given.text(given))
+            ),
             self.span(given),
             "not a statement that the compiler writes or knows",
         )
-        .help("take it out, or move it into a program of its own that calls this one")
+        .help("delete it, or move it into a separate program that calls this one")
     }
 
     fn unreadable(&self, given: usize, expected: &str) -> Diagnostic {
@@ -498,7 +496,7 @@ impl Teller<'_> {
             self.span(given),
             format!("expected {expected}"),
         )
-        .help("mend the line, or compile the job again")
+        .help("fix the line, or compile the job again")
     }
 
     fn too_long(&mut self) {
@@ -506,7 +504,7 @@ impl Teller<'_> {
         let (held, beyond) = (self.scene.given.statements.len(), self.scene.given.beyond);
         let diagnostic = Diagnostic::new(
             Code::AddedOperation,
-            format!("the program goes on for {beyond} statements that no program of this job has"),
+            format!("the program continues for {beyond} statements that no program of this job has"),
             self.span(given),
             format!("compared up to here, {held} statements"),
         )

@@ -46,15 +46,11 @@ use way::way;
 /// A job's program as it is written now, and who can read it.
 #[derive(Clone, Copy)]
 pub struct Fresh<'a> {
-    /// The job.
     pub job: &'a CheckedJob,
-    /// Its plan.
     pub plan: &'a PlannedJob,
-    /// Its program.
     pub program: &'a ReachableProgram,
     /// The machine.
     pub cell: &'a Cell,
-    /// What was written.
     pub written: &'a Written,
     /// Where each op stands in it.
     pub places: &'a [Place],

@@ -232,7 +232,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A move of all axes: home, or to the pose that they give.
+    /// An axis move: home, or to the pose that they give.
     fn axes(
         &mut self,
         axes: &AxisValues,

@@ -8,17 +8,33 @@ use vcutc_diff::align::{Pair, common};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
     /// It is there, and reads the same.
-    Same { fresh: usize, given: usize },
-    /// Another one of its kind stands in its place.
-    Changed { fresh: usize, given: usize },
-    /// It stands elsewhere.
-    Moved { fresh: usize, given: usize },
+    Same {
+        fresh: usize,
+        given: usize,
+    },
+    /// Another one of its kind is there instead.
+    Changed {
+        fresh: usize,
+        given: usize,
+    },
+    Moved {
+        fresh: usize,
+        given: usize,
+    },
     /// It is not there; `given` is the statement in front of which it was.
-    Missing { fresh: usize, given: usize },
+    Missing {
+        fresh: usize,
+        given: usize,
+    },
     /// It is in the given program only; `fresh` is the statement in front of which it stands.
-    Added { fresh: usize, given: usize },
+    Added {
+        fresh: usize,
+        given: usize,
+    },
     /// It belongs to the head or the end of a part, and says nothing new.
-    OfPart { given: usize },
+    OfPart {
+        given: usize,
+    },
 }
 
 impl Step {

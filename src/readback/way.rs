@@ -13,12 +13,10 @@ pub(super) struct Way {
     pub(super) parts: Parts,
 }
 
-/// Where parts begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parts {
     /// Where the compiler begins them.
     AsWritten,
-    /// Elsewhere.
     Otherwise,
 }
 

@@ -36,9 +36,9 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
 /// What a deed does, in a few words.
 pub(super) fn deed_words(deed: &Deed) -> String {
     match deed {
-        Deed::Axes(_) => "a move of all axes".to_owned(),
+        Deed::Axes(_) => "an axis move".to_owned(),
         Deed::AxesToPose(target) => {
-            format!("a move of all axes that brings the tip to {}", point(target.tip))
+            format!("an axis move that brings the tip to {}", point(target.tip))
         }
         Deed::Straight { to, .. } => format!("a straight move of the tip to {}", point(to.tip)),
         Deed::Switch { output, state } => format!("output {output} is switched {}", switch(*state)),
@@ -55,7 +55,7 @@ pub(super) const fn kind_words(says: &Says) -> &'static str {
         Says::Frame(FrameRole::Base, _) => "the base frame",
         Says::Setting => "a setting",
         Says::PartBegins => "the beginning of a part",
-        Says::Unknown | Says::Unreadable { .. } => "a statement that is not understood",
+        Says::Unknown | Says::Unreadable { .. } => "an unknown statement",
     }
 }
 
@@ -73,7 +73,7 @@ pub(crate) fn departure_words(what: &DepartureKind, cell: Option<&Cell>) -> Vec<
         DepartureKind::Frame(FrameRole::Base) => one("the base frame has another value"),
         DepartureKind::NoFrame(FrameRole::Tool) => one("the tool frame is not set before the first motion"),
         DepartureKind::NoFrame(FrameRole::Base) => one("the base frame is not set before the first motion"),
-        DepartureKind::NotUnderstood => one("the statement is not understood"),
+        DepartureKind::NotUnderstood => one("the statement is unknown"),
     }
 }
 
@@ -83,11 +83,11 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
         Mismatch::Kind => "something else is done".to_owned(),
         Mismatch::Tip { is, should } => tip(is, should),
         Mismatch::Attitude { by } => format!(
-            "the blade is held in another way, turned by {} deg",
+            "the blade has another orientation, turned by {} deg",
             fine(by.to_deg())
         ),
         Mismatch::Stance { is, should } => format!(
-            "the machine is to stand in another way: with {}, the job needs {}",
+            "the arm configuration is different: {}, the job needs {}",
             stance(is, should),
             stance(should, is)
         ),
@@ -99,7 +99,7 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             None => "an axis goes elsewhere".to_owned(),
         },
         Mismatch::Feed { is, should } => format!(
-            "the tip goes at {}, the job says {} mm/s",
+            "the tip moves at {}, the job says {} mm/s",
             is.map_or("no stated speed".to_owned(), |is| format!(
                 "{} mm/s",
                 fine(is.to_mm_per_s())
@@ -110,7 +110,7 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             let words = |rate: f64| fine(rate.to_degrees());
             format!(
                 "the blade turns at {}, the job says {} deg/s",
-                is.map_or("no one rate".to_owned(), |is| format!(
+                is.map_or("no single rate".to_owned(), |is| format!(
                     "{} deg/s",
                     words(is.to_rad_per_s())
                 )),
@@ -122,7 +122,7 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             fine(is.to_s()),
             fine(should.to_s())
         ),
-        Mismatch::NoStop => "the machine passes by without the exact stop that the job needs".to_owned(),
+        Mismatch::NoStop => "the machine does not make the exact stop that the job needs".to_owned(),
         Mismatch::Output { is, should } => {
             let wanted = should
                 .0

@@ -16,7 +16,6 @@ pub struct Written {
     pub options: Options,
     /// Its files, byte for byte.
     pub bundle: Bundle,
-    /// The same as text.
     pub files: Vec<ProgramFile>,
     /// Where each op stands in the text; none where nobody can read the dialect.
     pub places: Option<Vec<Place>>,

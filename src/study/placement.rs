@@ -42,7 +42,6 @@ pub struct Placement {
     pub model: String,
     /// Where the base might have stood.
     pub bounds: Bounds,
-    /// Where it stands now.
     pub now: Standing,
     /// The best place that was proven.
     pub best: Option<Best>,
@@ -65,7 +64,6 @@ impl Placement {
 /// A base and what the machine makes of it.
 #[derive(Clone, Debug)]
 pub struct Standing {
-    /// The base.
     pub base: PlacedFrame,
     /// What room the whole program leaves there; why it is not carried out otherwise.
     pub room: Result<Room, String>,
@@ -74,7 +72,6 @@ pub struct Standing {
 /// A place that was proven.
 #[derive(Clone, Debug)]
 pub struct Best {
-    /// Where.
     pub spot: Spot,
     /// The frame to paste.
     pub base: PlacedFrame,

@@ -16,26 +16,13 @@ pub struct Ast {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// `job "name"`.
-    Job {
-        /// The name.
-        name: Spanned<String>,
-        /// All of it.
-        span: Span,
-    },
+    Job { name: Spanned<String>, span: Span },
     /// `use "path"`.
-    Use {
-        /// The path.
-        path: Spanned<String>,
-        /// All of it.
-        span: Span,
-    },
+    Use { path: Spanned<String>, span: Span },
     /// `let name = value`.
     Let {
-        /// The name.
         name: Spanned<String>,
-        /// The value.
         value: Spanned<Expr>,
-        /// All of it.
         span: Span,
     },
     /// `head { entries }`.
@@ -56,7 +43,6 @@ pub struct Block {
 /// A piece of a block's head.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum HeadPart {
-    /// A word.
     Word(String),
     /// A text in quotes.
     Text(String),
@@ -69,47 +55,37 @@ pub enum HeadPart {
 pub enum Entry {
     /// `name = value`.
     Field {
-        /// The name.
         name: Spanned<String>,
-        /// The value.
         value: Spanned<Expr>,
-        /// All of it.
         span: Span,
     },
     /// `name <= value` or `name >= value`.
     Limit {
-        /// The name.
         name: Spanned<String>,
         /// Which way it binds.
         relation: Spanned<Relation>,
         /// The bound.
         value: Spanned<Expr>,
-        /// All of it.
         span: Span,
     },
     /// `z(x) = value`.
     Formula {
         /// The function's name.
         name: Spanned<String>,
-        /// Its variable.
         variable: Spanned<String>,
-        /// What it is.
         value: Spanned<Expr>,
-        /// All of it.
         span: Span,
     },
     /// A piece of a profile.
     Curve {
         /// The piece.
         curve: Curve,
-        /// All of it.
         span: Span,
     },
     /// `tips (x, z) ...`: where blades are to run.
     Tips {
         /// The points, at least one.
         points: Vec<Point>,
-        /// All of it.
         span: Span,
     },
     /// A block within the block.
@@ -142,13 +118,9 @@ pub enum Curve {
     /// `start (x, z)`.
     Start(Point),
     /// `line to (x, z)`.
-    Line {
-        /// Where it ends.
-        to: Point,
-    },
+    Line { to: Point },
     /// `arc to (x, z) radius r`, `... center (x, z)` or `... through (x, z)`.
     Arc {
-        /// Where it ends.
         to: Point,
         /// What else is known of it.
         by: ArcBy,
@@ -157,21 +129,18 @@ pub enum Curve {
     Bezier {
         /// Inner control points, any number.
         control: Vec<Point>,
-        /// Where it ends.
         to: Point,
     },
     /// `spline (x, z) ... to (x, z)`: points it passes through, then the end.
     Spline {
         /// Points on the way.
         through: Vec<Point>,
-        /// Where it ends.
         to: Point,
     },
     /// `polyline (x, z) ... to (x, z)`.
     Polyline {
         /// Corners on the way.
         through: Vec<Point>,
-        /// Where it ends.
         to: Point,
     },
     /// `points "file.csv"`, optionally with `{ fields }`.
@@ -220,7 +189,6 @@ pub enum ArcBy {
 pub enum Expr {
     /// `4.4 mm`, `3`, `30 %`.
     Number {
-        /// The number.
         value: f64,
         /// Its unit as written, such as `mm/s`.
         unit: Option<Spanned<String>>,
@@ -231,20 +199,15 @@ pub enum Expr {
     Name(String),
     /// `max(a, b)`, `frame(x = 0 mm, ...)`.
     Call {
-        /// The function.
         function: Spanned<String>,
-        /// Its arguments.
         arguments: Vec<Argument>,
     },
     /// `-a`.
     Negate(Box<Spanned<Self>>),
     /// `a + b`.
     Binary {
-        /// The operator.
         operator: Spanned<Operator>,
-        /// Left of it.
         left: Box<Spanned<Self>>,
-        /// Right of it.
         right: Box<Spanned<Self>>,
     },
     /// `(a, b, c)`: two or more values.
@@ -256,7 +219,6 @@ pub enum Expr {
 pub struct Argument {
     /// `name =` before it.
     pub name: Option<Spanned<String>>,
-    /// The value.
     pub value: Spanned<Expr>,
 }
 

@@ -90,7 +90,6 @@ struct Scan<'t> {
     is_matched: bool,
     /// The token before, comments left out.
     previous: Option<Token>,
-    /// The one before that.
     before_previous: Option<Token>,
     /// Where the last block of the file ended.
     last_end: usize,
@@ -187,11 +186,11 @@ impl<'t> Scan<'t> {
         self.reports.push(
             Diagnostic::new(
                 Code::NestedTooDeeply,
-                format!("more than {DEEPEST} brackets within one another"),
+                format!("brackets are nested more than {DEEPEST} deep"),
                 self.span(token.start..token.end),
                 format!("this is bracket number {}", DEEPEST + 1),
             )
-            .help("give the inner part a name of its own with `let`, or delete brackets that are not needed"),
+            .help("name the inner part with `let`, or delete unnecessary brackets"),
         );
     }
 
@@ -483,9 +482,9 @@ impl<'t> Scan<'t> {
         };
         let mut report = Diagnostic::new(
             Code::UnexpectedText,
-            "a backslash that means nothing",
+            "a backslash without a meaning",
             first,
-            "a backslash in a text goes before `\"` or another backslash",
+            "in a text, a backslash comes before `\"` or another backslash",
         )
         .help("for a backslash itself, write two");
         let edit = |span| Edit {

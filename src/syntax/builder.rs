@@ -359,7 +359,7 @@ impl<'t> Builder<'t> {
             ),
             Mismatch::TooMuchWork => Diagnostic::new(
                 Code::NestedTooDeeply,
-                "this file is too entangled to be read",
+                "this file is too tangled to parse",
                 self.place.span(0..self.text.len()),
                 "the parser gave up on it",
             )

@@ -38,9 +38,9 @@ impl Builder<'_> {
                     Code::NestedTooDeeply,
                     format!("a value of {operators} operators"),
                     self.place.span_of(&pair),
-                    format!("no more than {MOST_OPERATORS} operators go into one value"),
+                    format!("one value can have at most {MOST_OPERATORS} operators"),
                 )
-                .help("give parts of it names of their own with `let`"),
+                .help("name parts of it with `let`"),
             );
             return None;
         }
@@ -94,7 +94,7 @@ impl Builder<'_> {
             self.reports.push(
                 Diagnostic::new(
                     Code::NumberTooLarge,
-                    "a number too large to hold",
+                    "this number is too large",
                     self.place.span_of(&decimal),
                     "numbers go up to about 1.8e308",
                 )

@@ -57,9 +57,9 @@ fn read(file: FileId, text: &str) -> Result<Source<'_>, Vec<Diagnostic>> {
 fn not_the_same(file: FileId) -> Diagnostic {
     Diagnostic::new(
         Code::Internal,
-        "the formatted file would not say the same",
+        "formatting would change the meaning of the file",
         Span::of_bytes(file, 0..0),
-        "the file is left as it is",
+        "the file is left unchanged",
     )
     .help("this is a fault of the compiler; please report it together with the file")
 }

@@ -8,8 +8,8 @@ use std::sync::{Mutex, PoisonError};
 
 pub(super) use generated::Rule;
 
-/// What the derive writes has no documentation of its own; the grammar file has.
-#[allow(missing_docs, unreachable_pub)]
+/// The code that the derive writes.
+#[allow(unreachable_pub)]
 mod generated {
     /// The parser of `grammar/vcut.pest`.
     #[derive(pest_derive::Parser)]

@@ -4,7 +4,6 @@
 //! brackets before parsing ([`super::brackets`]), and to name the token before and at a mistake ([`super::mistakes`]).
 //! It agrees with the grammar on what a comment and a text are.
 
-/// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
     /// A name or keyword.
@@ -29,7 +28,6 @@ pub enum TokenKind {
     Symbol,
 }
 
-/// A kind of bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bracket {
     /// `( )`
@@ -56,10 +54,8 @@ impl Bracket {
     }
 }
 
-/// One token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// What it is.
     pub kind: TokenKind,
     /// Its first byte.
     pub start: usize,

@@ -54,7 +54,7 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Ast
 pub fn not_utf8(span: Span, name: &str, right: usize) -> Diagnostic {
     Diagnostic::new(
         Code::NotUtf8,
-        format!("`{name}` is not text in UTF-8"),
+        format!("`{name}` is not UTF-8 text"),
         span,
         format!("the first {right} bytes of the file are text, the next one is not"),
     )

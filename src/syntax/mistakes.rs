@@ -22,7 +22,7 @@ pub(super) fn explain(bad: &Bad<'_>, rule: Rule) -> Diagnostic {
             Code::UnexpectedText,
             "this does not belong here",
             bad.span(0..bad.mended.trim_end().len()),
-            "no statement that is known",
+            "not a known statement",
         ),
     }
 }
@@ -54,9 +54,9 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
         ("let" | "use" | "job", Some((TokenKind::Word | TokenKind::Text, _))) if is_entry => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
-                format!("`{word}` cannot stand in a block"),
+                format!("`{word}` is not allowed in a block"),
                 here,
-                "inside of a block here",
+                "inside a block here",
             )
             .help(format!(
                 "move the `{word}` out of the block, to the top of the file"
@@ -70,7 +70,7 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
             Some(
                 Diagnostic::new(
                     Code::UnexpectedText,
-                    format!("there is no `{}` that points follow", shown(word)),
+                    format!("`{}` does not take points", shown(word)),
                     here,
                     "not a word of the language",
                 )
@@ -84,9 +84,7 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
                 here,
                 "the entry before it is complete already",
             )
-            .help(format!(
-                "delete it, or make it an entry of its own: `{word} = ...`"
-            )),
+            .help(format!("delete it, or make it a separate entry: `{word} = ...`")),
         ),
         (_, Some((TokenKind::Word | TokenKind::Text, _))) if is_entry && third.is_none() => {
             let value = second?;
@@ -98,7 +96,7 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
                 Code::UnexpectedText,
                 "a profile after `=` is one file",
                 here,
-                "no file in the form that is read here",
+                "not a file in a form that the compiler reads",
             )
             .note("kinds of files: points, airfoil, dxf, svg")
             .help("write `profile = dxf(\"rib.dxf\", layer = \"SKIN\")`, or a block `profile { ... }`"),
@@ -227,7 +225,7 @@ fn plain(bad: &Bad<'_>, fault: &Fault<'_>) -> Diagnostic {
     let (span, label) = match (fault.found, &context) {
         (Some(found), Some(context)) if wanted.is_none() => (
             bad.span(found.start..found.end),
-            format!("nothing more can follow `{context}`"),
+            format!("nothing can follow `{context}`"),
         ),
         (Some(found), _) => (
             bad.span(found.start..found.end),
@@ -280,7 +278,7 @@ fn help(fault: &Fault<'_>) -> Option<&'static str> {
             Some("the last point of a curve follows the word `to`, as in `to (20 mm, 30 mm)`")
         }
         "`radius`, `center` or `through`" => {
-            Some("say how the arc runs: `radius 30 mm`, `center (20 mm, 0 mm)` or `through (20 mm, 30 mm)`")
+            Some("define the arc: `radius 30 mm`, `center (20 mm, 0 mm)` or `through (20 mm, 30 mm)`")
         }
         "a value" => Some("write a value such as `4.4 mm`, `auto` or `\"text\"`"),
         "a text in quotes" => Some("put it in double quotes, as in `\"spoiler_rib\"`"),

@@ -34,7 +34,7 @@ impl Reports {
             && let Some(last) = self.list.last_mut()
         {
             last.notes.push(format!(
-                "{} more mistakes of this kind are in this file and not shown",
+                "{} more mistakes of this kind in this file are not shown",
                 self.left_out
             ));
         }

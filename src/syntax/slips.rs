@@ -61,7 +61,7 @@ fn numbers(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic>
             bad,
             found,
             "a decimal point without decimals",
-            &format!("no digit follows; `{}` alone will do", bad.token(before)),
+            &format!("no digit follows; `{}` alone is enough", bad.token(before)),
             "",
         )),
         _ => None,
@@ -120,7 +120,7 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
         {
             slip(
                 "`;` does not belong here",
-                "a comma parts values and entries",
+                "commas separate values and entries",
                 ",",
             )
         }
@@ -147,7 +147,7 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
                 Code::UnexpectedText,
                 "`[` does not belong here",
                 bad.span(found.start..found.end),
-                "no brackets of this kind are used",
+                "brackets of this kind are not used",
             )
             .help("write values that belong together as `(a, b, c)`"),
         ),
@@ -156,7 +156,7 @@ fn marks(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
                 Code::UnexpectedText,
                 "`'` does not belong here",
                 bad.span(found.start..found.end),
-                "no quotes of this kind are used",
+                "quotes of this kind are not used",
             )
             .help("write a text in double quotes, as in `\"text\"`"),
         ),
@@ -204,12 +204,12 @@ fn characters(bad: &Bad<'_>, found: Token) -> Option<Diagnostic> {
         '≤' => ("a sign that is written with two characters", "<="),
         '≥' => ("a sign that is written with two characters", ">="),
         c if is_fancy_quote(c) => return Some(fancy_quotes(bad, found)),
-        c if c.is_whitespace() || c == '\u{feff}' || c == '\u{200b}' => ("a special blank", " "),
+        c if c.is_whitespace() || c == '\u{feff}' || c == '\u{200b}' => ("a special space", " "),
         _ => return None,
     };
     let shown_right = right.trim();
     let help = match shown_right {
-        "" => "write an ordinary blank".to_owned(),
+        "" => "write an ordinary space".to_owned(),
         right => format!("write `{right}`"),
     };
     let span = bad.span(found.start..found.start + c.len_utf8());
@@ -241,7 +241,7 @@ fn fancy_quotes(bad: &Bad<'_>, found: Token) -> Diagnostic {
         Code::UnexpectedText,
         "a typographic quote does not belong here",
         bad.span(found.start..found.end),
-        "texts are in straight double quotes",
+        "texts need straight double quotes",
     );
     report.fixes.push(Fix {
         title: "write `\"`".to_owned(),

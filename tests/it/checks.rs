@@ -163,7 +163,7 @@ fn assert_sheet_agrees(name: &str, outcome: &Outcome) {
         ("elbow_angle", "J3 - J2", "J3 - J2"),
         ("accelerations", "times with accelerations", "without speeding up"),
         ("turns", "sweep of the edge", "where the blade turns beside it"),
-        ("singular_poses", "distance from singular poses", "singular pose"),
+        ("singular_poses", "distance from singularities", "singular pose"),
         ("holder", "shank and holder", "Shank and holder"),
         ("collisions", "collisions", "clear each other"),
     ] {
@@ -218,7 +218,7 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
             said.proven
         );
         assert_eq!(
-            said.not_checked.contains("the rates of all axes"),
+            said.not_checked.contains("the speeds of all axes"),
             !has_rates,
             "{name}: {}",
             said.not_checked

@@ -307,7 +307,7 @@ fn words_around_motions_change_no_pass() {
         match number {
             4 => assert_eq!(
                 inferred(&conversion, "external"),
-                ["axes outside of the arm stand still: E1 at 250, E2 at 0"]
+                ["external axes do not move: E1 at 250, E2 at 0"]
             ),
             5 => assert_eq!(conversion.raster.arcs, 2),
             _ => {}

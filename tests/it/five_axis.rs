@@ -57,7 +57,7 @@ fn a_blade_that_is_mounted_turned_is_told_of() {
     assert!(
         diagnostic
             .message
-            .ends_with("its plane would stay turned by 10 deg"),
+            .ends_with("its plane would be turned by 10 deg"),
         "{}",
         diagnostic.message
     );

@@ -214,7 +214,7 @@ fn what_the_target_of_the_machine_refuses_is_refused_by_a_check() {
     );
 }
 
-/// A job that a robot follows only with moves of all axes in the place of nearly all travels.
+/// A job that a robot follows only with axis moves in the place of nearly all travels.
 const MANY_AXIS_MOVES: &str = r#"job "many"
 stock { size = (120 mm, 60 mm, 45 mm) }
 profile { start (0 mm, 17 mm) line to (120 mm, 20 mm) }

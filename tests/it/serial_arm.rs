@@ -122,7 +122,7 @@ fn the_distance_from_singular_poses_is_named_as_not_checked() {
     assert!(!checks.proven().contains("singular"), "{}", checks.proven());
     let open = checks.not_checked().unwrap();
     assert!(
-        open.contains("the distance from singular poses (not measured"),
+        open.contains("the distance from singularities (not measured"),
         "{open}"
     );
 }

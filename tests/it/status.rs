@@ -1,7 +1,7 @@
 //! Status and turn, from the kinematics of an arm through the branch and the program to the text, against their definition.
 //!
 //! Every KUKA arm of the catalogue is put into random postures; each way of reaching the same pose makes a program of a single
-//! move of all axes, whose `S` and `T` are read back and computed again from nothing but the axes.
+//! axis move, whose `S` and `T` are read back and computed again from nothing but the axes.
 
 use crate::krl_text::expected::turn;
 use crate::krl_text::reader::{self, Event};

@@ -39,6 +39,8 @@
 //! bytes into a [`bundle::Sink`]; it does no kinematics and invents no defaults. What it wrote is read again by the reader of
 //! its dialect ([`readback`]) and compared with the program, op by op, before anything reaches a disk.
 
+#![warn(missing_docs)]
+
 pub mod backend;
 pub mod builder;
 pub mod bundle;

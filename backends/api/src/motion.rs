@@ -154,7 +154,7 @@ impl fmt::Display for MotionRule {
             Self::Complete => "an op has no axis values, or some that its machine cannot have",
             Self::Limits => "an axis value lies outside of its limits",
             Self::Pose => "the axis values do not give the op's pose",
-            Self::Stretches => "the branch is not known, or changes without a move of all axes",
+            Self::Stretches => "the branch is not known, or changes without an axis move",
             Self::Still => "the axes move in an op that moves nothing",
             Self::Waypoints => "a waypoint does not lie on the way of its op",
         })

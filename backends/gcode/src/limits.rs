@@ -33,7 +33,7 @@ const DRIVES: &str = "five-axis machines with linear axes X, Y, Z and rotary axe
 
 const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
     field: "home",
-    why: "the program begins and ends with a move of all axes to positions that the job states, so that it does not depend \
+    why: "the program begins and ends with an axis move to positions that the job states, so that it does not depend \
           on where the machine happens to stand",
 };
 

@@ -51,7 +51,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 100,
             default: DEFAULT_HOME_SPEED,
         },
-        help: "Speed of the moves of all axes, to home and from there, in percent of the axes' rates; Fanuc makes them at its rapid rate.",
+        help: "Speed of axis moves, to home and from there, in percent of the axes' rates; Fanuc makes them at its rapid rate.",
     },
     OptionSpec {
         key: TOOL_NUMBER,

@@ -46,7 +46,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 100,
             default: 10,
         },
-        help: "Axis speed of the moves of all axes, to home and from there, in percent of the greatest.",
+        help: "Axis speed of axis moves, to home and from there, in percent of the highest.",
     },
 ];
 

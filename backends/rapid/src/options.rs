@@ -32,7 +32,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
             max: 5000,
             default: 250,
         },
-        help: "Tip speed of the moves of all axes, to home and from there, in mm/s.",
+        help: "Tip speed of axis moves, to home and from there, in mm/s.",
     },
     OptionSpec {
         key: TOOL_NAME,

@@ -4,10 +4,10 @@
 pub(super) const FIRST_EXAMPLES: &str = "\
 Examples:
   vcutc init rib --robot kuka/kr210_r3100_ultra   Write a first job
-  vcutc check rib.vcut                            Look for errors, write nothing
+  vcutc check rib.vcut                            Check for errors, write nothing
   vcutc rib.vcut --target krl -o out              Write the KUKA program of a job into the folder out
 
-`vcutc --help` has more of them, `vcutc COMMAND --help` everything about a command.";
+`vcutc --help` has more examples; `vcutc COMMAND --help` explains a command.";
 
 /// What `--help` shows.
 pub(super) const EXAMPLES: &str = "\
@@ -19,36 +19,36 @@ Examples:
   vcutc rib.vcut --target krl --set width=90mm --set depth=40mm
                                           The same job for another stock
   vcutc rib.vcut --target krl -o out --check
-                                          Fail with a diff unless out holds the job's program
+                                          Fail with a diff unless out contains the job's program
   vcutc build                             Write all programs that vcut.toml lists
-  vcutc check *.vcut                      Look for errors, write nothing
+  vcutc check *.vcut                      Check for errors, write nothing
   vcutc report rib.vcut --open            See the cuts, what they leave, and what the machine does
   vcutc explain VC0203                    Read what an error means and how to fix it
-  vcutc machines                          See the machines of the catalogue
-  vcutc machines kuka/kr210_r3100_ultra   Read all numbers of one, and where they come from
+  vcutc machines                          List the machines in the catalogue
+  vcutc machines kuka/kr210_r3100_ultra   See all numbers of one, and their sources
   vcutc fmt                               Format all job files here
   vcutc fk kuka/kr210_r3100_ultra --joints 0,-90,90,0,45,0
-                                          Where these axis values bring the flange
+                                          The pose of the flange at these axis values
   vcutc ik kuka/kr210_r3100_ultra --pose 1990,0,1984,0,90,0
-                                          All axis values that bring the flange there
-  vcutc plot rib.vcut -o pictures         See all pictures, in the folder pictures
+                                          All axis values for this pose of the flange
+  vcutc plot rib.vcut -o pictures         Draw all pictures in the folder pictures
   vcutc plot rib.vcut --what contour -o rib.svg
-                                          See what the cuts leave on the part
-  vcutc optimize rib.vcut                 See what limits cost, and what a finer surface would take
-  vcutc targets                           See what programs can be written, and with which options
+                                          Draw what the cuts leave on the part
+  vcutc optimize rib.vcut                 See the cost of limits and of a finer surface
+  vcutc targets                           List the targets and their options
   vcutc watch rib.vcut --target krl --serve
-                                          The same after every change, with the report in a browser
+                                          Compile again after every change, with the report in a browser
   vcutc convert rib_3x.src --rake 60deg --swing 34deg --extension 8mm --stock 85x50x50 --as-job
-                                          Turn a milling program of three axes into a job of V-cuts
-  vcutc verify rib.vcut out               See whether a program still is what its job says
-  vcutc completions bash                  Let the shell complete commands and options
+                                          Convert a three-axis milling program to a job of V-cuts
+  vcutc verify rib.vcut out               Check whether a program still matches its job
+  vcutc completions bash                  Print a completion script for bash
 
 Streams:
-  standard output  what was asked for: pages, lists, tables, and programs and pictures with `-o -`
+  standard output  results: pages, lists, tables, and programs and pictures with `-o -`
   standard error   errors, warnings, the summary of a job, progress
-  `vcutc check rib.vcut 2>&1 | less` shows all of it a page at a time.
+  `vcutc check rib.vcut 2>&1 | less` shows both, a page at a time.
 
 Exit status:
-  0  all is well
+  0  success
   1  a job has errors, --check found a difference, or there are warnings under --deny-warnings
   2  wrong usage, or a file that cannot be read or written";

@@ -10,21 +10,22 @@ pub(in crate::cli) struct ReportArgs {
 
     /// The file to write, or - for standard output
     ///
-    /// Without it: JOB.html in the current folder.
+    /// The default is JOB.html in the current folder.
     #[arg(short, long, value_name = "FILE.html|-")]
     pub(in crate::cli) output: Option<String>,
 
-    /// Open the page in a browser: that of the variable BROWSER, or the system's
+    /// Open the page in a browser: the one in the variable BROWSER, or the system default
     #[arg(long)]
     pub(in crate::cli) open: bool,
 
-    /// Write the set-up sheet instead: one page to print, for the person at the machine
+    /// Write the set-up sheet instead: one page to print, for the operator
     ///
-    /// Blade, frames with a sketch of the work's zero, stock, cuts by layer, time, and what has to be checked by hand.
+    /// It shows the blade, frames with a sketch of the work's zero, the stock, cuts by layer, the time, and what to
+    /// check by hand.
     #[arg(long)]
     pub(in crate::cli) sheet: bool,
 
-    /// Name the files of the program for this target, with their SHA-256
+    /// List the program files for this target, with their SHA-256
     #[arg(long, value_name = "NAME")]
     pub(in crate::cli) target: Option<String>,
 
@@ -44,9 +45,9 @@ pub(in crate::cli) struct PlotArgs {
     #[arg(long, value_enum, value_name = "PICTURE")]
     pub(in crate::cli) what: Option<What>,
 
-    /// One picture: the file to draw into, or - for standard output (the default); all: the folder (the current one by default)
+    /// For one picture, the file or - for standard output (the default); for all, the folder (default: the current one)
     ///
-    /// All pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine.
+    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(in crate::cli) output: Option<String>,
 
@@ -57,16 +58,16 @@ pub(in crate::cli) struct PlotArgs {
 /// What `vcutc plot` draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum What {
-    /// The tips of all cuts by how they came to be there, their flanks and layers
+    /// The tips of all cuts, coloured by origin, with their flanks and layers
     Lattice,
     /// The part, the machined contour, the chips, and the highest scallop
     Contour,
-    /// How far the machined contour stands off the part, all along it
+    /// The distance between the machined contour and the part, along the profile
     Deviation,
-    /// How machined contour and part correlate, shifted against each other
+    /// The correlation of machined contour and part, shifted against each other
     Correlation,
-    /// Angles, rates and margins of the machine's axes over time
+    /// Positions, speeds and margins of the machine's axes over time
     Joints,
-    /// What the time is spent on, by kind of motion and by layer
+    /// The time by kind of motion and by layer
     Time,
 }

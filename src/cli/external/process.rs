@@ -108,7 +108,7 @@ impl Conversation {
 
     fn late(&self) -> String {
         let seconds = self.limits.time.as_secs();
-        format!("was not done within {seconds} s; `--backend-timeout` gives it more")
+        format!("did not finish within {seconds} s; `--backend-timeout` gives it more time")
     }
 
     fn left(&self) -> Duration {
@@ -172,7 +172,7 @@ fn start(program: &Path) -> Result<Child, Fault> {
 fn not_started(program: &Path, error: &io::Error) -> String {
     let advice = match error.kind() {
         ErrorKind::PermissionDenied => format!("; make it executable with `chmod +x {}`", program.display()),
-        ErrorKind::NotFound => "; is there what its first line (`#!`) names?".to_owned(),
+        ErrorKind::NotFound => "; does the program in its first line (`#!`) exist?".to_owned(),
         _ => "; a script begins with a line such as `#!/usr/bin/env python3`".to_owned(),
     };
     format!("cannot be started: {error}{advice}")

@@ -38,7 +38,6 @@ pub(super) struct Found<'m> {
 pub(super) enum Shown {
     /// Those within the limits of all axes.
     WithinLimits,
-    /// All.
     All,
 }
 

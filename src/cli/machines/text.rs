@@ -34,7 +34,6 @@ pub(super) fn list(summaries: &[Summary]) -> String {
     text
 }
 
-/// One machine.
 pub(super) fn machine(description: &Description) -> String {
     let Description { model, sheet } = description;
     let mut text = format!("{}\n", model.name);
@@ -191,7 +190,6 @@ fn wrapped(item: &str) -> String {
     text
 }
 
-/// Numbers in a row.
 pub(super) fn row(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
     numbers.join(" ")

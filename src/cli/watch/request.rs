@@ -8,14 +8,11 @@
 /// Most bytes of a request's head.
 pub(super) const LONGEST_HEAD: usize = 8 << 10;
 
-/// What is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Asked {
-    /// The page.
     Page,
     /// To be told when the page is no longer of this version.
     Changes {
-        /// The version.
         version: String,
     },
 }

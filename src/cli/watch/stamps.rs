@@ -114,7 +114,6 @@ impl Stamps {
 
 /// Shortest time between two looks at the files.
 const SHORTEST: Duration = Duration::from_millis(5);
-/// Longest.
 const LONGEST: Duration = Duration::from_secs(2);
 /// How many times as long as a look the pause behind it is.
 const IDLE: u32 = 20;

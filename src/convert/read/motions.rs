@@ -1,6 +1,6 @@
 //! Where the motions of a program lead.
 //!
-//! What a target leaves out keeps the value that it had. Positions behind moves of all axes are not known, for no arm is known;
+//! What a target leaves out keeps the value that it had. Positions behind axis moves are not known, for no arm is known;
 //! those of relative motions are, where the one before is. Axes outside of the arm carry the work or the arm itself: while they
 //! stand still they are none of a job's business, and when they move the positions mean something else.
 

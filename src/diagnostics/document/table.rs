@@ -404,7 +404,7 @@ fn wrong_kind(key: &str, wanted: &str, span: Range<usize>, found: &DeValue<'_>) 
     Flaw::new(
         span,
         format!("`{key}` takes {wanted}, not {found}"),
-        format!("{wanted} is wanted here"),
+        format!("expected {wanted} here"),
     )
 }
 

@@ -5,7 +5,7 @@ use super::words::listed;
 use super::{Check, Checks, Outcome, Reason};
 
 impl Checks {
-    /// A sentence for each check that was not made, in a fixed order; the rates of all axes share one.
+    /// A sentence for each check that was not made, in a fixed order; the speeds of all axes share one.
     #[must_use]
     pub fn by_hand(&self) -> Vec<String> {
         let (_, unknown) = self.axes();
@@ -34,12 +34,12 @@ impl Check {
             }
             Self::AxisRate(_) => {
                 return format!(
-                    "The control keeps the programmed speeds with the rates of {}: watch for slow-downs in the air",
+                    "The control keeps the programmed speeds, although the speed limits are unknown for {}: watch for slow-downs in the air",
                     listed(unknown)
                 );
             }
             Self::SingularPoses => {
-                "No axis spins where the arm comes near a singular pose: run it slowly first"
+                "No axis spins where the arm comes near a singularity: run it slowly first"
             }
             Self::Branch => "The arm keeps its configuration through every cut: run it slowly first",
             Self::ElbowAngle => {
@@ -68,9 +68,9 @@ impl Reason {
             Self::NoMachine => "the job has no machine",
             Self::NotStated => "the compiler does not know the numbers of this machine",
             Self::NoPlaceForIt => "a machine's description has no field for the range",
-            Self::NotMeasured => "not measured for an arm without a closed form",
+            Self::NotMeasured => "not measured for an arm without a closed-form solution",
             Self::NoBody => "the compiler does not know their shapes",
-            Self::NoReader => "nothing reads this target's programs back",
+            Self::NoReader => "this target's programs are not read back",
         }
     }
 }

@@ -38,17 +38,17 @@ impl Checks {
         let (axes, name) = (listed(&unknown), &machine.model.name);
         let (rates, are, them) = match unknown.len() {
             0 => return None,
-            1 => ("rate", "is", "it"),
-            _ => ("rates", "are", "them"),
+            1 => ("speed limit", "is", "it"),
+            _ => ("speed limits", "are", "them"),
         };
         let told = Diagnostic::new(
             Code::RatesNotChecked,
-            format!("the {rates} of {axes} {are} not known, so that no motion was checked against {them}"),
+            format!("the {rates} of {axes} {are} not known, so no motion was checked against {them}"),
             machine.model_span,
             format!("its description states no {rates} of {axes}"),
         );
         Some(
-            told.note("a motion that is too fast for an axis is slowed down or stopped by the control, or leaves its line")
+            told.note("a motion that is too fast for an axis is slowed down or stopped by the controller, or leaves its line")
                 .help(remedy(machine, name)),
         )
     }
@@ -69,10 +69,10 @@ fn elbow_angle(machine: &Machine, reached: &Reached) -> Diagnostic {
         machine.model_span,
         "the range of its parallelogram is not known",
     )
-    .note("a control that finds this angle out of its range stops with an error");
+    .note("a controller that finds this angle out of its range stops with an error");
     if low <= high {
         told.help(format!(
-            "compare with the data sheet: where the motions of this program end, J3 - J2 goes from {:.1} to {:.1} deg",
+            "compare with the data sheet: at the ends of the motions of this program, J3 - J2 ranges from {:.1} to {:.1} deg",
             low.to_degrees(),
             high.to_degrees()
         ))
@@ -81,16 +81,16 @@ fn elbow_angle(machine: &Machine, reached: &Reached) -> Diagnostic {
     }
 }
 
-/// The warning of an arm whose distance from singular poses is not measured.
+/// The warning of an arm whose distance from singularities is not measured.
 fn singular_poses(machine: &Machine) -> Diagnostic {
     Diagnostic::new(
         Code::MotionNotChecked,
-        "the distance from singular poses was not checked",
+        "the distance from singularities was not checked",
         machine.model_span,
-        "this arm has no closed form, so that the distance is not measured",
+        "this arm has no closed-form solution, so the distance is not measured",
     )
-    .note("no motion passes through such a pose; close to one the control may slow down")
-    .help("run the program in the simulation of the control, and look for places where it slows down")
+    .note("no motion passes through a singularity; close to one the controller may slow down")
+    .help("run the program in the simulation of the controller, and look for places where it slows down")
 }
 
 /// Where the rates are to be written.
@@ -101,7 +101,7 @@ fn remedy(machine: &Machine, name: &str) -> String {
     };
     match Origin::of(name) {
         Origin::Catalogue => format!(
-            "read the rates from the data sheet of your machine, and describe it in a sheet of your own with {key}; `vcutc machines {name}` shows all other numbers"
+            "take the speeds from the data sheet of your machine, and describe it in your own sheet with {key}; `vcutc machines {name}` shows all other numbers"
         ),
         Origin::File(FileKind::Sheet) => format!("add {key} to {name}, from the data sheet of your machine"),
         Origin::File(FileKind::Urdf) => {

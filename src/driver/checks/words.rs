@@ -11,7 +11,6 @@ pub struct CheckFigure {
     /// The axis that it is about, if it is about one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<String>,
-    /// Whether it was made.
     pub made: bool,
     /// The permanent name of the reason, where it was not made.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -45,12 +44,15 @@ impl Checks {
     fn of_motions(&self) -> String {
         let (kept, unknown) = self.axes();
         let bounds = match (kept.as_slice(), unknown.as_slice()) {
-            ([], _) => "the limits of its axes".to_owned(),
-            (_, []) => "the limits and rates of its axes".to_owned(),
-            (kept, _) => format!("the limits of its axes and the rates of {}", listed(kept)),
+            ([], _) => "the position limits of its axes".to_owned(),
+            (_, []) => "the position and speed limits of its axes".to_owned(),
+            (kept, _) => format!(
+                "the position limits of its axes and the speed limits of {}",
+                listed(kept)
+            ),
         };
         let clear = if self.is_made(&Check::SingularPoses) {
-            " and clear of singular poses"
+            " and clear of singularities"
         } else {
             ""
         };
@@ -73,8 +75,8 @@ impl Checks {
                 add(
                     reason,
                     match &checked.check {
-                        Check::AxisRate(_) if kept.is_empty() => "the rates of all axes".to_owned(),
-                        Check::AxisRate(_) => format!("the rates of {}", listed(&unknown)),
+                        Check::AxisRate(_) if kept.is_empty() => "the speeds of all axes".to_owned(),
+                        Check::AxisRate(_) => format!("the speeds of {}", listed(&unknown)),
                         other => other.what().to_owned(),
                     },
                 );
@@ -163,8 +165,8 @@ impl Check {
             Self::Part => "whether cuts enter the part",
             Self::AboveStock => "whether the tip stays above the stock",
             Self::AxisLimits => "reach and the limits of axes",
-            Self::AxisRate(_) => "the rate of an axis",
-            Self::SingularPoses => "the distance from singular poses",
+            Self::AxisRate(_) => "the speed of an axis",
+            Self::SingularPoses => "the distance from singularities",
             Self::Branch => "the configuration of the arm",
             Self::ElbowAngle => "the angle between the arms, J3 - J2",
             Self::Turns => "the sweep of the edge where the blade turns beside the work",
@@ -189,14 +191,13 @@ impl Reason {
         }
     }
 
-    /// In words.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
             Self::NoMachine => "the job has no machine",
             Self::NotStated => "not known for this machine",
             Self::NoPlaceForIt => "descriptions of machines cannot state its range",
-            Self::NotMeasured => "not measured for an arm without a closed form",
+            Self::NotMeasured => "not measured for an arm without a closed-form solution",
             Self::NoBody => "their shapes are not known",
             Self::NoReader => "the target has no reader",
         }

@@ -29,7 +29,7 @@ impl Pattern {
             return Err("this one begins at the root");
         }
         if text.contains('\\') {
-            return Err("`/` stands between folders and files, on Windows too");
+            return Err("folders and files are separated by `/`, on Windows too");
         }
         if text.contains(['\n', '\r']) {
             return Err("this one has a line break");

@@ -120,7 +120,7 @@ fn a_baseline_is_read_and_its_faults_are_told() {
     assert_eq!(tolerances, [(Figure::Time, 2.0), (Figure::Scallop, 0.5)]);
     let cases = [
         ("time = \"2 %\"", "lacks"),
-        ("file = \"a.json\"", "holds programs to nothing"),
+        ("file = \"a.json\"", "does not limit any figure"),
         ("file = \"a.json\"\ntime = \"2\"", "not `2`"),
         ("file = \"a.json\"\ntime = \"-1 %\"", "not `-1 %`"),
         ("file = \"a.json\"\ntime = \"nan %\"", "not `nan %`"),

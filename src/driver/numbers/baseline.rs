@@ -14,7 +14,6 @@ pub const LARGEST: usize = 1 << 23;
 pub struct Name {
     /// The job's path as the list of programs has it.
     pub job: String,
-    /// The target.
     pub target: String,
     /// The folder that the program goes to, as the list has it.
     pub output: String,
@@ -26,7 +25,6 @@ pub struct Record {
     /// Of which program.
     #[serde(flatten)]
     pub name: Name,
-    /// What they are.
     pub numbers: Numbers,
 }
 
@@ -52,9 +50,9 @@ pub fn read(text: &str) -> Result<Vec<Record>, Flaw> {
         Flaw::new(
             place..place,
             format!("these are not the figures of programs: {reason}"),
-            "cannot be read on from here",
+            "cannot be read from here on",
         )
-        .help("take the file as it was committed, or remove it and let `vcutc build --accept` write it anew")
+        .help("restore the committed file, or delete it and let `vcutc build --accept` create it")
     })
 }
 
@@ -90,11 +88,8 @@ pub fn write(mut records: Vec<Record>) -> String {
 /// A figure that has become worse by more than it may.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worse {
-    /// Which.
     pub figure: Figure,
-    /// What it was.
     pub was: f64,
-    /// What it is.
     pub is: f64,
 }
 

@@ -21,13 +21,13 @@ pub(super) fn without_machine(name: &str) -> String {
 pub(super) fn cuts(name: &str, rake: u32, reorient: u32, [width, depth, height]: [u32; 3]) -> String {
     let middle = width / 2;
     format!(
-        r#"// A part to begin with. Check it with `vcutc check`, then change the sizes, the profile and the blade to yours.
+        r#"// A first part. Check it with `vcutc check`, then adapt the sizes, the profile and the blade to yours.
 // docs/language.md explains every word.
 job "{name}"
 
 stock {{ size = ({width} mm, {depth} mm, {height} mm) }}      // x across the cuts, y along them, z up
 
-profile {{                                      // the part's surface, seen along the cuts; z counts from the block's bottom
+profile {{                                      // the surface of the part, seen along the cuts; z is the height above the bottom of the block
   start (0 mm, 12 mm)
   arc   to ({width} mm, 12 mm) through ({middle} mm, 28 mm)
 }}
@@ -42,11 +42,11 @@ blade dagger {{                                 // measure yours
 rough vcut {{
   blade     = dagger
   rake      = {rake} deg                          // between the blade's axis and the feed
-  lattice   = auto                            // auto: the compiler looks for the best within the limits
+  lattice   = auto                            // auto: the compiler chooses the best value within the limits
   swing     = auto
   layer     = auto
   step      = auto
-  limits    {{ swing <= 40 deg, scallop <= 10 mm }}   // scallop: how much may stay on the part
+  limits    {{ swing <= 40 deg, scallop <= 10 mm }}   // scallop: the height of material that may stay on the part
   feed      {{ cut = 200 mm/s, travel = 300 mm/s, reorient = {reorient} deg/s }}
   clearance = 20 mm
 }}
@@ -72,17 +72,17 @@ pub(super) fn with_machine(
         (
             "tool",
             placed(setup.tool.frame()),
-            "the blade's frame in the flange: from calibration",
+            "the blade's frame relative to the flange: from calibration",
         ),
         (
             "base",
             placed(setup.base),
-            "the block's corner in the machine's root: from calibration",
+            "the block's corner relative to the machine's root: from calibration",
         ),
         (
             "home",
             wording::home_text(model, &setup.home),
-            "where the program begins and ends",
+            "where the program starts and ends",
         ),
         (
             "ultrasonic",
@@ -114,14 +114,16 @@ fn remarks(model: &Model, setup: &Setup) -> Vec<String> {
     let mut remarks = vec![
         "The frames and the home below were tried on this machine with this job: it compiles. They are not"
             .to_owned(),
-        "those of your cell: measure tool and base, wire the generator, and put your values in.".to_owned(),
+        "those of your cell: measure tool and base, wire the generator, and enter your values.".to_owned(),
     ];
     if setup.tool.is_upright() {
         remarks.push(
-            "With a blade that leans along the cut (`rake = 60 deg`) this machine cuts the job in none of the"
+            "With a blade that leans along the cut (`rake = 60 deg`) this machine cannot cut the job in any of"
                 .to_owned(),
         );
-        remarks.push("places that were tried, this one included, hence `rake = 90 deg`:".to_owned());
+        remarks.push(
+            "the places that were tried, including this one, so the job has `rake = 90 deg`:".to_owned(),
+        );
         remarks.push("see docs/machines_five_axis.md about an orientable spindle.".to_owned());
     }
     let unknown = |known: &dyn Fn(&Axis) -> bool| -> String {
@@ -136,12 +138,12 @@ fn remarks(model: &Model, setup: &Setup) -> Vec<String> {
         remarks.push(format!(
             "The sheet has no speeds of {rates}: they are not checked. `vcutc machines` shows the sheet;"
         ));
-        remarks.push("a copy of your own can have them (docs/machines.md).".to_owned());
+        remarks.push("your own copy can state them (docs/machines.md).".to_owned());
     }
     let accelerations = unknown(&|axis| axis.acceleration.is_some());
     if !accelerations.is_empty() {
         remarks.push(format!(
-            "The sheet has no accelerations of {accelerations}: times are those at programmed speed."
+            "The sheet has no accelerations of {accelerations}: times assume programmed speeds."
         ));
     }
     remarks
@@ -172,7 +174,7 @@ fn options(model: &Model, targets: &[&'static dyn Backend]) -> String {
             "dialect = linuxcnc // or fanuc, heidenhain, sinumerik: these take no tcp_on and tcp_off\n    \
              tcp_on = (\"M429\") // your machine's codes\n    tcp_off = (\"M428\")\n    \
              // fanuc and heidenhain need codes for the generator: on_code = \"M50\" off_code = \"M51\"\n    \
-             // fanuc needs one that waits for an input of `ready`, too: ready_code = \"M52\"",
+             // fanuc also needs one that waits for an input of `ready`: ready_code = \"M52\"",
         )),
         (MachineKind::Robot, Maker::Kuka | Maker::Other) => None,
     };
@@ -186,7 +188,9 @@ fn options(model: &Model, targets: &[&'static dyn Backend]) -> String {
     let free = ["c", "b", "a"].into_iter().find(|letter| !has(letter));
     let spindle = match (has("s"), free) {
         (true, Some(letter)) => {
-            format!("\n    spindle_axis = {letter} // the letter by which your control moves the spindle")
+            format!(
+                "\n    spindle_axis = {letter} // the letter with which your controller moves the spindle"
+            )
         }
         (_, _) => String::new(),
     };

@@ -46,12 +46,12 @@ pub fn summary(air: &AirFigures, report: &Report, basis: Basis, reach: Option<&R
         row("heights", &proven(air, reach)),
         row(
             "not proven",
-            "chips, contour and scallop, as nothing is cut: compile without --air-cut for those",
+            "chips, contour and scallop, because nothing is cut: compile without --air-cut for those",
         ),
         row(
             "speeds",
             &format!(
-                "at most {} mm/s and {} deg/s, or the job's where lower; moves of all axes as the target sets them",
+                "at most {} mm/s and {} deg/s, or the job's if lower; axis moves as the target sets them",
                 show(TIP_SPEED.to_mm_per_s()),
                 show(TURNING_RATE.to_deg_per_s())
             ),
@@ -61,7 +61,7 @@ pub fn summary(air: &AirFigures, report: &Report, basis: Basis, reach: Option<&R
         Mover::None | Mover::StandsAlike => {}
         Mover::StandsOtherwise => lines.push(row(
             "posture",
-            "NOT the program's: up there another way to stand has more room, so cables and limits are not those of the real run",
+            "NOT the program's: at that height another configuration has a larger margin, so cables and limits differ from the real run",
         )),
     }
     lines.push(row("time", &times::in_all(&report.times.all)));
@@ -76,14 +76,17 @@ pub fn summary(air: &AirFigures, report: &Report, basis: Basis, reach: Option<&R
 
 fn proven(air: &AirFigures, reach: Option<&ReachFigures>) -> String {
     let gap = match air.gap {
-        Some(gap) => format!("every tip stays {} mm above the stock or more", show(gap.to_mm())),
+        Some(gap) => format!(
+            "every tip stays at least {} mm above the stock",
+            show(gap.to_mm())
+        ),
         None => "no tip moves".to_owned(),
     };
     let Some(reach) = reach else {
-        return format!("{gap}; not that a machine reaches it, as the job has none");
+        return format!("{gap}; reach is not proven, because the job has no machine");
     };
     let rates = if reach.axes.iter().all(|axis| axis.rate_limit.is_some()) {
-        "limits and rates"
+        "position and speed limits"
     } else {
         "limits"
     };

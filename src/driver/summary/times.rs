@@ -14,7 +14,7 @@ pub struct TimeFigures {
     /// The same in words, with the moves that have no time.
     #[serde(skip)]
     pub basis_words: String,
-    /// How many moves of all axes have no time, because it is not known.
+    /// How many axis moves have no time, because it is not known.
     pub untimed: usize,
     /// How many motions have their programmed time, because the axes could not be followed along them.
     #[serde(skip_serializing_if = "is_none")]
@@ -22,11 +22,9 @@ pub struct TimeFigures {
     /// Of the whole program.
     #[serde(flatten)]
     pub all: KindFigures,
-    /// Layer by layer.
     pub layers: Vec<LayerFigure>,
 }
 
-/// Whether there are none.
 const fn is_none(count: &usize) -> bool {
     *count == 0
 }
@@ -34,7 +32,6 @@ const fn is_none(count: &usize) -> bool {
 /// Time by what it is spent on, in s.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct KindFigures {
-    /// All of it.
     pub total_s: f64,
     /// Through the work.
     pub cutting_s: f64,
@@ -42,9 +39,8 @@ pub struct KindFigures {
     pub turning_s: f64,
     /// Through the air.
     pub travel_s: f64,
-    /// Moves of all axes.
+    /// Axis moves.
     pub axes_s: f64,
-    /// Waiting.
     pub waiting_s: f64,
 }
 
@@ -55,7 +51,6 @@ pub struct LayerFigure {
     pub operation: u16,
     /// The layer, from 1.
     pub layer: u32,
-    /// Its time.
     #[serde(flatten)]
     pub time: KindFigures,
 }
@@ -107,7 +102,7 @@ pub(super) fn in_all(timing: &Timing) -> String {
         ("waiting", timing.waiting),
     ];
     if timing.axes.to_s() > 0.0 {
-        kinds.push(("moves of all axes", timing.axes));
+        kinds.push(("axis moves", timing.axes));
     }
     let kinds: Vec<String> = kinds
         .iter()
@@ -126,8 +121,8 @@ pub(super) fn basis(basis: Basis) -> String {
     let mut words = kept.to_owned();
     match basis.untimed {
         0 => {}
-        1 => words += "; 1 move of all axes not counted",
-        more => words += &format!("; {more} moves of all axes not counted"),
+        1 => words += "; 1 axis move not counted",
+        more => words += &format!("; {more} axis moves not counted"),
     }
     match basis.unfollowed {
         0 => {}
@@ -177,7 +172,7 @@ mod tests {
         assert_eq!(
             basis(2, 1),
             format!(
-                "{kept}; 2 moves of all axes not counted; 1 motion at programmed speed, because the axes cannot be followed"
+                "{kept}; 2 axis moves not counted; 1 motion at programmed speed, because the axes cannot be followed"
             )
         );
     }

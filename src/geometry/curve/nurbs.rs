@@ -21,7 +21,6 @@ pub struct Nurbs {
     pub degree: usize,
     /// Knots that do not decrease, as many as control points and one more than the degree.
     pub knots: Vec<f64>,
-    /// Control points.
     pub control: Vec<Point2>,
     /// A weight above 0 for each control point, or none at all.
     pub weights: Vec<f64>,

@@ -38,9 +38,7 @@ pub struct Airfoil {
 /// One of the two sides of an airfoil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The upper one.
     Upper,
-    /// The lower one.
     Lower,
 }
 

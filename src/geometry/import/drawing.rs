@@ -87,7 +87,6 @@ impl Place {
 pub struct Stroke {
     /// What drew it, in the file's own word: `LWPOLYLINE`, `path`.
     pub kind: &'static str,
-    /// Where that stands.
     pub place: Place,
     /// Its pieces, each beginning where the one before ended; at least one.
     pub shapes: Vec<Shape>,
@@ -96,7 +95,6 @@ pub struct Stroke {
 /// Something that a reader decided, to be told.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
-    /// Where it stands.
     pub place: Place,
     /// What was decided, in one sentence without a full stop.
     pub message: String,
@@ -109,7 +107,6 @@ pub struct Unread {
     pub kind: String,
     /// Why they are left out.
     pub why: Why,
-    /// How many there are.
     pub count: usize,
     /// Where the first of them stands.
     pub first: Place,
@@ -151,7 +148,7 @@ impl Why {
             Self::Frozen => "on a layer that is frozen",
             Self::NoExtent => "without extent",
             Self::OtherFile => "in another file",
-            Self::NotApplied => "not applied, what it hides is read",
+            Self::NotApplied => "not applied, so what it hides is read",
         }
     }
 }

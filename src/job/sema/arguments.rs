@@ -51,7 +51,7 @@ pub(crate) fn calls<'a>(
             Code::WrongKind,
             format!("`{field}` takes {wanted}, not {}", looks_like(&expr.node)),
             expr.span,
-            format!("{wanted} is wanted here"),
+            format!("expected {wanted} here"),
         );
         return Err(reports.push(diagnostic.help(help)));
     };
@@ -70,7 +70,7 @@ pub(crate) fn calls<'a>(
         Code::WrongKind,
         format!("`{field}` does not take `{}(...)`", function.node),
         function.span,
-        "not taken here",
+        "not allowed here",
     );
     let near = nearest(&function.node, known.iter().map(|(name, _)| *name));
     Err(reports.push(did_you_mean(diagnostic, function.span, &near).help(help)))
@@ -93,7 +93,7 @@ impl<'a> Arguments<'a> {
             several => Err(reports.push(self.misfit(
                 format!("`{}` takes one value, not {}", self.function, several.len()),
                 self.span,
-                "one value is wanted here",
+                "expected one value here",
             ))),
         }
     }
@@ -218,10 +218,10 @@ impl<'a> Arguments<'a> {
                 Code::FieldTwice,
                 format!("`{}` is given twice", label.node),
                 label.span,
-                "given here again",
+                "given again here",
             )
-            .and(first.span, "given here first");
-            return Some(diagnostic.help("take one of the two out"));
+            .and(first.span, "first given here");
+            return Some(diagnostic.help("delete one of the two"));
         }
         if parameters.iter().any(|parameter| parameter.name == label.node) {
             return None;

@@ -108,7 +108,7 @@ fn named(cell: Placed<'_>, scope: Scope<'_>, session: &mut Session<'_>) -> Check
                 looks_like(&expr.node)
             ),
             expr.span,
-            "the name of a machine is wanted here",
+            "expected the name of a machine here",
         );
         return Err(session.reports.push(diagnostic));
     };
@@ -155,7 +155,7 @@ fn no_machine(
             Code::WrongKind,
             format!("`{name}` is {}, not a machine", other.thing.words()),
             span,
-            "a machine is wanted here",
+            "expected a machine here",
         )
         .and(other.span, "defined here"),
         None => {

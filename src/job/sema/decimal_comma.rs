@@ -31,6 +31,6 @@ fn told(before: &Spanned<Expr>, after: &Spanned<Expr>) -> Option<Diagnostic> {
             before.span.to(after.span),
             format!("decimals are written with a point; `{value}` has no unit"),
         )
-        .fix("write a point, `.`, in place of the comma", comma, ".")
+        .fix("write a point, `.`, instead of the comma", comma, ".")
     })
 }

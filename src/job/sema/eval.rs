@@ -203,18 +203,13 @@ fn sensible(value: Quantity, span: Span, reports: &mut Reports) -> Checked<Quant
         return Ok(value);
     }
     let label = if value.value.is_finite() {
-        format!("this comes out as {}", value.text())
+        format!("the result is {}", value.text())
     } else {
         "this is too large to hold".to_owned()
     };
-    let diagnostic = Diagnostic::new(
-        Code::NotFinite,
-        "this value is beyond all that a job can mean",
-        span,
-        label,
-    )
-    .note("values end at 1e9 mm, rad, s or kg")
-    .help("check the units, and what is divided by what");
+    let diagnostic = Diagnostic::new(Code::NotFinite, "this value is too large for a job", span, label)
+        .note("values are limited to 1e9 mm, rad, s or kg")
+        .help("check the units, and what is divided by what");
     Err(reports.push(diagnostic))
 }
 
@@ -342,7 +337,7 @@ fn power(base: Operand<'_>, exponent: Operand<'_>) -> Result<Quantity, Box<Diagn
                     number(b.value)
                 ),
                 exponent.expr.span,
-                "a value with a unit takes small whole powers",
+                "a value with a unit can only have small whole powers",
             )
             .and(base.expr.span, format!("this is {}", a.dimension.words()))
             .help("take `sqrt(...)` for a square root, or divide by one unit first to get a pure number"),
@@ -380,7 +375,7 @@ fn unknown_unit(unit: &Spanned<String>) -> Diagnostic {
 fn wrong_kind(span: Span, what: &str) -> Diagnostic {
     Diagnostic::new(
         Code::WrongKind,
-        format!("{what} stands where a single value is wanted"),
+        format!("{what} instead of a single value"),
         span,
         format!("this is {what}"),
     )

@@ -148,10 +148,10 @@ impl<'a> Fields<'a> {
                 Code::FieldTwice,
                 format!("`{}` is given twice", spec.name),
                 name.span,
-                "given here again",
+                "given again here",
             )
-            .and(*first, "given here first")
-            .help("take one of the two out");
+            .and(*first, "first given here")
+            .help("delete one of the two");
             reports.push(diagnostic);
             return;
         }
@@ -312,7 +312,7 @@ pub fn head_span(block: &Block) -> Span {
 fn unknown_block(spec: &BlockSpec, word: &str, span: Span) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::UnknownBlock,
-        format!("{} holds no block `{word}`", spec.title),
+        format!("{} has no block `{word}`", spec.title),
         span,
         "not a block of this block",
     );
@@ -325,7 +325,7 @@ fn unknown_block(spec: &BlockSpec, word: &str, span: Span) -> Diagnostic {
     let near = nearest(word, inner.iter().copied());
     let diagnostic = did_you_mean(diagnostic, span, &near);
     if inner.is_empty() {
-        diagnostic.help("close the block before this one starts, or take it out")
+        diagnostic.help("close the block before this one starts, or delete it")
     } else {
         diagnostic.note(format!("its blocks are {}", inner.join(", ")))
     }
@@ -435,9 +435,9 @@ impl<'n, 'a> Given<'n, 'a> {
             )),
             (Form::Points, _) => Diagnostic::new(
                 Code::WrongKind,
-                format!("`{}` is a row of points", spec.name),
+                format!("`{}` is a list of points", spec.name),
                 self.value_span().unwrap_or(self.whole),
-                "points in round brackets are wanted here",
+                "expected points in round brackets here",
             )
             .help(format!("write it like `{sample}`")),
             (Form::Block, Written::Value | Written::Block | Written::Limit(_) | Written::Points) => {
@@ -445,7 +445,7 @@ impl<'n, 'a> Given<'n, 'a> {
                     Code::WrongKind,
                     format!("`{}` is a block", spec.name),
                     self.value_span().unwrap_or(self.whole),
-                    "braces with fields are wanted here",
+                    "expected braces with fields here",
                 )
                 .help(format!("write it like `{sample}`"))
             }
@@ -453,7 +453,7 @@ impl<'n, 'a> Given<'n, 'a> {
                 Code::WrongKind,
                 format!("`{}` is a single value, not a block", spec.name),
                 self.whole,
-                "a value is wanted here",
+                "expected a value here",
             )
             .help(format!("write it like `{sample}`")),
         }

@@ -74,7 +74,7 @@ pub(crate) fn text_of(
             };
             let diagnostic = Diagnostic::new(
                 Code::NotUtf8,
-                format!("`{name}` is not a text file in UTF-8"),
+                format!("`{name}` is not a UTF-8 text file"),
                 span,
                 format!("byte {} is not valid here", at.saturating_add(1)),
             )
@@ -229,7 +229,7 @@ impl<'s, 'a> Loading<'s, 'a> {
                 format!("{} files are loaded already", self.files.len()),
             )
             .note(format!(
-                "a job has at most {MOST_FILES} files of together {} MB",
+                "a job has at most {MOST_FILES} files of {} MB in total",
                 MOST_BYTES / 1_000_000
             ))
             .help("put the definitions into fewer files");
@@ -303,7 +303,7 @@ impl<'s, 'a> Loading<'s, 'a> {
         let headline = if own {
             format!("`{}` uses itself", name(closing.to))
         } else {
-            format!("`{}` uses itself by way of other files", name(closing.to))
+            format!("`{}` uses itself through other files", name(closing.to))
         };
         let mut diagnostic = Diagnostic::new(
             Code::UseCycle,
@@ -326,7 +326,7 @@ impl<'s, 'a> Loading<'s, 'a> {
         }
         if own {
             diagnostic.help.clear();
-            diagnostic = diagnostic.help("take this `use` out: a file sees its own names anyway");
+            diagnostic = diagnostic.help("delete this `use`: a file sees its own names anyway");
         }
         diagnostic
     }

@@ -91,8 +91,7 @@ fn kept(field: &str, call: &Arguments<'_>, reader: &mut Reader<'_>) -> Checked<P
                 "its values are missing",
             )
             .note(
-                "the program takes the frame from the controller's table, but without its values nobody can prove that \
-                 the poses are within reach",
+                "the program takes the frame from the controller's table, but reach cannot be proven without its values",
             )
             .help(format!(
                 "write the values that the controller shows: `{field} = number({number}, {FRAME})`"
@@ -103,7 +102,7 @@ fn kept(field: &str, call: &Arguments<'_>, reader: &mut Reader<'_>) -> Checked<P
             let diagnostic = call.misfit(
                 "`number` takes a number of the controller's table and a frame".to_owned(),
                 call.span,
-                "two values are wanted here",
+                "expected two values here",
             );
             Err(reader.reports.push(diagnostic))
         }
@@ -130,9 +129,9 @@ fn frame(mut call: Arguments<'_>, reader: &mut Reader<'_>) -> Checked<Frame> {
                     Code::BadCall,
                     "the orientation of the frame is given twice",
                     other.value.span,
-                    "given here again",
+                    "given again here",
                 )
-                .and(quaternion.value.span, "given here first")
+                .and(quaternion.value.span, "first given here")
                 .help("write either `q = (w, x, y, z)` or `a`, `b` and `c`");
                 return Err(reader.reports.push(diagnostic));
             }
@@ -197,7 +196,7 @@ fn no_quaternion(expr: &Spanned<Expr>, found: &str) -> Diagnostic {
         Code::WrongKind,
         format!("`q` takes the four parts of a quaternion, not {found}"),
         expr.span,
-        "four numbers in brackets are wanted here",
+        "expected four numbers in brackets here",
     )
     .help("write it like `q = (1, 0, 0, 0)`, with w first")
 }

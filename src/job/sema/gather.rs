@@ -195,7 +195,7 @@ impl<'a> Definitions<'a> {
             };
             let diagnostic = Diagnostic::new(
                 Code::BadOverride,
-                format!("`--set` finds no `let {name}`"),
+                format!("the job has no `let {name}` for `--set`"),
                 given.name.span,
                 label,
             );
@@ -204,7 +204,7 @@ impl<'a> Definitions<'a> {
             let diagnostic = match self.names.list(|thing| matches!(thing, Thing::Let(_))) {
                 Some(list) => diagnostic.help(format!("names that can be set are {list}")),
                 None => diagnostic.help(format!(
-                    "write `let {name} = ...` in the job, and use `{name}` where it counts"
+                    "write `let {name} = ...` in the job, and use `{name}` where it is needed"
                 )),
             };
             reports.push(diagnostic);
@@ -249,7 +249,7 @@ fn is_allowed(what: &str, span: Span, standing: Standing, reports: &mut Reports)
     };
     reports.push(
         diagnostic
-            .note("a used file holds `use`, `let`, `blade` and `machine`")
+            .note("a used file contains `use`, `let`, `blade` and `machine`")
             .help("move it into the job"),
     );
     false

@@ -124,7 +124,7 @@ fn unknown(word: &str, at: Span, operations: Operations) -> Diagnostic {
 fn with_list(diagnostic: Diagnostic, operations: Operations) -> Diagnostic {
     let names: Vec<&str> = forms(operations).iter().map(|(word, _)| *word).collect();
     diagnostic.note(format!(
-        "a job holds `job`, `use`, `let` and the blocks {}",
+        "a job contains `job`, `use`, `let` and the blocks {}",
         names.join(", ")
     ))
 }
@@ -141,7 +141,7 @@ fn plain<'a>(kind: Kind<'a>, first: &str, rest: &[(&HeadPart, Span)]) -> Result<
 fn surplus(first: &str, at: Span, form: &str) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new(
         Code::Misplaced,
-        format!("there is something after the head of `{first}`"),
+        format!("unexpected text after the head of `{first}`"),
         at,
         "does not belong here",
     );

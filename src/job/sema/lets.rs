@@ -197,13 +197,13 @@ fn circle_diagnostic(subject: &Let<'_>, circle: &[Visit], lets: &[Let<'_>]) -> D
             .map_or("", |subject| subject.name.node.as_str())
     };
     let way = if circle.len() > 1 {
-        ", by way of other names"
+        ", through other names"
     } else {
         ""
     };
     let mut diagnostic = Diagnostic::new(
         Code::LetCycle,
-        format!("`{}` is defined by itself{way}", subject.name.node),
+        format!("`{}` depends on itself{way}", subject.name.node),
         subject.name.span,
         "has no value of its own",
     );
@@ -215,7 +215,7 @@ fn circle_diagnostic(subject: &Let<'_>, circle: &[Visit], lets: &[Let<'_>]) -> D
     }
     if circle.len() > MOST_SHOWN {
         let rest = circle.len() - MOST_SHOWN;
-        diagnostic = diagnostic.note(format!("the circle goes on over {rest} more names"));
+        diagnostic = diagnostic.note(format!("the circle continues through {rest} more names"));
     }
     diagnostic.help("give one of these names a value that needs none of the others")
 }

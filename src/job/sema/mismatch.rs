@@ -77,12 +77,12 @@ impl Mismatch<'_> {
         } else {
             let factor = self.wanted.over(self.found.dimension);
             match factor.filter(|factor| factor.unit().len() <= 8 && *factor != Dimension::PURE) {
-                Some(factor) => diagnostic.help(format!("what is missing is a factor in {}", factor.unit())),
+                Some(factor) => diagnostic.help(format!("a factor in {} is missing", factor.unit())),
                 None => diagnostic,
             }
         };
         match self.typical {
-            Some("auto") => diagnostic.help("or write `auto`, and the compiler chooses it"),
+            Some("auto") => diagnostic.help("or write `auto` to let the compiler choose"),
             Some(typical) => diagnostic.help(format!("a typical value is `{typical}`")),
             None => diagnostic,
         }
@@ -132,7 +132,7 @@ pub(crate) fn mend(diagnostic: Diagnostic, expr: &Spanned<Expr>, wanted: Dimensi
                 let title = format!("write `{value} {better}`");
                 diagnostic.fix(title, unit.span, better.clone())
             }
-            None => diagnostic.fix(format!("take the unit away: `{value}`"), unit.span, ""),
+            None => diagnostic.fix(format!("delete the unit: `{value}`"), unit.span, ""),
         },
     }
 }

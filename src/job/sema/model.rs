@@ -63,9 +63,8 @@ fn unknown(model: Spanned<&str>, reports: &Reports) -> Diagnostic {
             .collect()
     };
     let near: Vec<&str> = names.iter().map(String::as_str).collect();
-    did_you_mean(diagnostic, model.span, &near).help(
-        "`vcutc machines` lists them; a machine of your own is described in a file such as `\"arm.toml\"`",
-    )
+    did_you_mean(diagnostic, model.span, &near)
+        .help("`vcutc machines` lists them; describe your own machine in a file such as `\"arm.toml\"`")
 }
 
 /// The machine that a file describes. The path is relative to the file in which the machine's block stands.

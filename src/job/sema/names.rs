@@ -63,9 +63,9 @@ impl<'a> Names<'a> {
         let fault = if RESERVED.contains(&name) {
             Diagnostic::new(
                 Code::DefinedTwice,
-                format!("`{name}` has a meaning of its own in the language"),
+                format!("`{name}` is reserved by the language"),
                 span,
-                "cannot be defined anew",
+                "cannot be redefined",
             )
             .help(format!("choose another name, such as `my_{name}`"))
         } else {
@@ -123,7 +123,7 @@ impl<'a> Names<'a> {
                     Code::WrongKind,
                     format!("`{name}` is {}, not a {what}", definition.thing.words()),
                     span,
-                    format!("a {what} is wanted here"),
+                    format!("expected a {what} here"),
                 );
                 reports.push(diagnostic.and(definition.span, "defined here"))
             }
@@ -200,12 +200,12 @@ pub fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) -> Diagno
 
 /// The diagnostic for a name that is defined twice.
 pub fn twice(name: &str, second: Span, first: Span) -> Diagnostic {
-    again(name, second, first).help("take one of the two out, or give it another name")
+    again(name, second, first).help("delete one of the two, or give it another name")
 }
 
 /// The diagnostic for what a job has once and no other name can be given to.
 pub fn more_than_one(what: &str, second: Span, first: Span) -> Diagnostic {
-    again(what, second, first).help(format!("take one of the two out: a job has one `{what}`"))
+    again(what, second, first).help(format!("delete one of the two: a job has one `{what}`"))
 }
 
 fn again(name: &str, second: Span, first: Span) -> Diagnostic {
@@ -218,7 +218,7 @@ fn again(name: &str, second: Span, first: Span) -> Diagnostic {
         Code::DefinedTwice,
         format!("`{name}` is defined twice"),
         second,
-        "defined here again",
+        "defined again here",
     )
-    .and(first, format!("defined here first{place}"))
+    .and(first, format!("first defined here{place}"))
 }

@@ -42,9 +42,9 @@ pub(crate) fn read(
                 Code::FieldTwice,
                 format!("the options for `{target}` are given twice"),
                 span,
-                "given here again",
+                "given again here",
             )
-            .and(*first, "given here first")
+            .and(*first, "first given here")
             .help("put them into one block");
             fault = Some(session.reports.push(diagnostic));
             continue;
@@ -87,10 +87,10 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Gi
                         Code::FieldTwice,
                         format!("`{}` is given twice", name.node),
                         name.span,
-                        "given here again",
+                        "given again here",
                     )
-                    .and(earlier, "given here first");
-                    Err(session.reports.push(diagnostic.help("take one of the two out")))
+                    .and(earlier, "first given here");
+                    Err(session.reports.push(diagnostic.help("delete one of the two")))
                 }
             },
             Entry::Limit { span, .. } => Err(misplaced("a limit", *span, session)),
@@ -215,7 +215,7 @@ fn misplaced(what: &str, span: Span, session: &mut Session<'_>) -> Reported {
     );
     session
         .reports
-        .push(diagnostic.help("take it out, or write it as `key = value`"))
+        .push(diagnostic.help("delete it, or write it as `key = value`"))
 }
 
 fn option(

@@ -104,10 +104,10 @@ fn read_switch(
                 switch.twice,
                 format!("`{}` is set twice on the command line", read.name.node),
                 read.name.span,
-                "set here again",
+                "set again here",
             )
-            .and(*first, "set here first")
-            .help(format!("leave one of the two `{word}`s out"));
+            .and(*first, "first set here")
+            .help(format!("delete one of the two `{word}`s"));
             session.reports.push(diagnostic);
             continue;
         }

@@ -187,13 +187,13 @@ fn second_formula(second: Span, first: Span) -> Diagnostic {
         Code::FieldTwice,
         "the profile has two formulas",
         second,
-        "given here again",
+        "given again here",
     )
-    .and(first, "given here first")
-    .help("take one of the two out")
+    .and(first, "first given here")
+    .help("delete one of the two")
 }
 
-const FORMS: &str = "a profile holds start, line, arc, bezier, spline, polyline, points, airfoil, dxf, svg, or a \
+const FORMS: &str = "a profile contains start, line, arc, bezier, spline, polyline, points, airfoil, dxf, svg, or a \
                      formula z(x) = ...";
 
 fn no_field(name: &Spanned<String>) -> Diagnostic {
@@ -214,7 +214,7 @@ fn no_field(name: &Spanned<String>) -> Diagnostic {
 fn no_block(inner: &Block) -> Diagnostic {
     Diagnostic::new(
         Code::UnknownBlock,
-        "`profile` holds no block like this",
+        "`profile` cannot contain a block like this",
         head_span(inner),
         "not a piece of a profile",
     )

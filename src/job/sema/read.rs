@@ -155,9 +155,9 @@ impl Reader<'_> {
         if matches!(&expr.node, Expr::Name(word) if word == "auto") {
             let diagnostic = Diagnostic::new(
                 Code::WrongKind,
-                format!("`{name}` cannot be left to the compiler"),
+                format!("`{name}` cannot be `auto`"),
                 expr.span,
-                "`auto` is not taken here",
+                "`auto` is not allowed here",
             );
             let diagnostic = match fields.typical(name) {
                 Some(typical) => diagnostic.help(format!("give a value, for example `{name} = {typical}`")),
@@ -234,7 +234,7 @@ impl Reader<'_> {
                     "this is a text",
                 );
                 match find(text) {
-                    Some((word, _)) => diagnostic.fix("take the quotes away", expr.span, *word),
+                    Some((word, _)) => diagnostic.fix("delete the quotes", expr.span, *word),
                     None => diagnostic.help(list),
                 }
             }

@@ -128,7 +128,7 @@ fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Read
                 looks_like(&expr.node)
             ),
             expr.span,
-            "the name of a blade is wanted here",
+            "expected the name of a blade here",
         );
         let diagnostic = match names.list(is_blade) {
             Some(list) => diagnostic.help(format!("the blades defined are {list}")),

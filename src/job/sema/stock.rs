@@ -59,7 +59,7 @@ fn not_three(span: Span, what: &str) -> Diagnostic {
         Code::WrongKind,
         format!("`size` takes three lengths, not {what}"),
         span,
-        "three lengths are wanted here",
+        "expected three lengths here",
     )
     .help("give width (x), depth (y) and height (z), like `size = (85 mm, 50 mm, 50 mm)`")
 }

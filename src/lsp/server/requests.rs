@@ -465,7 +465,7 @@ fn renamed(server: &mut Server, params: RenameParams, files: &dyn Workspace) -> 
     let mut changes: BTreeMap<String, Vec<TextEdit>> = BTreeMap::new();
     for (path, (text, spans)) in places {
         let uri = server.documents.uri(&path).ok_or_else(|| {
-            let why = format!("`{path}` cannot be said as a URI");
+            let why = format!("`{path}` cannot be written as a URI");
             (Fault::RequestFailed, why)
         })?;
         let edits = spans.iter().map(|&(start, end)| TextEdit {

@@ -85,13 +85,11 @@ impl Poses {
         }
     }
 
-    /// How many there are.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there is none.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.count == 0

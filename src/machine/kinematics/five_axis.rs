@@ -46,7 +46,6 @@ pub enum Direction {
 /// A rotary axis of the head or the table. It turns what it carries right-handed about its direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotary {
-    /// About what.
     pub about: Direction,
     /// A point on the axis, seen from the machine frame with all axes at zero, in mm.
     pub centre: DVec3,
@@ -80,7 +79,6 @@ pub enum SpindleSense {
 /// Why two rotary axes do not make a five-axis machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unfit {
-    /// They are parallel.
     Parallel,
     /// The one nearer to the blade lies along the spindle, so that it does not tilt the blade.
     AlongSpindle,
@@ -91,7 +89,6 @@ pub enum Unfit {
 enum Side {
     /// The way with the small angles: `theta = 0` is on this side, or on the border and positive angles are.
     Usual,
-    /// The other one.
     Other,
 }
 

@@ -13,7 +13,6 @@ use vcutc_backend_api::motion::Branch;
 pub struct Mounted {
     /// The arm's own foot, from which its lengths count, in the root.
     pub foot_in_root: Pose,
-    /// The arm.
     pub arm: Opw,
     /// The flange seen from the arm's own.
     pub flange_in_hand: Pose,

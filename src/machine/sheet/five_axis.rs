@@ -318,13 +318,13 @@ fn cannot_tilt(table: &Table<'_>, names: &Names<'_>, unfit: Unfit) -> Flaw {
     match unfit {
         Unfit::Parallel => Flaw::new(
             names.place(table, at_blade),
-            "the two rotary axes are parallel, so the blade tilts one way only",
+            "the two rotary axes are parallel, so the blade tilts in only one direction",
             "parallel axes",
         )
         .help("write `about` of one of them along another axis of the machine"),
         Unfit::AlongSpindle => Flaw::new(
             names.place(table, at_blade),
-            format!("axis {name} lies along the spindle, so the blade tilts one way only"),
+            format!("axis {name} lies along the spindle, so the blade tilts in only one direction"),
             format!("{name} does not tilt the blade"),
         )
         .help(format!(

@@ -1,4 +1,4 @@
-//! The part of a sheet that describes a robot: an ortho-parallel arm with a spherical wrist, and the limits of its axes.
+//! The part of a sheet that describes a robot: an ortho-parallel arm with a spherical wrist, and the position limits of its axes.
 //!
 //! Angles are the controller's own. Lengths follow Brandstötter, Angerer, Hofbaur 2014 as in [`Opw`].
 
@@ -249,10 +249,10 @@ fn refuse_elbow_limit(table: &Table<'_>, flaws: &mut Vec<Flaw>) {
         flaws.push(
             Flaw::new(
                 table.span_of(ELBOW_LIMIT),
-                "a limit of the elbow's angle J3 - J2 cannot be kept: limits are checked axis by axis",
+                "a limit on the elbow angle J3 - J2 cannot be checked: limits apply to each axis separately",
                 "not supported",
             )
-            .help("take this line out, and narrow `limits_deg` of axes 2 and 3 until J3 - J2 is in range for all their values"),
+            .help("delete this line, and narrow `limits_deg` of axes 2 and 3 until J3 - J2 is in range for all their values"),
         );
     }
 }

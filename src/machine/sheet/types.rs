@@ -18,7 +18,6 @@ pub(super) struct Form {
 /// What is particular to one kind of machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Body {
-    /// Its axes.
     pub(super) axes: Vec<Axis>,
     /// How they move the flange; none when a flaw has been found in it.
     pub(super) mechanism: Option<Mechanism>,

@@ -17,7 +17,6 @@ const LONGEST_TAG: usize = 1 << 15;
 const MOST_NAMESPACES: usize = 64;
 /// Most nodes (elements, comments and stretches of text).
 const MOST_NODES: u32 = 100_000;
-/// Most joints.
 const MOST_JOINTS: usize = 1000;
 /// How far joints may lie from one another, in m along each axis.
 const FARTHEST: f64 = 100.0;
@@ -89,7 +88,7 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, Flaw> {
     if text.len() > LARGEST {
         let message = format!("the file has {} bytes, at most {LARGEST} are read", text.len());
         return Err(whole(message, "this file is too large")
-            .help("leave out what is not links and joints, such as shapes"));
+            .help("leave out everything except links and joints, such as shapes"));
     }
     let mut start = 0;
     for tag in text.split('<') {
@@ -429,7 +428,7 @@ impl<'t> Joint<'t> {
             .node
             .attribute_node("type")
             .map_or(tag(&self.node), |kind| kind.range_value());
-        Flaw::new(place, message, "only joints that turn are taken").help(
+        Flaw::new(place, message, "only rotary joints are supported").help(
             "if it belongs to a gripper or a track, add a link `tool0` before it or leave it out; five-axis machines are \
              described by a sheet",
         )
@@ -445,7 +444,7 @@ fn range(limit: &Node<'_, '_>) -> Result<(f64, f64), Vec<Flaw>> {
     if lower >= upper {
         let message = format!("the lower limit {lower} rad is not below the upper limit {upper} rad");
         return Err(vec![
-            Flaw::new(place, message, "no angle lies between").help("exchange the two"),
+            Flaw::new(place, message, "no angle lies between").help("swap the two"),
         ]);
     }
     if upper - lower > WIDEST || lower.abs().max(upper.abs()) > WIDEST {

@@ -126,17 +126,11 @@ impl<'t> Tree<'t> {
             (Some(first), Some(second)) => {
                 let [first_name, second_name] = [first, second].map(|link| shortened(link.name));
                 let message = format!("the robot ends in `{first_name}` and in `{second_name}`");
-                Err(Flaw::new(
-                    second.span.clone(),
-                    message,
-                    "which one is the flange is not clear",
-                )
-                .help("add a link `tool0` by a fixed joint where the flange is"))
+                Err(Flaw::new(second.span.clone(), message, "the flange is ambiguous")
+                    .help("add a link `tool0` by a fixed joint where the flange is"))
             }
-            (None, _) => Err(
-                Flaw::new(0..0, "the robot has no joint that moves", "in this file")
-                    .help("describe six joints of type `revolute`"),
-            ),
+            (None, _) => Err(Flaw::new(0..0, "the robot has no moving joint", "in this file")
+                .help("describe six joints of type `revolute`")),
         }
     }
 
@@ -151,12 +145,12 @@ impl<'t> Tree<'t> {
         pose.unwrap_or(Pose::IDENTITY)
     }
 
-    /// The complaint that the way to the flange has not six joints that turn.
+    /// The complaint that the way to the flange has not six rotary joints.
     pub(super) fn wrong_number(&self, flange: &str, joints: &[MovingJoint]) -> Flaw {
         let turning = match joints.len() {
-            0 => "no joint that turns".to_owned(),
-            1 => "one joint that turns".to_owned(),
-            many => format!("{many} joints that turn"),
+            0 => "no rotary joint".to_owned(),
+            1 => "one rotary joint".to_owned(),
+            many => format!("{many} rotary joints"),
         };
         let message = format!(
             "the way to the flange `{}` has {turning} instead of six",
@@ -168,7 +162,7 @@ impl<'t> Tree<'t> {
 
     /// The complaint that the chain leads to numbers beyond all bounds.
     pub(super) fn too_far(&self, flange: &str) -> Flaw {
-        let message = format!("the flange `{}` lies nowhere", shortened(flange));
+        let message = format!("the flange `{}` has no finite position", shortened(flange));
         Flaw::new(self.place(flange), message, "the flange").help("write origins in metres and radians")
     }
 

@@ -214,7 +214,6 @@ impl Swept {
         put(&mut self.refusal, first, posture.refusal.0);
     }
 
-    /// What one lane does.
     fn stretch(&self, lane: usize) -> Result<Stretch, Violation> {
         if let Some(violation) = violation(self.refusal[lane]) {
             return Err(violation);

@@ -1,4 +1,4 @@
-//! Moves of all axes at once: each goes straight from its value to the next, all at the same time (PTP, MoveJ).
+//! Axis moves at once: each goes straight from its value to the next, all at the same time (PTP, MoveJ).
 //!
 //! Limits that hold at both ends hold between. The blade's way is no line, though: its points are computed along spans of
 //! the move, as [`super::along`] does, and a span is proven when one face of the stock has all of them on its outer side.
@@ -25,7 +25,7 @@ pub struct Block {
     pub high: DVec3,
 }
 
-/// Why a move of all axes must not be made.
+/// Why an axis move must not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxesBreach {
     /// Where on the move, from 0 to 1.
@@ -34,14 +34,13 @@ pub struct AxesBreach {
     pub what: AxesViolation,
 }
 
-/// What breaks in a move of all axes.
+/// What breaks in an axis move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AxesViolation {
     /// An axis is outside of its range.
     Limit {
         /// The axis, from 0.
         axis: usize,
-        /// Where it is.
         value: f64,
     },
     /// The blade cannot be told to be outside of the stock.
@@ -51,7 +50,7 @@ pub enum AxesViolation {
     },
 }
 
-/// Proves that a move of all axes keeps within their limits and keeps the blade outside of the stock, which it may touch.
+/// Proves that an axis move keeps within their limits and keeps the blade outside of the stock, which it may touch.
 /// `blade` are points in the blade frame T; what is proven to stay out is all that lies between them.
 ///
 /// # Errors

@@ -138,7 +138,6 @@ impl Flight {
 pub(super) enum Turning {
     /// It only moves along.
     Still,
-    /// It turns.
     Turns,
 }
 
@@ -185,7 +184,6 @@ impl Carried {
 /// The flange on a span of its way: a point of it and its axes, seen from the root.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flange<N> {
-    /// The point.
     pub(super) point: [Along<N>; 3],
     /// The directions of its axes.
     pub(super) axes: [[Along<N>; 3]; 3],

@@ -15,7 +15,6 @@ const FUNCTION_ERROR: f64 = 4.0 * 4.5e-16;
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval<N = f64> {
-    /// The least of them.
     pub(super) low: N,
     /// The greatest of them.
     pub(super) high: N,
@@ -33,7 +32,6 @@ impl Interval {
 }
 
 impl<N: Copy> Interval<N> {
-    /// One number.
     #[inline(always)]
     pub(super) const fn exactly(number: N) -> Self {
         Self {

@@ -15,7 +15,6 @@ pub(super) trait Number:
     fn of(self, constant: f64) -> Self;
     /// Without its sign.
     fn magnitude(self) -> Self;
-    /// Its root.
     fn root(self) -> Self;
     /// The lesser of two numbers.
     fn lesser(self, other: Self) -> Self;
@@ -93,7 +92,6 @@ impl<S: Simd> Wide<S> {
         Self { simd, lanes }
     }
 
-    /// The lanes.
     #[inline(always)]
     pub(super) fn lanes(&self) -> &[f64] {
         bytemuck::cast_slice(core::slice::from_ref(&self.lanes))

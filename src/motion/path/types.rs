@@ -87,7 +87,7 @@ pub enum Violation {
         /// How fast it would have to move.
         rate: f64,
     },
-    /// The arm comes too near to a singular pose.
+    /// The arm comes too close to a singularity.
     Singular(Singularity),
 }
 

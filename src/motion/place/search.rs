@@ -21,7 +21,6 @@ pub struct Bounds {
 /// A spot and how good it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    /// The spot.
     pub spot: Spot,
     /// How good it is by the poses asked.
     pub score: Score,

@@ -147,7 +147,10 @@ fn trouble(trouble: &Trouble, model: &Model, program: &Program) -> String {
     match trouble {
         Trouble::Motion { failing, .. } => failure(failing, model, program),
         Trouble::NoCommonBranch { failing, .. } => {
-            format!("no branch carries all cuts: {}", failure(failing, model, program))
+            format!(
+                "no configuration works for all cuts: {}",
+                failure(failing, model, program)
+            )
         }
         Trouble::Way { op, .. } => format!("the way {} leads through the stock", place(program, *op)),
         Trouble::Sweep(sweep) => format!("the blade sweeps through the work, {}", place(program, sweep.op)),
@@ -161,7 +164,7 @@ fn failure(failing: &Failing, model: &Model, program: &Program) -> String {
         Violation::OutOfReach => "the blade is out of reach".to_owned(),
         Violation::Limit { axis: index, .. } => format!("{} leaves its range", axis(index)),
         Violation::Rate { axis: index, .. } => format!("{} is too slow", axis(index)),
-        Violation::Singular(_) => "the arm comes too near to a singular pose".to_owned(),
+        Violation::Singular(_) => "the arm comes too close to a singularity".to_owned(),
     };
     format!("{what}, {}", place(program, failing.op))
 }

@@ -35,7 +35,7 @@ fn diagnostic(machine: &Machine, five_axis: &FiveAxis, place: &str, turned: f64)
     let name = &machine.model.name;
     let angle = show(turned.abs().to_degrees());
     let headline =
-        format!("`{name}` cannot hold the blade for {place}: its plane would stay turned by {angle} deg");
+        format!("`{name}` cannot hold the blade for {place}: its plane would be turned by {angle} deg");
     let tool = machine.tool.span.unwrap_or(machine.head_span);
     let base = machine.base.span.unwrap_or(machine.head_span);
     if five_axis.swings_then_rakes() {
@@ -49,7 +49,7 @@ fn diagnostic(machine: &Machine, five_axis: &FiveAxis, place: &str, turned: f64)
         .note("B swings the blade and A rakes it, as long as the blade stands upright at zero angles and cuts along Y of the machine")
         .help(
             "turn the blade about itself in `tool` (`a = -90 deg` sets it along Y), or the work in `base`, until the cuts run along Y of the machine; \
-             or take a machine with an orientable spindle",
+             or use a machine with an orientable spindle",
         );
     }
     Diagnostic::new(
@@ -61,7 +61,7 @@ fn diagnostic(machine: &Machine, five_axis: &FiveAxis, place: &str, turned: f64)
     .and(tool, "the blade is mounted here")
     .note("its two rotary axes point the blade in the right direction; what is left is a turn about the blade itself")
     .help(
-        "take a machine with an orientable spindle, such as \"generic/head_head_ac_spindle\", or add `spindle = \"s\"` and `[axis.s]` to the sheet if it has one",
+        "use a machine with an orientable spindle, such as \"generic/head_head_ac_spindle\", or add `spindle = \"s\"` and `[axis.s]` to the sheet if it has one",
     )
-    .help("or take one whose rotary axes swing and rake the blade: a head with B carrying A, a head with A over a table with B, or a table with A carrying B")
+    .help("or use one whose rotary axes swing and rake the blade: a head with B carrying A, a head with A over a table with B, or a table with A carrying B")
 }

@@ -26,7 +26,7 @@ pub fn too_large(job: &CheckedJob) -> Option<Diagnostic> {
         Diagnostic::new(
             Code::OutOfReach,
             format!(
-                "the work is too large for `{}`, wherever it is placed: cuts are {} mm apart, and two places that the tip reaches {} mm at most",
+                "the work is too large for `{}`, wherever it is placed: cuts are {} mm apart, but the tip only reaches places up to {} mm apart",
                 model.name,
                 show(apart.round()),
                 show(tip_apart.round())

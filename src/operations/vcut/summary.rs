@@ -16,8 +16,8 @@ fn chosen_limit(asked: &RoughVcut) -> Option<String> {
     let (limit, chosen) = (asked.limits.scallop?, asked.limits.chosen?);
     let why = match chosen.why {
         WhyChosen::LittleStays => "",
-        WhyChosen::MoreStays => "; more than a tenth of that stays under tighter ones, too",
-        WhyChosen::TightestKept => "; no plan keeps a tighter one",
+        WhyChosen::MoreStays => "; more than a tenth of that stays with tighter ones too",
+        WhyChosen::TightestKept => "; no plan satisfies a tighter one",
     };
     Some(format!(
         "scallop <= {} mm (chosen, the job sets none: on average {:.1} mm are to be cut away{why})",

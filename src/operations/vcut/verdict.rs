@@ -54,7 +54,7 @@ fn blocked(asked: &RoughVcut, finding: Finding, at: Point2) -> Diagnostic {
     Diagnostic::new(
         Code::BladeBlocked,
         format!(
-            "above {}, uncut material stands in the way of the blade",
+            "above {}, uncut material is in the way of the blade",
             place(&finding)
         ),
         asked.swing.span.unwrap_or(asked.setup.head_span),
@@ -151,11 +151,11 @@ fn not_freed(
             );
             match asked.residual.span {
                 Some(span) => diagnostic.fix(
-                    "let the compiler mend such cuts: `residual = mixed`",
+                    "let the compiler fix such cuts: `residual = mixed`",
                     span,
                     "mixed",
                 ),
-                None => diagnostic.help("add `residual = mixed`, which mends such cuts"),
+                None => diagnostic.help("add `residual = mixed`, which fixes such cuts"),
             }
         }
         Some(Remedy::Opened(offer)) => diagnostic.fix_all(offer.title, &offer.edits),

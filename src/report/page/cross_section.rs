@@ -25,7 +25,7 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
             phone: "lattice-phone-",
         },
         Zoom::Free,
-        &format!("Where the blade's tip runs: {}.", pictures::laid_out(material)),
+        &format!("The path of the blade's tip: {}.", pictures::laid_out(material)),
         &|ids| pictures::lattice(material, ids),
     );
     Section {

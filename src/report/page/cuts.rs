@@ -59,8 +59,8 @@ fn folded(layers: &Layers, height: f64, name: &dyn Fn((u32, u32)) -> String) -> 
             by_layer(layers, name)
         )
     } else {
-        let hint = "<p>Depth is from the top of the stock to the tip; the way is that of both flanks, with what they run out beyond \
-                    the stock; the time holds turns and ways to the cut. Choose a start to see it in the playback.</p>\n";
+        let hint = "<p>Depth is measured from the top of the stock to the tip. The way is that of both flanks, with their extensions \
+                    beyond the stock. The time includes turns and the way to the cut. Choose a start to see it in the playback.</p>\n";
         let all = layers
             .iter()
             .map(|(layer, cuts)| layer_of_cuts(&name(*layer), cuts, height));

@@ -15,7 +15,7 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
             phone: "deviation-phone-",
         },
         Zoom::Free,
-        "How far the machined contour is from the part, all along it.",
+        "The distance of the machined contour from the part.",
         &|ids| pictures::deviation(material, ids),
     );
     let correlation = figure(
@@ -24,7 +24,7 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
             phone: "correlation-phone-",
         },
         Zoom::Free,
-        "How machined and theoretical contour correlate, shifted against each other.",
+        "The correlation of machined and theoretical contour, shifted against each other.",
         &|ids| pictures::correlation(material, ids),
     );
     Section {

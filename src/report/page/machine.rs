@@ -19,16 +19,16 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     body += &terms(lines.iter().map(|(name, line)| (*name, line.as_str())));
     let ids = [Prefix::new("joints-"), Prefix::for_phones("joints-phone-")];
     if let Some([page, phone]) = pictures::joints_twice(&subject.material, ids) {
-        let caption = "Angles, rates and margins of the axes over time, with the moves of all axes from and to home; the table \
-                       below leaves these out. Rates are those at the programmed speeds.";
+        let caption = "Positions, speeds and margins of the axes over time, with the axis moves from and to home; the \
+                       table below leaves these out. Axis speeds are those at the programmed speeds.";
         body += &framed(&page, "for-page", Zoom::Free, caption);
         body += &framed(&phone, "for-phones", Zoom::Free, caption);
     }
     let blade = |ids| pictures::blade(&subject.material, ids);
     let places = [Prefix::new("blade-"), Prefix::for_phones("blade-phone-")];
     if let [Some(page), Some(phone)] = places.map(blade) {
-        let caption = "How the blade has to be clamped for this program, over the work at swing 0, with the axes of `tool`: hold it \
-                       beside the flange and compare. Which way edge and flat look is not proven by anything here.";
+        let caption = "How to clamp the blade for this program, over the work at swing 0, with the axes of `tool`: hold it \
+                       beside the flange and compare. The proofs do not cover the direction of edge and flat.";
         body += &framed(&page, "for-page", Zoom::Fixed, caption);
         body += &framed(&phone, "for-phones", Zoom::Fixed, caption);
     }
@@ -55,11 +55,7 @@ fn axes(figures: &ReachFigures) -> String {
         Column::Numbers("of its rate"),
         Column::Words("fastest at"),
     ];
-    table(
-        "What is asked of the axes",
-        &columns,
-        figures.axes.iter().map(axis),
-    )
+    table("Use of the axes", &columns, figures.axes.iter().map(axis))
 }
 
 fn axis(axis: &AxisFigure) -> Vec<String> {
@@ -96,7 +92,7 @@ fn singular(figures: &ReachFigures) -> String {
     let columns = [
         Column::Words("Singular pose"),
         Column::Numbers("distance"),
-        Column::Numbers("share of all there could be"),
+        Column::Numbers("percentage of the maximum"),
         Column::Words("nearest at"),
     ];
     let rows = figures.singular.iter().map(
@@ -115,5 +111,5 @@ fn singular(figures: &ReachFigures) -> String {
             ]
         },
     );
-    table("How near singular poses are", &columns, rows)
+    table("Distance from singularities", &columns, rows)
 }

@@ -22,7 +22,7 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
             phone: "time-phone-",
         },
         Zoom::Fixed,
-        "What the time is spent on.",
+        "The time by kind of motion and by layer.",
         &|ids| pictures::time(&subject.material, ids),
     );
     body += &by_kind(whole);
@@ -43,7 +43,7 @@ fn agreement(subject: Subject<'_>, total: Duration) -> String {
         _ => String::new(),
     };
     format!(
-        "The program takes {}. The mean-value formula, which knows the parameters only, gives {}{apart}.",
+        "The program takes {}. The mean-value formula, which uses only the parameters, gives {}{apart}.",
         time(total),
         time(estimate)
     )
@@ -60,7 +60,7 @@ fn by_kind(whole: &Timing) -> String {
         ("cutting", whole.cutting),
         ("turning about the still tip", whole.turning),
         ("travel through the air", whole.travel),
-        ("moves of all axes", whole.axes),
+        ("axis moves", whole.axes),
         ("waiting", whole.waiting),
     ];
     let rows = kinds

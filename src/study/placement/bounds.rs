@@ -15,9 +15,7 @@ use vcutc_motion::place::search::Bounds;
 pub struct Asked<'a> {
     /// x of the base in the machine's root.
     pub x: Option<&'a str>,
-    /// y of it.
     pub y: Option<&'a str>,
-    /// z of it.
     pub z: Option<&'a str>,
     /// Turn about z against now.
     pub yaw: Option<&'a str>,
@@ -41,7 +39,6 @@ const FARTHEST: i32 = 100_000;
 pub struct BadBounds {
     /// The option, such as `--x`.
     pub option: &'static str,
-    /// Its text.
     pub given: String,
     /// What is wrong with it, and what would be right.
     pub why: String,

@@ -37,7 +37,7 @@ pub fn text(placement: &Placement) -> String {
         Some(best) if !is_better(best, now) => {
             row(
                 "best",
-                "where it is now: no place within these bounds leaves more room",
+                "where it is now: no place within these bounds has a larger margin",
             );
         }
         Some(best) => {

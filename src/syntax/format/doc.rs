@@ -46,7 +46,6 @@ pub(super) fn blanks_before_comment(column: usize) -> usize {
 pub(super) const STEP: usize = 2;
 
 impl Doc {
-    /// Text as it is.
     pub(super) fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }

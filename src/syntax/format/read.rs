@@ -103,7 +103,6 @@ pub(super) enum Extent {
     ManyLines,
 }
 
-/// A whole text.
 #[derive(Clone, Debug)]
 pub(super) struct Source<'t> {
     pub(super) statements: Vec<Statement<'t>>,

@@ -37,9 +37,7 @@ pub(super) enum Role {
 /// What stands between two words on one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Spacing {
-    /// Nothing.
     None,
-    /// A blank.
     Blank,
     /// A blank, or a line end where the line would be too long.
     Breakable,

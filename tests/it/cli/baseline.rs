@@ -184,7 +184,7 @@ fn a_file_that_is_no_baseline_is_not_overwritten() {
         let list = LIST.replace("numbers.json", name);
         fs::write(path.join("vcut.toml"), &list).unwrap();
         let text = told(path, &["build", "--accept"], 2);
-        assert!(text.contains("holds no figures of programs"), "{text}");
+        assert!(text.contains("does not contain figures of programs"), "{text}");
         assert_eq!(fs::read_to_string(path.join("vcut.toml")).unwrap(), list);
     }
     assert_eq!(fs::read_to_string(path.join("jobs/rib.vcut")).unwrap(), RIB);

@@ -105,7 +105,7 @@ fn what_cannot_be_formatted_is_told() {
     fs::write(path.join("bytes.vcut"), b"job \"\xff\"\n").unwrap();
     for (arguments, told, code) in [
         (["fmt", "none.vcut"], "cannot format none.vcut", 2),
-        (["fmt", "empty"], "it holds no job files (.vcut)", 2),
+        (["fmt", "empty"], "it contains no job files (.vcut)", 2),
         (["fmt", "bytes.vcut"], "VC0107", 1),
     ] {
         let run = vcutc(path, &arguments);

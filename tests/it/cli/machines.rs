@@ -134,5 +134,5 @@ fn what_is_no_machine_is_refused_with_what_was_meant() {
     fs::write(folder.path().join("bytes.toml"), [0x6d, 0xff]).unwrap();
     let run = vcutc(folder.path(), &["machines", "bytes.toml"]);
     assert_eq!(run.code, Some(2));
-    assert_snapshot!(run.stderr, @"error: cannot read `bytes.toml`: it is not a text file in UTF-8, byte 2 is not valid");
+    assert_snapshot!(run.stderr, @"error: cannot read `bytes.toml`: it is not a UTF-8 text file, byte 2 is not valid");
 }

@@ -93,11 +93,11 @@ fn a_program_that_cannot_describe_itself_is_refused_before_the_job_is_read() {
         ("#!/bin/sh\nkill -TERM $$\n", "was stopped (signal: 15"),
         (
             "#!/bin/sh\necho hello\n",
-            "answers something else than the protocol says: expected value at line 1 column 1\n  help: it says: hello ...",
+            "answers something other than the protocol requires: expected value at line 1 column 1\n  help: it says: hello ...",
         ),
         (
             "#!/bin/sh\ntrue\n",
-            "answers something else than the protocol says: EOF",
+            "answers something other than the protocol requires: EOF",
         ),
         ("#!/bin/sh\necho '{}'\n", "missing field `protocol`"),
         ("#!/bin/sh\necho '{\"protocol\":1}'\n", "missing field `id`"),
@@ -124,7 +124,7 @@ fn a_program_that_cannot_describe_itself_is_refused_before_the_job_is_read() {
         let folder = with_program(script);
         let run = compiled(folder.path());
         assert_eq!(run.code, Some(2), "{script}: {}", run.stderr);
-        let head = "error: the program behind target `odd` ";
+        let head = "error: the program of target `odd` ";
         assert!(
             run.stderr.starts_with(head) && run.stderr.contains(says),
             "{script}: {}",
@@ -239,7 +239,7 @@ fn what_is_no_program_is_not_written() {
     for (reply, says) in [
         (
             "nonsense".to_owned(),
-            "answers something else than the protocol says",
+            "answers something other than the protocol requires",
         ),
         (r#"{"protocol":1}"#.to_owned(), "answers without any file"),
         (file("../a.nc"), "calls a file `../a.nc`"),
@@ -487,7 +487,7 @@ fn a_program_that_writes_something_else_than_it_was_given_is_found_out() {
         (
             "\"tip\": feed",
             "\"tip\": feed and feed + 1.0",
-            "the tip goes at 201 mm/s",
+            "the tip moves at 201 mm/s",
         ),
         (
             "\"end\": \"exact\"",

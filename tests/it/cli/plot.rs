@@ -107,7 +107,7 @@ fn a_drawing_that_the_job_is_made_from_is_not_written_over() {
     assert_eq!(over.code, Some(2), "{}", over.stderr);
     assert_eq!(
         over.stderr,
-        "error: ./rib.svg is a file that the job is made from: give what is written another name\n"
+        "error: ./rib.svg is an input of the job: choose another name for the output\n"
     );
     assert_eq!(fs::read_to_string(out.path().join("rib.svg")).unwrap(), drawing);
     assert_eq!(run("lattice.svg").code, Some(0));

@@ -56,7 +56,7 @@ fn hovering_tells_values_units_and_formulas() {
         ("residual = disc|ard", vec!["such a cut is left out"]),
         (
             "swing = au|to",
-            vec!["`auto`", "Comes out as: together, what makes the objective least"],
+            vec!["`auto`", "Chosen as: together, what makes the objective least"],
         ),
         ("lim|its {", vec!["bounds for what is chosen"]),
         ("swing <|= 45", vec![]),
@@ -313,7 +313,7 @@ fn second_parties_are_related() {
         .unwrap();
     let other = &twice["relatedInformation"][0];
     assert_eq!(other["location"]["uri"], uri("/shop/blades.vcut"));
-    assert_eq!(other["message"], "defined here first, in another file");
+    assert_eq!(other["message"], "first defined here, in another file");
 }
 
 #[test]

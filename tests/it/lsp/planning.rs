@@ -40,10 +40,7 @@ fn auto_shows_what_it_became() {
     let at = editor.at(PATH, "step  = au|to");
     let told = editor.ask("textDocument/hover", at).unwrap();
     let text = told["contents"]["value"].as_str().unwrap();
-    assert!(
-        text.starts_with("`auto` came out as `10 mm`\n\nbound by "),
-        "{text}"
-    );
+    assert!(text.starts_with("`auto` is `10 mm`\n\nbound by "), "{text}");
     let at = editor.at(PATH, "job \"r|ib\"");
     let told = editor.ask("textDocument/hover", at).unwrap();
     assert!(

@@ -170,12 +170,12 @@ fn a_text_does_not_wait_for_the_plan_of_the_one_before() {
     for _ in 0..400 {
         let told = process.about("hover", "rib.vcut", RIB, at);
         text = told["contents"]["value"].as_str().unwrap_or_default().to_owned();
-        if text.starts_with("`auto` came out as `10 mm`") {
+        if text.starts_with("`auto` is `10 mm`") {
             break;
         }
         std::thread::sleep(std::time::Duration::from_millis(100));
     }
-    assert!(text.starts_with("`auto` came out as `10 mm`"), "{text}");
+    assert!(text.starts_with("`auto` is `10 mm`"), "{text}");
     process.end();
 }
 

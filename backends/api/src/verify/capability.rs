@@ -40,7 +40,7 @@ impl Capability {
     pub const fn words(self) -> &'static str {
         match self {
             Self::LinearMove => "straight moves of the tip with a turning blade",
-            Self::JointMove => "moves of all axes",
+            Self::JointMove => "axis moves",
             Self::StillTipTurn => "turns about the still tip",
             Self::Output => "digital outputs",
             Self::AwaitInput => "waiting for a digital input",

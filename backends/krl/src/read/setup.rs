@@ -64,9 +64,7 @@ impl Said {
             Self::OriType => "`$ORI_TYPE=#VAR` before the first motion",
             Self::Advance => "`$ADVANCE=3` before the first motion",
             Self::Load => "the job's `$LOAD` before the first motion",
-            Self::AxisSpeed => {
-                "`BAS (#VEL_PTP,n )` before the first move of all axes, with the job's home speed"
-            }
+            Self::AxisSpeed => "`BAS (#VEL_PTP,n )` before the first axis move, with the job's home speed",
             Self::Rounding => "`$APO.CDIS` before the first rounded corner, with the job's approximation",
         }
     }

@@ -192,7 +192,7 @@ fn what_was_not_said_is_missing() {
         ),
         (
             "BAS(#VEL_PTP,10)",
-            "`BAS (#VEL_PTP,n )` before the first move of all axes, with the job's home speed",
+            "`BAS (#VEL_PTP,n )` before the first axis move, with the job's home speed",
         ),
     ];
     let (program, options) = two_cuts();

@@ -25,7 +25,6 @@ pub struct Repair {
 pub enum Altered {
     /// Points that follow one another at one place, of which one is used.
     Doubled {
-        /// How many.
         count: usize,
         /// How far apart they are at most.
         apart: f64,
@@ -39,25 +38,21 @@ pub enum Altered {
         /// How far apart the sides are there.
         gap: f64,
     },
-    /// Points of a side inside of its outline, where x runs back: they are left out.
+    /// Points of a side inside its outline, where x runs back: they are left out.
     Inside {
-        /// Of this side.
         side: Side,
-        /// How many.
         count: usize,
         /// How deep the deepest lies.
         deep: f64,
     },
     /// A side that begins after the other one: a straight line joins it to the leading edge.
     Joined {
-        /// This one.
         side: Side,
         /// The length of that line in x.
         by: f64,
     },
-    /// A side that ends before the other one: it is led on straight.
+    /// A side that ends before the other one: it is extended straight.
     LedOn {
-        /// This one.
         side: Side,
         /// By so much of x.
         by: f64,
@@ -72,22 +67,11 @@ pub enum Altered {
     /// A line of words between points.
     Words,
     /// Lines of words and digits after the last point, which may be points that are written wrong.
-    Trailing {
-        /// How many.
-        count: usize,
-    },
+    Trailing { count: usize },
     /// Numbers of points that are not those of the file.
-    Counts {
-        /// How many it says.
-        stated: f64,
-        /// How many there are.
-        found: usize,
-    },
+    Counts { stated: f64, found: usize },
     /// A third number, the same in all lines.
-    Column {
-        /// That number.
-        value: f64,
-    },
+    Column { value: f64 },
 }
 
 /// How much of the chord may be added at the leading edge: little, for noses are round.

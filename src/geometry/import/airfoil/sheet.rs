@@ -14,7 +14,6 @@ pub(super) struct Sheet {
     pub(super) title: String,
     /// The points in the order written, without the line of counts.
     pub(super) points: Vec<Vertex>,
-    /// Where the rows stand.
     rows: Vec<Range<usize>>,
     /// Where the points stand.
     pub(super) range: Range<usize>,
@@ -194,7 +193,7 @@ impl<'a> Reading<'a> {
             .collect();
         ends.dedup();
         let message = format!(
-            "lines like this separate the {} elements of the file: keep the one that is meant in a file of its own",
+            "lines like this separate the {} elements of the file: keep the one you need in a separate file",
             ends.len() + 1
         );
         Err(DataError::new(place.clone(), message))

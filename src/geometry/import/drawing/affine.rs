@@ -57,7 +57,6 @@ impl Affine {
         ])
     }
 
-    /// Where a point goes.
     #[must_use]
     pub fn point(self, point: Point2) -> Point2 {
         let [_, _, _, _, e, f] = self.matrix;

@@ -30,9 +30,7 @@ pub struct Outline {
 /// Two ends that do not meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Where one is.
     pub from: Point2,
-    /// Where the other is.
     pub to: Point2,
     /// The strokes they belong to.
     pub strokes: [usize; 2],
@@ -49,9 +47,7 @@ impl Gap {
 /// One of several chains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chain {
-    /// Where it begins.
     pub from: Point2,
-    /// Where it ends.
     pub to: Point2,
     /// Whether it ends where it begins.
     pub is_closed: bool,
@@ -68,14 +64,12 @@ pub enum OutlineError {
     Nothing,
     /// A stroke is no curve.
     Curve {
-        /// The stroke.
         stroke: usize,
         /// Why not.
         error: CurveError,
     },
     /// A stroke is no B-spline.
     Nurbs {
-        /// The stroke.
         stroke: usize,
         /// Why not.
         error: NurbsError,
@@ -83,12 +77,7 @@ pub enum OutlineError {
     /// More points than a profile may have.
     TooManyPoints,
     /// More than two ends meet.
-    Branch {
-        /// Where.
-        at: Point2,
-        /// Strokes that do.
-        strokes: Vec<usize>,
-    },
+    Branch { at: Point2, strokes: Vec<usize> },
     /// The tolerance is larger than what is drawn.
     Crowded {
         /// One place where it is.

@@ -23,7 +23,6 @@ const MOST_IN_A_CELL: usize = 64;
 pub(super) struct End {
     /// The line, as a place in a list.
     pub(super) line: usize,
-    /// Where it is.
     pub(super) at: Point2,
 }
 

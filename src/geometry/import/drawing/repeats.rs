@@ -58,9 +58,7 @@ pub(super) fn without_repeats(lines: Vec<Line>) -> (Vec<Line>, Vec<usize>) {
 /// A stretch that is drawn twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
-    /// Where it begins.
     pub from: Point2,
-    /// Where it ends.
     pub to: Point2,
     /// The strokes that lie on each other; twice the same where one leads back over itself.
     pub strokes: [usize; 2],

@@ -29,7 +29,6 @@ pub(super) enum RingError {
     NoArea,
     /// Two of its segments meet that are no neighbours.
     Meets {
-        /// Where.
         at: Point2,
         /// The segments, by the corners they begin with.
         segments: [usize; 2],

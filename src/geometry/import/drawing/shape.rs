@@ -19,7 +19,6 @@ pub enum Shape {
     Arc {
         /// Where it starts.
         from: Point2,
-        /// Where it ends.
         to: Point2,
         /// The angle, in rad; less than a whole turn.
         sweep: f64,
@@ -95,7 +94,6 @@ impl Shape {
         }
     }
 
-    /// The curve.
     pub(super) fn curve(&self) -> Result<Curve, ShapeError> {
         let curve = match self {
             Self::Polyline(points) => Curve::polyline(points.clone()),

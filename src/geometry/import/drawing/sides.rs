@@ -22,7 +22,6 @@ pub enum Side {
 /// Why an outline has no such side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SideError {
-    /// It is open.
     Open(Gap),
     /// Both its ends have the same x.
     NoExtent,

@@ -11,7 +11,6 @@ use crate::import::western;
 pub enum NoText {
     /// A DXF in binary form.
     Binary,
-    /// A DWG.
     Dwg,
     /// Letters of a code page that is not read, by its name.
     CodePage(String),

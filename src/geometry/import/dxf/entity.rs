@@ -15,7 +15,6 @@ use core::f64::consts::TAU;
 /// Heights over the plane of the drawing that differ by less are the same, in the file's unit; and so are directions.
 const LEVEL: f64 = 1e-6;
 
-/// An entity.
 pub(super) struct Entity<'t> {
     pub(super) kind: &'t str,
     pub(super) place: Place,
@@ -31,7 +30,6 @@ pub(super) enum Content<'t> {
     Fitted(&'static str, Vec<Shape>),
     /// A block once more.
     Insert(insert::Insert<'t>),
-    /// Nothing.
     Unread(Why),
 }
 

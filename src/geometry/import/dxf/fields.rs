@@ -9,7 +9,6 @@ use crate::point::Point2;
 pub(super) struct Fields<'t> {
     /// Its name: `LINE`.
     pub(super) kind: &'t str,
-    /// Where that stands.
     pub(super) place: Place,
     text: Vec<(Group, &'t str)>,
 }

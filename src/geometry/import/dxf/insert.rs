@@ -51,7 +51,7 @@ pub(super) fn read<'t>(fields: &Fields<'t>) -> Result<Content<'t>, DataError> {
         .after(turn)
         .after(Affine::stretch(x, z));
     if !map.is_proper() {
-        return Err(fields.error("this INSERT stretches its block to nothing"));
+        return Err(fields.error("this INSERT scales its block to zero"));
     }
     let repeat = |count: i32, way: Point2| -> Result<Repeat, DataError> {
         let told = fields.get(count).map_or(Ok(1), |value| value.whole())?;
@@ -141,7 +141,7 @@ impl<'f, 't> Unfolding<'f, 't> {
         for entity in entities {
             self.looked_at += 1;
             if self.looked_at > MOST_ENTITIES {
-                let message = format!("the blocks of this file unfold to more than {MOST_ENTITIES} entities");
+                let message = format!("the blocks of this file expand to more than {MOST_ENTITIES} entities");
                 return Err(entity.place.error(message));
             }
             let layer = match host.layer {
@@ -214,7 +214,7 @@ impl<'f, 't> Unfolding<'f, 't> {
             return Ok(Taken::No);
         }
         if self.strokes.len() >= MOST_STROKES {
-            let message = format!("more than {MOST_STROKES} lines are drawn; no outline has so many");
+            let message = format!("more than {MOST_STROKES} lines are drawn, too many for an outline");
             return Err(stroke.place.error(message));
         }
         self.strokes.push(stroke);
@@ -273,8 +273,8 @@ impl<'f, 't> Unfolding<'f, 't> {
 }
 
 /// What is told of a spline that the file gives no control points of.
-const FITTED: &str = "this SPLINE has no control points; a natural cubic spline over the length of its chords is laid \
-                      through its fit points, where another program may draw another curve";
+const FITTED: &str = "this SPLINE has no control points; a natural cubic spline over the length of its chords is drawn \
+                      through its fit points; another program may draw another curve";
 
 /// A stroke after a map.
 fn drawn(kind: &'static str, shapes: &[Shape], place: Place, map: Affine) -> Stroke {

@@ -27,7 +27,7 @@ pub(super) fn light<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> {
             20 => {
                 let z = value.number()?;
                 let x = open.take();
-                let x = x.ok_or_else(|| value.place.error("the y of a corner stands here without its x"))?;
+                let x = x.ok_or_else(|| value.place.error("the y of a corner is here without its x"))?;
                 corners.push(Corner {
                     at: Point2::new(x, z),
                     bulge: 0.0,

@@ -78,7 +78,7 @@ pub(super) fn read<'t>(groups: &mut Groups<'t>) -> Result<File<'t>, DataError> {
     if has_entities {
         Ok(file)
     } else {
-        Err(start.error("this DXF has no section ENTITIES, so nothing is drawn in it"))
+        Err(start.error("this DXF has no ENTITIES section, so it draws nothing"))
     }
 }
 
@@ -105,7 +105,7 @@ fn misplaced(group: Group, groups: &Groups<'_>) -> DataError {
     let value = shortened(groups.value(group));
     group
         .place
-        .error(format!("`{value}` stands where a section begins, or `EOF`"))
+        .error(format!("`{value}` instead of a section or `EOF`"))
 }
 
 /// Whether a group is the end of something.
@@ -175,13 +175,17 @@ fn blocks<'t>(groups: &mut Groups<'t>, file: &mut File<'t>) -> Result<(), DataEr
                     entities: entities(groups, "ENDBLK")?,
                 };
                 if file.blocks.insert(folded(name.text), block).is_some() {
-                    let message = format!("the block `{}` is there twice", shortened(name.text));
+                    let message = format!("the block `{}` is defined twice", shortened(name.text));
                     return Err(name.place.error(message));
                 }
             }
             // The groups of an ENDBLK.
             (code, _) if code != 0 => {}
-            _ => return Err(group.place.error("only BLOCK and ENDBLK stand between blocks")),
+            _ => {
+                return Err(group
+                    .place
+                    .error("only BLOCK and ENDBLK are allowed between blocks"));
+            }
         }
     }
 }

@@ -93,7 +93,7 @@ fn by_control<'t>(fields: &Fields<'_>, control: Vec<Point2>, lists: Lists) -> Re
     };
     match Curve::nurbs(&nurbs) {
         Ok(_) => Ok(Content::Stroke("SPLINE", vec![Shape::Nurbs(nurbs)])),
-        Err(error) => Err(fields.error(format!("this SPLINE is none: {}", why(error)))),
+        Err(error) => Err(fields.error(format!("this SPLINE is invalid: {}", why(error)))),
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) fn user_units(text: Text<'_>) -> Result<f64, DataError> {
         Length::Real(mm) => Ok(mm / PIXEL),
         Length::Share => Err(text
             .place(0..text.text.len())
-            .error("shares and sizes of letters are not read here: give a number, or a length in mm")),
+            .error("percentages and font sizes are not supported here: give a number, or a length in mm")),
     }
 }
 
@@ -86,7 +86,7 @@ impl ViewBox {
         } else {
             Err(text
                 .place(0..text.text.len())
-                .error("a view box is wider and higher than 0"))
+                .error("the width and height of a view box must be above 0"))
         }
     }
 }
@@ -153,7 +153,6 @@ impl Alignment {
     }
 }
 
-/// The page.
 pub(super) struct Page {
     /// The unit of the drawing.
     pub(super) unit: Unit,
@@ -234,7 +233,7 @@ pub(super) fn viewport(node: Node<'_, '_>, used_by: Option<Node<'_, '_>>) -> Res
     let (width, height) = (size("width", view.width)?, size("height", view.height)?);
     let (sx, sy) = Fit::of(node).factors(width / view.width, height / view.height);
     if !(sx > 0.0 && sy > 0.0) {
-        return Err(place(node).error("this is shown in a size of 0"));
+        return Err(place(node).error("this has a size of 0"));
     }
     let aligned = Alignment::of(node);
     let spare = Affine::shift(

@@ -132,7 +132,7 @@ impl<'d> Sheet<'d> {
                         }
                         None if property.hides(value) => {
                             return Err(place.error(format!(
-                                "the style sheet hides things by `{}`, which is not read: only single classes are",
+                                "the style sheet hides items by `{}`, which is not supported: only single classes are",
                                 shortened(selector)
                             )));
                         }
@@ -220,5 +220,5 @@ fn is_of_geometry((name, value): (&str, &str)) -> bool {
 }
 
 fn geometry(place: Place) -> DataError {
-    place.error("a style moves or shapes things here, which is not read: use the attribute `transform`, or those of the shape")
+    place.error("a style moves or shapes items here, which is not supported: use the attribute `transform`, or those of the shape")
 }

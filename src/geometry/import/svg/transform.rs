@@ -40,7 +40,7 @@ pub(super) fn transform(text: Text<'_>) -> Result<Affine, DataError> {
     } else {
         Err(text
             .place(0..text.text.len())
-            .error("this transformation leaves nothing of what it is applied to"))
+            .error("this transformation shrinks its content to nothing"))
     }
 }
 

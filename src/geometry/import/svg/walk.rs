@@ -95,7 +95,6 @@ pub(super) fn drawing(
     })
 }
 
-/// Whether something is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shown {
     Yes,
@@ -133,7 +132,7 @@ struct Walk<'d, 't, 'w> {
 impl<'d, 't> Walk<'d, 't, '_> {
     fn children(&mut self, node: Node<'d, 't>, state: State) -> Result<(), DataError> {
         if self.depth >= DEEPEST {
-            let message = format!("elements are nested more than {DEEPEST} deep here, or hold themselves");
+            let message = format!("elements are nested more than {DEEPEST} deep here, or contain themselves");
             return Err(place(node).error(message));
         }
         self.depth += 1;
@@ -147,7 +146,7 @@ impl<'d, 't> Walk<'d, 't, '_> {
     fn element(&mut self, node: Node<'d, 't>, outer: State) -> Result<(), DataError> {
         self.looked_at += 1;
         if self.looked_at > MOST_ELEMENTS {
-            let message = format!("the references of this file unfold to more than {MOST_ELEMENTS} elements");
+            let message = format!("the references of this file expand to more than {MOST_ELEMENTS} elements");
             return Err(place(node).error(message));
         }
         let name = node.tag_name().name();
@@ -175,7 +174,7 @@ impl<'d, 't> Walk<'d, 't, '_> {
                 if let Some(origin) = attribute(node, "transform-origin") {
                     return Err(origin
                         .place(0..origin.text.len())
-                        .error("`transform-origin` is not read: write the `transform` without it"));
+                        .error("`transform-origin` is not supported: write the `transform` without it"));
                 }
                 outer.map.after(transform::transform(text)?)
             }
@@ -267,7 +266,7 @@ impl<'d, 't> Walk<'d, 't, '_> {
         for shapes in strokes {
             self.taken += 1;
             if self.taken > MOST_STROKES {
-                let message = format!("more than {MOST_STROKES} lines are drawn; no outline has so many");
+                let message = format!("more than {MOST_STROKES} lines are drawn, too many for an outline");
                 return Err(place(node).error(message));
             }
             for name in &self.path {

@@ -164,7 +164,7 @@ impl Drawing<'_> {
                     Code::MissingField,
                     "the profile has no `start`",
                     piece.span,
-                    format!("{} begins nowhere", curve_words(piece.curve)),
+                    format!("{} has no beginning", curve_words(piece.curve)),
                 );
                 let at = Span {
                     end: piece.span.start,
@@ -306,7 +306,7 @@ fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnosti
         ))
         .help("move the centre, or give the arc by `radius` or `through`"),
         CurveError::Collinear => fault(
-            "no arc leads through three points on one line".to_owned(),
+            "no arc passes through three points on one line".to_owned(),
             place(1),
             "on the line between start and end",
         )
@@ -316,7 +316,7 @@ fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnosti
             place(index),
             "the same point as the one before",
         )
-        .help("take one of the two out"),
+        .help("delete one of the two"),
         CurveError::TooFewPoints => fault(
             format!("{words} needs at least two points"),
             piece.span,
@@ -330,7 +330,7 @@ fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnosti
         )
         .help("split it into several curves, or use `spline`"),
         CurveError::OutOfRange { index } => fault(
-            format!("{words} has a point out of all range"),
+            format!("{words} has a point out of range"),
             place(index),
             "beyond 1e9 mm",
         )

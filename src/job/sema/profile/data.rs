@@ -214,12 +214,12 @@ pub(super) fn bad_data(error: DataError, file: FileId, path: &Spanned<String>) -
     };
     Diagnostic::new(
         Code::BadData,
-        format!("`{}` cannot be understood", path.node),
+        format!("`{}` has an error", path.node),
         span,
         error.message,
     )
     .and(path.span, "the file is named here")
-    .help("mend this place in the file")
+    .help("correct this place in the file")
 }
 
 /// Points that are of a size that can mean something.
@@ -230,7 +230,7 @@ fn in_range(points: Vec<Point2>, path: &Spanned<String>, session: &mut Session<'
     };
     let diagnostic = Diagnostic::new(
         Code::OutOfRange,
-        "the file has a point out of all range",
+        "the file has a point out of range",
         path.span,
         format!(
             "a point comes to lie at x = {:.3e} mm, z = {:.3e} mm",

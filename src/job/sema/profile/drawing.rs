@@ -255,7 +255,7 @@ fn load_dxf(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<FileId
             "save it as DXF in text form (ASCII)",
         ),
         NoText::CodePage(page) => fault(
-            format!("is written in the code page `{page}`, which is not read"),
+            format!("is written in the code page `{page}`, which is not supported"),
             "save it as DXF of AutoCAD 2007 or later, which is UTF-8",
         ),
     };

@@ -88,7 +88,7 @@ fn no_value(formula: &Formula<'_>, x: f64) -> Diagnostic {
             mm(x)
         ),
         formula.value.span,
-        "no height comes out of this",
+        "this gives no height",
     )
 }
 

@@ -45,7 +45,7 @@ impl Taken<'_> {
     fn refused(&self, repair: &Repair, most: f64, sources: &SourceMap) -> Diagnostic {
         Diagnostic::new(
             Code::BadData,
-            format!("`{}` cannot be understood", self.path.node),
+            format!("`{}` has an error", self.path.node),
             self.span(repair),
             self.fault(repair, sources),
         )
@@ -78,7 +78,7 @@ impl Taken<'_> {
         }
         let diagnostic = diagnostic
             .and(self.path.span, "the file is named here")
-            .help("correct the file to be rid of this warning");
+            .help("correct the file to remove this warning");
         let moved = repairs
             .iter()
             .filter_map(|repair| moved(&repair.altered))
@@ -166,7 +166,7 @@ impl Taken<'_> {
                 )
             }
             Altered::Inside { side, count, deep } => format!(
-                "x runs back: {} of the {} side inside of its outline, up to {} deep",
+                "x runs back: {} of the {} side inside its outline, up to {} deep",
                 if count == 1 {
                     "1 point is".to_owned()
                 } else {
@@ -217,17 +217,17 @@ impl Taken<'_> {
             Altered::Chord { from, to, .. } => {
                 format!("x and z are scaled by {}", number(1.0 / (to - from)))
             }
-            Altered::Inside { .. } => "the outline passes over".to_owned(),
+            Altered::Inside { .. } => "the outline skips".to_owned(),
             Altered::Joined { .. } => "joined to it by a straight line".to_owned(),
-            Altered::LedOn { .. } => "led on straight".to_owned(),
+            Altered::LedOn { .. } => "extended straight".to_owned(),
             Altered::Crossed { by, .. } => {
                 format!(
-                    "both are led through the middle, {} from either",
+                    "both follow the line midway between them, {} from either",
                     self.mm(by / 2.0)
                 )
             }
             Altered::Words | Altered::Trailing { .. } => "passed over".to_owned(),
-            Altered::Counts { .. } => "all that it has are used".to_owned(),
+            Altered::Counts { .. } => "all of its points are used".to_owned(),
             Altered::Column { .. } => "left out".to_owned(),
         };
         format!("{}: {done}", self.fault(repair, sources))

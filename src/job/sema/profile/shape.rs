@@ -187,12 +187,12 @@ fn gap(trace: &Trace, strip: &Strip, stock: Spanned<Stock>) -> Option<Diagnostic
         let missing = width - rightmost;
         let help = if rightmost > SAME {
             format!(
-                "lead the profile on to x = {}, or make the stock {} wide",
+                "extend the profile to x = {}, or make the stock {} wide",
                 mm(width),
                 mm(rightmost)
             )
         } else {
-            format!("lead the profile on to x = {}", mm(width))
+            format!("extend the profile to x = {}", mm(width))
         };
         (
             piece_at(right_end),
@@ -239,7 +239,7 @@ fn two_heights(strip: &Strip, trace: &Trace, index: usize, width: f64, otherwise
             format!("it steps from z = {} to z = {} here", mm(turn.z), mm(back.z)),
         )
         .help(format!(
-            "lean the step, for example over 0.1 mm, to x = {}",
+            "slope the step, for example over 0.1 mm, to x = {}",
             mm(back.x + 0.1)
         ));
     }
@@ -287,7 +287,7 @@ fn turned_outside(farthest: f64, (leaves, enters): (Point2, Point2), span: Span)
         format!("the profile has two heights at x = {}", mm(enters.x)),
         span,
         format!(
-            "it leaves the stock at z = {}, turns back at x = {} and comes in again at z = {}",
+            "it leaves the stock at z = {}, turns back at x = {} and enters again at z = {}",
             mm(leaves.z),
             mm(farthest),
             mm(enters.z)

@@ -154,13 +154,13 @@ fn rotary_axes_have_to_tilt_the_blade() {
         "[\"c\", \"a\"]",
         "[\"a\", \"c\"]",
         "[\"a\", \"c\"]",
-        "axis C lies along the spindle, so the blade tilts one way only",
+        "axis C lies along the spindle, so the blade tilts in only one direction",
     );
     let (place, message) = flaw("generic/head_head_ba", "\"+Y\"", "\"-X\"");
     assert_eq!(place, "[\"b\", \"a\"]");
     assert_eq!(
         message,
-        "the two rotary axes are parallel, so the blade tilts one way only"
+        "the two rotary axes are parallel, so the blade tilts in only one direction"
     );
     let (place, _) = flaw("generic/table_table_ac", "[\"a\", \"c\"]", "[\"c\", \"a\"]");
     assert_eq!(place, "[\"c\", \"a\"]");

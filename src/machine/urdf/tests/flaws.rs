@@ -41,13 +41,13 @@ const FLAWS: &[(&str, &str, &str, &str)] = &[
     (
         "\"joint_a3\" type=\"revolute\"",
         "\"joint_a3\" type=\"fixed\"",
-        "the way to the flange `tool0` has 5 joints that turn instead of six",
+        "the way to the flange `tool0` has 5 rotary joints instead of six",
         "tool0",
     ),
     (
         "type=\"fixed\">\n    <origin xyz=\"0 0 0\" rpy=\"0 1.57",
         "type=\"continuous\">\n    <origin xyz=\"0 0 0\" rpy=\"0 1.57",
-        "the way to the flange `tool0` has 7 joints that turn instead of six",
+        "the way to the flange `tool0` has 7 rotary joints instead of six",
         "tool0",
     ),
     (
@@ -225,7 +225,7 @@ fn two_ends_are_one_too_many() {
         Flange::ByConvention,
     )
     .expect_err("no joint");
-    assert_eq!(none[0].message, "the robot has no joint that moves");
+    assert_eq!(none[0].message, "the robot has no moving joint");
 }
 
 #[test]

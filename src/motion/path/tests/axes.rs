@@ -1,4 +1,4 @@
-//! Moves of all axes against dense sampling.
+//! Axis moves against dense sampling.
 
 use super::*;
 use crate::path::chain::{Chain, evenly};

@@ -95,7 +95,7 @@ fn crossed(name: &str, (least, low): (String, Span), (most, high): (String, Span
     )
     .and(high, format!("at most {most}"))
     .fix_all(
-        format!("exchange the two: at least {most} and at most {least}"),
+        format!("swap the two: at least {most} and at most {least}"),
         &[(low, most), (high, least)],
     )
 }

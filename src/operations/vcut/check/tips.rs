@@ -105,7 +105,7 @@ fn tip(
     let diagnostic = Diagnostic::new(
         Code::OutOfRange,
         format!(
-            "a tip at x {}, z {} lies outside of the stock",
+            "a tip at x {}, z {} lies outside the stock",
             mm(place.x),
             mm(place.z)
         ),
@@ -120,7 +120,7 @@ fn tip(
             mm(height)
         ),
     );
-    Err(reports.push(diagnostic.help("take the tip out, or make the stock larger")))
+    Err(reports.push(diagnostic.help("delete the tip, or make the stock larger")))
 }
 
 /// The operation along these tips.
@@ -137,7 +137,7 @@ pub(super) fn over(
             Code::TipsBesideField,
             "given tips need a `swing`",
             place,
-            "the compiler has nothing to choose it by",
+            "there is nothing to derive it from",
         )
         .and(span, "the tips are given here");
         return Err(reports.push(diagnostic.help("give it, for example `swing = 34 deg`")));
@@ -170,12 +170,12 @@ fn limit_of_a_lattice(limits: &Limits) -> Option<(&'static str, Option<Span>)> {
 fn beside_tips(name: &str, place: Span, tips: Span) -> Diagnostic {
     Diagnostic::new(
         Code::TipsBesideField,
-        format!("`{name}` has no meaning beside given tips"),
+        format!("`{name}` does not go with given tips"),
         place,
         "lays tips out, or chooses how",
     )
     .and(tips, "the tips are given here")
-    .help(format!("take `{name}` out, or the tips"))
+    .help(format!("delete either `{name}` or the tips"))
 }
 
 /// Micrometres: the grid that tips lie on.

@@ -65,7 +65,7 @@ fn lack_in_words(lack: Lack, machine: Option<&Machine>) -> String {
     let axis = |index: usize| machine.and_then(|machine| machine.model.axes.get(index));
     match lack {
         Lack::Reach => "out of reach".to_owned(),
-        Lack::Clearance => "too near to a singular pose".to_owned(),
+        Lack::Clearance => "too close to a singularity".to_owned(),
         Lack::Range { axis: index } => match axis(index) {
             Some(axis) => format!("{} leaves its range", axis.name),
             None => "an axis leaves its range".to_owned(),

@@ -107,7 +107,7 @@ fn with_what_works(
     let diagnostic = match failed.as_slice() {
         [] => diagnostic,
         _ => diagnostic.note(format!(
-            "tried, one at a time, and not enough: {}",
+            "tried one at a time, but not enough: {}",
             failed.join("; ")
         )),
     };

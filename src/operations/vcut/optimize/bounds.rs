@@ -11,7 +11,6 @@ use vcutc_vcut::plan::optimum::{Bound, Optimum, Problem, Sensitivity, sensitivit
 /// A bound that binds, and what relaxing it would buy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relaxed {
-    /// Which one.
     pub bound: Bound,
     /// The bound in words: `scallop <= 10 mm`.
     pub words: String,

@@ -51,7 +51,6 @@ pub struct GivenOperation {
     pub number: u16,
     /// Where its tips stand: `rib.vcut:12:3`.
     pub place: String,
-    /// How many they are.
     pub tips: usize,
 }
 
@@ -62,15 +61,12 @@ pub struct OperationOptimum {
     pub number: u16,
     /// Where it stands: `rib.vcut:12:1`.
     pub place: String,
-    /// What is made least.
     pub objective: Objective,
-    /// By which formulas.
     pub formulas: Formulas,
     /// Where the lattice is given, if it is: the others are shown for comparison only.
     pub lattice_given: Option<String>,
     /// The best parameters on every lattice by both formulas.
     pub rows: Vec<Row>,
-    /// What was planned.
     pub planned: Planned,
     /// Bounds that bind, and what relaxing them would buy.
     pub binding: Vec<Relaxed>,
@@ -83,7 +79,6 @@ pub struct OperationOptimum {
 /// Another lattice on which the formulas promise a much shorter time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Faster {
-    /// The lattice.
     pub lattice: Lattice,
     /// The time by the formulas.
     pub time: Duration,
@@ -99,9 +94,7 @@ const MUCH_FASTER: f64 = 0.1;
 /// The best parameters on one lattice, by one kind of formulas.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// The lattice.
     pub lattice: Lattice,
-    /// The formulas.
     pub formulas: Formulas,
     /// Whether these are the job's.
     pub role: Role,
@@ -124,10 +117,7 @@ pub enum FoundBy {
     /// By the formulas: they are those of the chosen row, on the grid.
     Formulas,
     /// As the best of plans that were simulated, and what these came up against.
-    Simulation {
-        /// In words.
-        reasons: Vec<&'static str>,
-    },
+    Simulation { reasons: Vec<&'static str> },
 }
 
 /// What the plan of an operation comes to.
@@ -135,7 +125,6 @@ pub enum FoundBy {
 pub struct Planned {
     /// What it is cut with, on the grid: the formulas' choice, or what simulation found better.
     pub parameters: VcutParameters,
-    /// How that was found.
     pub found: FoundBy,
     /// Time of its moves.
     pub time: Duration,

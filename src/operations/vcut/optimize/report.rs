@@ -12,7 +12,6 @@ use vcutc_vcut::asked::Objective;
 use vcutc_vcut::plan::optimum::{Bound, Infeasible, Optimum, Problem};
 use vcutc_vcut::plan::parameters::VcutParameters;
 
-/// An objective in words.
 #[must_use]
 pub const fn objective(objective: Objective) -> &'static str {
     match objective {
@@ -88,7 +87,8 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
     text += &proven_text(operation);
     text += &binding_text(operation.objective, &operation.binding);
     text += &operation.faster.as_ref().map_or(String::new(), faster_text);
-    text += "\n  Other limits of the scallop, planned at programmed speeds, and what the formula says of them:\n\n";
+    text +=
+        "\n  Other limits of the scallop, planned at programmed speeds, and the times by the formula:\n\n";
     let points = operation
         .trade_off
         .points
@@ -271,12 +271,12 @@ pub fn why_not(problem: &Problem, infeasible: &Infeasible) -> String {
                 .collect();
             let parties = match &names[..] {
                 [] => "the limits".to_owned(),
-                [one] => return format!("none: {one} cannot be kept{}", would_do(bounds, nearest)),
+                [one] => return format!("none: {one} cannot be satisfied{}", would_do(bounds, nearest)),
                 [first @ .., last] => format!("{} and {last}", first.join(", ")),
             };
             format!("none: {parties} conflict{}", would_do(bounds, nearest))
         }
-        Infeasible::Unbounded => "none: the objective falls with the layer for ever".to_owned(),
+        Infeasible::Unbounded => "none: the objective falls with the layer without end".to_owned(),
     }
 }
 

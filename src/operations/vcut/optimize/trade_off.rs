@@ -23,7 +23,6 @@ pub struct TradeOff {
 /// The fastest parameters of one lattice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LatticeCurve {
-    /// The lattice.
     pub lattice: Lattice,
     /// The parameters, by growing scallop; at least one.
     pub points: Vec<Optimum>,

@@ -161,7 +161,7 @@ pub(super) fn in_the_part(job: &CheckedJob, tips: &Tips, layout: &Layout<'_>) ->
             show(depth(deepest))
         ),
         deepest.span,
-        format!("at this x, tips lie at z {floor} mm or higher"),
+        format!("at this x, tips must lie at z {floor} mm or higher"),
     )
     .and(job.profile_span, "the part");
     let diagnostic = match count {
@@ -172,9 +172,7 @@ pub(super) fn in_the_part(job: &CheckedJob, tips: &Tips, layout: &Layout<'_>) ->
         )),
     };
     Some(
-        diagnostic.help(
-            "raise such tips or take them out; a smaller `swing` helps beside steep places of the part",
-        ),
+        diagnostic.help("raise or delete such tips; a smaller `swing` helps beside steep places of the part"),
     )
 }
 
@@ -213,7 +211,7 @@ pub(super) fn too_many(tips: &Tips) -> Diagnostic {
         tips.span,
         format!("a program may have {MOST_CUTS} cuts"),
     )
-    .help("split the job, or take tips out")
+    .help("split the job, or delete tips")
 }
 
 /// Tips none of which has material above it.
@@ -225,7 +223,7 @@ pub(super) fn nothing_to_cut(job: &CheckedJob, tips: &Tips) -> Diagnostic {
         "no tip has material above it",
     )
     .and(job.stock_span, "of this stock")
-    .help("take the operation out, or lower its tips")
+    .help("delete the operation, or lower its tips")
 }
 
 /// Tips that cut nothing, in one warning at the first of them.
@@ -245,8 +243,8 @@ pub fn idle(course: &Course, tips: &Tips) -> Option<Diagnostic> {
             Code::TipCutsNothing,
             headline,
             first.span,
-            "when its turn comes, no material is above it",
+            "when the program reaches it, no material is above it",
         )
-        .help("take such tips out, or let them come before the cuts that took their material"),
+        .help("delete such tips, or put them before the cuts that removed their material"),
     )
 }

@@ -197,15 +197,15 @@ impl VcutParameters {
 const fn bound_in_words(asked: &RoughVcut, bound: Bound) -> &'static str {
     let limits = &asked.limits;
     match bound {
-        Bound::SwingLeast if limits.swing.least.is_none() => "the flattest swing looked at",
-        Bound::SwingMost if limits.swing.most.is_none() => "the widest swing looked at",
+        Bound::SwingLeast if limits.swing.least.is_none() => "the smallest swing considered",
+        Bound::SwingMost if limits.swing.most.is_none() => "the largest swing considered",
         Bound::SwingLeast | Bound::SwingMost => "the limit on swing",
         Bound::LayerMost if limits.layer.most.is_none() => "the depth of the work",
         Bound::LayerLeast | Bound::LayerMost => "the limit on layer",
         Bound::StepMost if limits.step.most.is_none() => "the width of the stock",
         Bound::StepLeast | Bound::StepMost => "the limit on step",
         Bound::OverlapLeast => "Vs that just meet",
-        Bound::OverlapMost => "the largest overlap looked at",
+        Bound::OverlapMost => "the largest overlap considered",
         Bound::Scallop => "the limit on scallop",
         Bound::Edge if limits.edge.is_none() => "the blade's edge",
         Bound::Edge => "the limit on edge",

@@ -35,7 +35,7 @@ pub(super) fn not_freed(
         up(needed),
         edge.has
     );
-    let label = "under this tip lies more than the blade can cut free";
+    let label = "this tip lies deeper than the blade can cut free";
     let span = tip_span(tips, finding).unwrap_or(tips.span);
     let mut diagnostic =
         Diagnostic::new(Code::ChipNotFreed, headline, span, label).and(edge.span, edge.label);

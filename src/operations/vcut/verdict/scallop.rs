@@ -39,7 +39,7 @@ pub(crate) fn over_limit(vcut: &PlannedVcut, report: &Report, trials: &mut dyn T
     let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
     let limit_mm = show(limit.to_mm());
     let headline = format!(
-        "{height} mm of material stay on the part at x {} mm, the limit is {limit_mm} mm",
+        "{height} mm of material remain on the part at x {} mm, the limit is {limit_mm} mm",
         show(peak.x)
     );
     let span = limit_span(asked).unwrap_or(asked.setup.head_span);
@@ -174,7 +174,7 @@ fn last_resort(asked: &RoughVcut) -> &'static str {
     let is_given = |value: &Auto<Length>| matches!(value, Auto::Given(_));
     let is_layer_given = is_given(&asked.layer.value) || is_given(&asked.step.value);
     match (asked.swing.value, is_layer_given && asked.tips.is_none()) {
-        (Auto::Given(_), _) => "use a smaller `swing`, whose steeper flanks follow the part farther",
+        (Auto::Given(_), _) => "use a smaller `swing`, whose steeper flanks follow the part more closely",
         (Auto::Auto, true) => {
             "raise the limit on `scallop`, or leave `layer` and `step` to the compiler: `auto`"
         }
@@ -193,7 +193,7 @@ fn with_narrower_swing(
     };
     let narrower = swing_that_keeps_it(attempts, swing)?;
     let value = format!("{} deg", show(narrower.to_deg()));
-    let title = format!("use a `swing` of {value}, whose steeper flanks follow the part farther");
+    let title = format!("use a `swing` of {value}, whose steeper flanks follow the part more closely");
     Some(diagnostic.clone().fix(title, span, value))
 }
 

@@ -57,7 +57,7 @@ pub(crate) fn much_stays(
     let told = Diagnostic::new(
         Code::MuchStays,
         format!(
-            "{} % of what is to be cut away stays: {:.0} of {:.0} mm2",
+            "{} % of the material to cut away stays: {:.0} of {:.0} mm2",
             percent(share),
             balance.stays().to_mm2(),
             balance.whole.to_mm2()
@@ -65,7 +65,7 @@ pub(crate) fn much_stays(
         span.unwrap_or(asked.setup.head_span),
         cause(asked),
     )
-    .note("to be cut away is all that lies above the part, its allowance and its standoff");
+    .note("the material to cut away is all that lies above the part, its allowance and the standoff");
     Some(if balance.report.cuts() > MOST_CUTS {
         told
     } else {

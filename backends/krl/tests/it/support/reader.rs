@@ -197,7 +197,7 @@ impl Robot<'_> {
 
     fn axes(&mut self, data: &Data, target: &str) -> Result<(), String> {
         if !self.has_axis_speed {
-            return Err("a move of all axes without a speed".into());
+            return Err("a axis move without a speed".into());
         }
         self.knows_pose = true;
         if target.starts_with('{') {

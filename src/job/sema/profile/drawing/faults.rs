@@ -134,13 +134,13 @@ impl Told<'_> {
     pub(super) fn no_unit(&self, place: Place) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::UnknownScale,
-            format!("`{}` does not say what its unit is", self.path.node),
+            format!("`{}` does not state its unit", self.path.node),
             self.path.span,
             "numbers without a unit",
         )
         .and(self.span(place), "no unit of length here");
         self.fields
-            .offer(diagnostic, "say it, for example `unit = mm`", "unit = mm")
+            .offer(diagnostic, "state it, for example `unit = mm`", "unit = mm")
     }
 
     /// The outline is closed, and nothing says which side counts.
@@ -153,12 +153,12 @@ impl Told<'_> {
             });
         let diagnostic = Diagnostic::new(
             Code::MissingField,
-            format!("the outline in {} is closed, so it takes a side", self.subject()),
+            format!("the outline in {} is closed, so it needs a side", self.subject()),
             self.place(),
             format!("a ring from x = {} to x = {}", mm(low), mm(high)),
         );
         self.fields
-            .offer(diagnostic, "take its upper side, `side = upper`", "side = upper")
+            .offer(diagnostic, "use its upper side, `side = upper`", "side = upper")
     }
 
     /// The strokes are no single chain.
@@ -171,7 +171,7 @@ impl Told<'_> {
             OutlineError::Curve { stroke, error } => self.no_curve(stroke, error),
             OutlineError::Nurbs { stroke, error: _ } => Diagnostic::new(
                 Code::ImpossibleCurve,
-                format!("a spline of `{}` leaves all range", self.path.node),
+                format!("a spline of `{}` goes out of range", self.path.node),
                 self.path.span,
                 "named here",
             )
@@ -197,7 +197,7 @@ impl Told<'_> {
             OutlineError::Crowded { at } => broken(
                 format!("too many lines of {} end near {}", self.subject(), shown(at)),
                 format!(
-                    "more ends within {} than can be told apart",
+                    "more ends within {} than can be distinguished",
                     mm(tolerance.to_mm())
                 ),
             )
@@ -239,7 +239,7 @@ impl Told<'_> {
             .get(stroke)
             .map_or("line", |stroke| stroke.kind);
         let why = match error {
-            CurveError::OutOfRange { .. } => "has a point out of all range",
+            CurveError::OutOfRange { .. } => "has a point out of range",
             CurveError::TooManyPoints => "is too large to follow within 1 um",
             CurveError::TooManyControlPoints => "has too many control points",
             CurveError::PointsCoincide { .. }
@@ -275,7 +275,7 @@ impl Told<'_> {
                 shown(gap.to),
                 mm(gap.size().to_mm())
             ),
-            None => "none of them leads on to another".to_owned(),
+            None => "none of them connects to another".to_owned(),
         };
         let mut diagnostic = Diagnostic::new(Code::BrokenOutline, message, self.place(), label);
         if let Some(gap) = nearest {
@@ -338,7 +338,7 @@ impl Told<'_> {
                         "close it in the drawing, or join over the gap with `tolerance = {wider}`; it is {} now",
                         mm(tolerance.to_mm())
                     )),
-                    None => diagnostic.help("take `side` out: an open outline is the profile as it is"),
+                    None => diagnostic.help("delete `side`: an open outline is itself the profile"),
                 }
             }
             SideError::NoExtent => Diagnostic::new(
@@ -354,15 +354,15 @@ impl Told<'_> {
                 self.place(),
                 "both its sides are the same line",
             )
-            .help("delete one of the two; an open outline is the profile as it is, without `side`"),
+            .help("delete one of the two; an open outline needs no `side`"),
             SideError::Crossed { at, strokes } => self.crossed(at, strokes),
             SideError::Dense => Diagnostic::new(
                 Code::BrokenOutline,
-                format!("the outline in {subject} lies so close beside itself that it has no sides"),
+                format!("the outline in {subject} is too close to itself to have sides"),
                 self.place(),
                 "too many of its lines lie across each other",
             )
-            .help("draw the side that the blade cuts as an open line, and take `side` out"),
+            .help("draw the side that the blade cuts as an open line, and delete `side`"),
         })
     }
 
@@ -381,7 +381,7 @@ impl Told<'_> {
                 .and(self.stroke(one), "this one")
                 .and(self.stroke(other), "crosses or touches this one"),
         };
-        diagnostic.help("draw it as one line round the part that does not cross or touch itself")
+        diagnostic.help("draw it as one line around the part that does not cross or touch itself")
     }
 }
 

@@ -47,7 +47,7 @@ impl Told<'_> {
             .map_or_else(String::new, |layer| format!("layer `{}` of ", layer.node));
         let diagnostic = Diagnostic::new(
             Code::PartlyRead,
-            format!("not all of {on}`{}` is taken as it stands", self.path.node),
+            format!("parts of {on}`{}` were skipped or interpreted", self.path.node),
             place,
             "more is drawn here than the outline",
         )
@@ -63,7 +63,7 @@ impl Told<'_> {
             | Why::NotApplied => false,
         };
         let diagnostic = if self.layer.is_none() && drawing.unread.iter().any(is_dark) {
-            diagnostic.help("a layer that is named is read though it is off or frozen")
+            diagnostic.help("a named layer is read even if it is off or frozen")
         } else {
             diagnostic
         };

@@ -78,7 +78,7 @@ pub(super) fn extension_too_short(asked: &RoughVcut, extension: Length, least: L
         Code::ExtensionTooShort,
         format!("with an extension of {extension} mm the blade would turn within the work"),
         span,
-        format!("the edge lies {least} mm over the work"),
+        format!("the edge overhangs the work by {least} mm"),
     )
     .and(
         blade.cutting_length.span.unwrap_or(blade.span),
@@ -258,9 +258,9 @@ pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> 
     let objective = asked.objective.span.unwrap_or(asked.setup.head_span);
     let told = Diagnostic::new(
         Code::NoLeastLayer,
-        format!("the thinner the layer, the less {what}: nothing here holds the layer"),
+        format!("the thinner the layer, the less {what}: nothing here bounds the layer"),
         objective,
-        "needs a limit that holds the layer",
+        "needs a limit that bounds the layer",
     )
     .help("limit `time` or `cuts` from above, or `layer` or `step` from below");
     let end = |span: Span| Span {

@@ -105,10 +105,10 @@ pub(super) fn conflict(asked: &RoughVcut, problem: &Problem, bounds: &[Bound]) -
     parties.dedup_by(|(later, _), (earlier, _)| later.words == earlier.words);
     let words: Vec<&str> = parties.iter().map(|(party, _)| party.words.as_str()).collect();
     let message = match words.as_slice() {
-        [] => "no parameters keep all limits".to_owned(),
-        [one] => format!("no parameters keep {one}"),
-        [one, other] => format!("no parameters keep both {one} and {other}"),
-        [first @ .., last] => format!("no parameters keep all of {} and {last}", first.join(", ")),
+        [] => "no parameters satisfy all limits".to_owned(),
+        [one] => format!("no parameters satisfy {one}"),
+        [one, other] => format!("no parameters satisfy both {one} and {other}"),
+        [first @ .., last] => format!("no parameters satisfy all of {} and {last}", first.join(", ")),
     };
     let mut places = parties
         .iter()
@@ -128,7 +128,9 @@ pub(super) fn conflict(asked: &RoughVcut, problem: &Problem, bounds: &[Bound]) -
             .filter_map(|(&bound, values)| values.as_ref().map(|values| ladder(asked, bound, values)))
             .collect(),
         resort: Offer::openings(asked),
-        otherwise: Some("widen several of these at once, or set more of the parameters to `auto`".to_owned()),
+        otherwise: Some(
+            "relax several of these together, or set more of the parameters to `auto`".to_owned(),
+        ),
     }
 }
 
@@ -152,7 +154,7 @@ fn with_wider_scallops(nearest: &Offer) -> Ladder {
 pub(super) fn off_grid(asked: &RoughVcut) -> Diagnostic {
     Diagnostic::new(
         Code::LimitsConflict,
-        "no layer and step in whole micrometres were found that keep all limits",
+        "no layer and step in whole micrometres satisfy all limits",
         asked.setup.head_span,
         "the limits leave too little between them",
     )
