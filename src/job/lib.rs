@@ -16,7 +16,7 @@ pub use planned::{PlannedJob, PlannedOperation};
 pub use setup::Setup;
 
 use std::sync::Arc;
-use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
+use vcutc_backend_api::ir::{self, AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_diagnostics::source::{Span, Spanned};
@@ -96,6 +96,20 @@ pub struct Blade {
     pub thickness: Sourced<Length>,
     /// Which sides cut.
     pub edges: Edges,
+}
+
+impl Blade {
+    /// The blade as programs have it.
+    #[must_use]
+    pub fn in_program(&self) -> ir::Blade {
+        ir::Blade {
+            name: self.name.clone(),
+            cutting_length: self.cutting_length.value,
+            half_apex: self.half_apex.value,
+            thickness: self.thickness.value,
+            edges: self.edges,
+        }
+    }
 }
 
 /// Bounds of a value from below and above. Not crossed.

@@ -111,8 +111,11 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
     /// Why there is no plan: at once, before anything that helps is looked for.
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>>;
 
-    /// Whether there is a plan of it with nothing wrong, as far as is seen with so much work.
-    fn is_plannable(&self, ground: Ground<'_>, effort: &mut Effort) -> bool;
+    /// Whether there is a plan of it with nothing wrong, as far as is seen with so much work; none where planning and proving
+    /// the job says it as soon.
+    fn is_plannable(&self, _ground: Ground<'_>, _effort: &mut Effort) -> Option<bool> {
+        None
+    }
 }
 
 /// What open parameters are to make least, as far as other stages care.
@@ -201,14 +204,15 @@ pub trait Unplanned {
     ) -> Vec<Diagnostic>;
 }
 
+/// Where nothing can be tried.
+impl Unplanned for Diagnostic {
+    fn diagnostics(&self, _: &Wanted, _: &mut Effort, _: &mut WorksThere<'_>) -> Vec<Diagnostic> {
+        vec![self.clone()]
+    }
+}
+
 /// Changes of one operation of a job, tried before they are offered.
 pub trait Trials {
-    /// The job as it is.
-    fn job(&self) -> &CheckedJob;
-
-    /// Whether anybody still waits for the answer.
-    fn wanted(&self) -> &Wanted;
-
     /// Whether the job plans and proves with a change of the operation, within all its limits.
     fn proves(&mut self, change: &dyn Fn(&mut dyn Operation)) -> bool;
 

@@ -73,7 +73,9 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
     fn set_asked(&mut self, asked: &dyn Operation);
 
     /// How many cuts it has.
-    fn cuts(&self) -> usize;
+    fn cuts(&self) -> usize {
+        self.tips().len()
+    }
 
     /// Its cuts in the order of the plan: layer by layer, each from left to right.
     fn tips(&self) -> Vec<PlannedTip>;
@@ -102,7 +104,14 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
 
     /// The same cuts in rows, in this order of flanks and with no wider swing than this, where they are open: a plan of which
     /// a few motions say whether a machine may follow.
-    fn in_rows(&self, order: Option<Order>, swing: Option<Angle>, stock: Stock) -> Box<dyn PlannedOperation>;
+    fn in_rows(
+        &self,
+        _order: Option<Order>,
+        _swing: Option<Angle>,
+        _stock: Stock,
+    ) -> Box<dyn PlannedOperation> {
+        self.copied()
+    }
 
     /// Writes its motions down.
     fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder);
@@ -116,8 +125,15 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
         works: &mut WorksThere<'_>,
     ) -> Diagnostic;
 
-    /// Explains that more stays on the part than its limit on scallop allows.
-    fn explain_scallop(&self, report: &Report, trials: &mut dyn Trials) -> Option<Diagnostic>;
+    /// Says what helps where more stays on the part than its limit on scallop allows, as the diagnostic reports.
+    fn help_with_scallop(
+        &self,
+        over_limit: Diagnostic,
+        _report: &Report,
+        _trials: &mut dyn Trials,
+    ) -> Diagnostic {
+        over_limit
+    }
 
     /// What there is to warn of, however well it proves.
     fn warnings(&self) -> Vec<Diagnostic> {
@@ -128,7 +144,9 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
     fn to_remove(&self, profile: &Profile, top: &[Point2]) -> Area;
 
     /// Warns where much of that stays.
-    fn explain_what_stays(&self, balance: Balance<'_>, compile: &Compile<'_>) -> Option<Diagnostic>;
+    fn explain_what_stays(&self, _balance: Balance<'_>, _compile: &Compile<'_>) -> Option<Diagnostic> {
+        None
+    }
 
     /// The limits on time and cuts that it breaks, when it takes this long, with what it keeps.
     fn broken_limits(&self, _asked: &dyn Operation, _time: Duration) -> Option<Diagnostic> {
@@ -136,7 +154,9 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
     }
 
     /// Its parameters, in the order of the language reference.
-    fn parameters(&self) -> Vec<ParameterFigure>;
+    fn parameters(&self) -> Vec<ParameterFigure> {
+        Vec::new()
+    }
 
     /// Its parameters for people, with where each is from.
     fn tables(&self) -> Vec<ParameterTable>;

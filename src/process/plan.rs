@@ -117,15 +117,15 @@ impl Refusal<'_> {
 }
 
 /// Whether a job of one operation has a plan with nothing wrong that keeps all limits, as far as is seen with so much work.
-/// Where it has one, [`plan`] finds one.
+/// Where it has one, [`plan`] finds one. None where only planning and proving the job says so.
 #[must_use]
-pub fn is_plannable(job: &CheckedJob, effort: &mut Effort, wanted: &Wanted) -> bool {
+pub fn is_plannable(job: &CheckedJob, effort: &mut Effort, wanted: &Wanted) -> Option<bool> {
     match &job.operations[..] {
         [only] => only.is_plannable(
             first_ground(job, SearchSpace::along(RouteSet::Full), wanted),
             effort,
         ),
-        _ => false,
+        _ => None,
     }
 }
 

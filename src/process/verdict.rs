@@ -19,7 +19,7 @@ use vcutc_job::operation::{Operation, WorksThere};
 use vcutc_job::planned::Balance;
 use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::{CheckedJob, PlannedJob, PlannedOperation, Sourced};
-use vcutc_simulation::prove::{self, Bound, Finding, Findings, Release, Replay};
+use vcutc_simulation::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
 use vcutc_simulation::report::{Report, report};
 use vcutc_simulation::surface::Surface;
 use vcutc_simulation::timing::{timing, total};
@@ -100,14 +100,68 @@ pub fn diagnose_while(
         diagnostics.push(planned.explain(finding, count, &mut trials, works_there));
     }
     if diagnostics.is_empty()
-        && let Some((operation, _)) = scallop_excess(plan, &proven.report)
+        && let Some((operation, limit)) = scallop_excess(plan, &proven.report)
         && let Some(planned) = plan.operation(operation)
     {
+        let found = over_limit(job, planned, limit, &proven.report);
         let mut trials = Attempts::new(job, wanted, operation, &mut effort);
-        diagnostics.extend(planned.explain_scallop(&proven.report, &mut trials));
+        diagnostics.push(planned.help_with_scallop(found, &proven.report, &mut trials));
     }
     diagnostics.extend(plan.operations.iter().flat_map(|planned| planned.warnings()));
     diagnostics
+}
+
+/// More stays on the part than a limit on scallop allows.
+fn over_limit(
+    job: &CheckedJob,
+    planned: &dyn PlannedOperation,
+    limit: Sourced<Length>,
+    report: &Report,
+) -> Diagnostic {
+    let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
+    let headline = format!(
+        "{height} mm of material remain on the part at x {} mm, the limit is {} mm",
+        show(peak.x),
+        show(limit.value.to_mm())
+    );
+    let span = limit.span.unwrap_or(planned.asked().setup().head_span);
+    Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit").and(
+        job.profile_span,
+        format!(
+            "the part lies {height} mm below the highest material, {}",
+            point(peak)
+        ),
+    )
+}
+
+/// What is wrong with a cut, in words that fit any operation.
+#[must_use]
+pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
+    let span = asked.setup().head_span;
+    match finding.fault {
+        CutFault::NotFreed { needed, available } => Diagnostic::new(
+            Code::ChipNotFreed,
+            format!(
+                "{} needs {} mm of edge, the blade has {} mm",
+                place(&finding),
+                show(needed.to_mm()),
+                show(available.to_mm())
+            ),
+            span,
+            "a cut of this operation",
+        )
+        .help("use a longer blade, or cut less deep"),
+        CutFault::Blocked { at } => Diagnostic::new(
+            Code::BladeBlocked,
+            format!(
+                "above {}, uncut material is in the way of the blade",
+                place(&finding)
+            ),
+            span,
+            format!("the blade meets material at {}", point(at)),
+        ),
+        CutFault::Overcut { at, depth } => overcut(asked, finding, at, depth),
+    }
 }
 
 /// A cut that enters the part.

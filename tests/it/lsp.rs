@@ -1,7 +1,7 @@
 //! The language server as an editor meets it.
 
 mod answers;
-mod editor;
+pub(crate) mod editor;
 mod edits;
 #[cfg(feature = "cli")]
 mod files;

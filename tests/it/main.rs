@@ -67,6 +67,8 @@ mod referees;
 mod repository;
 mod scallop;
 mod schema;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod scribe;
 mod segments;
 #[cfg(feature = "krl")]
 mod serial_arm;

@@ -24,7 +24,7 @@ use postures::Postures;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
-    Action, Blade, FeedId, Flank, Operation, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
+    Action, FeedId, Flank, Operation, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
 };
 use vcutc_geometry::grid;
 use vcutc_job::{Direction, Order};
@@ -35,16 +35,9 @@ const KIND: OperationKind = OperationKind::named("rough_vcut").unwrap();
 
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut ProgramBuilder) {
-    let asked = &planned.asked;
     let operation = builder.operation(Operation {
         kind: KIND,
-        blade: Blade {
-            name: asked.setup.blade.name.clone(),
-            cutting_length: asked.setup.blade.cutting_length.value,
-            half_apex: asked.setup.blade.half_apex.value,
-            thickness: asked.setup.blade.thickness.value,
-            edges: asked.setup.blade.edges,
-        },
+        blade: planned.asked.setup.blade.in_program(),
         source,
     });
     let mut writer = Writer::new(planned, operation, builder);

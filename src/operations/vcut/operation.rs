@@ -148,8 +148,8 @@ impl Operation for RoughVcut {
         })
     }
 
-    fn is_plannable(&self, ground: Ground<'_>, effort: &mut Effort) -> bool {
-        choice::is_plannable(self, ground, effort)
+    fn is_plannable(&self, ground: Ground<'_>, effort: &mut Effort) -> Option<bool> {
+        Some(choice::is_plannable(self, ground, effort))
     }
 }
 

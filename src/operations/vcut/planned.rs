@@ -115,8 +115,13 @@ impl PlannedOperation for PlannedVcut {
         verdict::explain(self, finding, count, trials, works)
     }
 
-    fn explain_scallop(&self, report: &Report, trials: &mut dyn Trials) -> Option<Diagnostic> {
-        verdict::over_limit(self, report, trials)
+    fn help_with_scallop(
+        &self,
+        over_limit: Diagnostic,
+        report: &Report,
+        trials: &mut dyn Trials,
+    ) -> Diagnostic {
+        verdict::helped(over_limit, self, report, trials)
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {

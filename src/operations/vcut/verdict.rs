@@ -6,7 +6,7 @@ mod given;
 mod scallop;
 mod stays;
 
-pub(crate) use scallop::over_limit;
+pub(crate) use scallop::helped;
 pub(crate) use stays::much_stays;
 
 use crate::asked::RoughVcut;

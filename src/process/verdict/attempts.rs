@@ -40,14 +40,6 @@ impl<'a> Attempts<'a> {
 }
 
 impl Trials for Attempts<'_> {
-    fn job(&self) -> &CheckedJob {
-        self.job
-    }
-
-    fn wanted(&self) -> &Wanted {
-        self.wanted
-    }
-
     fn proves(&mut self, change: &dyn Fn(&mut dyn Operation)) -> bool {
         if self.effort.is_spent() {
             return false;
@@ -55,8 +47,8 @@ impl Trials for Attempts<'_> {
         let Some(changed) = changed(self.job, self.operation, change) else {
             return false;
         };
-        if let [_] = changed.operations[..] {
-            return is_plannable(&changed, self.effort, self.wanted);
+        if let Some(answer) = is_plannable(&changed, self.effort, self.wanted) {
+            return answer;
         }
         self.effort.spend(WHOLE_JOB);
         planned_and_proven(&changed, self.wanted, RouteSet::Full)

@@ -3,13 +3,14 @@
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use vcutc::diagnostics::source::{Entry, LoadError, Loader, entries_among};
+use vcutc::job::operation::Operations;
 use vcutc::lsp::wire::Incoming;
 use vcutc::lsp::{Server, Workspace};
 use vcutc::registry;
 
 /// Files by path.
 #[derive(Default)]
-pub(super) struct Memory(pub(super) BTreeMap<String, String>);
+pub(crate) struct Memory(pub(crate) BTreeMap<String, String>);
 
 impl Loader for Memory {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
@@ -31,24 +32,24 @@ impl Workspace for Memory {
 }
 
 /// The editor.
-pub(super) struct Editor {
-    pub(super) server: Server,
-    pub(super) files: Memory,
+pub(crate) struct Editor {
+    pub(crate) server: Server,
+    pub(crate) files: Memory,
     /// What was told of each document last: version and diagnostics.
-    pub(super) told: BTreeMap<String, Value>,
+    pub(crate) told: BTreeMap<String, Value>,
     /// What was told in the log.
-    pub(super) log: Vec<String>,
+    pub(crate) log: Vec<String>,
     texts: BTreeMap<String, (i64, String)>,
     requests: i64,
 }
 
 /// The URI of a path of letters that need no escapes.
-pub(super) fn uri(path: &str) -> String {
+pub(crate) fn uri(path: &str) -> String {
     format!("file://{path}")
 }
 
 /// Line and UTF-16 units of a byte, counted from the front. A line ends with `\n`, `\r\n` or `\r`.
-pub(super) fn position(text: &str, offset: usize) -> Value {
+pub(crate) fn position(text: &str, offset: usize) -> Value {
     let (mut line, mut units) = (0, 0);
     for (at, c) in text.char_indices().take_while(|(at, _)| *at < offset) {
         let is_end = c == '\n' || c == '\r' && !text[at + 1..].starts_with('\n');
@@ -63,13 +64,18 @@ pub(super) fn position(text: &str, offset: usize) -> Value {
 
 impl Editor {
     /// An editor that has introduced itself, with these files in the folder `/shop`.
-    pub(super) fn with(files: &[(&str, &str)]) -> Self {
+    pub(crate) fn with(files: &[(&str, &str)]) -> Self {
+        Self::knowing(registry::OPERATIONS, files)
+    }
+
+    /// As [`Self::with`], in a language with these operations.
+    pub(crate) fn knowing(operations: Operations, files: &[(&str, &str)]) -> Self {
         let files = files
             .iter()
             .map(|(name, text)| (format!("/shop/{name}"), (*text).to_owned()))
             .collect();
         let mut editor = Self {
-            server: Server::new(registry::OPERATIONS, &registry::backends()),
+            server: Server::new(operations, &registry::backends()),
             files: Memory(files),
             told: BTreeMap::new(),
             log: Vec::new(),
@@ -88,7 +94,7 @@ impl Editor {
     }
 
     /// Asks, and gives the result or the error.
-    pub(super) fn ask(&mut self, method: &str, params: Value) -> Result<Value, Value> {
+    pub(crate) fn ask(&mut self, method: &str, params: Value) -> Result<Value, Value> {
         self.requests += 1;
         let message = Incoming::Request {
             id: json!(self.requests),
@@ -105,7 +111,7 @@ impl Editor {
         }
     }
 
-    pub(super) fn tell(&mut self, method: &str, params: Value) {
+    pub(crate) fn tell(&mut self, method: &str, params: Value) {
         let message = Incoming::Notification {
             method: method.to_owned(),
             params,
@@ -115,12 +121,12 @@ impl Editor {
     }
 
     /// Lets the server look at what has changed.
-    pub(super) fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         let messages = self.server.settle(&self.files);
         self.take(&messages);
     }
 
-    pub(super) fn take(&mut self, messages: &[Value]) {
+    pub(crate) fn take(&mut self, messages: &[Value]) {
         for message in messages {
             if message["method"] == "window/logMessage" {
                 self.log
@@ -135,19 +141,19 @@ impl Editor {
     }
 
     /// Opens a file as it is on the disk.
-    pub(super) fn open(&mut self, path: &str) {
+    pub(crate) fn open(&mut self, path: &str) {
         let text = self.files.0[path].clone();
         self.open_as(path, &text);
     }
 
-    pub(super) fn open_as(&mut self, path: &str, text: &str) {
+    pub(crate) fn open_as(&mut self, path: &str, text: &str) {
         let document = json!({ "uri": uri(path), "languageId": "vcut", "version": 1, "text": text });
         self.texts.insert(path.to_owned(), (1, text.to_owned()));
         self.tell("textDocument/didOpen", json!({ "textDocument": document }));
         self.settle();
     }
 
-    pub(super) fn close(&mut self, path: &str) {
+    pub(crate) fn close(&mut self, path: &str) {
         self.texts.remove(path);
         let document = json!({ "uri": uri(path) });
         self.tell("textDocument/didClose", json!({ "textDocument": document }));
@@ -155,12 +161,12 @@ impl Editor {
     }
 
     /// The text of an open document, as this editor has it.
-    pub(super) fn text(&self, path: &str) -> &str {
+    pub(crate) fn text(&self, path: &str) -> &str {
         &self.texts[path].1
     }
 
     /// Replaces bytes of an open document, and does not wait for what the server says.
-    pub(super) fn type_in(&mut self, path: &str, bytes: std::ops::Range<usize>, new: &str) {
+    pub(crate) fn type_in(&mut self, path: &str, bytes: std::ops::Range<usize>, new: &str) {
         let (version, text) = self.texts.get_mut(path).unwrap();
         let range = json!({ "start": position(text, bytes.start), "end": position(text, bytes.end) });
         text.replace_range(bytes, new);
@@ -172,7 +178,7 @@ impl Editor {
     }
 
     /// Replaces the only place of a text by another.
-    pub(super) fn replace(&mut self, path: &str, old: &str, new: &str) {
+    pub(crate) fn replace(&mut self, path: &str, old: &str, new: &str) {
         let text = self.text(path);
         let at = text.find(old).unwrap_or_else(|| panic!("no {old}"));
         self.type_in(path, at..at + old.len(), new);
@@ -180,7 +186,7 @@ impl Editor {
     }
 
     /// What was told of a document: its diagnostics.
-    pub(super) fn diagnostics(&self, path: &str) -> Vec<Value> {
+    pub(crate) fn diagnostics(&self, path: &str) -> Vec<Value> {
         let told = self.told.get(&uri(path));
         told.map_or(Vec::new(), |params| {
             params["diagnostics"].as_array().unwrap().clone()
@@ -188,7 +194,7 @@ impl Editor {
     }
 
     /// The codes of a document's diagnostics.
-    pub(super) fn codes(&self, path: &str) -> Vec<String> {
+    pub(crate) fn codes(&self, path: &str) -> Vec<String> {
         let diagnostics = self.diagnostics(path);
         diagnostics
             .iter()
@@ -197,7 +203,7 @@ impl Editor {
     }
 
     /// Parameters for a request about the place of `|` in a piece of the text, which it is not part of.
-    pub(super) fn at(&self, path: &str, piece: &str) -> Value {
+    pub(crate) fn at(&self, path: &str, piece: &str) -> Value {
         let (before, after) = piece.split_once('|').unwrap();
         let text = self.text(path);
         let found = text.find(&format!("{before}{after}"));
@@ -206,7 +212,7 @@ impl Editor {
     }
 
     /// Makes the edits of an answer in files and open documents.
-    pub(super) fn make(&mut self, edit: &Value) {
+    pub(crate) fn make(&mut self, edit: &Value) {
         for (uri, edits) in edit["changes"].as_object().unwrap() {
             let path = uri.strip_prefix("file://").unwrap().to_owned();
             let is_open = self.texts.contains_key(&path);
@@ -239,7 +245,7 @@ impl Editor {
 }
 
 /// The byte of a position.
-pub(super) fn offset(text: &str, at: &Value) -> usize {
+pub(crate) fn offset(text: &str, at: &Value) -> usize {
     let (line, units) = (at["line"].as_u64().unwrap(), at["character"].as_u64().unwrap());
     let start: usize = text
         .split_inclusive('\n')
@@ -260,7 +266,7 @@ pub(super) fn offset(text: &str, at: &Value) -> usize {
 }
 
 /// A small job that is right and quickly planned.
-pub(super) const RIB: &str = "\
+pub(crate) const RIB: &str = "\
 // Eine Rippe für den Flügel 🔪 𝒳
 job \"rib\"
 use \"blades.vcut\"
@@ -285,7 +291,7 @@ rough vcut {
 ";
 
 /// Its library.
-pub(super) const BLADES: &str = "\
+pub(crate) const BLADES: &str = "\
 blade dagger { cutting_length = 20 mm, half_apex = 7.13 deg, thickness = 0 mm, edges = double }
 let slow = 200 mm/s
 ";

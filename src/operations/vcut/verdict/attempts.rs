@@ -4,18 +4,12 @@ use crate::asked::RoughVcut;
 use crate::plan::PlannedVcut;
 use crate::plan::refusal::Offer;
 use core::any::Any;
-use vcutc_job::CheckedJob;
 use vcutc_job::operation::{Operation, Trials};
 
 /// Changes of one operation of a job.
 pub(super) struct Attempts<'t>(pub(super) &'t mut dyn Trials);
 
 impl Attempts<'_> {
-    /// The job as it is.
-    pub(super) fn job(&self) -> &CheckedJob {
-        self.0.job()
-    }
-
     /// The first of what the operation gives of its cuts that works left to the compiler, or all of it.
     pub(super) fn opened(&mut self, asked: &RoughVcut) -> Option<Offer> {
         Offer::openings(asked)

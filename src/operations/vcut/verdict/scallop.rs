@@ -4,13 +4,12 @@ use super::attempts::Attempts;
 use crate::asked::{Residual, RoughVcut};
 use crate::plan::PlannedVcut;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
-use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::grid;
 use vcutc_job::Auto;
 use vcutc_job::operation::Trials;
-use vcutc_process::verdict::point;
 use vcutc_simulation::report::Report;
 
 /// Most limits that are tried before giving up, and how much wider each is than the one before.
@@ -32,35 +31,25 @@ struct Change {
     layer: Option<(Length, Span)>,
 }
 
-/// More stays than the limit on scallop allows: what stays, and what to change.
-pub(crate) fn over_limit(vcut: &PlannedVcut, report: &Report, trials: &mut dyn Trials) -> Option<Diagnostic> {
+/// What to change where more stays than the limit on scallop allows.
+pub(crate) fn helped(
+    over_limit: Diagnostic,
+    vcut: &PlannedVcut,
+    report: &Report,
+    trials: &mut dyn Trials,
+) -> Diagnostic {
     let asked = &vcut.asked;
-    let limit = asked.limits.scallop?.value;
-    let (height, peak) = (show(report.scallop.height.to_mm()), report.scallop.peak);
-    let limit_mm = show(limit.to_mm());
-    let headline = format!(
-        "{height} mm of material remain on the part at x {} mm, the limit is {limit_mm} mm",
-        show(peak.x)
-    );
-    let span = limit_span(asked).unwrap_or(asked.setup.head_span);
     let mut attempts = Attempts(trials);
-    let diagnostic = Diagnostic::new(Code::ScallopOverLimit, headline, span, "the limit").and(
-        attempts.job().profile_span,
-        format!(
-            "the part lies {height} mm below the highest material, {}",
-            point(peak)
-        ),
-    );
     let change = match asked.tips {
         // Nothing moves given tips.
         Some(_) => None,
         None if vcut.cuts.len() > MANY => None,
         None => residual_and_layer(&mut attempts, vcut),
     };
-    Some(match change {
-        Some(change) => change.offered(diagnostic),
-        None => limit_or_swing(diagnostic, &mut attempts, vcut, report.scallop.height),
-    })
+    match change {
+        Some(change) => change.offered(over_limit),
+        None => limit_or_swing(over_limit, &mut attempts, vcut, report.scallop.height),
+    }
 }
 
 fn limit_span(asked: &RoughVcut) -> Option<Span> {
