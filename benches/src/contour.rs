@@ -16,8 +16,8 @@ use i_overlay::core::overlay::{IntOverlayOptions, Overlay};
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 use vcutc::job::PlannedJob;
-use vcutc::vcut::plan::{PlannedVcut};
 use vcutc::simulation::prove::Replay;
+use vcutc::vcut::PlannedVcut;
 
 /// How high triangles are.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +60,11 @@ impl Polygons {
             Axes::Swapped => (z, x),
         };
         let mut chips = Vec::new();
-        for PlannedOperation::RoughVcut(vcut) in &plan.operations {
+        for vcut in plan
+            .operations
+            .iter()
+            .filter_map(|planned| PlannedVcut::of(&**planned))
+        {
             let flanks = vcut.parameters.flanks;
             let reach = match height {
                 Height::BladeReach => flanks.reach.to_mm(),

@@ -6,13 +6,11 @@
 use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::job::CheckedJob;
-use vcutc::job::sema;
-use vcutc::vcut::choice;
 use vcutc::job::PlannedJob;
-use vcutc::vcut::plan::{PlannedVcut};
+use vcutc::job::sema;
+use vcutc::process::{lower, plan};
 use vcutc::simulation::prove::{self, Bound, Findings, Replay};
 use vcutc::simulation::timing::Times;
-use vcutc::process::{lower, sim};
 use vcutc::syntax::{self, ast::Ast};
 use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};
 use vcutc_backend_api::bundle::{Sink, SinkError};
@@ -77,7 +75,10 @@ pub fn check(text: &str) -> (SourceMap, CheckedJob) {
     let checked = sema::check(
         PATH,
         &OneText(text),
-        sema::Choices { operations: vcutc::registry::OPERATIONS, ..sema::Choices::default() },
+        sema::Choices {
+            operations: vcutc::registry::OPERATIONS,
+            ..sema::Choices::default()
+        },
         &mut sources,
         &mut diagnostics,
     );
@@ -107,7 +108,7 @@ pub fn compile(text: &str) -> Outcome {
 #[must_use]
 #[inline(never)]
 pub fn plan(job: &CheckedJob) -> PlannedJob {
-    let (plan, diagnostics) = choice::choose(job);
+    let (plan, diagnostics) = plan::plan(job);
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
     plan.expect("the job can be planned")
 }
@@ -115,10 +116,7 @@ pub fn plan(job: &CheckedJob) -> PlannedJob {
 /// Number of V-cuts in a plan.
 #[must_use]
 pub fn cuts(plan: &PlannedJob) -> usize {
-    plan.operations
-        .iter()
-        .map(|PlannedOperation::RoughVcut(vcut)| vcut.cuts.len())
-        .sum()
+    plan.cuts()
 }
 
 /// Plan to verified program.
@@ -135,10 +133,9 @@ pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
     let bounds: Vec<Bound<'_>> = plan
         .operations
         .iter()
-        .map(|PlannedOperation::RoughVcut(vcut)| Bound {
-            part: &vcut.bound,
-            drop: vcut.parameters.drop,
+        .map(|planned| Bound {
             edge: None,
+            ..planned.bound()
         })
         .collect();
     let replay = prove::replay(program, &bounds);
@@ -150,7 +147,7 @@ pub fn contour(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
 #[must_use]
 #[inline(never)]
 pub fn report(plan: &PlannedJob, program: &VerifiedProgram, replay: Replay) -> f64 {
-    sim::report::report(replay, plan.stock, &plan.profile, times(program))
+    vcutc::simulation::report::report(replay, plan.stock, &plan.profile, times(program))
         .removed
         .to_mm2()
 }
@@ -158,14 +155,14 @@ pub fn report(plan: &PlannedJob, program: &VerifiedProgram, replay: Replay) -> f
 /// The times of a program.
 #[must_use]
 pub fn times(program: &VerifiedProgram) -> Times {
-    sim::timing::timing(program)
+    vcutc::simulation::timing::timing(program)
 }
 
 /// Machined contour to how far it and the part's deviate from each other, in mm; the other figures come with it.
 #[must_use]
 #[inline(never)]
 pub fn deviation(plan: &PlannedJob, replay: Replay, times: Times) -> f64 {
-    sim::report::report(replay, plan.stock, &plan.profile, times)
+    vcutc::simulation::report::report(replay, plan.stock, &plan.profile, times)
         .largest_deviation()
         .to_mm()
 }

@@ -9,7 +9,7 @@ use vcutc::diagnostics::Code;
 const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
         Code::Overcut,
-        "src/process/replayed.rs",
+        "src/operations/vcut/replayed.rs",
         "a_cut_into_the_part_is_found_with_its_place_and_depth",
         "the planner keeps every cut out of the part; the proof is there to find its mistakes",
     ),

@@ -14,7 +14,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diagnostics/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
-    ("rayon::", &["src/process/choice/", "src/motion/"]),
+    ("rayon::", &["src/operations/vcut/choice/", "src/motion/"]),
     (
         "hmac_sha256::",
         &["src/syntax/fingerprint.rs", "src/report/digest.rs"],
@@ -248,7 +248,7 @@ fn links_between_documents_lead_somewhere() {
     assert_none(&breaches);
 }
 
-/// Comments say `docs/process.md`, documents `src/process/plan/grid.rs`: what stands so in backquotes is a file or a folder.
+/// Comments say `docs/process.md`, documents `src/geometry/grid.rs`: what stands so in backquotes is a file or a folder.
 #[test]
 fn files_that_are_cited_exist() {
     let mut breaches = Vec::new();
