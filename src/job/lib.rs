@@ -170,6 +170,8 @@ pub struct Machine {
     pub model: Arc<Model>,
     /// Where the model's name stands.
     pub model_span: Span,
+    /// Where the file of the machine states the limits of its axes; empty for machines of the catalogue.
+    pub limit_spans: Vec<LimitSpans>,
     /// Blade frame seen from the flange.
     pub tool: Sourced<PlacedFrame>,
     /// Workpiece frame seen from the machine's root.
@@ -184,6 +186,15 @@ pub struct Machine {
     pub ready: Sourced<Ready>,
     /// Options for targets: one for each nested block such as `krl { ... }`.
     pub targets: Vec<TargetOptions>,
+}
+
+/// Where the limits of an axis are stated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LimitSpans {
+    /// The range of its values.
+    pub range: Option<Span>,
+    /// Its highest rate.
+    pub rate: Option<Span>,
 }
 
 /// Options of one target, evaluated but not yet held against what the target takes.

@@ -70,6 +70,7 @@ fn blade(blade: &mut Blade, place: Span) {
 fn machine(machine: &mut Machine, place: Span) {
     machine.head_span = place;
     machine.model_span = place;
+    machine.limit_spans.clear();
     machine.tool.forget_place(place);
     machine.base.forget_place(place);
     optional(&mut machine.load, place);

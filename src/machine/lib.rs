@@ -5,6 +5,7 @@ pub mod catalogue;
 pub mod facts;
 pub mod habits;
 pub mod kinematics;
+pub mod limit_places;
 pub mod path_limits;
 mod reach;
 pub mod sheet;

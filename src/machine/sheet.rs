@@ -10,6 +10,7 @@ mod types;
 
 use super::Model;
 use super::facts::{self, Facts, FkCheck};
+use super::limit_places::LimitPlaces;
 use super::path_limits::{self, PathLimits};
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
@@ -172,6 +173,36 @@ impl Sheet {
             path: self.path,
         }
     }
+}
+
+/// Where a sheet states the limits of its axes; nowhere in one that cannot be read.
+pub(crate) fn limit_places(text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
+    let places = |root: &Table<'_>, flaws: &mut Vec<Flaw>| Some(places_in(root, axes, flaws));
+    document::parse(text, WORDING, places).unwrap_or_default()
+}
+
+fn places_in(root: &Table<'_>, axes: &[Axis], flaws: &mut Vec<Flaw>) -> Vec<LimitPlaces> {
+    if let Some(tables) = root.loose_table("axis", flaws) {
+        let of_axis = |axis: &Axis| {
+            let table = tables.loose_table(&axis.name.to_lowercase(), &mut Vec::new())?;
+            let stated = |keys: [&str; 2]| keys.into_iter().find(|key| table.has(key)).map(|key| table.span_of(key));
+            Some(LimitPlaces {
+                range: stated(["travel_mm", "range_deg"]),
+                rate: stated(["rate_mm_s", "rate_deg_s"]),
+            })
+        };
+        return axes.iter().map(|axis| of_axis(axis).unwrap_or_default()).collect();
+    }
+    let Some(limits) = root.loose_table("limits", flaws) else {
+        return Vec::new();
+    };
+    let ranges = limits.spans_of_elements("limits_deg");
+    let rates = limits.spans_of_elements("speeds_deg_s");
+    let places = |index: usize| LimitPlaces {
+        range: ranges.get(index).cloned(),
+        rate: rates.get(index).cloned(),
+    };
+    (0..axes.len()).map(places).collect()
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ mod tests;
 mod tree;
 
 use super::Model;
+use super::limit_places::LimitPlaces;
 use super::path_limits::PathLimits;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::{JointAxis, SerialArm};
@@ -88,6 +89,31 @@ fn axis(joint: &MovingJoint) -> Axis {
         acceleration: None,
         jerk: None,
     }
+}
+
+/// Where a URDF states the limits of its axes; nowhere in one that cannot be read.
+pub(super) fn limit_places(text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
+    let Ok(document) = elements::document(text) else {
+        return Vec::new();
+    };
+    let limit_of = |axis: &Axis| {
+        let is_it = |node: &roxmltree::Node<'_, '_>| {
+            node.has_tag_name("joint") && node.attribute("name") == Some(&axis.name)
+        };
+        let joint = document.descendants().find(is_it)?;
+        joint.children().find(|child| child.has_tag_name("limit"))
+    };
+    let places = |axis: &Axis| {
+        let limit = limit_of(axis);
+        let value = |name: &str| Some(limit?.attribute_node(name)?.range_value());
+        LimitPlaces {
+            range: value("lower").zip(value("upper")).map(|(lower, upper)| {
+                lower.start.min(upper.start)..lower.end.max(upper.end)
+            }),
+            rate: value("velocity"),
+        }
+    };
+    axes.iter().map(places).collect()
 }
 
 /// A chain of joints, all at zero, from the root of the tree outwards.

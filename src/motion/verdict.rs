@@ -25,7 +25,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::PlannedJob;
-use vcutc_job::{CheckedJob, Machine, Setup};
+use vcutc_job::{CheckedJob, LimitSpans, Machine, Setup};
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.
@@ -313,6 +313,7 @@ impl<'s> Scene<'s> {
     }
 
     fn limit(&self, place: &str, axis: usize, value: f64, base: Span) -> Diagnostic {
+        let span = self.limits_of(axis).range.unwrap_or(self.machine.model_span);
         let Some(axis) = self.axis(axis) else {
             return self.unnamed(Code::AxisLimit, place, base);
         };
@@ -328,11 +329,12 @@ impl<'s> Scene<'s> {
             base,
             "with the work in this place",
         )
-        .and(self.machine.model_span, format!("{name} ends at {limit}"))
+        .and(span, format!("{name} ends at {limit}"))
     }
 
     fn rate(&self, place: &str, axis: usize, rate: f64, op: OpId) -> Diagnostic {
         let (span, speed) = self.speed(op);
+        let stated = self.limits_of(axis).rate.unwrap_or(self.machine.model_span);
         let Some(axis) = self.axis(axis) else {
             return self.unnamed(Code::AxisRate, place, span);
         };
@@ -352,7 +354,7 @@ impl<'s> Scene<'s> {
             span,
             "too fast for this axis there",
         )
-        .and(self.machine.model_span, fastest)
+        .and(stated, fastest)
     }
 
     fn singular(&self, place: &str, singularity: Singularity, base: Span) -> Diagnostic {
@@ -507,6 +509,11 @@ impl<'s> Scene<'s> {
             "this happens {} % along the way",
             show((sweep.at * 1000.0).round() / 10.0)
         ))
+    }
+
+    /// Where the machine's own file states the limits of an axis.
+    fn limits_of(&self, index: usize) -> LimitSpans {
+        self.machine.limit_spans.get(index).copied().unwrap_or_default()
     }
 
     fn axis(&self, index: usize) -> Option<&Axis> {

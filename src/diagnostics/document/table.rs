@@ -159,6 +159,15 @@ impl<'t> Table<'t> {
         self.get(key).map_or_else(|| self.span(), Spanned::span)
     }
 
+    /// Where the elements of a list under a key are; none where it is not a list.
+    #[must_use]
+    pub fn spans_of_elements(&self, key: &str) -> Vec<Range<usize>> {
+        match self.get(key).map(Spanned::get_ref) {
+            Some(DeValue::Array(elements)) => elements.iter().map(Spanned::span).collect(),
+            Some(_) | None => Vec::new(),
+        }
+    }
+
     fn path(&self, key: &str) -> String {
         match self.title.trim_matches(['[', ']']) {
             "" => format!("[{key}]"),

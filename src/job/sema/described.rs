@@ -4,7 +4,7 @@ use super::files::{Relative, not_loaded, text_of};
 use super::report::Checked;
 use super::session::Session;
 use vcutc_diagnostics::document::flaw::Flaw;
-use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::source::{FileId, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
 
 /// What a file describes. Its flaws are told under a code, each with the place where the file is named.
@@ -14,7 +14,7 @@ pub(crate) fn read<T>(
     named_at: Span,
     session: &mut Session<'_>,
     code: Code,
-    parse: impl FnOnce(&str) -> Result<T, Vec<Flaw>>,
+    parse: impl FnOnce(FileId, &str) -> Result<T, Vec<Flaw>>,
 ) -> Checked<T> {
     let bytes = session.loader.load(path).map_err(|error| {
         let diagnostic = not_loaded(&named_at, path, relative, &error, session);
@@ -25,7 +25,7 @@ pub(crate) fn read<T>(
         return Err(reported);
     }
     let text = session.sources.get(file).map_or("", |file| file.text.as_str());
-    parse(text).map_err(|flaws| {
+    parse(file, text).map_err(|flaws| {
         let told = |flaw: &Flaw| {
             flaw.diagnostic(code, file)
                 .and(named_at, "the file is named here")

@@ -87,18 +87,20 @@ pub(crate) fn check(
     let load = optional(&fields, "load", &mut reader, load);
     let home = match (fields.value("home"), &model) {
         (Ok(None), _) => Ok(None),
-        (Ok(Some(expr)), Ok(model)) => {
-            home::read(expr, model, head.model.span, &mut reader).map(|home| Some(sourced(home, expr.span)))
+        (Ok(Some(expr)), Ok(described)) => {
+            home::read(expr, &described.model, head.model.span, &mut reader).map(|home| Some(sourced(home, expr.span)))
         }
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
     let ultrasonic = optional(&fields, "ultrasonic", &mut reader, ultrasonic);
     let ready = optional(&fields, "ready", &mut reader, ready);
+    let Described { model, limits } = model?;
     Ok(Machine {
         name: head.name.node.to_owned(),
         head_span: place.head,
-        model: model?,
+        model,
         model_span: head.model.span,
+        limit_spans: limits,
         tool: tool?,
         base: base?,
         load: load?,

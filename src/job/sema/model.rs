@@ -7,36 +7,50 @@ use super::machine::Head;
 use super::names::did_you_mean;
 use super::report::{Checked, Reports};
 use super::session::Session;
+use crate::LimitSpans;
+use core::ops::Range;
 use std::sync::Arc;
 use vcutc_backend_api::ir::MachineKind;
-use vcutc_diagnostics::source::{Spanned, join_path};
+use vcutc_diagnostics::source::{Span, Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_machine::limit_places::{LimitPlaces, limit_places};
 use vcutc_machine::{self as machine, FileKind, Model, Origin, catalogue};
 
+/// A model, and where its file states the limits of its axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Described {
+    pub(crate) model: Arc<Model>,
+    pub(crate) limits: Vec<LimitSpans>,
+}
+
 /// The model, which is of the kind that the head says.
-pub(crate) fn resolve(head: &Head<'_>, session: &mut Session<'_>) -> Checked<Arc<Model>> {
+pub(crate) fn resolve(head: &Head<'_>, session: &mut Session<'_>) -> Checked<Described> {
     let model = match Origin::of(head.model.node) {
         Origin::Catalogue => from_catalogue(head.model, session)?,
         Origin::File(kind) => from_file(kind, head.model, session)?,
     };
-    if model.kind() == head.kind.node {
+    let kind = model.model.kind();
+    if kind == head.kind.node {
         return Ok(model);
     }
-    Err(session.reports.push(wrong_kind(head, model.kind())))
+    Err(session.reports.push(wrong_kind(head, kind)))
 }
 
 /// The machine of that name. Each is read once, however many cells have one.
-fn from_catalogue(model: Spanned<&str>, session: &mut Session<'_>) -> Checked<Arc<Model>> {
+fn from_catalogue(model: Spanned<&str>, session: &mut Session<'_>) -> Checked<Described> {
     if let Some(known) = session.machines.get(model.node) {
         return known.clone();
     }
     match catalogue::find(model.node) {
         Some(machine) => {
-            let machine = Arc::new(machine);
+            let described = Described {
+                model: Arc::new(machine),
+                limits: Vec::new(),
+            };
             session
                 .machines
-                .insert(model.node.to_owned(), Ok(Arc::clone(&machine)));
-            Ok(machine)
+                .insert(model.node.to_owned(), Ok(described.clone()));
+            Ok(described)
         }
         // Not kept: every place that names it is to be told.
         None => {
@@ -68,7 +82,7 @@ fn unknown(model: Spanned<&str>, reports: &Reports) -> Diagnostic {
 }
 
 /// The machine that a file describes. The path is relative to the file in which the machine's block stands.
-fn from_file(kind: FileKind, model: Spanned<&str>, session: &mut Session<'_>) -> Checked<Arc<Model>> {
+fn from_file(kind: FileKind, model: Spanned<&str>, session: &mut Session<'_>) -> Checked<Described> {
     let path = join_path(session.sources.name(model.span.file), model.node);
     if let Some(known) = session.machines.get(&path) {
         return known.clone();
@@ -79,7 +93,19 @@ fn from_file(kind: FileKind, model: Spanned<&str>, session: &mut Session<'_>) ->
         model.span,
         session,
         Code::BadMachineFile,
-        |text| machine::read(model.node, kind, text).map(Arc::new),
+        |file, text| {
+            let model = machine::read(model.node, kind, text)?;
+            let places = limit_places(kind, text, &model.axes).into_iter();
+            let span = |place: Option<Range<usize>>| place.map(|place| Span::of_bytes(file, place));
+            let limits = places.map(|LimitPlaces { range, rate }| LimitSpans {
+                range: span(range),
+                rate: span(rate),
+            });
+            Ok(Described {
+                limits: limits.collect(),
+                model: Arc::new(model),
+            })
+        },
     );
     session.machines.insert(path, machine.clone());
     machine

@@ -194,7 +194,7 @@ fn profile(
             value.span,
             session,
             Code::BadProfile,
-            habits::parse,
+            |_, text| habits::parse(text),
         );
         session.profiles.insert(path.clone(), profile);
     }
