@@ -16,7 +16,6 @@ impl Effort {
     /// One question whether there is any sound plan.
     pub const OF_A_PROBE: Self = Self { cuts: 40_000 };
 
-    /// What is bounded otherwise.
     pub const UNBOUNDED: Self = Self { cuts: usize::MAX };
 
     /// Counts a plan of so many cuts.

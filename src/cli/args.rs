@@ -65,11 +65,11 @@ impl Arguments {
         match arguments.compile.first_given() {
             Some(stray) if has_command => Err(Self::command().error(
                 ErrorKind::ArgumentConflict,
-                format!("{stray} cannot stand in front of a command"),
+                format!("{stray} is not allowed before a command"),
             )),
             Some(stray) if arguments.command.is_some() => Err(Self::command().error(
                 ErrorKind::ArgumentConflict,
-                format!("{stray} cannot stand in front of a command"),
+                format!("{stray} is not allowed before a command"),
             )),
             Some(_) | None => Ok(arguments),
         }
@@ -121,7 +121,7 @@ fn suggest_command(mut error: clap::Error) -> clap::Error {
     if error.kind() == ErrorKind::UnknownArgument {
         let words: Vec<String> = std::env::args().collect();
         if let Some((option, list)) = list_with_blanks(&words) {
-            let text = format!("{option} takes its numbers with commas between them: {option} {list}");
+            let text = format!("{option} takes numbers separated by commas: {option} {list}");
             return Arguments::command().error(ErrorKind::ValueValidation, text);
         }
         let first_word = words.into_iter().skip(1).find(|word| !word.starts_with('-'));

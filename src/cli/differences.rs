@@ -109,7 +109,7 @@ fn stale(found: &Differences) -> String {
         })
         .collect();
     if names.len() > MOST_STALE {
-        text += &format!("and {} more files are left, too\n", names.len() - MOST_STALE);
+        text += &format!("and {} more files are left over\n", names.len() - MOST_STALE);
     }
     text
 }
@@ -128,7 +128,7 @@ fn diff(job: &str, name: &str, change: &TextChange, painter: Painter) -> String 
         );
     }
     if change.line_ends_differ {
-        text += "line ends differ, too\n";
+        text += "line ends differ too\n";
     }
     text
 }

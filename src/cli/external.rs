@@ -141,7 +141,7 @@ impl External {
             ask: ask_for,
         };
         let question =
-            serde_json::to_vec(&request).map_err(|error| fault(format!("cannot be asked: {error}")))?;
+            serde_json::to_vec(&request).map_err(|error| fault(format!("cannot be started: {error}")))?;
         let limits = Limits {
             time: self.time,
             reply,
@@ -310,7 +310,7 @@ impl Emission for Written {
     }
 }
 
-/// How finely a program prints that cannot be asked: what it writes is not read.
+/// How finely a program prints that cannot be started: what it writes is not read.
 const EXACT: Grain = Grain {
     length: Length::ZERO,
     attitude: Angle::ZERO,
@@ -408,7 +408,7 @@ fn unread(name: &str, fault: &Fault) -> Statement {
             end: 0,
         },
         says: Says::Unreadable {
-            expected: format!("what the program behind `{name}` would read (it {})", fault.what),
+            expected: format!("what the program of `{name}` would read (it {})", fault.what),
         },
     }
 }

@@ -62,7 +62,7 @@ pub(super) fn serve(targets: &Targets, console: &Console) -> ExitCode {
         Ok(Ending::Agreed) => ExitCode::SUCCESS,
         Ok(Ending::Abrupt) => ExitCode::from(1),
         Err(why) => {
-            console.failure(&Failure::new(format!("the conversation cannot go on: {why}")));
+            console.failure(&Failure::new(format!("the conversation cannot continue: {why}")));
             ExitCode::from(1)
         }
     }

@@ -196,7 +196,7 @@ pub(super) fn unknown(targets: &Targets, id: &str, asking: &Driven<'_>) -> Failu
 /// A place for files without any that would go there.
 pub(super) fn pointless_output(output: &str, targets: &Targets, asking: &Driven<'_>) -> Failure {
     let failure = Failure::new(format!(
-        "`-o {output}` says where files go, but no target was given, so there are none"
+        "`-o {output}` gives a place for files, but no target was given, so there are none"
     ));
     let check_only = "or leave `-o` out to check the job only";
     failure.help(match asking {

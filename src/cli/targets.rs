@@ -71,7 +71,7 @@ fn broken(id: &str, fault: &Fault) -> Failure {
         .iter()
         .fold(failure, |failure, line| failure.help(format!("it says: {line}")));
     failure.help(format!(
-        "docs/backends.md says what `{PROGRAM_PREFIX}{id}` has to answer"
+        "docs/backends.md explains what `{PROGRAM_PREFIX}{id}` has to answer"
     ))
 }
 
@@ -106,7 +106,7 @@ fn description(backend: &dyn Backend) -> String {
         }
     }
     if backend.reader().is_none() {
-        text.push_str("\n  Its programs are not read back: nobody here can read them.\n");
+        text.push_str("\n  Its programs are not read back: there is no reader for them.\n");
     }
     text.push('\n');
     text

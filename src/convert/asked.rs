@@ -167,7 +167,7 @@ impl Asked {
             return Err(bad(
                 "--swing",
                 words.swing,
-                "a swing is of at least 0.001 deg and below 90 deg".to_owned(),
+                "a swing must be at least 0.001 deg and below 90 deg".to_owned(),
             ));
         }
         let half_apex = self.half_apex.unwrap_or(super::HALF_APEX);

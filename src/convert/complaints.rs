@@ -30,7 +30,7 @@ pub(super) fn unreadable(place: Span, expected: &str) -> Diagnostic {
         place,
         format!("expected {expected}"),
     )
-    .help("mend the line, or make it a comment with `;` if no motion depends on it")
+    .help("fix the line, or make it a comment with `;` if no motion depends on it")
 }
 
 pub(super) fn cut_short(place: Span) -> Diagnostic {
@@ -46,12 +46,12 @@ pub(super) fn cut_short(place: Span) -> Diagnostic {
 pub(super) fn outside(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::UnreadableStatement,
-        "this stands outside of all routines, and no controller carries it out",
+        "this is outside all routines, so no controller carries it out",
         place,
         "expected `DEF NAME( )` before it",
     )
     .help(
-        "a program begins with `DEF NAME( )` and ends with `END`: mend the line that is missing or too early",
+        "a program begins with `DEF NAME( )` and ends with `END`: add or move the line that is missing or too early",
     )
 }
 
@@ -68,9 +68,9 @@ pub(super) fn curve(place: Span, word: &str) -> Diagnostic {
 pub(super) fn unknown_arc(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        "where an arc with `CA` ends follows from its circle, and that is not known here",
+        "the end of an arc with `CA` follows from its circle, which is unknown here",
         place,
-        "where it begins is not known, or its points lie on one line",
+        "its start is not known, or its points lie on one line",
     )
     .help("set the post processor to write curves as lines (`LIN`), or arcs without `CA`")
 }
@@ -78,9 +78,9 @@ pub(super) fn unknown_arc(place: Span) -> Diagnostic {
 pub(super) fn unknown_start(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        "this motion is relative, and where it begins is not known",
+        "this motion is relative, but its start is not known",
         place,
-        "from where? along the axes of a tool that is held how?",
+        "start or orientation of the tool unknown",
     )
     .help("let a motion to a point with all of X, Y, Z, A, B and C come before it, or write its end in the base (`LIN`)")
 }
@@ -117,7 +117,7 @@ pub(super) fn missing_routine(place: Span, name: &str, first: &str) -> Diagnosti
         "called here",
     )
     .help(format!("give its file too: `vcutc convert {first} {file} ...`"))
-    .help("if it moves nothing, make the call a comment: put `;` before it")
+    .help("if it does not move anything, comment out the call with `;`")
 }
 
 pub(super) fn external_axis(place: Span, first: Span, (name, from, to): (&str, f64, f64)) -> Diagnostic {
@@ -140,7 +140,7 @@ pub(super) fn external_axis(place: Span, first: Span, (name, from, to): (&str, f
 pub(super) fn unknown_end(place: Span, why: &str) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        "where this motion ends is not known",
+        "the end of this motion is not known",
         place,
         why.to_owned(),
     )
@@ -150,7 +150,7 @@ pub(super) fn unknown_end(place: Span, why: &str) -> Diagnostic {
 pub(super) fn too_far(place: Span, value: f64) -> Diagnostic {
     Diagnostic::new(
         Code::NotFollowed,
-        format!("this motion leads to a coordinate of {value:e} mm, and no cell is larger than 100 m"),
+        format!("this motion goes to a coordinate of {value:e} mm, but no cell is larger than 100 m"),
         place,
         "beyond every cell",
     )
@@ -181,15 +181,15 @@ pub(super) fn unknown_motion(place: Span, said: &str) -> Diagnostic {
     let what = if said.contains(':') && !said.contains("POS:") {
         "frames joined by `:`"
     } else if said.contains(['+', '*', '/', '(']) {
-        "a target that is worked out"
+        "a computed target"
     } else if said.contains('[') {
-        "a position in a list whose place is worked out"
+        "a position in a list with a computed index"
     } else {
         "a target with values that are not numbers"
     };
     Diagnostic::new(
         Code::NotFollowed,
-        "where this motion leads is worked out while the program runs",
+        "the end of this motion is computed while the program runs",
         place,
         what,
     )
@@ -245,7 +245,7 @@ pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
     let ([x0, y0, z0], [x1, y1, z1]) = (stretch.from, stretch.to);
     let headline = match stretch.kind {
         Kind::Across => "this motion cuts across the passes",
-        Kind::Curve => "this motion cuts on an arc, and V-cuts are straight",
+        Kind::Curve => "this motion cuts along an arc, but V-cuts are straight",
         Kind::Oblique if (z1 - z0).abs() > SAME => "this motion cuts along a slope",
         Kind::Oblique | Kind::Still | Kind::Along | Kind::Upright | Kind::Landing => {
             "this motion cuts obliquely to the passes"
@@ -281,11 +281,9 @@ pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
 pub(super) fn plunge(plunge: &Plunge) -> Diagnostic {
     let headline = match plunge.start {
         Start::Above => {
-            "this motion goes straight into the blank where no pass cuts, and V-cuts run through it"
+            "this motion goes straight into the blank where no pass cuts, but V-cuts run through it"
         }
-        Start::Unknown => {
-            "this motion ends in the blank where no pass cuts, and from where it comes is not known"
-        }
+        Start::Unknown => "this motion ends in the blank where no pass cuts, and its start is not known",
     };
     let [x, y, z] = plunge.low.map(show);
     Diagnostic::new(Code::NoPass, headline, plunge.place, format!("down to ({x}, {y}, {z})"))
@@ -296,7 +294,7 @@ pub(super) fn plunge(plunge: &Plunge) -> Diagnostic {
 pub(super) fn leans(place: Span, earlier: Option<Span>) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::NoPass,
-        "the tool leans here, and V-cuts have a tilt of their own",
+        "the tool leans here, but V-cuts have their own tilt",
         place,
         "none of the tool's axes is upright, or another one than before",
     );
@@ -304,16 +302,15 @@ pub(super) fn leans(place: Span, earlier: Option<Span>) -> Diagnostic {
         Some(earlier) => diagnostic.and(earlier, "upright here"),
         None => diagnostic,
     };
-    diagnostic.help(
-        "use a three-axis operation of the CAM system; if another axis points up, say so with `--up AXIS`",
-    )
+    diagnostic
+        .help("use a three-axis operation of the CAM system; if another axis points up, use `--up AXIS`")
 }
 
 pub(super) fn too_short_pass(pass: &Pass, depth: f64) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new(
         Code::NoPass,
         format!(
-            "this pass runs from y {} mm to {} mm, and a V-cut needs to run through the whole blank of {} mm",
+            "this pass runs from y {} mm to {} mm, but a V-cut must run through the whole blank of {} mm",
             show(pass.y[0]),
             show(pass.y[1]),
             show(depth)
@@ -330,7 +327,7 @@ pub(super) fn below_the_blank(pass: &Pass) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::NoPass,
         format!(
-            "this pass lies {} mm below the bottom of the blank, and a V-cut ends within it",
+            "this pass lies {} mm below the bottom of the blank, but a V-cut ends within it",
             show(-pass.z)
         ),
         pass.places[0],
@@ -348,7 +345,10 @@ pub(super) fn nothing_straight(milling: &Milling) -> Box<Diagnostic> {
         _ => None,
     });
     let (place, label) = match lines.next() {
-        Some(place) => (place, "its first motion between two points leads elsewhere"),
+        Some(place) => (
+            place,
+            "its first motion between two points goes in another direction",
+        ),
         None => (at_the_program(milling), "this program"),
     };
     Diagnostic::new(
@@ -357,7 +357,7 @@ pub(super) fn nothing_straight(milling: &Milling) -> Box<Diagnostic> {
         place,
         label,
     )
-    .help("passes have to run along x or y of the program's base; if another axis than z points up, say so with `--up AXIS`")
+    .help("passes have to run along x or y of the program's base; if an axis other than z points up, use `--up AXIS`")
     .into()
 }
 
@@ -378,7 +378,9 @@ pub(super) fn no_passes(milling: &Milling, lowest: Option<&Run>, top: f64) -> Bo
         place,
         label,
     )
-    .help("give the size of the blank with `--stock`, and where its lowest corner lies with `--origin X,Y,Z`")
+    .help(
+        "give the size of the blank with `--stock`, and the place of its lowest corner with `--origin X,Y,Z`",
+    )
     .into()
 }
 
@@ -402,8 +404,8 @@ pub(super) fn both_sides([deepest, highest]: [&Run; 2], [below, above]: [usize; 
     Diagnostic::new(
         Code::Unclear,
         format!(
-            "passes lie on both sides of the file's zero, {below} below it and {above} above: how high in the blank that lies \
-             is not clear"
+            "passes lie on both sides of the file's zero, {below} below it and {above} above, so its height in the blank is \
+             ambiguous"
         ),
         deepest.places[0],
         format!("the lowest pass, at z {} mm", show(deepest.height())),
@@ -426,7 +428,7 @@ pub(super) fn unclear_place(
     range: [f64; 2],
     ends: [Option<&Run>; 2],
 ) -> Box<Diagnostic> {
-    let why = format!("where a blank {} mm wide lies there is not clear", show(axis.1));
+    let why = format!("the place of a blank {} mm wide is ambiguous there", show(axis.1));
     over_a_range(milling, axis.0, range, ends, &why)
 }
 
@@ -505,7 +507,7 @@ pub(super) fn both_ways(
     Diagnostic::new(
         Code::Unclear,
         format!(
-            "this program moves {} mm along {} and {} mm along {}, so along which its passes run is not clear",
+            "this program moves {} mm along {} and {} mm along {}, so the direction of its passes is ambiguous",
             show(first),
             one.letter(),
             show(second),
@@ -515,7 +517,7 @@ pub(super) fn both_ways(
         label(one),
     )
     .and(place(second_run), label(other))
-    .help("say along which with `--along AXIS`")
+    .help("choose one with `--along AXIS`")
     .into()
 }
 
@@ -550,7 +552,7 @@ pub(super) fn unclear_speed(fastest: Written) -> Box<Diagnostic> {
     Diagnostic::new(
         Code::Unclear,
         format!(
-            "a speed of {} m/s is more than a robot has, and whether it is in mm/s or mm/min is not clear",
+            "a speed of {} m/s is more than a robot has, and may be in mm/s or mm/min",
             show(fastest.value)
         ),
         fastest.place,
@@ -570,7 +572,7 @@ pub(super) fn too_fast(fastest: Written) -> Box<Diagnostic> {
     };
     Diagnostic::new(
         Code::Unclear,
-        format!("a speed of {value} is more than a robot has, in mm/min, too"),
+        format!("a speed of {value} is more than a robot has, even in mm/min"),
         fastest.place,
         "what is it?",
     )
@@ -592,12 +594,12 @@ pub(super) fn no_clearance(milling: &Milling, axes: Axes, top: f64) -> Box<Diagn
     Diagnostic::new(
         Code::Unclear,
         format!(
-            "the program never goes above the blank, whose top is at z {} mm, so how high the safe plane lies is not clear",
+            "the program never goes above the blank, whose top is at z {} mm, so the height of the safe plane is unknown",
             show(top)
         ),
         place,
         label,
     )
-    .help("give its height above the blank with `--clearance LENGTH`, or say where the blank lies")
+    .help("give its height above the blank with `--clearance LENGTH`, or give the place of the blank")
     .into()
 }

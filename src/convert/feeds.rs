@@ -85,7 +85,7 @@ pub(super) fn feeds(
             inferences.push(Inference::new(
                 "feed",
                 format!("reorient {} deg/s", show(TURNING.to_deg_per_s())),
-                "assumed; the file does not say how fast to turn",
+                "assumed; the file does not state the rate of turning",
             ));
             TURNING
         }

@@ -127,7 +127,7 @@ fn plunges(plunges: &[Plunge], lines: &dyn Fn(Span) -> usize) -> Option<Diagnost
     let [x, y, z] = first.low.map(show);
     let label = format!("down to ({x}, {y}, {z}) of the job");
     let diagnostic = Diagnostic::new(Code::Plunge, headline, first.place, label).note(
-        "a pass cuts there later, and V-cuts come from beside the blank: nothing of the shape is missing",
+        "a pass cuts there later, and V-cuts come from beside the blank: no part of the shape is missing",
     );
     let rest: Vec<Span> = rest.iter().map(|plunge| plunge.place).collect();
     let diagnostic = match further(&rest, lines) {
@@ -159,5 +159,5 @@ fn uncalled(place: Span) -> Diagnostic {
         place,
         "never called",
     )
-    .help("call it where it belongs, or convert it as a separate program")
+    .help("call it where needed, or convert it as a separate program")
 }

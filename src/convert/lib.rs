@@ -156,7 +156,7 @@ pub fn point_back(
             let span = Span { file, ..origin.said };
             diagnostic.secondary.push(Label {
                 span,
-                text: "the pass that it stands for".to_owned(),
+                text: "the pass that it comes from".to_owned(),
             });
         }
     }
@@ -335,7 +335,7 @@ fn in_passes(milling: &Milling, raster: &Raster) -> Inference {
         others.push(format!("{} of them are arcs in the air", raster.arcs));
     }
     if milling.axis_moves > 0 {
-        others.push(format!("{} of all axes are those of `home`", milling.axis_moves));
+        others.push(format!("axis moves to `home`: {}", milling.axis_moves));
     }
     if raster.repeated > 0 {
         others.push(format!(

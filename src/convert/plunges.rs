@@ -1,7 +1,7 @@
 //! Where the tool goes into the blank without a pass: straight down, or from a place that nobody knows.
 //!
 //! V-cuts come from beside the blank, so a job has no such motion. What that means depends on the passes. Where those before it
-//! have cut already, the motion is one through the air. Where a pass cuts later, nothing of the shape is missing, and the motion
+//! have cut already, the motion is one through the air. Where a pass cuts later, no part of the shape is missing, and the motion
 //! is listed. Where none does, the job would leave standing what the program cuts, and the motion is refused. What has been cut
 //! is measured on the surface that the V-cuts leave, the one by which they are planned.
 

@@ -17,7 +17,7 @@ use vcutc_syntax::parse;
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobText {
     pub text: String,
-    /// Where its tips stand in it, each with the pass that it stands for.
+    /// Where its tips stand in it, each with the pass that it comes from.
     pub origins: Vec<Origin>,
 }
 

@@ -47,7 +47,6 @@ pub struct Hunk {
 /// A line of a hunk.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
-    /// Where it stands.
     pub kind: LineKind,
     /// The line without its end; what is no text is replaced, what is too long is cut.
     pub text: String,
@@ -56,7 +55,6 @@ pub struct Line {
 /// In which of two texts a line stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineKind {
-    /// In both.
     Same,
     /// In the earlier one.
     Removed,

@@ -26,7 +26,6 @@ use vcutc_machine::Model;
 /// A value and where it was written; `None` when it is a default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sourced<T> {
-    /// The value.
     pub value: T,
     /// Where the value stands (not the field's name).
     pub span: Option<Span>,
@@ -37,7 +36,6 @@ pub struct Sourced<T> {
 pub enum Auto<T> {
     /// `auto`.
     Auto,
-    /// Given.
     Given(T),
 }
 
@@ -56,15 +54,12 @@ impl<T> Auto<T> {
 pub struct CheckedJob {
     /// The job's name.
     pub name: String,
-    /// Where the name stands.
     pub name_span: Span,
-    /// The stock.
     pub stock: Stock,
     /// Where the stock's size stands.
     pub stock_span: Span,
     /// The part's profile, spanning the stock from side to side and lying within it.
     pub profile: Profile,
-    /// Where the profile stands.
     pub profile_span: Span,
     /// What to do, in order; at least one.
     pub operations: Vec<Box<dyn Operation>>,
@@ -84,7 +79,6 @@ impl CheckedJob {
 /// A straight blade.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blade {
-    /// Its name.
     pub name: String,
     /// Where it is defined.
     pub span: Span,
@@ -162,9 +156,7 @@ pub enum Direction {
 /// The machine as the job states it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
-    /// Its name.
     pub name: String,
-    /// Where its head stands.
     pub head_span: Span,
     /// What it is: its axes and how they move it.
     pub model: Arc<Model>,
@@ -200,9 +192,7 @@ pub struct LimitSpans {
 /// Options of one target, evaluated but not yet held against what the target takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetOptions {
-    /// The target's name.
     pub target: String,
-    /// Where the name stands.
     pub span: Span,
     /// Keys and values in the order written.
     pub given: Vec<GivenOption>,
@@ -210,16 +200,11 @@ pub struct TargetOptions {
     pub profile: Option<Spanned<Habits>>,
 }
 
-/// One option as given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GivenOption {
-    /// Its key.
     pub key: String,
-    /// Where the key stands.
     pub key_span: Span,
-    /// Its value.
     pub value: GivenValue,
-    /// Where the value stands.
     pub value_span: Span,
 }
 
@@ -228,7 +213,6 @@ pub struct GivenOption {
 pub enum GivenValue {
     /// A pure number.
     Ratio(f64),
-    /// A length.
     Length(Length),
     /// A text; options of several lines are given as a tuple of texts.
     Texts(Vec<String>),

@@ -7,7 +7,6 @@ use vcutc_backend_api::units::Angle;
 /// which not every machine can follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RouteSet {
-    /// All of them.
     Full,
     /// Those that cut V by V.
     ByPoint,
@@ -15,7 +14,6 @@ pub enum RouteSet {
     RowsByPoint,
     /// Those that cut a layer's left flanks and then its right ones: the blade never turns in the work.
     ByLayer,
-    /// Rows of them.
     RowsByLayer,
 }
 
@@ -72,13 +70,9 @@ pub enum Lack {
     /// It does not reach that far.
     Reach,
     /// An axis, by its number from 0, has too little range.
-    Range {
-        /// The axis.
-        axis: usize,
-    },
+    Range { axis: usize },
     /// An axis, by its number from 0, is too slow.
     Rate {
-        /// The axis.
         axis: usize,
         /// How fast it would have to move, in rad/s or mm/s.
         needed: f64,
@@ -90,7 +84,6 @@ pub enum Lack {
 /// What is considered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSpace {
-    /// The routes.
     pub routes: RouteSet,
     /// The swings; none where all that the job allows are considered.
     pub swing: Option<Narrowed>,

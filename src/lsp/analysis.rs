@@ -61,7 +61,6 @@ pub(super) struct Analysis {
     pub(super) planning: Planning,
 }
 
-/// How far planning is.
 #[derive(Debug)]
 pub(super) enum Planning {
     /// There is nothing to plan: a library, or a job with errors.
@@ -75,7 +74,6 @@ pub(super) enum Planning {
         #[expect(dead_code, reason = "it is held, and ends when it is dropped")] Interest,
         Box<Planned>,
     ),
-    /// Done.
     Done(Box<Planned>),
 }
 

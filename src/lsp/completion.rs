@@ -19,9 +19,7 @@ use vcutc_machine::catalogue;
 /// What is offered, and the bytes that it replaces.
 #[derive(Debug, PartialEq)]
 pub(super) struct Offers {
-    /// What is replaced.
     pub(super) replaces: core::ops::Range<usize>,
-    /// What is offered.
     pub(super) offers: Vec<Offer>,
 }
 

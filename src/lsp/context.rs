@@ -31,14 +31,12 @@ pub(super) enum Wanted {
     Joint {
         /// The first word.
         piece: String,
-        /// The others.
         given: Vec<String>,
     },
     /// A point of a piece, or the path of its file.
     Point,
     /// The path of a file, with quotes.
     File,
-    /// A value.
     Value(Slot),
     /// A unit behind a number.
     Unit(Slot),

@@ -33,7 +33,6 @@ pub(super) enum Language {
 pub(super) struct Documents {
     /// The operations of the language.
     pub(super) operations: Operations,
-    /// Their texts.
     pub(super) texts: OpenTexts,
     /// How the client calls them.
     pub(super) called: BTreeMap<String, Called>,

@@ -16,7 +16,6 @@ const MOST_HINTS: usize = 5000;
 pub(super) struct Hint {
     /// Behind this byte.
     pub(super) at: usize,
-    /// The value.
     pub(super) value: String,
     /// More about it.
     pub(super) why: String,

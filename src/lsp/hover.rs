@@ -17,7 +17,6 @@ use vcutc_syntax::lexical::{TokenKind, tokens};
 /// What there is to say about a place.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Told {
-    /// The place.
     pub(super) span: Span,
     /// Markdown.
     pub(super) text: String,

@@ -13,9 +13,7 @@ use vcutc_syntax::lexical::{TokenKind, tokens};
 /// A name in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Name {
-    /// The name.
     pub(super) text: String,
-    /// Where it stands.
     pub(super) span: Span,
 }
 
@@ -217,7 +215,7 @@ fn unread(analysis: &Analysis, name: &str) -> Option<String> {
                 && !is_known
         })?;
         Some(format!(
-            "`{name}` stands in {}:{} too, in a part that cannot be read: fix that first",
+            "`{name}` is also in {}:{}, in a part that cannot be read: fix that first",
             source.name,
             token.line + 1
         ))

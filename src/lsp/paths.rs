@@ -54,7 +54,6 @@ pub(super) fn named_by(words: &[String], around: Option<&str>) -> Option<Named> 
 
 /// The folder of the file that is written in.
 pub(super) struct Folder<'a> {
-    /// That file.
     pub(super) file: &'a str,
     /// What is around it.
     pub(super) files: &'a dyn Loader,

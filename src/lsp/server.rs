@@ -47,7 +47,6 @@ pub enum Ending {
 /// What the client can take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Insertion {
-    /// Texts only.
     #[default]
     Plain,
     /// Texts with places to go on at.

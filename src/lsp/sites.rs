@@ -11,9 +11,7 @@ use vcutc_syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPar
 /// A place and what stands there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Site<'a> {
-    /// Where.
     pub(super) span: Span,
-    /// What.
     pub(super) kind: Kind<'a>,
     /// In which field of which block.
     pub(super) place: Place<'a>,
@@ -40,7 +38,6 @@ pub(super) enum Kind<'a> {
     Auto,
     /// A number with what belongs to it.
     Number(&'a Spanned<Expr>),
-    /// A unit.
     Unit(&'a str),
     /// A function, or another call.
     Function(&'a str),
@@ -59,11 +56,8 @@ pub(super) enum Kind<'a> {
 /// What a name is defined as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Named {
-    /// A value.
     Value,
-    /// A blade.
     Blade,
-    /// A machine.
     Machine,
 }
 
@@ -87,7 +81,6 @@ pub(super) struct Place<'a> {
     pub(super) block: &'a str,
     /// Which of the operations of the file it is, or belongs to.
     pub(super) operation: Option<usize>,
-    /// The field.
     pub(super) field: Option<&'static FieldSpec>,
     /// Whether bare words may be words of a target.
     pub(super) words: Words,
@@ -96,7 +89,6 @@ pub(super) struct Place<'a> {
 /// What a bare word is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Words {
-    /// A name.
     Names,
     /// A name if a `let` has it, else a word of a target.
     OfTarget,

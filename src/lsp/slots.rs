@@ -55,7 +55,6 @@ pub(super) enum Part {
 /// Whether anything of a value stands before a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rest {
-    /// The value begins here.
     Begins,
     /// Something stands before it.
     GoesOn,

@@ -16,7 +16,6 @@ use vcutc_machine::{catalogue, usual_home};
 pub(super) struct Place<'a> {
     /// The names of the job.
     pub(super) analysis: &'a Analysis,
-    /// The place.
     pub(super) slot: &'a Slot,
     /// The field that the value belongs to, if it is one with a row in a table.
     pub(super) field: Option<&'static FieldSpec>,
@@ -37,11 +36,9 @@ pub(super) struct Place<'a> {
 pub(super) enum Begun {
     /// Some letters are there.
     Word,
-    /// None is.
     Nothing,
 }
 
-/// What fits a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fit {
     /// Anything: nothing can be said.
@@ -137,7 +134,6 @@ impl Place<'_> {
         }
     }
 
-    /// Names of a kind.
     fn named(&self, meaning: Meaning) -> Vec<Offer> {
         let names = self.analysis.study.definitions.iter();
         names

@@ -28,16 +28,13 @@ pub enum Incoming {
     Notification {
         /// What happened.
         method: String,
-        /// To what.
         params: Value,
     },
     /// The answer to a request of the server, which makes none that waits for one.
     Response,
-    /// Something else.
     Malformed {
         /// The answer to it.
         refusal: Value,
-        /// Why it is none.
         why: String,
     },
 }

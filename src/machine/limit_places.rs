@@ -43,7 +43,10 @@ mod tests {
         let found = stated(FileKind::Sheet, text);
         assert_eq!(found[1].0, "A2");
         let range = found[1].1.unwrap_or_default();
-        assert!(range.starts_with('[') && range.ends_with(']') && range.contains(','), "{range}");
+        assert!(
+            range.starts_with('[') && range.ends_with(']') && range.contains(','),
+            "{range}"
+        );
         assert_eq!(found.len(), 6);
     }
 

@@ -185,13 +185,20 @@ fn places_in(root: &Table<'_>, axes: &[Axis], flaws: &mut Vec<Flaw>) -> Vec<Limi
     if let Some(tables) = root.loose_table("axis", flaws) {
         let of_axis = |axis: &Axis| {
             let table = tables.loose_table(&axis.name.to_lowercase(), &mut Vec::new())?;
-            let stated = |keys: [&str; 2]| keys.into_iter().find(|key| table.has(key)).map(|key| table.span_of(key));
+            let stated = |keys: [&str; 2]| {
+                keys.into_iter()
+                    .find(|key| table.has(key))
+                    .map(|key| table.span_of(key))
+            };
             Some(LimitPlaces {
                 range: stated(["travel_mm", "range_deg"]),
                 rate: stated(["rate_mm_s", "rate_deg_s"]),
             })
         };
-        return axes.iter().map(|axis| of_axis(axis).unwrap_or_default()).collect();
+        return axes
+            .iter()
+            .map(|axis| of_axis(axis).unwrap_or_default())
+            .collect();
     }
     let Some(limits) = root.loose_table("limits", flaws) else {
         return Vec::new();

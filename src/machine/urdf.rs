@@ -107,9 +107,9 @@ pub(super) fn limit_places(text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
         let limit = limit_of(axis);
         let value = |name: &str| Some(limit?.attribute_node(name)?.range_value());
         LimitPlaces {
-            range: value("lower").zip(value("upper")).map(|(lower, upper)| {
-                lower.start.min(upper.start)..lower.end.max(upper.end)
-            }),
+            range: value("lower")
+                .zip(value("upper"))
+                .map(|(lower, upper)| lower.start.min(upper.start)..lower.end.max(upper.end)),
             rate: value("velocity"),
         }
     };

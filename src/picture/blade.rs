@@ -30,7 +30,6 @@ pub struct Blade<'a> {
 pub enum Back {
     /// An edge too.
     Edge,
-    /// Blunt.
     Blunt,
 }
 
@@ -87,7 +86,6 @@ fn axes(rake: f64) -> [[f64; 2]; 2] {
     [[sine, -cosine], [-cosine, -sine]]
 }
 
-/// Draws it.
 #[must_use]
 pub fn draw(blade: &Blade<'_>) -> String {
     let description = "Two views of the blade over the work. From the side: the shank above, the tip below, the tool axis z from \

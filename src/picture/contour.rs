@@ -33,14 +33,12 @@ pub struct Contour<'a> {
 pub struct Chip {
     /// The layer it belongs to: neighbouring layers are shaded differently.
     pub layer: u32,
-    /// Its outline.
     pub outline: Vec<[f64; 2]>,
 }
 
 /// The highest material on the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Highest {
-    /// Its peak.
     pub peak: [f64; 2],
     /// Its height: how far it is from the nearest point of the part.
     pub height: f64,

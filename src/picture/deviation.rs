@@ -20,7 +20,6 @@ pub struct Deviation<'a> {
     pub largest: [f64; 2],
     /// Where the part is farther from the contour than the contour is anywhere from the part, and how far.
     pub hollow: Option<[f64; 2]>,
-    /// The mean.
     pub mean: f64,
     /// The limit, when the job has one.
     pub limit: Option<f64>,

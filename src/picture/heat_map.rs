@@ -75,7 +75,6 @@ pub fn draw(map: &HeatMap<'_>) -> String {
     svg.finish()
 }
 
-/// The map in words.
 fn description(map: &HeatMap<'_>, scale: Scale) -> String {
     let reached = map.margins.iter().flatten().count();
     let whole = map.margins.len();

@@ -42,14 +42,11 @@ pub struct Joints<'a> {
     pub cuts: usize,
 }
 
-/// An axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Its name.
     pub name: String,
     /// `deg` or `mm`.
     pub unit: &'static str,
-    /// Its limits.
     pub limits: [f64; 2],
     /// Its values over time.
     pub values: Vec<[f64; 2]>,

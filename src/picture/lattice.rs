@@ -21,7 +21,6 @@ pub struct Lattice<'a> {
     pub part: &'a [[f64; 2]],
     /// The part with the allowance of each operation that has one.
     pub bounds: &'a [&'a [[f64; 2]]],
-    /// The tips.
     pub tips: &'a [Tip],
     /// The Vs: where the left flank comes out, the tip, where the right one does. From a hundred on they are not drawn one by
     /// one.
@@ -32,10 +31,8 @@ pub struct Lattice<'a> {
     pub layers: &'a [(String, f64)],
 }
 
-/// A tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {
-    /// Where.
     pub at: [f64; 2],
     /// How it came to be there.
     pub origin: Origin,
@@ -44,16 +41,13 @@ pub struct Tip {
 /// Neighbouring layers are shaded differently.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shade {
-    /// Lighter.
     Light,
-    /// Darker.
     Dark,
 }
 
 /// What the stock's surface is when a layer is cut, or several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
-    /// How it is shaded.
     pub shade: Shade,
     /// The surface, from left to right.
     pub contour: Vec<[f64; 2]>,

@@ -5,17 +5,12 @@
 
 /// The colour of letters and axes.
 pub(super) const INK: &str = "#2b2a27";
-/// Blue.
 pub(super) const BLUE: &str = "#0072b2";
-/// Vermilion.
 pub(super) const VERMILION: &str = "#d55e00";
-/// Green.
 pub(super) const GREEN: &str = "#009e73";
-/// Orange.
 pub(super) const ORANGE: &str = "#e69f00";
 /// Sky blue.
 pub(super) const SKY: &str = "#56b4e9";
-/// Purple.
 pub(super) const PURPLE: &str = "#cc79a7";
 
 /// Colours on a light ground, and on a dark one: what is light becomes dark, what stands out stands out.

@@ -27,10 +27,8 @@ pub struct Pareto<'a> {
     pub limit: Option<f64>,
 }
 
-/// One curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<'a> {
-    /// What it is of.
     pub name: &'a str,
     /// Its points, by growing scallop.
     pub points: Vec<[f64; 2]>,

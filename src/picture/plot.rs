@@ -32,7 +32,6 @@ impl Plot {
         [self.x.at(x), self.y.at(y)]
     }
 
-    /// A curve.
     pub(super) fn curve(&self, points: &[[f64; 2]]) -> Trace {
         Trace::through(points.iter().map(|&point| self.at(point)))
     }

@@ -19,7 +19,6 @@ impl Scale {
         }
     }
 
-    /// Where a value is.
     pub(super) fn at(&self, value: f64) -> f64 {
         let share = (value - self.values[0]) / (self.values[1] - self.values[0]);
         self.places[0] + (self.places[1] - self.places[0]) * share
@@ -105,7 +104,6 @@ pub(super) fn round_step(least: f64) -> Step {
 }
 
 impl Step {
-    /// Its size.
     pub(super) fn size(self) -> f64 {
         let ten = (0..self.power.unsigned_abs()).fold(1.0, |ten, _| ten * 10.0);
         let digit = f64::from(self.digit);

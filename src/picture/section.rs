@@ -26,7 +26,6 @@ pub(super) const BELOW: f64 = 74.0;
 
 /// Where things of the section are in the picture.
 pub(super) struct Section {
-    /// The room for it.
     pub(super) room: Room,
     pub(super) x: Scale,
     pub(super) z: Scale,

@@ -33,7 +33,6 @@ pub struct Blade {
 pub enum Edges {
     /// On the side of x.
     One,
-    /// On both.
     Two,
 }
 

@@ -91,7 +91,6 @@ pub struct Heading<'a> {
 
 /// An entry of a legend.
 pub(super) struct Entry {
-    /// What it looks like.
     pub(super) swatch: Swatch,
     /// What it means.
     pub(super) words: String,
@@ -99,9 +98,7 @@ pub(super) struct Entry {
 
 /// What an entry of a legend looks like; attributes of SVG.
 pub(super) enum Swatch {
-    /// An area.
     Area(String),
-    /// A line.
     Line(String),
     /// A path around (0, 0), no wider and higher than 12.
     Mark(String, String),

@@ -23,11 +23,8 @@ pub(super) enum Along {
 /// Where a text stands against its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
-    /// It begins there.
     Start,
-    /// Its middle is there.
     Middle,
-    /// It ends there.
     End,
 }
 
@@ -126,7 +123,6 @@ impl Svg {
         self.path(&path, paint);
     }
 
-    /// A path.
     pub(super) fn path(&mut self, path: &str, paint: &str) {
         self.line(&format!("  <path d=\"{path}\" {paint}/>"));
     }
@@ -159,7 +155,6 @@ impl Svg {
         ));
     }
 
-    /// The whole text.
     pub(super) fn finish(mut self) -> String {
         self.line("</svg>");
         self.text

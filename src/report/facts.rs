@@ -44,7 +44,6 @@ pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<&'a Blade> {
     named
 }
 
-/// What they are.
 pub(super) fn of_blades(blades: &[&Blade]) -> Vec<Fact> {
     blades.iter().map(|blade| ("blade", words(blade))).collect()
 }

@@ -15,9 +15,7 @@ use vcutc_job::PlannedJob;
 /// What a report is made from: a job that compiled, with all that came of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Material<'a> {
-    /// The checked job.
     pub job: &'a CheckedJob,
-    /// Its plan.
     pub plan: &'a PlannedJob,
     /// Its program and figures.
     pub compiled: &'a Compiled,

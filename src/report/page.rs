@@ -57,7 +57,6 @@ pub struct Further<'a> {
 }
 
 impl Further<'_> {
-    /// Nothing.
     pub const NOTHING: Self = Self {
         files: &[],
         read_back: None,

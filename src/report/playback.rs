@@ -30,7 +30,6 @@ pub const MOST_OPS: usize = 400_000;
 /// All that the viewer needs to know.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Playback<'a> {
-    /// The stock.
     pub stock: Stock,
     /// The part's contour, from left to right, in W.
     pub part: &'a [Point2],
@@ -47,7 +46,6 @@ pub struct Playback<'a> {
 /// A machine, and where its axes are when.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell<'a> {
-    /// Its axes.
     pub axes: &'a [Axis],
     /// How they move it.
     pub linkage: Linkage,
@@ -55,14 +53,12 @@ pub struct Cell<'a> {
     pub blade_in_flange: Pose,
     /// The workpiece frame W seen from where the work is mounted.
     pub work_in_mount: Pose,
-    /// What it looks like.
     pub bodies: Vec<Body>,
     /// Where the axes are.
     pub track: Track,
 }
 
 impl<'a> Playback<'a> {
-    /// Of a compiled job.
     #[must_use]
     pub fn of(plan: &'a PlannedJob, compiled: &'a Compiled) -> Self {
         let program = compiled.program.verified().program();

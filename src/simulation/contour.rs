@@ -10,7 +10,6 @@ use vcutc_geometry::profile::Profile;
 pub struct Scallop {
     /// Distance to the nearest point of the other.
     pub height: Length,
-    /// Its peak.
     pub peak: Point2,
 }
 

@@ -37,7 +37,6 @@ pub struct Bound<'p> {
 /// Something wrong with a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
-    /// The operation.
     pub operation: OperationId,
     /// Its layer, from the top.
     pub layer: NonZeroU32,
@@ -60,10 +59,7 @@ pub enum CutFault {
         available: Length,
     },
     /// Beyond the point where the flank comes out, material stands in the way of the blade's body.
-    Blocked {
-        /// Where.
-        at: Point2,
-    },
+    Blocked { at: Point2 },
     /// The cut enters the part or its allowance.
     Overcut {
         /// Where it goes deepest.
@@ -85,7 +81,6 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// The findings there are.
     pub fn iter(&self) -> impl Iterator<Item = (usize, Finding)> {
         let overcut = self.overcut.map(|finding| (1, finding));
         self.not_freed.into_iter().chain(self.blocked).chain(overcut)
@@ -158,7 +153,6 @@ pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Su
 /// A V whose chip comes free: its second flank has just been cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Release {
-    /// The operation.
     pub operation: OperationId,
     /// Its layer, from the top.
     pub layer: NonZeroU32,

@@ -13,7 +13,6 @@ use vcutc_geometry::curve::Point2;
 /// A place in the part, and how far above it the part's contour lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// Where.
     pub at: Point2,
     /// How deep, along z; positive.
     pub depth: Length,

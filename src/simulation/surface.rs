@@ -105,7 +105,6 @@ impl Surface {
         self.top
     }
 
-    /// Height at x.
     pub fn height(&mut self, x: f64) -> f64 {
         self.go_to(x);
         self.height_here(x)

@@ -20,7 +20,6 @@ pub struct Timing {
     pub travel: Duration,
     /// Moves of all axes: to and from home, and to another way to stand.
     pub axes: Duration,
-    /// Waiting.
     pub waiting: Duration,
 }
 
@@ -33,7 +32,6 @@ pub enum Kind {
     Turning,
     /// A way through the air.
     Travel,
-    /// Waiting.
     Waiting,
     /// A move of all axes.
     Axes,
@@ -64,7 +62,6 @@ impl Kind {
 }
 
 impl Timing {
-    /// All of it.
     #[must_use]
     pub fn total(&self) -> Duration {
         self.cutting + self.turning + self.travel + self.axes + self.waiting
@@ -96,7 +93,6 @@ impl Timing {
 /// The time of a layer: its cuts, and getting there and leaving.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerTime {
-    /// The operation.
     pub operation: OperationId,
     /// The layer, from the top, counted from 1.
     pub layer: u32,

@@ -159,11 +159,15 @@ fn assert_sheet_agrees(name: &str, outcome: &Outcome) {
     assert_eq!(left.len(), open.len(), "{name}: {left:#?} for {open:?}");
     let said = Said::of(outcome);
     for (check, on_the_page, on_the_sheet) in [
-        ("axis_rate", "rates of", "with the rates of"),
+        ("axis_rate", "speeds of", "speed limits are unknown for"),
         ("elbow_angle", "J3 - J2", "J3 - J2"),
         ("accelerations", "times with accelerations", "without speeding up"),
         ("turns", "sweep of the edge", "where the blade turns beside it"),
-        ("singular_poses", "distance from singularities", "singular pose"),
+        (
+            "singular_poses",
+            "distance from singularities",
+            "comes near a singularity",
+        ),
         ("holder", "shank and holder", "Shank and holder"),
         ("collisions", "collisions", "clear each other"),
     ] {
@@ -212,7 +216,7 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
         assert_eq!(rates_made(&outcome), if has_rates { 6 } else { 0 }, "{name}");
         assert_eq!(warns(&outcome), !has_rates, "{name}");
         assert_eq!(
-            said.proven.contains("rates"),
+            said.proven.contains("speed limits"),
             has_rates,
             "{name}: {}",
             said.proven
@@ -229,7 +233,7 @@ fn the_page_claims_of_every_robot_what_its_sheet_lets_check() {
         assert_eq!(said.class.is_empty(), is_whole, "{name}: {}", said.class);
         assert_eq!(said.proven.starts_with("Proven: "), is_whole, "{name}");
         assert_eq!(said.not_checked.contains("J3 - J2"), is_parallelogram, "{name}");
-        assert!(said.proven.contains("clear of singular poses"), "{name}");
+        assert!(said.proven.contains("clear of singularities"), "{name}");
         let has_accelerations = sheet.lines().any(|line| line.starts_with("accelerations_deg_s2"));
         assert_eq!(
             said.not_checked.contains("times with accelerations"),
@@ -271,7 +275,7 @@ fn the_page_claims_of_every_five_axis_machine_what_its_sheet_lets_check() {
             "{name}"
         );
         assert_eq!(
-            said.proven.contains("the limits and rates"),
+            said.proven.contains("the position and speed limits"),
             rates == axes,
             "{name}"
         );
@@ -313,18 +317,18 @@ fn an_axis_without_a_rate_is_named() {
     let outcome = compile(JOB, &Files::default().with(JOB, job).with("mill.toml", sheet));
     let said = Said::of(&outcome);
     assert!(
-        said.proven.contains("the rates of X, Y, Z and A"),
+        said.proven.contains("the speed limits of X, Y, Z and A"),
         "{}",
         said.proven
     );
     assert!(
-        said.not_checked.contains("the rates of B (not known"),
+        said.not_checked.contains("the speeds of B (not known"),
         "{}",
         said.not_checked
     );
     let messages = told(&outcome.diagnostics, &outcome);
     assert!(
-        messages.contains("warning[VC0517]: the rate of B is not known"),
+        messages.contains("warning[VC0517]: the speed limit of B is not known"),
         "{messages}"
     );
 }

@@ -13,7 +13,6 @@ const SPINDLE: &str = "S";
 /// An axis of the machine as a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Word {
-    /// Its letter.
     pub(crate) letter: u8,
     /// How it moves.
     pub(crate) kind: AxisKind,

@@ -21,10 +21,12 @@ pub(crate) struct Blocks<'a, 's> {
 /// What stands before a line.
 #[derive(Clone, Copy)]
 enum Numbers {
-    /// Nothing.
     None,
     /// An N word before every block: the next number.
-    Words { next: u32, of: LineNumbers },
+    Words {
+        next: u32,
+        of: LineNumbers,
+    },
     /// A number before every line: the next.
     Lines(u32),
 }
@@ -51,7 +53,6 @@ impl<'a, 's> Blocks<'a, 's> {
         }
     }
 
-    /// Begins a file.
     pub(crate) fn file(&mut self, name: &str, settings: &Settings<'_>) -> Written {
         self.numbers = Numbers::start(settings);
         Ok(self.text.file(name)?)
@@ -73,7 +74,6 @@ impl<'a, 's> Blocks<'a, 's> {
         Ok(self.text.line(line)?)
     }
 
-    /// A block.
     pub(crate) fn block(&mut self, block: &str) -> Written {
         self.begin();
         self.put(block);

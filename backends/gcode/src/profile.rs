@@ -57,7 +57,6 @@ fn statement_of_line<'l>(line: &'l str, facts: &Facts) -> Option<&'l str> {
     }
 }
 
-/// The list in words.
 fn allowed(controller: &dyn Controller) -> String {
     let ranges = controller.facts().builders_codes.iter();
     let codes: Vec<String> = ranges

@@ -45,7 +45,6 @@ use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::readback::{Frames, Grain, Reader, Sources, Stance, Statement};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
-/// The reader of KRL.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct KrlReader;
 

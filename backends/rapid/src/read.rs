@@ -41,7 +41,6 @@ pub(crate) const TRIMMED_DECIMALS: u8 = 6;
 /// Extensions of modules and lists.
 const EXTENSIONS: [&str; 5] = ["mod", "modx", "sys", "sysx", "pgf"];
 
-/// The reader of RAPID.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RapidReader;
 

@@ -89,7 +89,6 @@ impl Speeds {
         sorted(self.pairs.iter().filter_map(|pair| pair.1))
     }
 
-    /// The slowest rate.
     pub(crate) const fn slowest_rate(&self) -> Option<RateId> {
         self.slowest.1
     }

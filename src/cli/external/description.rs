@@ -97,7 +97,7 @@ fn spec(option: &DescribedOption) -> Result<OptionSpec, Fault> {
         DescribedKind::Text => OptionKind::Text,
         DescribedKind::Choice { of } => {
             if of.is_empty() || of.len() > MOST_OPTIONS || !of.iter().all(|word| is_name(word)) {
-                return refused("whose words are none, too many, or no names");
+                return refused("with no words, too many words, or words that are not names");
             }
             if of.iter().any(|word| word == DEFAULT) {
                 return refused("with the word `default`, by which jobs take an option back");
@@ -166,11 +166,9 @@ fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
 /// # Errors
 /// Which of its values is too coarse, and how large it may be.
 pub(super) fn fine_enough(grain: &Grain) -> Result<(), Fault> {
-    grain.is_sound().map_err(|allowed| {
-        fault(format!(
-            "prints with a grain with which nothing can be compared: {allowed}"
-        ))
-    })
+    grain
+        .is_sound()
+        .map_err(|allowed| fault(format!("prints too coarsely to compare anything: {allowed}")))
 }
 
 /// A grain divided by ten to some power.

@@ -21,7 +21,7 @@ fn numbers(option: &str, text: &str, units: &[&str], example: &str) -> Result<Ve
     if parts.len() != units.len() {
         let (wanted, found) = (units.len(), parts.len());
         return Err(help(Failure::new(format!(
-            "{option} takes {wanted} numbers with commas between them, not {found}"
+            "{option} takes {wanted} numbers separated by commas, not {found}"
         ))));
     }
     let pairs = parts.iter().zip(units);

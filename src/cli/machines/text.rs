@@ -78,7 +78,7 @@ fn of_sheet(sheet: &Sheet) -> Vec<String> {
     if let Some(confidence) = sheet.confidence {
         let meaning = match confidence {
             Confidence::High => "two or more sources agree on all lengths",
-            Confidence::MediumHigh => "sources agree but for one number, or none is the maker's",
+            Confidence::MediumHigh => "sources agree except for one number, or none comes from the maker",
             Confidence::Medium => "one source, or incomplete limits or speeds",
             Confidence::Example => "made up to show an arrangement; no real machine",
         };
@@ -96,7 +96,7 @@ fn path(path: &PathLimits) -> String {
     if known.is_empty() {
         return String::new();
     }
-    format!("  along the way of the tip: {}\n", known.join(", "))
+    format!("  along the path of the tip: {}\n", known.join(", "))
 }
 
 fn axes(axes: &[Axis]) -> String {
@@ -124,7 +124,7 @@ fn facts(facts: &Facts) -> String {
     for sources in facts.sources.iter().filter(|sources| !sources.list.is_empty()) {
         text += &section(&format!("sources of the {}", sources.of), &sources.list);
     }
-    text += &section("disagreements, and what was adopted", &facts.disagreements);
+    text += &section("disagreements, and the values adopted", &facts.disagreements);
     text += &section("remarks", &facts.remarks);
     let checks: Vec<String> = facts.fk_checks.iter().map(check).collect();
     text += &section(

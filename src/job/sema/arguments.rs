@@ -13,11 +13,8 @@ use vcutc_syntax::ast::{Argument, Expr};
 /// A named value of a call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Parameter<'p> {
-    /// Its name.
     pub(crate) name: &'p str,
-    /// Its range.
     pub(crate) range: Range,
-    /// A typical value.
     pub(crate) typical: &'p str,
 }
 

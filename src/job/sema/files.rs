@@ -20,7 +20,6 @@ const MOST_BYTES: u64 = 4 * LARGEST_FILE;
 
 /// A file of the job.
 pub(crate) struct File {
-    /// Its number.
     pub(crate) id: FileId,
     /// Its tree.
     pub(crate) ast: Ast,

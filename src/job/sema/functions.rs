@@ -11,7 +11,6 @@ use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::Argument;
 
-/// A function.
 struct Function {
     name: &'static str,
     form: Form,
@@ -55,7 +54,6 @@ const fn function(name: &'static str, form: Form, example: &'static str, signatu
     }
 }
 
-/// All functions.
 const FUNCTIONS: &[Function] = &[
     function(
         "sin",

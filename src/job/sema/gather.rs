@@ -17,9 +17,7 @@ use vcutc_syntax::ast::{Block, Expr, Item};
 /// A block and where it stands.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
-    /// The block.
     pub(crate) block: &'a Block,
-    /// Where it stands.
     pub(crate) place: Place,
 }
 
@@ -32,9 +30,7 @@ pub(crate) enum Standing {
     Used(Option<Span>),
 }
 
-/// A machine's block.
 pub(crate) struct MachineBlock<'a> {
-    /// What its head says.
     pub(crate) head: Head<'a>,
     /// The block.
     pub(crate) placed: Placed<'a>,
@@ -45,7 +41,6 @@ pub(crate) struct MachineBlock<'a> {
 /// All that a job's files define.
 #[derive(Default)]
 pub(crate) struct Definitions<'a> {
-    /// Names.
     pub(crate) names: Names<'a>,
     /// `let`s of all files.
     pub(crate) lets: Vec<Let<'a>>,
@@ -55,9 +50,7 @@ pub(crate) struct Definitions<'a> {
     pub(crate) machines: Vec<MachineBlock<'a>>,
     /// The job's name.
     pub(crate) job: Option<&'a Spanned<String>>,
-    /// The stock.
     pub(crate) stock: Option<Placed<'a>>,
-    /// The profile.
     pub(crate) profile: Option<Placed<'a>>,
     /// The choice of the machine.
     pub(crate) cell: Option<Placed<'a>>,

@@ -15,7 +15,6 @@ use vcutc_syntax::ast::Expr;
 /// A `let`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Let<'a> {
-    /// Its name.
     pub(crate) name: &'a Spanned<String>,
     /// What it is worth: the file's word, or that of the command line.
     pub(crate) value: &'a Spanned<Expr>,

@@ -59,9 +59,7 @@ const SETTLED: Duration = Duration::s(0.5);
 /// What the head of a machine's block says.
 #[derive(Clone, Copy)]
 pub(crate) struct Head<'a> {
-    /// Its name.
     pub(crate) name: Spanned<&'a str>,
-    /// What it is.
     pub(crate) kind: Spanned<MachineKind>,
     /// Its model.
     pub(crate) model: Spanned<&'a str>,
@@ -87,9 +85,8 @@ pub(crate) fn check(
     let load = optional(&fields, "load", &mut reader, load);
     let home = match (fields.value("home"), &model) {
         (Ok(None), _) => Ok(None),
-        (Ok(Some(expr)), Ok(described)) => {
-            home::read(expr, &described.model, head.model.span, &mut reader).map(|home| Some(sourced(home, expr.span)))
-        }
+        (Ok(Some(expr)), Ok(described)) => home::read(expr, &described.model, head.model.span, &mut reader)
+            .map(|home| Some(sourced(home, expr.span))),
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
     let ultrasonic = optional(&fields, "ultrasonic", &mut reader, ultrasonic);

@@ -15,9 +15,7 @@ use vcutc_syntax::ast::Expr;
 pub(crate) struct Mismatch<'a> {
     /// Who wants it, as it goes into a sentence: `` `rake` ``.
     pub(crate) taker: &'a str,
-    /// What it wants.
     pub(crate) wanted: Dimension,
-    /// What stands there.
     pub(crate) expr: &'a Spanned<Expr>,
     /// What that comes out as.
     pub(crate) found: Quantity,
@@ -26,7 +24,6 @@ pub(crate) struct Mismatch<'a> {
 }
 
 impl Mismatch<'_> {
-    /// The diagnostic.
     pub(crate) fn diagnostic(&self, scope: &Scope<'_>) -> Diagnostic {
         let (wanted, found) = (self.wanted.words(), self.found.dimension.words());
         let (label, mends) = match literal(self.expr) {

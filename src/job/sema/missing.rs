@@ -24,7 +24,6 @@ pub(crate) struct Missing {
 }
 
 impl Missing {
-    /// For the root file.
     pub(crate) fn of(
         root: &File,
         all: &Definitions<'_>,

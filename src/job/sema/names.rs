@@ -16,9 +16,7 @@ use vcutc_diagnostics::{Code, Diagnostic};
 pub enum Thing {
     /// A `let`.
     Let(usize),
-    /// A blade.
     Blade(usize),
-    /// A machine.
     Machine(usize),
 }
 
@@ -36,7 +34,6 @@ impl Thing {
 /// A name's definition.
 #[derive(Clone, Copy, Debug)]
 pub struct Definition {
-    /// What it stands for.
     pub thing: Thing,
     /// Where the name is defined.
     pub span: Span,

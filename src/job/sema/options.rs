@@ -279,7 +279,6 @@ fn word<'e>(value: &'e Expr, scope: Scope<'_>) -> Option<&'e str> {
     (!matches!(known, Some(Thing::Let(_)))).then_some(word)
 }
 
-/// A list of texts.
 fn texts(values: &[Spanned<Expr>], session: &mut Session<'_>) -> Checked<Vec<String>> {
     let text = |value: &Spanned<Expr>| match &value.node {
         Expr::Text(text) => Ok(text.clone()),

@@ -14,7 +14,6 @@ use vcutc_syntax::ast::Expr;
 pub(crate) struct Override {
     /// The name it sets.
     pub(crate) name: Spanned<String>,
-    /// What to.
     pub(crate) value: Spanned<Expr>,
 }
 

@@ -32,7 +32,6 @@ pub(crate) struct Trace {
     points: Vec<Point2>,
     /// For each point the piece that leads to it, as a place in `pieces`.
     owners: Vec<usize>,
-    /// Where the pieces stand.
     pieces: Vec<Origin>,
 }
 

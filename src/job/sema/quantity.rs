@@ -8,7 +8,6 @@ use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Spee
 pub struct Quantity {
     /// In mm, rad, s, kg and their products.
     pub value: f64,
-    /// What it is.
     pub dimension: Dimension,
 }
 

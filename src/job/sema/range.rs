@@ -41,7 +41,6 @@ const LONGEST: f64 = 100_000.0;
 pub const SIZE: Range = range(Dimension::LENGTH, Low::Above(0.0), High::AtMost(LONGEST));
 /// Lengths that may be nothing.
 pub const DISTANCE: Range = range(Dimension::LENGTH, Low::AtLeast(0.0), High::AtMost(LONGEST));
-/// Coordinates.
 pub const COORDINATE: Range = range(Dimension::LENGTH, Low::AtLeast(-LONGEST), High::AtMost(LONGEST));
 /// Half the apex angle of a blade.
 pub const HALF_APEX: Range = range(Dimension::ANGLE, Low::AtLeast(0.0), High::Below(90.0));
@@ -49,7 +48,6 @@ pub const HALF_APEX: Range = range(Dimension::ANGLE, Low::AtLeast(0.0), High::Be
 pub const RAKE: Range = range(Dimension::ANGLE, Low::Above(0.0), High::AtMost(90.0));
 /// Swing: half the opening angle of a V. Swings are chosen to a thousandth of a degree; less than that is no V.
 pub const SWING: Range = range(Dimension::ANGLE, Low::AtLeast(0.001), High::Below(90.0));
-/// Angles of a frame.
 pub const FRAME_ANGLE: Range = range(Dimension::ANGLE, Low::AtLeast(-360.0), High::AtMost(360.0));
 /// Parts of a quaternion. Whether all four make a rotation is looked at together.
 pub const QUATERNION_PART: Range = range(Dimension::PURE, Low::AtLeast(-1000.0), High::AtMost(1000.0));

@@ -11,7 +11,6 @@ use vcutc_diagnostics::source::{FileId, Loader, SourceMap, Span};
 pub struct Session<'a> {
     /// Where files come from.
     pub loader: &'a dyn Loader,
-    /// All texts so far.
     pub sources: &'a mut SourceMap,
     /// What there is to tell.
     pub reports: Reports,

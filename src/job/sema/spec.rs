@@ -82,14 +82,12 @@ pub enum Takes {
 pub enum Leaving {
     /// It takes `auto`.
     Open,
-    /// It does not.
     Closed,
 }
 
 /// A field that a block can have.
 #[derive(Clone, Copy, Debug)]
 pub struct FieldSpec {
-    /// Its name.
     pub name: &'static str,
     /// What kind of entry it is.
     pub form: Form,
@@ -97,7 +95,6 @@ pub struct FieldSpec {
     pub typical: &'static str,
     /// Whether it must be there.
     pub need: Need,
-    /// What its value is.
     pub takes: Takes,
     /// Whether it takes `auto`.
     pub leaving: Leaving,
@@ -176,7 +173,6 @@ pub const fn bounds(name: &'static str, typical: &'static str) -> FieldSpec {
     FieldSpec::new(name, Form::Bounds, typical)
 }
 
-/// A kind of block.
 #[derive(Debug)]
 pub struct BlockSpec {
     /// What it is called in a sentence, such as `` `rough vcut` ``.

@@ -35,9 +35,7 @@ pub struct Study {
 /// A file and its tree.
 #[derive(Debug)]
 pub struct StudiedFile {
-    /// The file.
     pub id: FileId,
-    /// What it says.
     pub ast: Ast,
 }
 
@@ -46,7 +44,6 @@ pub struct StudiedFile {
 pub struct Definition {
     /// The name, where it is defined.
     pub name: Spanned<String>,
-    /// What it stands for.
     pub meaning: Meaning,
 }
 
@@ -55,9 +52,7 @@ pub struct Definition {
 pub enum Meaning {
     /// A value; none if it could not be worked out.
     Value(Option<Value>),
-    /// A blade.
     Blade,
-    /// A machine.
     Machine,
 }
 
@@ -240,7 +235,6 @@ impl Value {
         self.0.dimension.unit().replace("deg", "rad")
     }
 
-    /// Its dimension.
     pub const fn dimension(self) -> Dimension {
         self.0.dimension
     }

@@ -4,7 +4,6 @@ use super::dimension::Dimension;
 use super::quantity::Quantity;
 use core::f64::consts::PI;
 
-/// A unit.
 pub(super) struct Unit {
     pub(super) name: &'static str,
     /// What it is called.

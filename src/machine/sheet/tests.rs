@@ -233,7 +233,7 @@ fn words_are_known_words() {
 fn limits_that_nobody_checks_are_refused() {
     let (place, message) = flaw("[limits]\n", "[limits]\nelbow_angle_limit_deg = [-70.0, 70.0]\n");
     assert_eq!(place, "[-70.0, 70.0]");
-    assert!(message.contains("axis by axis"), "{message}");
+    assert!(message.contains("each axis separately"), "{message}");
     let coupled = "[coupling]\nwrist_4_5_6_coupling_in_joint_space = true\n[limits]";
     assert_eq!(flaw("[limits]", coupled).0, "true");
 }

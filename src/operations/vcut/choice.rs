@@ -115,7 +115,6 @@ pub(crate) fn is_within(vcut: &PlannedVcut, routes: RouteSet) -> bool {
 enum Unplanned {
     /// What there is to tell is known.
     Refused(Vec<Refused>),
-    /// There are no parameters.
     Parameters(Refusal),
 }
 

@@ -45,7 +45,6 @@ fn sequence(piece: &str) -> (Option<&str>, &str) {
 }
 
 impl Look {
-    /// After these numbers.
     fn after(self, codes: &str) -> Self {
         let mut look = self;
         let mut codes = codes.split(';').map(|code| code.parse::<u8>().unwrap_or(0));

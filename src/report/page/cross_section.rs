@@ -4,7 +4,6 @@ use super::figure::{Ids, Zoom, figure};
 use super::{Section, Subject, cuts};
 use crate::pictures;
 
-/// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
     let contour = figure(

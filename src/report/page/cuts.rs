@@ -22,7 +22,6 @@ struct Cut {
     z: f64,
     /// How far the tip goes through the work or beyond its ends while it cuts, in mm.
     way: f64,
-    /// When it begins.
     start: Duration,
     /// How long it takes.
     time: Duration,
@@ -31,7 +30,6 @@ struct Cut {
 /// The cuts of each layer in the order of work; layers by operation and number, both from 1.
 type Layers = BTreeMap<(u32, u32), Vec<Cut>>;
 
-/// The table.
 pub(super) fn table_of_cuts(material: &Material<'_>) -> String {
     let program = material.compiled.program.verified().program();
     let layers = layers(program, &material.compiled.op_times);

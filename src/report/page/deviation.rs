@@ -6,7 +6,6 @@ use super::{Section, Subject};
 use crate::pictures;
 use vcutc_simulation::report::Report;
 
-/// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
     let deviation = figure(

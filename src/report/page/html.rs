@@ -5,7 +5,6 @@ pub(crate) use vcutc_picture::escaped;
 /// A column of a table.
 #[derive(Clone, Copy)]
 pub(super) enum Column {
-    /// Of words.
     Words(&'static str),
     /// Of numbers, which stand to the right.
     Numbers(&'static str),
@@ -72,7 +71,6 @@ pub(super) fn table(
     table + "</tbody>\n</table>\n</div>\n"
 }
 
-/// A paragraph of text.
 pub(super) fn paragraph(text: &str) -> String {
     format!("<p>{}</p>\n", unbroken(text))
 }

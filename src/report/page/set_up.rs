@@ -8,7 +8,6 @@ use crate::digest::hexadecimal;
 use crate::facts::{self, Fact};
 use vcutc_picture::{Prefix, setup};
 
-/// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
     let job = material.job;

@@ -19,7 +19,6 @@ pub(super) struct Listing<'a> {
 
 /// A place in a text as people and links see it.
 pub(super) struct Place {
-    /// The link.
     pub(super) link: Option<String>,
     /// `rib.vcut:14:15`.
     pub(super) words: String,
@@ -41,7 +40,6 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// Where a span begins.
     pub(super) fn place(&self, span: Span) -> Place {
         let text = self.sources.get(span.file).map_or("", |file| file.text.as_str());
         let place = position(text, span.start);
@@ -58,7 +56,6 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// The section.
     pub(super) fn section(&self) -> Section {
         let files = self.shown.iter().enumerate();
         Section {

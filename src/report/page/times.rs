@@ -9,7 +9,6 @@ use vcutc_driver::summary::time;
 use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::Timing;
 
-/// The section.
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let report = &subject.material.compiled.report;
     let whole = &report.times.all;

@@ -75,7 +75,6 @@ pub(super) fn key_numbers(subject: Subject<'_>) -> String {
     numbers + "</dl>\n"
 }
 
-/// A key number.
 struct Key {
     name: &'static str,
     value: String,
@@ -98,7 +97,6 @@ impl Room {
     }
 }
 
-/// The key numbers.
 fn rows(subject: Subject<'_>) -> Vec<Key> {
     let material = subject.material;
     let (compiled, report) = (material.compiled, &material.compiled.report);

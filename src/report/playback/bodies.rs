@@ -25,7 +25,6 @@ pub enum Shape {
     Bar {
         /// Where its middle line begins.
         from: Point3,
-        /// Where it ends.
         to: Point3,
         /// Its radius, in mm.
         radius: f64,
@@ -44,7 +43,6 @@ pub enum Shape {
 pub struct Body {
     /// What carries it.
     pub carrier: Carrier,
-    /// Its shape.
     pub shape: Shape,
 }
 

@@ -20,7 +20,6 @@ macro_rules! packed {
 
 packed!(u8, u16, u32, i32, f64);
 
-/// A column as text.
 #[must_use]
 pub(super) fn column<N: Packed>(numbers: &[N]) -> String {
     let mut bytes = Vec::with_capacity(size_of_val(numbers));

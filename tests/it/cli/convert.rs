@@ -127,7 +127,7 @@ fn messages_about_tips_show_the_line_of_the_program() {
     assert!(run.stderr.contains("error[VC0401]"), "{}", run.stderr);
     assert!(run.stderr.contains("panel.src:"), "{}", run.stderr);
     assert!(
-        run.stderr.contains("the pass that it stands for"),
+        run.stderr.contains("the pass that it comes from"),
         "{}",
         run.stderr
     );
@@ -274,11 +274,7 @@ fn nothing_that_is_read_is_written_over() {
     .concat();
     let run = vcutc(root(), &arguments);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(
-        run.stderr.contains("is a file that the job is made from"),
-        "{}",
-        run.stderr
-    );
+    assert!(run.stderr.contains("is an input of the job"), "{}", run.stderr);
     assert_eq!(inputs(), before);
 }
 

@@ -170,7 +170,7 @@ fn a_program_that_hangs_is_stopped_with_its_children() {
         "the sleep is not waited for"
     );
     assert_eq!(run.code, Some(2));
-    assert!(run.stderr.contains("was not done within 1 s"), "{}", run.stderr);
+    assert!(run.stderr.contains("did not finish within 1 s"), "{}", run.stderr);
     assert_child_is_stopped(folder.path());
 }
 
@@ -189,7 +189,7 @@ fn children_of_a_program_that_has_ended_are_stopped_with_the_time() {
     ];
     let run = vcutc(folder.path(), &args);
     assert_eq!(run.code, Some(2));
-    assert!(run.stderr.contains("was not done within 1 s"), "{}", run.stderr);
+    assert!(run.stderr.contains("did not finish within 1 s"), "{}", run.stderr);
     assert_child_is_stopped(folder.path());
 }
 
@@ -492,12 +492,12 @@ fn a_program_that_writes_something_else_than_it_was_given_is_found_out() {
         (
             "\"end\": \"exact\"",
             "\"end\": \"rounded\"",
-            "tell the authors of `vcutc-backend-deeds`",
+            "report this to the authors of `vcutc-backend-deeds`",
         ),
         (
             "yield {\"axes\": axes}",
             "yield {\"axes\": [axes[0] + 0.001] + axes[1:]}",
-            "wrote something else than the program it was given",
+            "wrote something other than the program it was given",
         ),
         (
             "\"end\": start + length}",
@@ -552,7 +552,7 @@ fn a_program_cannot_switch_the_comparison_off_by_its_grain() {
             &["rib.vcut", "--target", "deeds", "--backend-path", ".", "-q"],
         );
         assert_eq!(run.code, Some(code), "{key}: {}", run.stderr);
-        let says = format!("prints with a grain with which nothing can be compared: `{key}` is 0 to ");
+        let says = format!("prints too coarsely to compare anything: `{key}` is 0 to ");
         assert_eq!(run.stderr.contains(&says), code == 2, "{key}: {}", run.stderr);
     }
     // Half a unit of the last decimal, with as many decimals as the job asks for.

@@ -91,7 +91,7 @@ fn arguments_of_a_compilation_cannot_stand_in_front_of_a_command() {
     ] {
         let run = vcutc(folder().path(), args);
         assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{args:?}");
-        assert!(run.stderr.contains("in front of a command"), "{}", run.stderr);
+        assert!(run.stderr.contains("before a command"), "{}", run.stderr);
     }
 }
 

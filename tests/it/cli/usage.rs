@@ -18,7 +18,7 @@ fn a_folder_without_a_target_is_an_error() {
         let run = vcutc(folder.path(), args);
         assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{args:?}");
         assert!(
-            run.stderr.starts_with("error: `-o out` says where files go, but no target was given, so there are none\n  help: write `--target "),
+            run.stderr.starts_with("error: `-o out` gives a place for files, but no target was given, so there are none\n  help: write `--target "),
             "{}",
             run.stderr
         );
@@ -209,9 +209,8 @@ fn lists_with_blanks_are_answered_with_commas() {
     );
     assert_eq!(run.code, Some(2));
     assert!(
-        run.stderr.starts_with(
-            "error: --joints takes its numbers with commas between them: --joints 0,-90,90,0,45,0\n"
-        ),
+        run.stderr
+            .starts_with("error: --joints takes numbers separated by commas: --joints 0,-90,90,0,45,0\n"),
         "{}",
         run.stderr
     );

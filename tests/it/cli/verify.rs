@@ -203,7 +203,7 @@ fn a_program_that_was_emptied_has_no_beginning() {
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     let words = "the beginning of the program is missing";
     assert!(run.stderr.contains(words), "{}", run.stderr);
-    assert!(!run.stderr.contains("split otherwise"), "{}", run.stderr);
+    assert!(!run.stderr.contains("split differently"), "{}", run.stderr);
 }
 
 #[test]
@@ -218,7 +218,7 @@ fn the_summary_of_an_air_cut_claims_no_surface() {
     );
     assert!(
         run.stderr
-            .contains("chips, contour and scallop, as nothing is cut"),
+            .contains("chips, contour and scallop, because nothing is cut"),
         "{}",
         run.stderr
     );

@@ -399,7 +399,7 @@ fn a_watch_writes_over_no_file_of_its_job() {
     fs::write(folder.path().join("rib.dat"), points).unwrap();
     let arguments = ["watch", "rib.vcut", "--target", "krl"];
     let watch = Watch::of(command(folder.path(), &arguments), folder);
-    watch.told("is a file that the job is made from");
+    watch.told("is an input of the job");
     assert_eq!(fs::read_to_string(watch.path().join("rib.dat")).unwrap(), points);
 }
 

@@ -56,9 +56,12 @@ fn hovering_tells_values_units_and_formulas() {
         ("residual = disc|ard", vec!["such a cut is left out"]),
         (
             "swing = au|to",
-            vec!["`auto`", "Chosen as: together, what makes the objective least"],
+            vec![
+                "`auto`",
+                "Chosen as: together, the values that minimize the objective",
+            ],
         ),
-        ("lim|its {", vec!["bounds for what is chosen"]),
+        ("lim|its {", vec!["limits on the choice"]),
         ("swing <|= 45", vec![]),
         (
             "sw|ing <= 45",

@@ -115,9 +115,9 @@ fn names_that_would_mean_something_else_are_refused() {
     let mut editor = shop();
     editor.open(RIB_AT);
     for (new, why) in [
-        ("auto", "meaning of its own"),
-        ("let", "meaning of its own"),
-        ("radius", "meaning of its own"),
+        ("auto", "is reserved by the language"),
+        ("let", "is reserved by the language"),
+        ("radius", "is reserved by the language"),
         ("3x", "is not a name"),
         ("a-b", "is not a name"),
         ("slow", "is a value already, in /shop/blades.vcut"),

@@ -269,7 +269,7 @@ fn the_job_that_was_changed_last_is_planned_first() {
         let at = editor.at(path, "step  = au|to");
         let told = editor.ask("textDocument/hover", at).unwrap();
         let text = told["contents"]["value"].as_str().unwrap();
-        assert!(text.starts_with("`auto` came out as"), "{path}: {text}");
+        assert!(text.starts_with("`auto` is `"), "{path}: {text}");
     }
     assert!(editor.server.task().is_none());
 }

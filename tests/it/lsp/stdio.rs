@@ -80,7 +80,7 @@ fn an_end_without_a_word_is_told_by_the_exit_status() {
     assert_eq!(process.child.wait().unwrap().code(), Some(1));
     let told = said(&mut process);
     assert!(
-        told.contains("the conversation cannot go on: headers without a length"),
+        told.contains("the conversation cannot continue: headers without a length"),
         "{told}"
     );
 

@@ -33,7 +33,6 @@ pub(crate) enum FeedMode {
 pub(crate) enum ReadError {
     /// A word, or a combination of words, that no program of this crate has.
     Unknown,
-    /// Something else was expected.
     Expected(String),
 }
 
@@ -50,7 +49,6 @@ pub(crate) fn expected<T>(what: impl Into<String>) -> Parsed<T> {
 pub(crate) struct Order<'t> {
     /// The kind of motion that it names.
     pub(crate) motion: Option<Motion>,
-    /// What its coordinates are.
     pub(crate) coordinates: Coordinates,
     /// It ends at a standstill, whatever holds for others.
     pub(crate) exact_once: Once,
@@ -68,7 +66,6 @@ pub(crate) struct Order<'t> {
     pub(crate) flow: Option<Flow<'t>>,
 }
 
-/// A kind of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motion {
     /// As fast as may be.
@@ -77,7 +74,6 @@ pub(crate) enum Motion {
     AtFeed,
 }
 
-/// What coordinates are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Coordinates {
     /// Those of the tip, from the zero of the work.
@@ -90,10 +86,8 @@ pub(crate) enum Coordinates {
 /// Whether something is said for one block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Once {
-    /// It is not.
     #[default]
     No,
-    /// It is.
     Yes,
 }
 
@@ -195,7 +189,6 @@ pub(crate) enum Act {
     Await(u32),
     /// Waits until the generator is ready, by blocks that the job gives.
     AwaitReady,
-    /// Waits.
     Wait(Duration),
     /// The second of the two lines of a wait.
     CycleWait(Duration),
@@ -235,7 +228,6 @@ pub(crate) enum Flow<'t> {
 pub(crate) enum Routine<'t> {
     /// In letters, small and capital ones alike.
     Name(&'t str),
-    /// A number.
     Number(u32),
 }
 

@@ -35,9 +35,7 @@ const MOST_DIGITS: usize = 19;
 /// What stands where a number should.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Number {
-    /// Something else.
     None,
-    /// A number.
     Is(f64),
     /// Digits that are no number, or one that is too large.
     Bad,

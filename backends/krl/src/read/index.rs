@@ -56,7 +56,6 @@ pub fn stem(file: &str) -> (&str, &str) {
 pub enum FileKind {
     /// Routines.
     Source,
-    /// A data list.
     Data,
 }
 

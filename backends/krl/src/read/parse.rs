@@ -11,7 +11,6 @@ pub(super) const DEEPEST: u32 = 4;
 
 /// Why a line is no phrase of its kind.
 pub(super) enum Trouble {
-    /// Something else was expected.
     Expected(&'static str),
     /// It is KRL, but not of the part that is read.
     Other,

@@ -201,7 +201,6 @@ enum Stage {
     Instructions,
 }
 
-/// What comes next.
 enum Next {
     GoOn,
     Enter(usize),

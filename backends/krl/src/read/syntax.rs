@@ -90,9 +90,7 @@ pub struct Span {
 pub struct Statement<'t> {
     /// Where it stands, without its comment and the blanks around it.
     pub span: Span,
-    /// The text there.
     pub text: &'t str,
-    /// What it is.
     pub phrase: Phrase<'t>,
 }
 
@@ -103,7 +101,6 @@ pub enum Phrase<'t> {
     Mark(&'t str),
     /// `DEF name( )`, the head of a routine.
     Def {
-        /// Its name.
         name: &'t str,
         /// Who may call it.
         scope: Scope,
@@ -112,7 +109,6 @@ pub enum Phrase<'t> {
     End,
     /// `DEFDAT name`, the head of a data list.
     DefDat {
-        /// Its name.
         name: &'t str,
         /// Who may use what is declared in it: with `PUBLIC` everyone, as far as it is declared `GLOBAL`.
         scope: Scope,
@@ -120,17 +116,13 @@ pub enum Phrase<'t> {
     /// `ENDDAT` of a data list.
     EndDat,
     /// `EXT name(...)`: makes a routine of another module known.
-    Ext {
-        /// Its name.
-        name: &'t str,
-    },
+    Ext { name: &'t str },
     /// `DECL E6POS XP1={...}`.
     Declaration(Declaration<'t>),
     /// `$VEL.CP=0.2`, `XP1.Y=5.0`.
     Assignment {
         /// What gets the value.
         to: Variable<'t>,
-        /// The value.
         value: Value<'t>,
     },
     /// `PTP`, `LIN` and their like.
@@ -141,12 +133,10 @@ pub enum Phrase<'t> {
     Bas {
         /// What it is to do, without the `#`.
         command: &'t str,
-        /// With which value.
         value: Option<f64>,
     },
     /// `name(...)`: a routine is called.
     Call {
-        /// Its name.
         name: &'t str,
         /// What it is given, blanks apart: empty for `( )`.
         arguments: &'t str,
@@ -182,9 +172,7 @@ pub struct Declaration<'t> {
     pub scope: Scope,
     /// The type.
     pub kind: &'t str,
-    /// The variable.
     pub name: Variable<'t>,
-    /// Its value.
     pub value: Option<Value<'t>>,
     /// What stands behind a comma: further names of the same type, without values.
     pub further: &'t str,
@@ -201,11 +189,9 @@ impl<'t> Declaration<'t> {
 /// A variable, a place of an array, or a field of one: `XP1`, `$OUT[3]`, `$VEL.CP`, `TOOL_DATA[3]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variable<'t> {
-    /// Its name.
     pub name: &'t str,
     /// The place in an array, from 1 on.
     pub index: Option<u32>,
-    /// The field.
     pub field: Option<&'t str>,
 }
 
@@ -248,29 +234,23 @@ pub enum Value<'t> {
     Text(&'t str),
     /// A pose, a frame or axis values.
     Coordinates(Coordinates),
-    /// Any other structure.
     Structure(Vec<Field<'t>>),
-    /// A variable.
     Variable(Variable<'t>),
 }
 
 /// A field of a structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field<'t> {
-    /// Its name.
     pub name: &'t str,
-    /// Its value.
     pub value: Value<'t>,
 }
 
-/// A component of `E6POS`, `POS`, `FRAME`, `E6AXIS` and `AXIS`.
+/// A component of `E6POS`, `POS`, `FRAME`, `E6AXIS` and `AXIS`: X, Y, Z in mm, A, B, C and axes in degrees, S and T.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[rustfmt::skip]
-#[expect(missing_docs, reason = "X, Y, Z in mm, A, B, C and axes in degrees, S and T: they are called what they are")]
 pub enum Component { X, Y, Z, A, B, C, S, T, A1, A2, A3, A4, A5, A6, E1, E2, E3, E4, E5, E6 }
 
 impl Component {
-    /// All of them.
     #[rustfmt::skip]
     pub const ALL: [Self; 20] = [
         Self::X, Self::Y, Self::Z, Self::A, Self::B, Self::C, Self::S, Self::T,
@@ -290,7 +270,6 @@ impl Component {
     /// External axes.
     pub const EXTERNAL: [Self; 6] = [Self::E1, Self::E2, Self::E3, Self::E4, Self::E5, Self::E6];
 
-    /// By its name.
     #[must_use]
     #[inline]
     pub const fn named(name: &str) -> Option<Self> {
@@ -386,12 +365,10 @@ impl Coordinates {
     }
 }
 
-/// A motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion<'t> {
     /// By which planner, and on which way.
     pub word: MotionWord,
-    /// Where to.
     pub target: Target<'t>,
     /// What stands behind it.
     pub tail: Tail<'t>,
@@ -448,7 +425,6 @@ pub enum Directions {
 pub struct Setting<'t> {
     /// What gets a value.
     pub to: Variable<'t>,
-    /// The value.
     pub value: SettingValue<'t>,
     /// The value as it is written.
     pub text: &'t str,
@@ -461,7 +437,6 @@ pub enum SettingValue<'t> {
     Plain(Value<'t>),
     /// What a function of the controller gives, such as `SVEL_CP(0.2, , LCPDAT1)`.
     Function {
-        /// Its name.
         name: &'t str,
         /// What it is given, blanks apart.
         arguments: &'t str,
@@ -492,9 +467,7 @@ pub enum MotionWord {
 /// Where a motion leads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target<'t> {
-    /// A literal.
     Literal(Coordinates),
-    /// A variable.
     Variable(Variable<'t>),
 }
 

@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 /// Where a name is known. A controller looks in this order.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
-    /// In one routine.
     Routine(usize),
     /// In one module, by its name in upper case.
     Module(String),

@@ -16,7 +16,6 @@ const OFF_LENGTH: f64 = 1e-5;
 /// Where a name is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Scope {
-    /// In the whole task.
     Task,
     /// In a module, counted from 0.
     Module(usize),
@@ -31,7 +30,6 @@ pub(super) enum Datum {
     Value(Value),
     /// A tool: its frame seen from the flange.
     Tool,
-    /// A work object.
     WorkObject,
     /// Something whose value is not known.
     Unclear,
@@ -142,7 +140,6 @@ impl View<'_> {
         }
     }
 
-    /// A number.
     pub(super) fn number(&self, value: &Value) -> Option<f64> {
         match self.literal(value)? {
             Value::Number(number) => Some(*number),

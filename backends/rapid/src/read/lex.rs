@@ -26,7 +26,6 @@ pub(super) struct Token {
 }
 
 impl Token {
-    /// What it says.
     pub(super) fn text(self, whole: &str) -> &str {
         whole.get(self.start..self.end).unwrap_or_default()
     }

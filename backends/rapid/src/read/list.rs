@@ -5,7 +5,6 @@ use super::piece::{Piece, PieceKind};
 /// A statement of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Entry {
-    /// Where it stands.
     pub(super) piece: Piece,
     /// The module's file, where it names one.
     pub(super) module: Option<String>,

@@ -6,7 +6,6 @@
 use super::lex::{Kind, Lexer, Token};
 use std::collections::BTreeSet;
 
-/// What a piece is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PieceKind {
     /// `%%% VERSION:1 LANGUAGE:ENGLISH %%%`, the head of old files.
@@ -38,7 +37,6 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Its text.
     pub(super) fn text(self, whole: &str) -> &str {
         whole
             .get(self.start as usize..self.end as usize)

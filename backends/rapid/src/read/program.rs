@@ -41,7 +41,6 @@ pub(super) struct List {
     pub(super) told: Vec<(Piece, Says)>,
 }
 
-/// A whole program.
 #[derive(Debug, Default)]
 pub(super) struct Program<'t> {
     pub(super) lists: Vec<List>,

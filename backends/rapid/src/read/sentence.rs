@@ -8,7 +8,6 @@ const DEEPEST: u32 = 8;
 /// A value as written.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
-    /// A number.
     Number(f64),
     /// A name, in upper case.
     Name(String),
@@ -40,10 +39,7 @@ pub(crate) enum Sentence {
         value: Option<Value>,
     },
     /// Data get another value.
-    Assignment {
-        /// Which.
-        name: String,
-    },
+    Assignment { name: String },
     /// An instruction, or the call of a routine.
     Instruction {
         name: String,

@@ -39,7 +39,6 @@ pub(super) fn trace(pieces: &[Piece<'_>], scope: Scope<'_>, session: &mut Sessio
 enum Pen {
     /// Nothing has been drawn yet.
     Up,
-    /// At a point.
     At(Point2),
     /// At a point that could not be worked out.
     Lost(Reported),
@@ -154,7 +153,6 @@ impl Drawing<'_> {
         }
     }
 
-    /// Where a piece begins.
     fn begin(&mut self, piece: &Piece<'_>, reports: &mut Reports) -> Checked<Point2> {
         match self.pen {
             Pen::At(place) => Ok(place),

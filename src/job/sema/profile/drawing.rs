@@ -36,7 +36,6 @@ pub(crate) struct Format {
     load: fn(&Spanned<String>, &mut Session<'_>) -> Checked<FileId>,
 }
 
-/// DXF.
 pub(crate) static DXF: Format = Format {
     spec: spec("`dxf`", DXF_FIELDS),
     units: DXF_UNITS,
@@ -44,7 +43,6 @@ pub(crate) static DXF: Format = Format {
     load: load_dxf,
 };
 
-/// SVG.
 pub(crate) static SVG: Format = Format {
     spec: spec("`svg`", SVG_FIELDS),
     units: SVG_UNITS,
@@ -97,7 +95,6 @@ const SIDES: &[(&str, Side)] = &[("upper", Side::Upper), ("lower", Side::Lower)]
 /// Ends of lines that are joined when the job does not say how far they may be apart.
 const JOINED: Length = Length::mm(0.01);
 
-/// What the options say.
 struct Options {
     layer: Option<Spanned<String>>,
     side: Option<Side>,

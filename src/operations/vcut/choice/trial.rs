@@ -62,7 +62,6 @@ pub(super) enum FoundBy {
 }
 
 impl FoundBy {
-    /// In words.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Formulas => "by formulas alone",
@@ -253,9 +252,13 @@ enum Outcome {
     /// There are no cuts, or too many.
     Impossible,
     /// More cuts than are compared.
-    TooLarge { cuts: usize },
-    /// A plan.
-    Planned { standing: Standing, figures: Figures },
+    TooLarge {
+        cuts: usize,
+    },
+    Planned {
+        standing: Standing,
+        figures: Figures,
+    },
 }
 
 /// What the search is for.

@@ -8,7 +8,6 @@ use vcutc_backend_api::units::{Duration, Length};
 pub struct Decision {
     /// The field of the language that was left open; where `order` is decided with it, that one is part of the words.
     pub field: &'static str,
-    /// What was taken.
     pub taken: Candidate,
     /// What was not, the best first.
     pub others: Vec<Candidate>,
@@ -67,7 +66,6 @@ pub enum Excess {
     },
     /// It has more cuts than it may.
     Cuts {
-        /// How many it has.
         cuts: usize,
         /// How many it may have.
         limit: f64,

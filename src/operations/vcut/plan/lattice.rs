@@ -15,7 +15,6 @@ use vcutc_geometry::profile::Profile;
 /// A place across the stock where tips may lie in several layers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// Where.
     pub x: f64,
     /// The lowest height of a tip there that keeps the blade out of the part.
     pub floor: f64,

@@ -33,7 +33,6 @@ struct Candidate {
 pub enum Strategies {
     /// There are none, and all strategies come to the same cuts.
     Alike,
-    /// There are some.
     Differing,
 }
 

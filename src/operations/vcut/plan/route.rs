@@ -156,11 +156,9 @@ fn nearest(terrain: Terrain<'_>, order: Order) -> Vec<Run> {
 struct Entry {
     /// Where it lies, in micrometres.
     x: i64,
-    /// The stretch.
     stretch: usize,
     /// How it is run through from there.
     heading: Heading,
-    /// Its first cut.
     cut: usize,
 }
 
@@ -264,7 +262,6 @@ impl<'p> Walker<'p> {
         }
     }
 
-    /// Cuts a run.
     pub(super) fn visit(&mut self, cuts: Range<usize>, heading: Heading) -> Run {
         let all = self.terrain.cuts;
         let made = all.get(cuts.clone()).unwrap_or_default();

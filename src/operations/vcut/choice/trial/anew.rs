@@ -30,13 +30,10 @@ const SWINGS: usize = 6;
 /// Of which rows of columns the last tips are put onto the part; those of the others lie in their layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ends {
-    /// Of none.
     None,
     /// Of those of the first layer; orthogonal lattices have no others.
     Odd,
-    /// Of the others.
     Even,
-    /// Of both.
     Both,
 }
 

@@ -9,7 +9,6 @@
 use super::ground::{Ground, KEPT, Term};
 use super::jet::OnPlane;
 
-/// Most steps.
 const MOST_STEPS: u32 = 40;
 
 /// A step this short, as a share of the place, is the last.

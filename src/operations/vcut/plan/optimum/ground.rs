@@ -12,7 +12,6 @@ use super::number::{Interval, Number, Slopes};
 /// Bounds are kept to this share of them: what rounding may take.
 pub(super) const KEPT: f64 = 1e-11;
 
-/// What is made least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
     Time,
@@ -28,7 +27,6 @@ pub(super) enum Term {
     Cuts(Keeping),
     /// Reach does not allow the least layer, or that of the least step.
     Reach(Asked),
-    /// The scallop does not.
     Scallop(Asked),
     Late(Keeping),
     Many(Keeping),

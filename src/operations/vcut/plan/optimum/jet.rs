@@ -10,7 +10,6 @@ use core::ops::{Add, Div, Mul, Sub};
 pub(super) trait Scalar: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// Just this.
     fn exactly(value: f64) -> Self;
-    /// What is not known.
     fn unknown() -> Self;
     /// This many times a plain number.
     fn times(self, factor: f64) -> Self;

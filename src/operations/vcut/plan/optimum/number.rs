@@ -10,7 +10,6 @@ use core::ops::{Add, Div, Mul, Sub};
 pub(super) trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// A constant.
     fn constant(value: f64) -> Self;
     /// This many times a plain number: as with a constant, in a fraction of the work.
     fn times(self, factor: f64) -> Self;

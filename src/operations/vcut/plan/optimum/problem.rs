@@ -6,7 +6,6 @@ use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Spee
 /// A closed range of values; a value that is given is a range of one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range<T> {
-    /// The least value.
     pub least: T,
     /// The largest value.
     pub most: T,
@@ -17,7 +16,6 @@ pub struct Range<T> {
 pub struct Problem {
     /// What is to become least.
     pub objective: Objective,
-    /// By which formulas.
     pub formulas: Formulas,
     /// Lattices to choose from; at least one.
     pub lattices: Vec<Lattice>,
@@ -92,15 +90,12 @@ pub enum Extension {
 /// A bound that can bind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bound {
-    /// The least swing.
     SwingLeast,
     /// The largest swing.
     SwingMost,
-    /// The least layer.
     LayerLeast,
     /// The largest layer.
     LayerMost,
-    /// The least step.
     StepLeast,
     /// The largest step.
     StepMost,
@@ -114,20 +109,15 @@ pub enum Bound {
     Edge,
     /// The longest time.
     Time,
-    /// The most cuts.
     Cuts,
 }
 
 /// The best parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Optimum {
-    /// The lattice.
     pub lattice: Lattice,
-    /// The swing.
     pub swing: Angle,
-    /// The layer.
     pub layer: Length,
-    /// The step.
     pub step: Length,
     /// The overlap: `1 - step / (2 layer tan(swing))`.
     pub overlap: f64,
@@ -161,7 +151,6 @@ impl Optimum {
 /// What relaxing a bound would buy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// The bound.
     pub bound: Bound,
     /// Its value in mm, rad, s or 1.
     pub now: f64,

@@ -41,7 +41,6 @@ const WORTH: f64 = 1.5;
 /// A descent begins anew where a bound is broken by less than this share of the least so far.
 const NEARER: f64 = 0.5;
 
-/// What is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Goal {
     /// The best shape.
@@ -96,7 +95,6 @@ enum Fate {
 
 /// What shapes of a box may come to.
 struct Promise {
-    /// What is made least.
     measured: Slopes,
     /// How the bounds that may be broken in it slope.
     unsure: [Interval; 2],

@@ -39,16 +39,13 @@ struct Party {
 /// Where a bound is said, in the order in which people would change it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Said {
-    /// In the operation.
     Operation,
-    /// By the blade.
     Blade,
     /// Nowhere: it lies in the nature of things.
     Nowhere,
 }
 
 impl Party {
-    /// Where it stands.
     fn span(&self, asked: &RoughVcut, bound: Bound) -> Option<Span> {
         match self.said {
             Said::Operation => place(asked, bound),
