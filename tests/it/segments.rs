@@ -133,13 +133,13 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
     assert_eq!(segment.op, op);
     assert_eq!(segment.before.place, place_after(past), "{op:?}");
     assert_eq!(segment.before.generator, generator_after(past), "{op:?}");
-    let pose = |place: Place| match place {
-        Place::Pose(pose) => Some(pose),
-        Place::Unknown | Place::Home => None,
-    };
-    assert_eq!(segment.end(), pose(place_after(&program.ops[..=index])), "{op:?}");
+    assert_eq!(
+        segment.end(),
+        place_after(&program.ops[..=index]).pose(),
+        "{op:?}"
+    );
     let before = segment.before.place;
-    match (op.action, pose(before), segment.path) {
+    match (op.action, before.pose(), segment.path) {
         (Action::Home, _, Path::Home) => {}
         (Action::AxisTravel { to: tip, orientation }, _, Path::Axes(to))
         | (
@@ -208,5 +208,22 @@ proptest! {
             }
         }
         compare(&program, 7);
+    }
+}
+
+/// A program that refers to speeds that it does not have is walked all the same; its verifier says what is wrong.
+#[test]
+fn ops_of_unknown_speeds_move_nothing() {
+    let mut program = PROGRAMS[0].clone();
+    program.feeds.clear();
+    for (index, segment) in program.segments().enumerate() {
+        let is_line = matches!(segment.path, Path::Linear(_));
+        assert_eq!(
+            is_line,
+            matches!(segment.op.action, Action::Turn { .. }),
+            "{segment:?}"
+        );
+        let place = place_after(&program.ops[..=index]);
+        assert_eq!(segment.end(), place.pose(), "{segment:?}");
     }
 }
