@@ -181,6 +181,11 @@ fn compare(program: &Program, step: usize) {
     for (index, segment) in segments.by_ref().enumerate().step_by(step) {
         is_as_walked(program, index, &segment);
     }
+    let middle = program.ops.len() / 2;
+    if let Some(begin) = program.segment(OpId(u32::try_from(middle).unwrap())) {
+        let tail = program.segments_of(middle..program.ops.len(), begin.before);
+        assert!(tail.eq(program.segments().skip(middle)), "from {begin:?} on");
+    }
     assert_eq!(segments.state().place, place_after(&program.ops));
     assert_eq!(segments.state().generator, generator_after(&program.ops));
 }

@@ -58,7 +58,6 @@ pub mod readback;
 pub mod script;
 pub mod segments;
 pub mod state;
-pub mod stroke;
 pub mod swivel;
 #[cfg(feature = "testkit")]
 pub mod testkit;

@@ -9,8 +9,8 @@
 #[cfg(feature = "testkit")]
 mod tests;
 
-use crate::geometry::{Frame, Point3};
-use crate::ir::{Action, AxisValues, Cell, Head, OpId, OrientationId, Program};
+use crate::geometry::Frame;
+use crate::ir::{Action, AxisValues, Cell, Head, OpId, Program};
 use crate::segments::{LinearSegment, Path};
 use crate::state::TipPose;
 use crate::verify::VerifiedProgram;
@@ -328,36 +328,6 @@ fn waypoint_faults(
 fn is_there(is: &Frame, should: &Frame) -> bool {
     is.origin.distance(should.origin).to_mm() <= SAME_PLACE
         && is.orientation.angle_to(should.orientation).to_rad() <= SAME_ATTITUDE
-}
-
-/// Where the tip is, and how the blade is held, after an action.
-#[must_use]
-pub const fn pose_after(
-    at: Option<(Point3, OrientationId)>,
-    action: &Action,
-) -> Option<(Point3, OrientationId)> {
-    match (*action, at) {
-        (Action::Home, _) => None,
-        (Action::Travel { to, orientation, .. } | Action::AxisTravel { to, orientation }, _) => {
-            Some((to, orientation))
-        }
-        (
-            Action::Approach { to, .. } | Action::Retract { to, .. } | Action::Cut { to, .. },
-            Some((_, held)),
-        ) => Some((to, held)),
-        (Action::Turn { to, .. }, Some((tip, _))) => Some((tip, to)),
-        (
-            Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. },
-            at,
-        ) => at,
-    }
 }
 
 fn within_limits(cell: &Cell, values: &AxisValues) -> bool {

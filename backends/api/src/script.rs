@@ -3,26 +3,26 @@
 //!
 //! A dialect has its own words for all of this, and shares the decisions.
 
+mod corners;
 mod dialect;
 mod emission;
 mod head;
 mod listing;
 mod options;
 mod split;
-mod state;
 mod tables;
 mod text;
 mod writer;
 
+pub use corners::may_round;
 pub use dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
 pub use emission::emission;
 pub use head::{HeadLine, duration_words, head_lines};
-pub use listing::{Layer, Lead, Modal, first_of, speeds};
+pub use listing::{Layer, Lead, Modal, first_of};
 pub use options::{
     APPROXIMATION, Common, DECIMALS, HEADER, LINES_PER_PART, approximation, decimals, header, lines_per_part,
 };
 pub use split::{Borders, Part, split};
-pub use state::{Generator, Place, State, may_round};
 pub use tables::{feed, operation_heading, rate};
 pub use text::{Layout, Text, Written, push_trimmed, trimmed_text};
 pub use writer::write;

@@ -9,7 +9,8 @@ use crate::geometry::{Frame, Point3};
 use crate::ir::{Action, Op, OpId, OrientationId, Program};
 use crate::state::{State, TipPose};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
-use core::iter::{Enumerate, FusedIterator};
+use core::iter::FusedIterator;
+use core::ops::Range;
 use core::slice::Iter;
 
 /// An op with what holds when it begins, and what it moves.
@@ -214,10 +215,18 @@ impl Program {
     /// The ops with what each of them moves, one after the other.
     #[must_use]
     pub fn segments(&self) -> Segments<'_> {
+        self.segments_of(0..self.ops.len(), State::START)
+    }
+
+    /// The same for a run of ops that begins in a state.
+    #[must_use]
+    pub fn segments_of(&self, ops: Range<usize>, start: State) -> Segments<'_> {
+        let first = u32::try_from(ops.start).unwrap_or(u32::MAX);
         Segments {
             program: self,
-            ops: self.ops.iter().enumerate(),
-            state: State::START,
+            next: OpId(first),
+            ops: self.ops.get(ops).unwrap_or_default().iter(),
+            state: start,
             angles: Angles(Vec::new()),
         }
     }
@@ -242,7 +251,8 @@ impl Program {
 #[derive(Clone, Debug)]
 pub struct Segments<'p> {
     program: &'p Program,
-    ops: Enumerate<Iter<'p, Op>>,
+    next: OpId,
+    ops: Iter<'p, Op>,
     state: State,
     angles: Angles,
 }
@@ -251,11 +261,12 @@ impl<'p> Iterator for Segments<'p> {
     type Item = Segment<'p>;
 
     fn next(&mut self) -> Option<Segment<'p>> {
-        let (index, op) = self.ops.next()?;
-        let before = self.state;
+        let op = self.ops.next()?;
+        let (id, before) = (self.next, self.state);
+        self.next = OpId(id.0.saturating_add(1));
         self.state = before.after(&op.action);
         Some(Segment {
-            id: OpId(u32::try_from(index).unwrap_or(u32::MAX)),
+            id,
             op,
             before,
             path: self.path(before.place.pose(), &op.action),

@@ -11,7 +11,6 @@ use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, OpId, RateId, Switch};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{Dialect, File, JointMove, LinearMove, Part, Written};
-use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::units::{Duration, Length};
 
 /// G-code, as far as a program is written.
@@ -147,17 +146,15 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
     /// a program is entered.
     fn linear_move(&mut self, motion: &LinearMove<'_>) -> Written {
         let Job { source, settings, .. } = self.job;
-        let stroke = Stroke::of(source.program(), motion.from, motion.action)
-            .ok_or(EmitError::Internal("a move is not in the program's tables"))?;
         let before = motion
             .op
             .0
             .checked_sub(1)
             .ok_or(EmitError::Internal("the first op is not a move from a pose"))?;
         let (from, to) = (source.axes_after(OpId(before))?, source.axes_after(motion.op)?);
-        let pace = pace::of_stroke(&self.job, &stroke, &from, &to)
+        let pace = pace::of_line(&self.job, motion.line, &from, &to)
             .ok_or(EmitError::Internal("a motion has no speed"))?;
-        self.tip_words(motion.to.0)?;
+        self.tip_words(motion.line.to.tip)?;
         self.rotary_words(&to)?;
         self.tcp_on()?;
         self.ending(motion.end)?;

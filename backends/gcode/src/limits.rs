@@ -14,9 +14,9 @@ use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::findings::{Findings, Number};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, MachineKind, OpId, Ready};
-use vcutc_backend_api::motion::{ReachableProgram, pose_after};
+use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::{Part, Source};
-use vcutc_backend_api::stroke::Stroke;
+use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Duration;
 
 /// A wait in s; a day.
@@ -191,30 +191,21 @@ impl Limits {
 
     fn ops(&mut self, job: &Job<'_>) {
         let program = job.source.program();
-        let mut at = None;
-        for (id, op) in job.source.reachable.verified().ops() {
+        for segment in program.segments() {
+            let (id, op) = (segment.id, segment.op);
             if let Some(operation) = op.site.operation() {
                 self.found.blade(program, id, operation);
             }
-            match op.action {
-                Action::Home | Action::AxisTravel { .. } => self.axes(job, id),
-                Action::Travel { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. } => {
-                    if let Some(stroke) = at.and_then(|from| Stroke::of(program, from, &op.action)) {
-                        self.stroke(job, id, &stroke);
-                    }
-                }
-                Action::Ultrasonic { .. } | Action::AwaitReady => {}
-                Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
-                Action::ToolChange { .. } => {
+            match (&segment.path, op.action) {
+                (Path::Home | Path::Axes(_), _) => self.axes(job, id),
+                (Path::Linear(line), _) => self.line(job, id, line),
+                (Path::Still, Action::Dwell { time }) => self.wait(Some(id), "waiting time", time),
+                (Path::Still, Action::ToolChange { .. }) => {
                     let what = "a tool change within the program";
                     self.found.tell(what, BackendIssue::Unsupported { op: id, what });
                 }
+                (Path::Still, _) => {}
             }
-            at = pose_after(at, &op.action);
         }
     }
 
@@ -248,8 +239,8 @@ impl Limits {
         }
     }
 
-    fn stroke(&mut self, job: &Job<'_>, op: OpId, stroke: &Stroke) {
-        let to = job.work_in_offset.in_offset(stroke.to.0);
+    fn line(&mut self, job: &Job<'_>, op: OpId, line: &LinearSegment) {
+        let to = job.work_in_offset.in_offset(line.to.tip);
         for (what, value) in [("X", to.x), ("Y", to.y), ("Z", to.z)] {
             self.length(Some(op), what, value, job.settings);
         }
@@ -259,7 +250,7 @@ impl Limits {
             return;
         };
         self.words(job, op, &to, AxisKind::Rotary);
-        if let Some(pace) = pace::of_stroke(job, stroke, &from, &to) {
+        if let Some(pace) = pace::of_line(job, line, &from, &to) {
             let what = match pace.mode {
                 FeedMode::Tip => "tip speed",
                 FeedMode::InverseTime | FeedMode::Rotary => "reorientation rate",

@@ -1,6 +1,6 @@
 //! How fast a block goes: what F means, and its value.
 //!
-//! The proof that the axes can follow assumed how long every motion takes ([`Stroke::duration`]), and the blocks say exactly
+//! The proof that the axes can follow assumed how long every motion takes ([`LinearSegment::duration`]), and the blocks say exactly
 //! that. Where the tip moves, F is the way of the tip divided by this time, in mm/min; a turn about the still tip has no such
 //! way and gets inverse time, or the rate of the rotary axes where the dialect has no inverse time.
 //!
@@ -13,7 +13,7 @@ use crate::options::Settings;
 use crate::statement::FeedMode;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, Cell};
-use vcutc_backend_api::stroke::Stroke;
+use vcutc_backend_api::segments::LinearSegment;
 use vcutc_backend_api::units::{Angle, Duration};
 
 /// What F means and says.
@@ -36,23 +36,28 @@ fn is_same_place(settings: &Settings<'_>, a: Point3, b: Point3) -> bool {
 }
 
 /// The pace of a straight motion between two axis values. None when the program is not one that can be carried out.
-pub(crate) fn of_stroke(job: &Job<'_>, stroke: &Stroke, from: &AxisValues, to: &AxisValues) -> Option<Pace> {
+pub(crate) fn of_line(
+    job: &Job<'_>,
+    line: &LinearSegment,
+    from: &AxisValues,
+    to: &AxisValues,
+) -> Option<Pace> {
     let Job { settings, words, .. } = *job;
-    let seconds = stroke.duration().to_s();
-    let is_still = stroke.turn > Angle::ZERO && is_same_place(settings, stroke.from.0, stroke.to.0);
+    let seconds = line.duration().to_s();
+    let is_still = line.turn > Angle::ZERO && is_same_place(settings, line.from.tip, line.to.tip);
     let per_minute = |way: f64| way / seconds * SECONDS_A_MINUTE;
     let pace = if is_still {
         let mode = settings.facts().still_tip;
         let feed = match mode {
             FeedMode::InverseTime => per_minute(1.0),
             FeedMode::Rotary => per_minute(way(words, from, to, Counted::Rotary)),
-            FeedMode::Tip => per_minute(stroke.length.to_mm()),
+            FeedMode::Tip => per_minute(line.length().to_mm()),
         };
         Pace { mode, feed }
     } else {
-        let feed = match stroke.feed {
-            Some(feed) if stroke.duration() == Duration::ZERO => feed.to_mm_per_s() * SECONDS_A_MINUTE,
-            Some(_) | None => per_minute(stroke.length.to_mm()),
+        let feed = match line.feed {
+            Some(feed) if line.duration() == Duration::ZERO => feed.to_mm_per_s() * SECONDS_A_MINUTE,
+            Some(_) | None => per_minute(line.length().to_mm()),
         };
         let mode = FeedMode::Tip;
         Pace { mode, feed }

@@ -12,7 +12,7 @@ use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
     Dialect, File, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written, feed, rate,
 };
-use vcutc_backend_api::stroke::Pose;
+use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::Duration;
 
 /// KRL, as far as a program is written.
@@ -132,7 +132,7 @@ impl Dialect for KrlDialect<'_, '_, '_> {
         self.turn_rates(self.turns.at(motion.op.0 as usize))?;
         let planner = self.settings.planner;
         self.text.put(planner.straight());
-        self.pose(motion.to)?;
+        self.pose(motion.line.to)?;
         self.text.put(b"}");
         match motion.end {
             End::Exact => {}
@@ -185,14 +185,14 @@ impl KrlDialect<'_, '_, '_> {
 
     /// A target from the value of X on, without its closing bracket.
     #[inline]
-    fn pose(&mut self, (tip, held): Pose) -> Written {
+    fn pose(&mut self, TipPose { tip, orientation }: TipPose) -> Written {
         let (lengths, text) = (self.settings.common.lengths, &mut *self.text);
         text.fixed(lengths, tip.x)?;
         text.put(b",Y ");
         text.fixed(lengths, tip.y)?;
         text.put(b",Z ");
         text.fixed(lengths, tip.z)?;
-        text.put(self.attitudes.text(held)?);
+        text.put(self.attitudes.text(orientation)?);
         Ok(())
     }
 }

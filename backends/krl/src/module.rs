@@ -8,7 +8,8 @@ use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Load, PlacedFrame, Registered};
 use vcutc_backend_api::number::NotFinite;
-use vcutc_backend_api::script::{Dialect, File, Part, Place, Written};
+use vcutc_backend_api::script::{Dialect, File, Part, Written};
+use vcutc_backend_api::state::Place;
 
 impl KrlDialect<'_, '_, '_> {
     /// The head of a `.src`.

@@ -4,7 +4,6 @@
 
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OrientationId, Program, RateId};
-use vcutc_backend_api::motion::pose_after;
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::Lead;
 use vcutc_backend_api::swivel::Apart;
@@ -30,20 +29,19 @@ pub(crate) struct Turns {
 impl Turns {
     pub(crate) fn of(program: &Program) -> Self {
         let mut known: BTreeMap<(OrientationId, OrientationId, RateId), Option<Rates>> = BTreeMap::new();
-        let (mut at, mut last) = (None, None);
+        let mut last = None;
         let mut turns = Self {
             of: Vec::with_capacity(program.ops.len()),
             changes: Vec::with_capacity(program.ops.len()),
         };
-        for op in &program.ops {
-            let before = at;
-            at = pose_after(at, &op.action);
-            let rates = match (before, at, op.action.rate()) {
-                (Some((_, from)), Some((_, to)), Some(rate)) if from != to => {
+        for segment in program.segments() {
+            let rates = match (segment.path.line(), segment.op.action.rate()) {
+                (Some(line), Some(rate)) if line.turns() => {
+                    let (from, to) = (line.from.orientation, line.to.orientation);
                     let new = || rates(program, (from, to), rate);
                     *known.entry((from, to, rate)).or_insert_with(new)
                 }
-                (_, _, _) => None,
+                (_, _) => None,
             };
             turns
                 .changes

@@ -14,6 +14,7 @@ use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
     Dialect, File, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written,
 };
+use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::Duration;
 
 /// External axes that no machine of the program has [A-INS].
@@ -156,18 +157,18 @@ impl Dialect for RapidDialect<'_, '_, '_> {
                 self.text.put(b"\\NoEOffs");
                 self.turned = None;
             }
-            (JointTarget::Pose((_, held)), AxisTarget::Axes) => {
+            (JointTarget::Pose(pose), AxisTarget::Axes) => {
                 self.begin(b"MoveAbsJ [");
                 self.joints(motion.axes)?;
                 self.text.put(b",");
                 self.text.put(NO_EXTERNAL_AXES);
                 self.text.put(b"]\\NoEOffs");
-                self.turned = Some(self.quaternion(held)?);
+                self.turned = Some(self.quaternion(pose.orientation)?);
             }
-            (JointTarget::Pose((tip, held)), AxisTarget::Pose) => {
+            (JointTarget::Pose(pose), AxisTarget::Pose) => {
                 self.begin(b"MoveJ ");
-                let quaternion = self.quaternion(held)?;
-                self.target(motion.op, tip, quaternion, motion.axes)?;
+                let quaternion = self.quaternion(pose.orientation)?;
+                self.target(motion.op, pose.tip, quaternion, motion.axes)?;
             }
         }
         self.text.put(b",");
@@ -189,8 +190,8 @@ impl Dialect for RapidDialect<'_, '_, '_> {
             self.motion_end(speed, End::Exact)?;
             self.waypoints = rest;
         }
-        let (tip, held) = motion.to;
-        let quaternion = self.quaternion(held)?;
+        let TipPose { tip, orientation } = motion.line.to;
+        let quaternion = self.quaternion(orientation)?;
         let axes = self.source.axes_after(motion.op)?;
         self.begin(b"MoveL ");
         self.target(motion.op, tip, quaternion, axes)?;

@@ -4,7 +4,7 @@ use super::{Deed, End, Grain, Held, Pace, Reader, Stance, Target};
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
-use crate::script::{Place as Stand, may_round};
+use crate::script::may_round;
 use crate::segments::LinearSegment;
 use crate::state::{Generator, State, TipPose};
 use crate::swivel::Apart;
@@ -480,11 +480,7 @@ impl<'p> Judge<'p> {
     fn end(&self, moment: Moment, action: &Action, end: End, found: &mut Vec<Mismatch>) {
         let program = self.program();
         let next = program.ops.get(moment.op.0 as usize + 1).map(|op| &op.action);
-        let before = moment
-            .before
-            .place
-            .pose()
-            .map_or(Stand::Unknown, |pose| Stand::Tip(pose.tip, pose.orientation));
+        let before = moment.before.place;
         match end {
             End::Exact => {}
             End::Rounded if may_round(program.stock, before, action, next) => {}

@@ -10,7 +10,8 @@ use crate::backend::EmitError;
 use crate::ir::{Action, AxisValues, Cell, FeedId, Op, OpId, Program, RateId, Switch};
 use crate::motion::ReachableProgram;
 use crate::readback::End;
-use crate::stroke::Pose;
+use crate::segments::LinearSegment;
+use crate::state::TipPose;
 use crate::units::Duration;
 use core::num::NonZeroU32;
 
@@ -80,7 +81,7 @@ pub enum JointTarget {
     /// To the axis values of home.
     Home,
     /// To a pose.
-    Pose(Pose),
+    Pose(TipPose),
 }
 
 /// A motion of the tip on a straight line, or a turn about the still tip.
@@ -90,10 +91,8 @@ pub struct LinearMove<'a> {
     pub op: OpId,
     /// What it does.
     pub action: &'a Action,
-    /// Where it begins.
-    pub from: Pose,
-    /// Where it ends.
-    pub to: Pose,
+    /// Where it leads, and how fast.
+    pub line: &'a LinearSegment,
     /// How it ends.
     pub end: End,
 }

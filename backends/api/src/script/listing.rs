@@ -2,7 +2,7 @@
 //!
 //! The same answer serves the writer, which writes it, and the splitter, which counts it.
 
-use crate::ir::{Action, FeedId, Op, OperationId, RateId, Site};
+use crate::ir::{FeedId, Op, OperationId, RateId, Site};
 use core::num::NonZeroU32;
 
 /// A layer of the job.
@@ -45,7 +45,7 @@ impl Modal {
     /// What the op needs, given what was said before; then it is said.
     pub fn lead(&mut self, op: &Op) -> Lead {
         let (layer, cut) = place(op.site);
-        let (feed, rate) = speeds(&op.action);
+        let (feed, rate) = (op.action.feed(), op.action.rate());
         let mut lead = Lead::default();
         if layer != self.layer {
             lead.close = self.layer;
@@ -66,8 +66,8 @@ impl Modal {
 
     /// The speeds that these ops run at first, as far as they have not been said; then they are said.
     pub fn first_speeds(&mut self, ops: &[Op]) -> (Option<FeedId>, Option<RateId>) {
-        let feed = ops.iter().find_map(|op| speeds(&op.action).0);
-        let rate = ops.iter().find_map(|op| speeds(&op.action).1);
+        let feed = ops.iter().find_map(|op| op.action.feed());
+        let rate = ops.iter().find_map(|op| op.action.rate());
         (
             feed.and_then(|feed| changed(&mut self.feed, feed)),
             rate.and_then(|rate| changed(&mut self.rate, rate)),
@@ -113,24 +113,6 @@ const fn place(site: Site) -> (Option<Layer>, Option<NonZeroU32>) {
             let number = layer;
             (Some(Layer { operation, number }), Some(cut))
         }
-    }
-}
-
-/// The speeds an action runs at.
-#[must_use]
-pub const fn speeds(action: &Action) -> (Option<FeedId>, Option<RateId>) {
-    match *action {
-        Action::Travel { feed, rate, .. } => (Some(feed), Some(rate)),
-        Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
-            (Some(feed), None)
-        }
-        Action::Turn { rate, .. } => (None, Some(rate)),
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => (None, None),
     }
 }
 

@@ -6,8 +6,8 @@
 //! its own.
 
 use super::listing::{Lead, Modal};
-use super::state::{Place, State};
 use crate::ir::{Action, Op, Stock};
+use crate::state::{Place, State};
 use core::num::NonZeroU32;
 use core::ops::Range;
 
@@ -33,7 +33,7 @@ pub enum Borders {
 impl Borders {
     fn allow(self, place: Place) -> bool {
         match (self, place) {
-            (Self::AboveStock(stock), Place::Tip(tip, _)) => tip.z >= stock.height.to_mm(),
+            (Self::AboveStock(stock), Place::Pose(pose)) => pose.tip.z >= stock.height.to_mm(),
             (Self::BetweenCuts, _) | (Self::AboveStock(_), Place::Unknown | Place::Home) => true,
         }
     }
@@ -171,7 +171,7 @@ mod tests {
             let borders = if above { Borders::AboveStock(program.stock) } else { Borders::BetweenCuts };
             let parts = split(ops, NonZeroU32::new(limit), borders, &lines);
             let may_begin = |at: usize, state: State| {
-                let is_clear = state.place.tip().is_none_or(|tip| tip.z >= program.stock.height.to_mm());
+                let is_clear = state.place.pose().is_none_or(|pose| pose.tip.z >= program.stock.height.to_mm());
                 may_begin(ops, at) && (is_clear || !above)
             };
             let mut state = State::START;
@@ -212,8 +212,8 @@ mod tests {
         }
         let begin = |borders| {
             let parts = split(&program.ops, NonZeroU32::new(1), borders, &lines);
-            let tips = parts.iter().filter_map(|part| part.start.place.tip());
-            tips.map(|tip| tip.z).collect::<Vec<_>>()
+            let tips = parts.iter().filter_map(|part| part.start.place.pose());
+            tips.map(|pose| pose.tip.z).collect::<Vec<_>>()
         };
         let top = program.stock.height.to_mm();
         let (all, above) = (

@@ -1,16 +1,18 @@
 //! The one writer of programs: files, headings and ops in their order. How each of them reads is the [`Dialect`]'s.
 
+use super::corners::may_round;
 use super::dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
 use super::head::head_lines;
 use super::listing::{Lead, Modal, first_of};
 use super::options::Common;
 use super::split::Part;
-use super::state::{Generator, Place, State, may_round};
 use super::tables::operation_heading;
 use super::text::Written;
 use crate::backend::EmitError;
 use crate::ir::{Action, Op, OpId, Ready, Switch};
 use crate::readback::End;
+use crate::segments::{LinearSegment, Path, Segment};
+use crate::state::{Generator, Place};
 
 /// Writes all files of a program: the main program, and the parts that it calls where there are several.
 ///
@@ -54,7 +56,7 @@ pub fn write<D: Dialect>(
         call(dialect, source, part)?;
     }
     if let Some(part) = whole {
-        PartWriter::new(dialect, source, common, part).write(part)?;
+        PartWriter::new(dialect, source, common).write(part)?;
     }
     for line in &common.profile.footer {
         dialect.verbatim(line)?;
@@ -65,7 +67,7 @@ pub fn write<D: Dialect>(
         continuation(dialect, main, file, &called)?;
         dialect.setup(file)?;
         if let Some(part) = file.part {
-            PartWriter::new(dialect, source, common, part).write(part)?;
+            PartWriter::new(dialect, source, common).write(part)?;
         }
         dialect.close(file)?;
     }
@@ -100,35 +102,32 @@ struct PartWriter<'a, 'd, D> {
     source: Source<'a>,
     common: &'a Common<'a>,
     modal: Modal,
-    state: State,
 }
 
 impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
-    fn new(dialect: &'d mut D, source: Source<'a>, common: &'a Common<'a>, part: &Part) -> Self {
+    fn new(dialect: &'d mut D, source: Source<'a>, common: &'a Common<'a>) -> Self {
         Self {
             dialect,
             source,
             common,
             modal: Modal::default(),
-            state: part.start,
         }
     }
 
     fn write(mut self, part: &Part) -> Written {
-        let mut rest = self.source.ops(part);
+        let ops = self.source.ops(part);
         // Both speeds are said at the head of a part, because its first motion may set only one of them.
-        let (feed, rate) = self.modal.first_speeds(rest);
+        let (feed, rate) = self.modal.first_speeds(ops);
         if let Some(feed) = feed {
             self.dialect.feed(feed)?;
         }
         self.dialect.part_begins(part, rate)?;
-        self.restate(part.ops.start)?;
-        let mut index = part.ops.start;
-        while let [op, after @ ..] = rest {
-            self.lead(op)?;
-            self.op(index, op, after.first())?;
-            rest = after;
-            index += 1;
+        self.restate(part)?;
+        let segments = self.source.program().segments_of(part.ops.clone(), part.start);
+        let followers = ops.iter().skip(1).map(Some).chain([None]);
+        for (segment, next) in segments.zip(followers) {
+            self.lead(segment.op)?;
+            self.op(&segment, next.map(|next| &next.action))?;
         }
         if let Some(layer) = self.modal.open_layer() {
             self.dialect.layer_ends(layer)?;
@@ -136,14 +135,18 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         self.dialect.part_ends()
     }
 
-    /// Repeats the state in which the part begins, whose first op has this index. Called from the main program this changes
-    /// nothing; a part started alone is brought to the pose, on the branch and with the blade vibrating, that its first move
-    /// was checked from.
-    fn restate(&mut self, first: usize) -> Written {
-        if let (Some(before), Some(to)) = (first.checked_sub(1), joint_target(self.state.place)) {
-            self.joint_move(before, to, None)?;
+    /// Repeats the state in which the part begins. Called from the main program this changes nothing; a part started alone is
+    /// brought to the pose, on the branch and with the blade vibrating, that its first move was checked from.
+    fn restate(&mut self, part: &Part) -> Written {
+        let target = match part.start.place {
+            Place::Unknown => None,
+            Place::Home => Some(JointTarget::Home),
+            Place::Pose(pose) => Some(JointTarget::Pose(pose)),
+        };
+        if let (Some(before), Some(to)) = (part.ops.start.checked_sub(1), target) {
+            self.joint_move(op_id(before)?, to, None)?;
         }
-        match self.state.generator {
+        match part.start.generator {
             Generator::Off => Ok(()),
             Generator::Starting => self.switch(Switch::On),
             Generator::Running => {
@@ -183,56 +186,42 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         }
     }
 
-    fn op(&mut self, index: usize, op: &Op, next: Option<&Op>) -> Written {
-        let before = self.state;
-        self.state = before.after(&op.action);
-        match op.action {
-            Action::Home | Action::AxisTravel { .. } => {
-                let to = joint_target(self.state.place)
-                    .ok_or(EmitError::Internal("a move of all axes leads nowhere"))?;
-                let from = match before.place {
-                    Place::Unknown => None,
-                    Place::Home | Place::Tip(..) => index.checked_sub(1),
-                };
-                self.joint_move(index, to, from)
+    fn op(&mut self, segment: &Segment<'_>, next: Option<&Action>) -> Written {
+        let from = match segment.before.place {
+            Place::Unknown => None,
+            Place::Home | Place::Pose(_) => segment.id.0.checked_sub(1).map(OpId),
+        };
+        match (&segment.path, segment.op.action) {
+            (Path::Home, _) => self.joint_move(segment.id, JointTarget::Home, from),
+            (Path::Axes(to), _) => self.joint_move(segment.id, JointTarget::Pose(*to), from),
+            (Path::Linear(line), _) => self.linear_move(segment, line, next),
+            (Path::Still, Action::Ultrasonic { state }) => self.switch(state),
+            (Path::Still, Action::AwaitReady) => self.await_ready(),
+            (Path::Still, Action::Dwell { time }) => self.dialect.wait(time),
+            (Path::Still, Action::ToolChange { .. }) => {
+                Err(EmitError::Internal("a tool change was not refused"))
             }
-            Action::Travel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. } => self.linear_move(index, op, before.place, next),
-            Action::Ultrasonic { state } => self.switch(state),
-            Action::AwaitReady => self.await_ready(),
-            Action::Dwell { time } => self.dialect.wait(time),
-            Action::ToolChange { .. } => Err(EmitError::Internal("a tool change was not refused")),
+            (Path::Still, _) => Err(EmitError::Internal("a move starts from an unknown pose")),
         }
     }
 
     /// A move of all axes to where they are after an op, from where they are after another.
-    fn joint_move(&mut self, index: usize, to: JointTarget, from: Option<usize>) -> Written {
-        let op = op_id(index)?;
-        let from = from
-            .map(|from| self.source.axes_after(op_id(from)?))
-            .transpose()?;
+    fn joint_move(&mut self, op: OpId, to: JointTarget, from: Option<OpId>) -> Written {
+        let from = from.map(|from| self.source.axes_after(from)).transpose()?;
         let axes = self.source.axes_after(op)?;
         self.dialect.joint_move(&JointMove { op, to, from, axes })
     }
 
-    fn linear_move(&mut self, index: usize, op: &Op, before: Place, next: Option<&Op>) -> Written {
-        let (Place::Tip(tip, held), Place::Tip(to, then)) = (before, self.state.place) else {
-            return Err(EmitError::Internal("a move starts from an unknown pose"));
-        };
-        let next = next.map(|next| &next.action);
-        let stock = self.source.program().stock;
+    fn linear_move(&mut self, segment: &Segment<'_>, line: &LinearSegment, next: Option<&Action>) -> Written {
+        let (stock, action) = (self.source.program().stock, &segment.op.action);
         let end = match self.common.approximation {
-            Some(_) if may_round(stock, before, &op.action, next) => End::Rounded,
+            Some(_) if may_round(stock, segment.before.place, action, next) => End::Rounded,
             Some(_) | None => End::Exact,
         };
         self.dialect.linear_move(&LinearMove {
-            op: op_id(index)?,
-            action: &op.action,
-            from: (tip, held),
-            to: (to, then),
+            op: segment.id,
+            action,
+            line,
             end,
         })
     }
@@ -248,14 +237,6 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             Ready::Input(input) => self.dialect.await_input(input),
             Ready::After(time) => self.dialect.wait(time),
         }
-    }
-}
-
-const fn joint_target(place: Place) -> Option<JointTarget> {
-    match place {
-        Place::Unknown => None,
-        Place::Home => Some(JointTarget::Home),
-        Place::Tip(tip, held) => Some(JointTarget::Pose((tip, held))),
     }
 }
 

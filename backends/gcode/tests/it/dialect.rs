@@ -12,8 +12,6 @@ use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{Action, Axis, AxisKind, Edges, OpId, PlacedFrame, Ready};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::profile::{LineNumbers, Profile};
-use vcutc_backend_api::script::Place;
-use vcutc_backend_api::stroke::Stroke;
 use vcutc_backend_api::testkit::{CellRecipe, Crossing, Passes, Recipe, conformance_with, five_axis_samples};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_gcode::Gcode;
@@ -219,12 +217,10 @@ fn words_at(program: &ReachableProgram, op: OpId, tip: Option<Point3>) -> BTreeM
 
 /// The motions of a program, one by one, against the blocks of one file, read without any knowledge of the writer.
 fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f64) {
-    let mut place = Place::Unknown;
     let mut at = BTreeMap::new();
     let mut moves = moves(bundle, dialect).into_iter();
-    for (id, op) in program.verified().ops() {
-        let from = place;
-        place = place.after(&op.action);
+    for segment in program.program().segments() {
+        let (id, op) = (segment.id, segment.op);
         let all_axes = match op.action {
             Action::Home | Action::AxisTravel { .. } => true,
             Action::Travel { .. }
@@ -239,7 +235,8 @@ fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f6
         };
         let moved = moves.next().unwrap();
         assert_eq!(moved.machine, all_axes, "{dialect} {id:?}");
-        let tip = place.tip().filter(|_| !all_axes);
+        let there = segment.end().map(|pose| pose.tip);
+        let tip = there.filter(|_| !all_axes);
         let before = at.clone();
         if all_axes {
             at.clear();
@@ -254,14 +251,10 @@ fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f6
         }
         if all_axes {
             // Where the tip is now, for the way of the next motion.
-            at = words_at(program, id, place.tip());
+            at = words_at(program, id, there);
             continue;
         }
-        let Place::Tip(tip, held) = from else {
-            panic!("{id:?}")
-        };
-        let stroke = Stroke::of(program.program(), (tip, held), &op.action).unwrap();
-        let should = stroke.duration().to_s();
+        let should = segment.path.line().unwrap().duration().to_s();
         let (feed, value) = moved.feed.unwrap();
         let is = 60.0 / value
             * match feed {

@@ -4,11 +4,11 @@ use crate::{AXES, COLUMNS, COMMENT, DECIMALS, EXTENSION};
 use vcutc_backend_api::backend::{Emission, EmitError, Options};
 use vcutc_backend_api::bundle::Sink;
 use vcutc_backend_api::ir::{Action, Cell, OpId, Program, Ready, Site, Switch};
-use vcutc_backend_api::motion::{ReachableProgram, pose_after};
+use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::namer::{NameRules, Namer};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Layout, Text};
-use vcutc_backend_api::stroke::{Pose, Stroke};
+use vcutc_backend_api::segments::{LinearSegment, Path, Segment};
 use vcutc_backend_api::units::{Angle, Length};
 
 const LAYOUT: Layout = Layout {
@@ -45,11 +45,9 @@ impl Emission for Table<'_> {
             text.line(line)?;
         }
         text.line(&COLUMNS.join(","))?;
-        let mut at = None;
-        for (id, op) in (0..).map(OpId).zip(&program.ops) {
-            let row = self.row(id, at, &op.action)?;
-            text.line(&format!("{},{},{row}", id.0, site(op.site)))?;
-            at = pose_after(at, &op.action);
+        for segment in program.segments() {
+            let row = self.row(&segment)?;
+            text.line(&format!("{},{},{row}", segment.id.0, site(segment.op.site)))?;
         }
         for line in &self.options.profile().footer {
             text.line(line)?;
@@ -68,29 +66,33 @@ impl Table<'_> {
     }
 
     /// The columns from `do` on.
-    fn row(&self, id: OpId, at: Option<Pose>, action: &Action) -> Result<String, EmitError> {
+    fn row(&self, segment: &Segment<'_>) -> Result<String, EmitError> {
         let cell = self
             .program()
             .cell
             .as_ref()
             .ok_or(EmitError::Internal("a program without a machine"))?;
-        let value = match *action {
-            Action::Home | Action::AxisTravel { .. } => return self.motion("axes", id, None),
-            Action::Travel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. } => {
-                let stroke = at.and_then(|from| Stroke::of(self.program(), from, action));
-                let stroke = stroke.ok_or(EmitError::Internal("a straight move from nowhere"))?;
-                return self.motion("move", id, Some(&stroke));
-            }
+        match segment.path {
+            Path::Home | Path::Axes(_) => return self.motion("axes", segment.id, None),
+            Path::Linear(line) => return self.motion("move", segment.id, Some(&line)),
+            Path::Still => {}
+        }
+        let value = match segment.op.action {
             Action::Ultrasonic { state } => ("switch", self.output(cell, state)?),
             Action::AwaitReady => match cell.ready {
                 Ready::Input(input) => ("await", input.to_string()),
                 Ready::After(time) => ("wait", self.number(time.to_s())?),
             },
             Action::Dwell { time } => ("wait", self.number(time.to_s())?),
+            Action::Home
+            | Action::Travel { .. }
+            | Action::AxisTravel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Turn { .. } => {
+                return Err(EmitError::Internal("a straight move from nowhere"));
+            }
             Action::ToolChange { .. } => {
                 return Err(EmitError::Internal("a tool change in a checked program"));
             }
@@ -110,14 +112,14 @@ impl Table<'_> {
         })
     }
 
-    /// A motion to the axes at the end of an op; a stroke also says where the tip goes, and how fast.
-    fn motion(&self, does: &str, id: OpId, stroke: Option<&Stroke>) -> Result<String, EmitError> {
+    /// A motion to the axes at the end of an op; a line also says where the tip goes, and how fast.
+    fn motion(&self, does: &str, id: OpId, line: Option<&LinearSegment>) -> Result<String, EmitError> {
         let axes = self
             .reachable
             .axes_after(id)
             .ok_or(EmitError::Internal("an op without axes"))?;
         let mut row = vec![does.to_owned()];
-        match stroke.map(|stroke| stroke.to.0) {
+        match line.map(|line| line.to.tip) {
             Some(tip) => {
                 for coordinate in [tip.x, tip.y, tip.z] {
                     row.push(self.number(coordinate)?);
@@ -128,12 +130,12 @@ impl Table<'_> {
         for axis in axes.0 {
             row.push(self.number(Angle::rad(axis).to_deg())?);
         }
-        let feed = stroke
-            .filter(|stroke| stroke.length > Length::ZERO)
-            .and_then(|stroke| stroke.feed);
-        let rate = stroke
-            .filter(|stroke| stroke.turn > Angle::ZERO)
-            .and_then(|stroke| stroke.rate);
+        let feed = line
+            .filter(|line| line.length() > Length::ZERO)
+            .and_then(|line| line.feed);
+        let rate = line
+            .filter(|line| line.turn > Angle::ZERO)
+            .and_then(|line| line.rate);
         for pace in [
             feed.map(|feed| feed.to_mm_per_s()),
             rate.map(|rate| rate.to_deg_per_s()),

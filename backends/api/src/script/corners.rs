@@ -1,98 +1,8 @@
-//! What the robot is doing before an op: where it stands and whether the blade vibrates.
-//!
-//! A part of a split program repeats this at its start, so that it can be understood, and continued, alone.
+//! Which corners between two moves may be rounded.
 
 use crate::geometry::Point3;
-use crate::ir::{Action, OrientationId, Stock, Switch};
-use crate::motion::pose_after;
-
-/// Where the robot stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
-    /// Nowhere in particular: nothing has moved yet.
-    Unknown,
-    /// At the home angles.
-    Home,
-    /// With the tip at a point of W, the blade held so.
-    Tip(Point3, OrientationId),
-}
-
-/// How far the ultrasonic generator is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Generator {
-    /// Off.
-    Off,
-    /// Switched on.
-    Starting,
-    /// Switched on, and its readiness awaited.
-    Running,
-}
-
-/// The state between two ops.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
-    /// Where the robot stands.
-    pub place: Place,
-    /// Whether the blade vibrates.
-    pub generator: Generator,
-}
-
-impl State {
-    /// Before the first op.
-    pub const START: Self = Self {
-        place: Place::Unknown,
-        generator: Generator::Off,
-    };
-
-    /// After an action.
-    #[must_use]
-    pub const fn after(self, action: &Action) -> Self {
-        Self {
-            place: self.place.after(action),
-            generator: match action {
-                Action::Ultrasonic { state: Switch::On } => Generator::Starting,
-                Action::Ultrasonic { state: Switch::Off } => Generator::Off,
-                Action::AwaitReady => Generator::Running,
-                Action::Home
-                | Action::Travel { .. }
-                | Action::AxisTravel { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. }
-                | Action::Dwell { .. }
-                | Action::ToolChange { .. } => self.generator,
-            },
-        }
-    }
-}
-
-impl Place {
-    /// After an action. One that moves nothing leaves the robot where it is.
-    #[must_use]
-    pub const fn after(self, action: &Action) -> Self {
-        if matches!(action, Action::Home) {
-            return Self::Home;
-        }
-        let pose = match self {
-            Self::Tip(tip, held) => Some((tip, held)),
-            Self::Unknown | Self::Home => None,
-        };
-        match pose_after(pose, action) {
-            Some((tip, held)) => Self::Tip(tip, held),
-            None => self,
-        }
-    }
-
-    /// The tip, if its place is known.
-    #[must_use]
-    pub const fn tip(self) -> Option<Point3> {
-        match self {
-            Self::Tip(tip, _) => Some(tip),
-            Self::Unknown | Self::Home => None,
-        }
-    }
-}
+use crate::ir::{Action, Stock};
+use crate::state::Place;
 
 /// Whether the robot may round the corner between two moves of the tip.
 ///
@@ -101,7 +11,7 @@ impl Place {
 /// three tips. That triangle must be clear of the stock: all three tips on one outer side of the box, which is convex.
 /// (The two moves alone are checked by the verifier, each on a side of its own; the chord between them is not.)
 pub fn may_round(stock: Stock, before: Place, first: &Action, second: Option<&Action>) -> bool {
-    let from = before.tip();
+    let from = before.pose().map(|pose| pose.tip);
     let corner = match first {
         Action::Travel { to, .. } | Action::Retract { to, .. } => *to,
         Action::Home
@@ -142,7 +52,8 @@ fn beside_stock(stock: Stock, tips: [Point3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{FeedId, RateId};
+    use crate::ir::{FeedId, OrientationId, RateId, Switch};
+    use crate::state::TipPose;
     use crate::units::Length;
 
     const STOCK: Stock = Stock {
@@ -152,7 +63,10 @@ mod tests {
     };
 
     fn at(y: f64, z: f64) -> Place {
-        Place::Tip(Point3::new(10.0, y, z), OrientationId(0))
+        Place::Pose(TipPose {
+            tip: Point3::new(10.0, y, z),
+            orientation: OrientationId(0),
+        })
     }
 
     fn travel(y: f64, z: f64) -> Action {
