@@ -36,6 +36,7 @@
 //! bytes into a [`bundle::Sink`]; it does no kinematics and invents no defaults. What it wrote is read again by the reader of
 //! its dialect ([`readback`]) and compared with the program, op by op, before anything reaches a disk.
 
+pub mod arm;
 pub mod backend;
 pub mod bundle;
 pub mod confdata;

@@ -192,12 +192,6 @@ mod tests {
     use vcutc_backend_api::units::Length;
 
     #[test]
-    fn keys_are_unique() {
-        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
-        assert_eq!(keys.len(), OPTIONS.len());
-    }
-
-    #[test]
     fn what_is_set_is_read() {
         let mut options = Options::defaults(OPTIONS);
         for (key, value) in [

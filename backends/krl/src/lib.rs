@@ -77,6 +77,7 @@ use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
 use crate::turns::Turns;
+use vcutc_backend_api::arm::foreign;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
 use vcutc_backend_api::ir::{MachineKind, Maker, Program};
 use vcutc_backend_api::motion::ReachableProgram;
@@ -120,7 +121,7 @@ impl Backend for Krl {
     }
 
     fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
-        limits::foreign(kind, maker)
+        foreign(kind, maker, Maker::Kuka)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

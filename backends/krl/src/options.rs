@@ -134,16 +134,9 @@ impl<'p> Settings<'p> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
     use vcutc_backend_api::backend::OptionValue;
     use vcutc_backend_api::script::{APPROXIMATION, DECIMALS, LINES_PER_PART};
     use vcutc_backend_api::units::Length;
-
-    #[test]
-    fn keys_are_unique() {
-        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
-        assert_eq!(keys.len(), OPTIONS.len());
-    }
 
     #[test]
     fn what_is_set_is_read() {
@@ -170,11 +163,5 @@ mod tests {
         assert_eq!(settings.planner, Planner::Spline);
         assert_eq!(settings.part_names, PartNames::Declared);
         assert_eq!(settings.home_speed, 30);
-    }
-
-    #[test]
-    fn nothing_is_rounded_unless_asked_for() {
-        let options = Options::defaults(OPTIONS);
-        assert_eq!(Settings::read(&options).common.approximation, None);
     }
 }

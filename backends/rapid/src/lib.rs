@@ -65,6 +65,7 @@ use crate::dialect::RapidDialect;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::RapidReader;
+use vcutc_backend_api::arm::foreign;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
 use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
@@ -107,7 +108,7 @@ impl Backend for Rapid {
     }
 
     fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
-        limits::foreign(kind, maker)
+        foreign(kind, maker, Maker::Abb)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

@@ -133,15 +133,8 @@ pub(crate) fn zone_members(distance: Length) -> [f64; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
     use vcutc_backend_api::backend::OptionValue;
     use vcutc_backend_api::script::{APPROXIMATION, DECIMALS, LINES_PER_PART};
-
-    #[test]
-    fn keys_are_unique() {
-        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
-        assert_eq!(keys.len(), OPTIONS.len());
-    }
 
     #[test]
     fn what_is_set_is_read() {
