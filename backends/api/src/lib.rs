@@ -47,10 +47,12 @@ pub mod ir;
 pub mod motion;
 pub mod namer;
 pub mod number;
+pub mod options;
 pub mod profile;
 pub mod protocol;
 pub mod readback;
 pub mod script;
+pub mod state;
 pub mod stroke;
 pub mod swivel;
 #[cfg(feature = "testkit")]

@@ -9,12 +9,12 @@ mod head;
 mod listing;
 mod options;
 mod split;
-mod state;
 mod tables;
 mod text;
 mod writer;
 
-pub use dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
+pub use crate::state::{Generator, Place, State, may_round};
+pub use dialect::{Dialect, File, Files, JointMove, JointTarget, LinearMove, Source};
 pub use emission::emission;
 pub use head::{HeadLine, duration_words, head_lines};
 pub use listing::{Layer, Lead, Modal, first_of, speeds};
@@ -22,7 +22,6 @@ pub use options::{
     APPROXIMATION, Common, DECIMALS, HEADER, LINES_PER_PART, approximation, decimals, header, lines_per_part,
 };
 pub use split::{Borders, Part, split};
-pub use state::{Generator, Place, State, may_round};
 pub use tables::{feed, operation_heading, rate};
-pub use text::{Layout, Text, Written, push_trimmed, trimmed_text};
-pub use writer::write;
+pub use text::{Layout, TRIMMED, Text, Written, push_trimmed, trimmed_text};
+pub use writer::{CAPABILITIES, write};

@@ -70,8 +70,8 @@ use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatc
 use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, Layout, Lead, Source, Text, emission, split, write};
-use vcutc_backend_api::verify::{Capabilities, Capability};
+use vcutc_backend_api::script::{Borders, CAPABILITIES, Layout, Lead, Source, Text, emission, split, write};
+use vcutc_backend_api::verify::Capabilities;
 
 /// Lines end as those that RobotStudio writes.
 const LAYOUT: Layout = Layout {
@@ -94,13 +94,7 @@ impl Backend for Rapid {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities::NONE
-            .with(Capability::LinearMove)
-            .with(Capability::JointMove)
-            .with(Capability::StillTipTurn)
-            .with(Capability::Output)
-            .with(Capability::AwaitInput)
-            .with(Capability::Dwell)
+        CAPABILITIES
     }
 
     fn options(&self) -> &'static [OptionSpec] {

@@ -4,7 +4,7 @@ use super::{Deed, End, Grain, Held, Pace, Reader, Stance, Target};
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
-use crate::script::{Generator, Place as Stand, may_round};
+use crate::state::{Generator, Place as Stand, may_round};
 use crate::stroke::{Pose, Stroke};
 use crate::swivel::Apart;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};

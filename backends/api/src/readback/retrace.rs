@@ -3,8 +3,7 @@
 use super::{Deed, FrameRole, FrameSetting, Frames, Judge, Mismatch, Moment, Place, Says, Statement};
 use crate::ir::{OpId, PlacedFrame, Program};
 use crate::motion::{Waypoint, pose_after};
-use crate::script::Generator;
-use crate::script::State;
+use crate::state::{Generator, State};
 use crate::stroke::Pose;
 
 /// Follows a program's statements. What is read must be its ops, one after the other, each once; in between only

@@ -6,8 +6,8 @@
 //! its own.
 
 use super::listing::{Lead, Modal};
-use super::state::{Place, State};
 use crate::ir::{Action, Op, Stock};
+use crate::state::{Place, State};
 use core::num::NonZeroU32;
 use core::ops::Range;
 

@@ -5,12 +5,22 @@ use super::head::head_lines;
 use super::listing::{Lead, Modal, first_of};
 use super::options::Common;
 use super::split::Part;
-use super::state::{Generator, Place, State, may_round};
 use super::tables::operation_heading;
 use super::text::Written;
 use crate::backend::EmitError;
 use crate::ir::{Action, Op, OpId, Ready, Switch};
 use crate::readback::End;
+use crate::state::{Generator, Place, State, may_round};
+use crate::verify::{Capabilities, Capability};
+
+/// The ops that are written: all but changes of the tool.
+pub const CAPABILITIES: Capabilities = Capabilities::NONE
+    .with(Capability::LinearMove)
+    .with(Capability::JointMove)
+    .with(Capability::StillTipTurn)
+    .with(Capability::Output)
+    .with(Capability::AwaitInput)
+    .with(Capability::Dwell);
 
 /// Writes all files of a program: the main program, and the parts that it calls where there are several.
 ///
