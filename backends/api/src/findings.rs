@@ -3,12 +3,40 @@
 //! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million
 //! times.
 
-use crate::backend::{BackendIssue, Exceeded};
+use crate::backend::{BackendIssue, Exceeded, MachineMismatch};
 use crate::geometry::Point3;
-use crate::ir::{OpId, OperationId, Program};
+use crate::ir::{Action, Cell, OpId, OperationId, Program};
+use crate::motion::ReachableProgram;
 use crate::script::trimmed_text;
+use crate::segments::Segment;
+use crate::units::Duration;
 use core::ops::RangeInclusive;
 use std::collections::BTreeSet;
+
+/// Longest wait, in s: a day.
+const LONGEST_WAIT_S: f64 = 86_400.0;
+
+const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
+    field: "ultrasonic",
+    why: "the program switches the generator on before the blade enters; a blade that does not vibrate breaks",
+};
+
+/// The machine of a program, if a dialect drives it.
+///
+/// # Errors
+/// What sets it apart from those that the dialect drives.
+pub fn driven_cell<'p>(
+    program: &'p ReachableProgram,
+    drives: &'static str,
+    mismatch: impl FnOnce(&Cell) -> Option<MachineMismatch>,
+) -> Result<&'p Cell, Vec<BackendIssue>> {
+    let wrong = |mismatch| Err(vec![BackendIssue::WrongMachine { mismatch, drives }]);
+    // No program is assembled without a machine; if one were, it would have no axes to drive.
+    let Some(cell) = &program.program().cell else {
+        return wrong(MachineMismatch::Arm);
+    };
+    mismatch(cell).map_or(Ok(cell), wrong)
+}
 
 /// The problems found so far.
 #[derive(Debug, Default)]
@@ -92,9 +120,42 @@ impl Findings {
         }
     }
 
+    /// A wait must not be longer than a day.
+    pub fn wait(&mut self, op: Option<OpId>, what: &'static str, time: Duration) {
+        let value = time.to_s();
+        let unit = "s";
+        self.range(op, &Number { what, value, unit }, (0.0, LONGEST_WAIT_S));
+    }
+
+    /// A machine must have a generator that can be switched.
+    pub fn generator(&mut self, cell: &Cell) {
+        if cell.ultrasonic.is_none() {
+            self.tell("ultrasonic", GENERATOR_MISSING);
+        }
+    }
+
+    /// No op may change the blade or wait for longer than a day; `also` checks what else there is to an op.
+    pub fn ops(&mut self, program: &ReachableProgram, also: &mut dyn FnMut(&mut Self, &Segment<'_>)) {
+        for segment in program.program().segments() {
+            let id = segment.id;
+            if let Some(operation) = segment.op.site.operation() {
+                self.blade(program.program(), id, operation);
+            }
+            match segment.op.action {
+                Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
+                Action::ToolChange { .. } => {
+                    let what = "a tool change within the program";
+                    self.tell(what, BackendIssue::Unsupported { op: id, what });
+                }
+                _ => {}
+            }
+            also(self, &segment);
+        }
+    }
+
     /// An operation must not have another blade than the first: the tool frame of the machine is that of one blade, and
     /// nothing in the program would stop for another.
-    pub fn blade(&mut self, program: &Program, op: OpId, operation: OperationId) {
+    fn blade(&mut self, program: &Program, op: OpId, operation: OperationId) {
         let blade_of = |place: usize| program.operations.get(place).map(|operation| &operation.blade);
         if blade_of(usize::from(operation.0)) != blade_of(0) {
             let what = "a change of the blade within the program";

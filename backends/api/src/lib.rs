@@ -41,6 +41,7 @@
 
 #![warn(missing_docs)]
 
+pub mod arm;
 pub mod backend;
 pub mod builder;
 pub mod bundle;
@@ -52,6 +53,7 @@ pub mod ir;
 pub mod motion;
 pub mod namer;
 pub mod number;
+pub mod options;
 pub mod profile;
 pub mod protocol;
 pub mod readback;

@@ -24,12 +24,13 @@ pub use essence::essence;
 pub use judge::{Judge, Mismatch, Moment, rotary_way};
 pub use retrace::{Departure, DepartureKind, Retrace, Retraced};
 
-use crate::backend::Options;
 use crate::bundle::Bundle;
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{AxisValues, Cell, Switch};
 use crate::motion::Branch;
+use crate::options::Options;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
+use core::ops::Range;
 use serde::{Deserialize, Serialize};
 
 /// A file of a program.
@@ -86,6 +87,16 @@ pub struct Place {
     pub end: u32,
 }
 
+impl Place {
+    /// A stretch of bytes of a file; what lies beyond 4 GiB counts as there.
+    #[must_use]
+    pub fn of(file: usize, bytes: Range<usize>) -> Self {
+        let [file, start, end] =
+            [file, bytes.start, bytes.end].map(|value| u32::try_from(value).unwrap_or(u32::MAX));
+        Self { file, start, end }
+    }
+}
+
 /// A statement of a program, comments apart.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -117,6 +128,15 @@ pub enum Says {
         /// What was expected, such as `a number behind X`.
         expected: String,
     },
+}
+
+impl Says {
+    /// That something else is expected.
+    #[must_use]
+    pub fn expected(what: impl Into<String>) -> Self {
+        let expected = what.into();
+        Self::Unreadable { expected }
+    }
 }
 
 /// Which frame.

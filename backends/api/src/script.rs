@@ -15,7 +15,7 @@ mod text;
 mod writer;
 
 pub use corners::may_round;
-pub use dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
+pub use dialect::{Dialect, File, Files, JointMove, JointTarget, LinearMove, Source};
 pub use emission::emission;
 pub use head::{HeadLine, duration_words, head_lines};
 pub use listing::{Layer, Lead, Modal, first_of};
@@ -24,5 +24,5 @@ pub use options::{
 };
 pub use split::{Borders, Part, split};
 pub use tables::{feed, operation_heading, rate};
-pub use text::{Layout, Text, Written, push_trimmed, trimmed_text};
-pub use writer::write;
+pub use text::{Layout, TRIMMED, Text, Written, push_trimmed, trimmed_text};
+pub use writer::{CAPABILITIES, write};

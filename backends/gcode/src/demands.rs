@@ -1,10 +1,9 @@
 //! Options and profiles that a dialect cannot take, or that it lacks.
 
+use crate::codes::Role;
 use crate::controller::{AxisPace, TcpCodes};
 use crate::given;
-use crate::options::{
-    DEFAULT_HOME_SPEED, HOME_SPEED, OFF_CODE, ON_CODE, PERCENT, READY_CODE, Settings, TCP_OFF, TCP_ON,
-};
+use crate::options::{DEFAULT_HOME_SPEED, HOME_SPEED, PERCENT, Settings};
 use crate::profile::objection;
 use crate::statement::Style;
 use vcutc_backend_api::backend::BackendIssue;
@@ -63,12 +62,10 @@ fn form(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 }
 
 fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
-    let codes = [
-        (TCP_ON, settings.codes.tcp_on, "M429"),
-        (TCP_OFF, settings.codes.tcp_off, "M428"),
-    ];
     let name = settings.facts().name;
-    for (key, given, example) in codes {
+    let of_kinematics = |(role, _): &(Role, &[String])| role.is_of_kinematics();
+    for (role, given) in settings.codes.all().into_iter().filter(of_kinematics) {
+        let (key, example) = (role.key(), role.example(settings.facts()));
         match (settings.facts().tcp_codes, given) {
             (TcpCodes::Given, []) => issues.push(conflict(
                 key,
@@ -89,14 +86,14 @@ fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
 fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let (controller, codes) = (settings.controller, settings.codes);
     let name = controller.facts().name;
-    let [on, off, ready] = controller.facts().example_codes;
     let sides = [
-        (ON_CODE, codes.on, Switch::On, "on", on),
-        (OFF_CODE, codes.off, Switch::Off, "off", off),
+        (Role::On, codes.on, Switch::On, "on"),
+        (Role::Off, codes.off, Switch::Off, "off"),
     ];
     // One code alone would switch by two different ways.
     let any_given = !(codes.on.is_empty() && codes.off.is_empty());
-    for (key, given, state, side, example) in sides {
+    for (role, given, state, side) in sides {
+        let (key, example) = (role.key(), role.example(settings.facts()));
         // A machine without an output is refused as such.
         let Some(output) = cell.ultrasonic else { break };
         if !given.is_empty() {
@@ -115,20 +112,22 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
             issues.push(conflict(key, why));
         }
     }
+    let key = Role::Ready.key();
+    let ready = Role::Ready.example(settings.facts());
     match cell.ready {
         Ready::Input(input) => {
             if codes.ready.is_empty() && controller.await_input(input, 1).is_none() {
                 let why = format!(
-                    "{name} has no word that waits for input {input}; say which code does, such as `{READY_CODE} = \"{ready}\"`"
+                    "{name} has no word that waits for input {input}; say which code does, such as `{key} = \"{ready}\"`"
                 );
-                issues.push(conflict(READY_CODE, why));
+                issues.push(conflict(key, why));
             }
         }
         Ready::After(_) => {
             if !codes.ready.is_empty() {
                 let why = "this machine is ready after a time, not when an input says so; take the code out, or give the \
                            machine `ready = input(...)`";
-                issues.push(conflict(READY_CODE, why.to_owned()));
+                issues.push(conflict(key, why.to_owned()));
             }
         }
     }
@@ -136,17 +135,11 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
 
 /// Blocks that are copied into the program.
 fn blocks(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
-    let codes = settings.codes;
-    for (key, lines) in [
-        (TCP_ON, codes.tcp_on),
-        (TCP_OFF, codes.tcp_off),
-        (ON_CODE, codes.on),
-        (OFF_CODE, codes.off),
-        (READY_CODE, codes.ready),
-    ] {
+    for (role, lines) in settings.codes.all() {
+        let key = role.key();
         if let Some(why) = lines.iter().find_map(|line| unfit(line, settings)) {
             issues.push(conflict(key, why));
-        } else if lines.len() > 1 && !matches!(key, TCP_ON | TCP_OFF) {
+        } else if lines.len() > 1 && !role.is_of_kinematics() {
             let why = format!("one block, not {}", lines.len());
             issues.push(conflict(key, why));
         }

@@ -3,14 +3,13 @@
 use crate::axes::printed;
 use crate::blocks::{Blocks, fine, push_word};
 use crate::job::Job;
-use crate::names::part_name;
 use crate::pace::{self, Pace};
 use crate::statement::{FeedMode, Tcp};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, OpId, RateId, Switch};
 use vcutc_backend_api::readback::End;
-use vcutc_backend_api::script::{Dialect, File, JointMove, LinearMove, Part, Written};
+use vcutc_backend_api::script::{Dialect, JointMove, LinearMove, Part, Written};
 use vcutc_backend_api::units::{Duration, Length};
 
 /// G-code, as far as a program is written.
@@ -62,30 +61,6 @@ impl<'a, 't, 's> GcodeDialect<'a, 't, 's> {
 }
 
 impl Dialect for GcodeDialect<'_, '_, '_> {
-    fn part_name(&self, main: &str, part: usize) -> String {
-        part_name(main, part, self.job.settings)
-    }
-
-    fn open(&mut self, file: File<'_>) -> Written {
-        self.begin_file(file)
-    }
-
-    fn setup(&mut self, file: File<'_>) -> Written {
-        self.begin_program(file)
-    }
-
-    fn call(&mut self, part: File<'_>) -> Written {
-        self.call_file(part)
-    }
-
-    fn close(&mut self, file: File<'_>) -> Written {
-        self.end_file(file)
-    }
-
-    fn finish(&mut self, _: &str) -> Written {
-        self.blocks.flush()
-    }
-
     fn comment(&mut self, ours: &str, theirs: &str) -> Written {
         self.blocks.comment(ours, theirs)
     }
@@ -97,13 +72,6 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
 
     fn verbatim(&mut self, line: &str) -> Written {
         self.blocks.block(line)
-    }
-
-    fn caution(&self, _: &str) -> Vec<String> {
-        vec![
-            "if started alone: the blade clear of the work,".to_owned(),
-            "watching the way to the first point".to_owned(),
-        ]
     }
 
     fn part_begins(&mut self, _: &Part, _: Option<RateId>) -> Written {

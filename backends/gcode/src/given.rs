@@ -4,61 +4,46 @@
 //! program itself is about: move, change modes, stop, end, call. One M code can do so as well, if the builder wants it to; but
 //! not by a slip.
 
+use crate::codes::Role;
 use crate::controller::Controller;
-use crate::options::{OFF_CODE, ON_CODE, READY_CODE, Settings, TCP_OFF, TCP_ON};
+use crate::options::Settings;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
 use vcutc_backend_api::readback::essence;
 
-/// What a block of the job is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Purpose {
-    /// To switch the kinematics.
-    Kinematics,
-    /// To switch the generator, or to wait for it.
-    Generator,
-}
-
-/// The lines of an option.
-struct Given<'p> {
-    key: &'static str,
-    purpose: Purpose,
-    example: &'static str,
-    lines: &'p [String],
-}
+/// The blocks of an option.
+type Given<'p> = (Role, &'p [String]);
 
 /// What is wrong with the blocks of a job, each by itself and beside the others and what the program writes. Options of which
 /// something is told already are left out: what is no line at all is told as that.
 pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
-    let controller = settings.controller;
     let own = own_blocks(cell, settings);
-    let all = blocks(settings);
-    for (place, given) in all.iter().enumerate() {
-        let is_told = |key| issues.iter().any(|issue| is_about(issue, key));
-        if is_told(given.key) {
+    let all = settings.codes.all();
+    for (place, &(role, lines)) in all.iter().enumerate() {
+        let is_told = |role: Role| issues.iter().any(|issue| is_about(issue, role.key()));
+        if is_told(role) {
             continue;
         }
-        let unlike = |other: &&Given<'_>| !is_told_apart(given, other);
-        let fault = given
-            .lines
+        let unlike = |other: &&Given<'_>| !is_told_apart((role, lines), **other);
+        let fault = lines
             .iter()
-            .find_map(|line| unfit(line, given, controller))
+            .find_map(|line| unfit(line, role, settings.controller))
             .or_else(|| {
-                let line = given.lines.iter().find(|line| own.contains(&essence(line)))?;
+                let line = lines.iter().find(|line| own.contains(&essence(line)))?;
                 Some(format!(
                     "`{line}` is what the program writes for an output or input of the machine; give another code"
                 ))
             })
             .or_else(|| {
-                let mut others = all.iter().take(place).filter(|other| !is_told(other.key));
-                let other = others.find(unlike)?;
+                let mut others = all.iter().take(place).filter(|(other, _)| !is_told(*other));
+                let (other, _) = others.find(unlike)?;
                 Some(format!(
                     "it is `{}` as well, and the two have to differ; give another code",
-                    other.key
+                    other.key()
                 ))
             });
         if let Some(why) = fault {
-            let key = given.key;
+            let key = role.key();
             issues.push(BackendIssue::OptionConflict { key, why });
         }
     }
@@ -66,23 +51,6 @@ pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<Backe
 
 fn is_about(issue: &BackendIssue, option: &str) -> bool {
     matches!(issue, BackendIssue::OptionConflict { key, .. } if *key == option)
-}
-
-fn blocks<'p>(settings: &Settings<'p>) -> [Given<'p>; 5] {
-    let (codes, [on, off, ready]) = (settings.codes, settings.facts().example_codes);
-    let given = |key, purpose, example, lines| Given {
-        key,
-        purpose,
-        example,
-        lines,
-    };
-    [
-        given(TCP_ON, Purpose::Kinematics, "M429", codes.tcp_on),
-        given(TCP_OFF, Purpose::Kinematics, "M428", codes.tcp_off),
-        given(ON_CODE, Purpose::Generator, on, codes.on),
-        given(OFF_CODE, Purpose::Generator, off, codes.off),
-        given(READY_CODE, Purpose::Generator, ready, codes.ready),
-    ]
 }
 
 /// The blocks that the program writes for outputs and inputs, without layout.
@@ -105,8 +73,8 @@ fn own_blocks(cell: &Cell, settings: &Settings<'_>) -> Vec<String> {
 }
 
 /// Why a line is no block of a builder.
-fn unfit(line: &str, given: &Given<'_>, controller: &dyn Controller) -> Option<String> {
-    let example = given.example;
+fn unfit(line: &str, role: Role, controller: &dyn Controller) -> Option<String> {
+    let example = role.example(controller.facts());
     let beside = controller.facts().beside_m;
     let Some(code) = m_code(line, beside) else {
         let words: Vec<String> = beside.chars().map(String::from).collect();
@@ -118,10 +86,9 @@ fn unfit(line: &str, given: &Given<'_>, controller: &dyn Controller) -> Option<S
             "`{line}` is not one M code of the machine's builder, such as `{example}`, {words}"
         ));
     };
-    let does = controller.does_by_m(code).or_else(|| match given.purpose {
-        Purpose::Kinematics => None,
-        Purpose::Generator => is_for_signals(code, controller)
-            .then_some("is a word of its own for outputs and inputs, which the machine's block gives"),
+    let does = controller.does_by_m(code).or_else(|| {
+        (!role.is_of_kinematics() && is_for_signals(code, controller))
+            .then_some("is a word of its own for outputs and inputs, which the machine's block gives")
     });
     does.map(|does| {
         format!(
@@ -171,20 +138,16 @@ fn m_code(line: &str, beside: &str) -> Option<u32> {
 }
 
 /// Whether whoever reads the program can tell two options apart. The two switches of the kinematics may share lines.
-fn is_told_apart(one: &Given<'_>, other: &Given<'_>) -> bool {
-    let plain = |given: &Given<'_>| -> Vec<String> { given.lines.iter().map(|line| essence(line)).collect() };
-    let (one_lines, other_lines) = (plain(one), plain(other));
+fn is_told_apart((one, one_lines): Given<'_>, (other, other_lines): Given<'_>) -> bool {
+    let plain = |lines: &[String]| -> Vec<String> { lines.iter().map(|line| essence(line)).collect() };
+    let (one_lines, other_lines) = (plain(one_lines), plain(other_lines));
     if one_lines.is_empty() || other_lines.is_empty() {
         return true;
     }
-    match (one.purpose, other.purpose) {
-        (Purpose::Kinematics, Purpose::Kinematics) => {
-            !holds(&one_lines, &other_lines) && !holds(&other_lines, &one_lines)
-        }
-        (Purpose::Kinematics | Purpose::Generator, Purpose::Generator)
-        | (Purpose::Generator, Purpose::Kinematics) => {
-            !one_lines.iter().any(|line| other_lines.contains(line))
-        }
+    if one.is_of_kinematics() && other.is_of_kinematics() {
+        !holds(&one_lines, &other_lines) && !holds(&other_lines, &one_lines)
+    } else {
+        !one_lines.iter().any(|line| other_lines.contains(line))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Codes that mean the same on all controllers that have them (ISO 6983).
 
-use crate::statement::{Convention, FeedMode, Mode, Motion, Number, Order, Parsed, ReadError, Scope};
+use crate::statement::{Convention, FeedMode, Mode, Motion, Number, Order, Parsed, Scope, expected};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::units::Duration;
 
@@ -60,7 +60,7 @@ pub(crate) fn seconds(number: Number) -> Parsed<Duration> {
     if number.value >= 0.0 {
         Ok(Duration::s(number.value))
     } else {
-        Err(ReadError::Expected("a time that is not negative".to_owned()))
+        expected("a time that is not negative")
     }
 }
 

@@ -59,6 +59,7 @@
 
 mod axes;
 mod blocks;
+mod codes;
 mod controller;
 mod controllers;
 mod demands;
@@ -86,8 +87,8 @@ use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatc
 use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, Lead, Source, Text, emission, split, write};
-use vcutc_backend_api::verify::{Capabilities, Capability};
+use vcutc_backend_api::script::{Borders, CAPABILITIES, Lead, Source, Text, emission, split, write};
+use vcutc_backend_api::verify::Capabilities;
 
 /// The G-code backend.
 #[derive(Clone, Copy, Debug, Default)]
@@ -103,13 +104,7 @@ impl Backend for Gcode {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities::NONE
-            .with(Capability::LinearMove)
-            .with(Capability::JointMove)
-            .with(Capability::StillTipTurn)
-            .with(Capability::Output)
-            .with(Capability::AwaitInput)
-            .with(Capability::Dwell)
+        CAPABILITIES
     }
 
     fn options(&self) -> &'static [OptionSpec] {

@@ -11,16 +11,12 @@ use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
 use crate::pace::{self, Pace};
 use crate::statement::FeedMode;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
-use vcutc_backend_api::findings::{Findings, Number};
+use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, MachineKind, OpId, Ready};
+use vcutc_backend_api::ir::{AxisKind, AxisValues, Cell, MachineKind, OpId, Ready};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::{Part, Source};
 use vcutc_backend_api::segments::{LinearSegment, Path};
-use vcutc_backend_api::units::Duration;
-
-/// A wait in s; a day.
-const LONGEST_WAIT_S: f64 = 86_400.0;
 
 /// Largest O number that is not kept for the builder's programs [F-30].
 const LARGEST_O_NUMBER: u64 = 7999;
@@ -37,11 +33,6 @@ const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
           on where the machine happens to stand",
 };
 
-const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
-    field: "ultrasonic",
-    why: "the program switches the generator on before the blade enters; a blade that does not vibrate breaks",
-};
-
 /// What a program that can be said is written from.
 pub(crate) struct Sayable<'p> {
     /// The machine.
@@ -56,34 +47,25 @@ pub(crate) fn check<'p>(
     settings: &Settings<'_>,
     parts: &[Part],
 ) -> Result<Sayable<'p>, Vec<BackendIssue>> {
-    let wrong = |mismatch| {
-        let drives = DRIVES;
-        vec![BackendIssue::WrongMachine { mismatch, drives }]
-    };
-    // No program is assembled without a machine; if one were, it would have no axes to drive.
-    let Some(cell) = &program.program().cell else {
-        return Err(wrong(MachineMismatch::Arm));
-    };
-    if let Some(mismatch) = foreign(cell.kind) {
-        return Err(wrong(mismatch));
-    }
+    let cell = driven_cell(program, DRIVES, |cell| foreign(cell.kind))?;
     let words = match words(cell, settings.spindle_letter) {
         Ok(words) => words,
-        Err(NoWord::Name) => return Err(wrong(MachineMismatch::Arm)),
+        Err(NoWord::Name) => {
+            let (mismatch, drives) = (MachineMismatch::Arm, DRIVES);
+            return Err(vec![BackendIssue::WrongMachine { mismatch, drives }]);
+        }
         Err(NoWord::Spindle) => return Err(vec![spindle_without_letter()]),
         Err(NoWord::Taken(letter)) => return Err(vec![letter_taken(letter)]),
     };
-    let mut limits = Limits {
-        found: Findings::beginning_with(demands::check(cell, settings)),
-    };
-    limits.cell(cell, settings);
-    limits.parts(settings, parts);
+    let mut found = Findings::beginning_with(demands::check(cell, settings));
+    machine(cell, settings, &mut found);
+    numbers(settings, parts, &mut found);
     let source = Source {
         reachable: program,
         cell,
     };
-    limits.ops(&Job::new(source, settings, &words));
-    limits.found.result().map(|()| Sayable { cell, words })
+    ops(&Job::new(source, settings, &words), &mut found);
+    found.result().map(|()| Sayable { cell, words })
 }
 
 /// What sets machines of a kind apart from those that G-code is for.
@@ -110,171 +92,137 @@ fn letter_taken(letter: char) -> BackendIssue {
     }
 }
 
-/// What a control does not take of a program.
-struct Limits {
-    found: Findings,
+fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
+    let controller = settings.controller;
+    if cell.home.is_none() {
+        found.tell("home", HOME_MISSING);
+    }
+    tool(cell, settings, found);
+    if let Some(number) = cell.base.number {
+        found.number("base number", number, 1..=controller.facts().work_offsets);
+    }
+    match cell.ultrasonic {
+        Some(output) if settings.codes.on.is_empty() => {
+            found.number("output number", output, controller.facts().signals.clone());
+        }
+        Some(_) | None => {}
+    }
+    found.generator(cell);
+    match cell.ready {
+        Ready::Input(input) if settings.codes.ready.is_empty() => {
+            found.number("input number", input, controller.facts().signals.clone());
+        }
+        Ready::Input(_) => {}
+        Ready::After(time) => found.wait(None, "time until ready", time),
+    }
+    if controller.facts().axis_pace != AxisPace::Rapid && cell.axes.iter().any(|axis| axis.rate.is_none()) {
+        let issue = BackendIssue::OptionConflict {
+            key: HOME_SPEED,
+            why: "the machine's sheet does not state the rates of all its axes, so a part of them is not a speed; \
+                  add `rate_mm_s` and `rate_deg_s` to the sheet"
+                .to_owned(),
+        };
+        found.tell("rates", issue);
+    }
 }
 
-impl Limits {
-    fn cell(&mut self, cell: &Cell, settings: &Settings<'_>) {
-        let controller = settings.controller;
-        if cell.home.is_none() {
-            self.found.tell("home", HOME_MISSING);
-        }
-        self.tool(cell, settings);
-        if let Some(number) = cell.base.number {
-            self.found
-                .number("base number", number, 1..=controller.facts().work_offsets);
-        }
-        match cell.ultrasonic {
-            Some(output) if settings.codes.on.is_empty() => {
-                self.found
-                    .number("output number", output, controller.facts().signals.clone());
-            }
-            Some(_) => {}
-            None => self.found.tell("ultrasonic", GENERATOR_MISSING),
-        }
-        match cell.ready {
-            Ready::Input(input) if settings.codes.ready.is_empty() => {
-                self.found
-                    .number("input number", input, controller.facts().signals.clone());
-            }
-            Ready::Input(_) => {}
-            Ready::After(time) => self.wait(None, "time until ready", time),
-        }
-        if controller.facts().axis_pace != AxisPace::Rapid && cell.axes.iter().any(|axis| axis.rate.is_none())
-        {
-            let issue = BackendIssue::OptionConflict {
-                key: HOME_SPEED,
-                why: "the machine's sheet does not state the rates of all its axes, so a part of them is not a speed; \
-                      add `rate_mm_s` and `rate_deg_s` to the sheet"
-                    .to_owned(),
-            };
-            self.found.tell("rates", issue);
-        }
-    }
-
-    /// The control knows of the tool one length, along the spindle.
-    fn tool(&mut self, cell: &Cell, settings: &Settings<'_>) {
-        let number = cell.tool.number.unwrap_or(settings.tool_number);
-        let what = settings.facts().tool_number_name;
-        self.found.number(what, number, 1..=settings.facts().most_tools);
-        let Point3 { x, y, z } = cell.tool.frame.origin;
-        let half_a_unit = settings.common.lengths.half_unit();
-        for (what, value) in [("tool X", x), ("tool Y", y)] {
-            let unit = "mm";
-            self.found
-                .range(None, &Number { what, value, unit }, (-half_a_unit, half_a_unit));
-        }
-        self.length(None, "tool Z", z, settings);
-    }
-
-    fn length(&mut self, op: Option<OpId>, what: &'static str, value: f64, settings: &Settings<'_>) {
-        let farthest = settings.controller.farthest(settings.common.lengths.decimals());
+/// The control knows of the tool one length, along the spindle.
+fn tool(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
+    let number = cell.tool.number.unwrap_or(settings.tool_number);
+    let what = settings.facts().tool_number_name;
+    found.number(what, number, 1..=settings.facts().most_tools);
+    let Point3 { x, y, z } = cell.tool.frame.origin;
+    let half_a_unit = settings.common.lengths.half_unit();
+    for (what, value) in [("tool X", x), ("tool Y", y)] {
         let unit = "mm";
-        self.found
-            .range(op, &Number { what, value, unit }, (-farthest, farthest));
+        found.range(None, &Number { what, value, unit }, (-half_a_unit, half_a_unit));
     }
+    length(None, "tool Z", z, settings, found);
+}
 
-    fn parts(&mut self, settings: &Settings<'_>, parts: &[Part]) {
-        let last = u64::from(settings.program_number).saturating_add(parts.len() as u64);
-        if settings.facts().numbers_programs && last > LARGEST_O_NUMBER {
-            let issue = BackendIssue::OptionConflict {
-                key: PROGRAM_NUMBER,
-                why: format!(
-                    "the program and its parts would go up to O{last}, and O8000 and more are the builder's"
-                ),
-            };
-            self.found.tell("program number", issue);
-        }
-    }
+fn length(op: Option<OpId>, what: &'static str, value: f64, settings: &Settings<'_>, found: &mut Findings) {
+    let farthest = settings.controller.farthest(settings.common.lengths.decimals());
+    let unit = "mm";
+    found.range(op, &Number { what, value, unit }, (-farthest, farthest));
+}
 
-    fn ops(&mut self, job: &Job<'_>) {
-        let program = job.source.program();
-        for segment in program.segments() {
-            let (id, op) = (segment.id, segment.op);
-            if let Some(operation) = op.site.operation() {
-                self.found.blade(program, id, operation);
-            }
-            match (&segment.path, op.action) {
-                (Path::Home | Path::Axes(_), _) => self.axes(job, id),
-                (Path::Linear(line), _) => self.line(job, id, line),
-                (Path::Still, Action::Dwell { time }) => self.wait(Some(id), "waiting time", time),
-                (Path::Still, Action::ToolChange { .. }) => {
-                    let what = "a tool change within the program";
-                    self.found.tell(what, BackendIssue::Unsupported { op: id, what });
-                }
-                (Path::Still, _) => {}
-            }
-        }
-    }
-
-    fn axes(&mut self, job: &Job<'_>, op: OpId) {
-        let Some(to) = job.source.reachable.axes_after(op) else {
-            return;
+fn numbers(settings: &Settings<'_>, parts: &[Part], found: &mut Findings) {
+    let last = u64::from(settings.program_number).saturating_add(parts.len() as u64);
+    if settings.facts().numbers_programs && last > LARGEST_O_NUMBER {
+        let issue = BackendIssue::OptionConflict {
+            key: PROGRAM_NUMBER,
+            why: format!(
+                "the program and its parts would go up to O{last}, and O8000 and more are the builder's"
+            ),
         };
-        self.words(job, op, &to, AxisKind::Linear);
-        self.words(job, op, &to, AxisKind::Rotary);
-        let before = op.0.checked_sub(1).map(OpId);
-        let before = before.and_then(|before| job.source.reachable.axes_after(before));
-        for from in [before.as_ref(), None] {
-            if let Some(pace) = pace::of_axes(job, from, &to) {
-                self.feed(job, op, "speed of all axes", pace);
-            }
+        found.tell("program number", issue);
+    }
+}
+
+fn ops(job: &Job<'_>, found: &mut Findings) {
+    found.ops(job.source.reachable, &mut |found, segment| match &segment.path {
+        Path::Home | Path::Axes(_) => axes(job, segment.id, found),
+        Path::Linear(line) => self::line(job, segment.id, line, found),
+        Path::Still => {}
+    });
+}
+
+fn axes(job: &Job<'_>, op: OpId, found: &mut Findings) {
+    let Some(to) = job.source.reachable.axes_after(op) else {
+        return;
+    };
+    positions(job, op, &to, AxisKind::Linear, found);
+    positions(job, op, &to, AxisKind::Rotary, found);
+    let before = op.0.checked_sub(1).map(OpId);
+    let before = before.and_then(|before| job.source.reachable.axes_after(before));
+    for from in [before.as_ref(), None] {
+        if let Some(pace) = pace::of_axes(job, from, &to) {
+            feed(job, op, "speed of all axes", pace, found);
         }
     }
+}
 
-    fn words(&mut self, job: &Job<'_>, op: OpId, axes: &AxisValues, kind: AxisKind) {
-        let settings = job.settings;
-        let (what, unit, decimals) = match kind {
-            AxisKind::Linear => ("axis position", "mm", settings.common.lengths.decimals()),
-            AxisKind::Rotary => ("axis angle", "deg", settings.angles.decimals()),
+fn positions(job: &Job<'_>, op: OpId, axes: &AxisValues, kind: AxisKind, found: &mut Findings) {
+    let settings = job.settings;
+    let (what, unit, decimals) = match kind {
+        AxisKind::Linear => ("axis position", "mm", settings.common.lengths.decimals()),
+        AxisKind::Rotary => ("axis angle", "deg", settings.angles.decimals()),
+    };
+    let farthest = settings.controller.farthest(decimals);
+    for &word in job.words.iter().filter(|word| word.kind == kind) {
+        if let Some(value) = printed(word, axes) {
+            found.range(Some(op), &Number { what, value, unit }, (-farthest, farthest));
+        }
+    }
+}
+
+fn line(job: &Job<'_>, op: OpId, line: &LinearSegment, found: &mut Findings) {
+    let to = job.work_in_offset.in_offset(line.to.tip);
+    for (what, value) in [("X", to.x), ("Y", to.y), ("Z", to.z)] {
+        length(Some(op), what, value, job.settings, found);
+    }
+    let before = op.0.checked_sub(1).map(OpId);
+    let before = before.and_then(|before| job.source.reachable.axes_after(before));
+    let (Some(from), Some(to)) = (before, job.source.reachable.axes_after(op)) else {
+        return;
+    };
+    positions(job, op, &to, AxisKind::Rotary, found);
+    if let Some(pace) = pace::of_line(job, line, &from, &to) {
+        let what = match pace.mode {
+            FeedMode::Tip => "tip speed",
+            FeedMode::InverseTime | FeedMode::Rotary => "reorientation rate",
         };
-        let farthest = settings.controller.farthest(decimals);
-        for &word in job.words.iter().filter(|word| word.kind == kind) {
-            if let Some(value) = printed(word, axes) {
-                self.found
-                    .range(Some(op), &Number { what, value, unit }, (-farthest, farthest));
-            }
-        }
+        feed(job, op, what, pace, found);
     }
+}
 
-    fn line(&mut self, job: &Job<'_>, op: OpId, line: &LinearSegment) {
-        let to = job.work_in_offset.in_offset(line.to.tip);
-        for (what, value) in [("X", to.x), ("Y", to.y), ("Z", to.z)] {
-            self.length(Some(op), what, value, job.settings);
-        }
-        let before = op.0.checked_sub(1).map(OpId);
-        let before = before.and_then(|before| job.source.reachable.axes_after(before));
-        let (Some(from), Some(to)) = (before, job.source.reachable.axes_after(op)) else {
-            return;
-        };
-        self.words(job, op, &to, AxisKind::Rotary);
-        if let Some(pace) = pace::of_line(job, line, &from, &to) {
-            let what = match pace.mode {
-                FeedMode::Tip => "tip speed",
-                FeedMode::InverseTime | FeedMode::Rotary => "reorientation rate",
-            };
-            self.feed(job, op, what, pace);
-        }
-    }
-
-    fn feed(&mut self, job: &Job<'_>, op: OpId, what: &'static str, pace: Pace) {
-        let unit = match pace.mode {
-            FeedMode::Tip => "mm/min",
-            FeedMode::InverseTime => "1/min",
-            FeedMode::Rotary => "deg/min",
-        };
-        let smallest = SMALLEST_FEED_UNITS * job.settings.fine().unit();
-        let value = pace.feed;
-        self.found
-            .range(Some(op), &Number { what, value, unit }, (smallest, LARGEST_FEED));
-    }
-
-    fn wait(&mut self, op: Option<OpId>, what: &'static str, time: Duration) {
-        let value = time.to_s();
-        let unit = "s";
-        self.found
-            .range(op, &Number { what, value, unit }, (0.0, LONGEST_WAIT_S));
-    }
+fn feed(job: &Job<'_>, op: OpId, what: &'static str, pace: Pace, found: &mut Findings) {
+    let unit = match pace.mode {
+        FeedMode::Tip => "mm/min",
+        FeedMode::InverseTime => "1/min",
+        FeedMode::Rotary => "deg/min",
+    };
+    let smallest = SMALLEST_FEED_UNITS * job.settings.fine().unit();
+    let value = pace.feed;
+    found.range(Some(op), &Number { what, value, unit }, (smallest, LARGEST_FEED));
 }

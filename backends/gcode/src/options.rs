@@ -3,9 +3,10 @@
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
 //! crate never asks for a key by its name.
 
+use crate::codes::Role;
 use crate::controller::{Codes, Controller, Facts};
 use crate::controllers;
-use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
+use vcutc_backend_api::backend::{OptionSpec, Options};
 use vcutc_backend_api::ir::Purpose;
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
@@ -17,11 +18,6 @@ pub(crate) const HOME_SPEED: &str = "home_speed";
 const TOOL_NUMBER: &str = "tool_number";
 pub(crate) const PROGRAM_NUMBER: &str = "program_number";
 pub(crate) const SPINDLE_AXIS: &str = "spindle_axis";
-pub(crate) const TCP_ON: &str = "tcp_on";
-pub(crate) const TCP_OFF: &str = "tcp_off";
-pub(crate) const ON_CODE: &str = "on_code";
-pub(crate) const OFF_CODE: &str = "off_code";
-pub(crate) const READY_CODE: &str = "ready_code";
 
 pub(crate) const PERCENT: f64 = 100.0;
 
@@ -30,13 +26,11 @@ const SPINDLE_LETTERS: &[&str] = &["none", "a", "b", "c"];
 
 /// All options, in the order of the documentation.
 pub(crate) const OPTIONS: &[OptionSpec] = &[
-    OptionSpec {
-        key: DIALECT,
-        kind: OptionKind::Choice {
-            of: controllers::WORDS,
-        },
-        help: "The controller that is to read the program.",
-    },
+    OptionSpec::choice(
+        DIALECT,
+        controllers::WORDS,
+        "The controller that is to read the program.",
+    ),
     decimals("Decimals of lengths in mm; angles get one more where the dialect reads it, up to six."),
     lines_per_part(
         0,
@@ -44,63 +38,46 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     ),
     header("Comment lines put at the head of the main program."),
     approximation("How far corners in the air may be rounded; 0 mm stops at every point."),
-    OptionSpec {
-        key: HOME_SPEED,
-        kind: OptionKind::Integer {
-            min: 1,
-            max: 100,
-            default: DEFAULT_HOME_SPEED,
-        },
-        help: "Speed of axis moves, to home and from there, in percent of the axes' rates; Fanuc makes them at its rapid rate.",
-    },
-    OptionSpec {
-        key: TOOL_NUMBER,
-        kind: OptionKind::Integer {
-            min: 1,
-            max: 9999,
-            default: 1,
-        },
-        help: "Entry of the controller's tool table that holds the blade's length, when the machine's `tool` has no number; on Sinumerik the edge D of the tool in the spindle, 1 to 9.",
-    },
-    OptionSpec {
-        key: PROGRAM_NUMBER,
-        kind: OptionKind::Integer {
-            min: 1,
-            max: 9999,
-            default: 1,
-        },
-        help: "Fanuc's O number of the main program; parts have the numbers after it. An air cut adds 4000, or takes 3999 away from 4000 on.",
-    },
-    OptionSpec {
-        key: SPINDLE_AXIS,
-        kind: OptionKind::Choice { of: SPINDLE_LETTERS },
-        help: "Letter by which the controller moves an orientable spindle (axis S) as an axis.",
-    },
-    OptionSpec {
-        key: TCP_ON,
-        kind: OptionKind::Lines,
-        help: "LinuxCNC: what switches to the kinematics with tool-centre-point control, such as \"M429\".",
-    },
-    OptionSpec {
-        key: TCP_OFF,
-        kind: OptionKind::Lines,
-        help: "LinuxCNC: what switches back to the kinematics in which words are axis values, such as \"M428\".",
-    },
-    OptionSpec {
-        key: ON_CODE,
-        kind: OptionKind::Lines,
-        help: "Block that switches the ultrasonic generator on, such as \"M50\", where the dialect has no word for an output.",
-    },
-    OptionSpec {
-        key: OFF_CODE,
-        kind: OptionKind::Lines,
-        help: "Block that switches it off, such as \"M51\".",
-    },
-    OptionSpec {
-        key: READY_CODE,
-        kind: OptionKind::Lines,
-        help: "Block that ends when the generator is ready, such as \"M52\", where the dialect has no word that waits for an input.",
-    },
+    OptionSpec::integer(
+        HOME_SPEED,
+        (1, 100),
+        DEFAULT_HOME_SPEED,
+        "Speed of the moves of all axes, to home and from there, in percent of the axes' rates; Fanuc makes them at its rapid rate.",
+    ),
+    OptionSpec::integer(
+        TOOL_NUMBER,
+        (1, 9999),
+        1,
+        "Entry of the controller's tool table that holds the blade's length, when the machine's `tool` has no number; on Sinumerik the edge D of the tool in the spindle, 1 to 9.",
+    ),
+    OptionSpec::integer(
+        PROGRAM_NUMBER,
+        (1, 9999),
+        1,
+        "Fanuc's O number of the main program; parts have the numbers after it. An air cut adds 4000, or takes 3999 away from 4000 on.",
+    ),
+    OptionSpec::choice(
+        SPINDLE_AXIS,
+        SPINDLE_LETTERS,
+        "Letter by which the controller moves an orientable spindle (axis S) as an axis.",
+    ),
+    OptionSpec::lines(
+        Role::TcpOn.key(),
+        "LinuxCNC: what switches to the kinematics with tool-centre-point control, such as \"M429\".",
+    ),
+    OptionSpec::lines(
+        Role::TcpOff.key(),
+        "LinuxCNC: what switches back to the kinematics in which words are axis values, such as \"M428\".",
+    ),
+    OptionSpec::lines(
+        Role::On.key(),
+        "Block that switches the ultrasonic generator on, such as \"M50\", where the dialect has no word for an output.",
+    ),
+    OptionSpec::lines(Role::Off.key(), "Block that switches it off, such as \"M51\"."),
+    OptionSpec::lines(
+        Role::Ready.key(),
+        "Block that ends when the generator is ready, such as \"M52\", where the dialect has no word that waits for an input.",
+    ),
 ];
 
 /// The options as types.
@@ -151,11 +128,11 @@ impl<'p> Settings<'p> {
                 _ => None,
             },
             codes: Codes {
-                tcp_on: options.lines(TCP_ON),
-                tcp_off: options.lines(TCP_OFF),
-                on: options.lines(ON_CODE),
-                off: options.lines(OFF_CODE),
-                ready: options.lines(READY_CODE),
+                tcp_on: options.lines(Role::TcpOn.key()),
+                tcp_off: options.lines(Role::TcpOff.key()),
+                on: options.lines(Role::On.key()),
+                off: options.lines(Role::Off.key()),
+                ready: options.lines(Role::Ready.key()),
             },
         }
     }
@@ -192,12 +169,6 @@ mod tests {
     use vcutc_backend_api::units::Length;
 
     #[test]
-    fn keys_are_unique() {
-        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
-        assert_eq!(keys.len(), OPTIONS.len());
-    }
-
-    #[test]
     fn what_is_set_is_read() {
         let mut options = Options::defaults(OPTIONS);
         for (key, value) in [
@@ -206,7 +177,7 @@ mod tests {
             (APPROXIMATION, OptionValue::Length(Length::mm(2.5))),
             (HOME_SPEED, OptionValue::Integer(30)),
             (SPINDLE_AXIS, OptionValue::Choice("b")),
-            (ON_CODE, OptionValue::Lines(vec!["M50".to_owned()])),
+            (Role::On.key(), OptionValue::Lines(vec!["M50".to_owned()])),
         ] {
             let spec = OPTIONS.iter().find(|spec| spec.key == key).unwrap();
             options.set(spec, value).unwrap();

@@ -121,9 +121,8 @@ fn has_harmless_words(code: &str, settings: &Settings<'_>) -> bool {
 }
 
 fn is_harmless_code(number: u32, settings: &Settings<'_>) -> bool {
-    let codes = settings.codes;
-    let own = [codes.tcp_on, codes.tcp_off, codes.on, codes.off, codes.ready];
-    let is_own = own.into_iter().flatten().any(|line| names_code(line, number));
+    let mut own = settings.codes.all().into_iter().flat_map(|(_, lines)| lines);
+    let is_own = own.any(|line| names_code(line, number));
     let builders = settings.facts().builders_codes;
     let is_allowed = COMMON_CODES.contains(&number) || builders.iter().any(|range| range.contains(&number));
     is_allowed && !is_own

@@ -2,21 +2,17 @@
 
 use crate::controller::{File, Unnumbered};
 use crate::dialect::GcodeDialect;
+use crate::names::part_name;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::script::{self, Dialect, Written, trimmed_text};
+use vcutc_backend_api::script::{self, Dialect, Files, Written, trimmed_text};
 
-impl GcodeDialect<'_, '_, '_> {
-    fn file<'f>(&self, file: script::File<'f>) -> File<'f> {
-        let first = u64::from(self.job.settings.program_number);
-        File {
-            name: file.name,
-            place: file.place,
-            number: first.saturating_add(file.place as u64),
-        }
+impl Files for GcodeDialect<'_, '_, '_> {
+    fn part_name(&self, main: &str, part: usize) -> String {
+        part_name(main, part, self.job.settings)
     }
 
     /// What stands before the comments at the head of a file.
-    pub(crate) fn begin_file(&mut self, file: script::File<'_>) -> Written {
+    fn open(&mut self, file: script::File<'_>) -> Written {
         let settings = self.job.settings;
         let [main, part] = settings.facts().extensions;
         let extension = match (file.place, &settings.common.profile.extension) {
@@ -33,13 +29,49 @@ impl GcodeDialect<'_, '_, '_> {
     }
 
     /// Everything that motions depend on; in the main program also what the operator and the machine's profile want there.
-    pub(crate) fn begin_program(&mut self, file: script::File<'_>) -> Written {
+    fn setup(&mut self, file: script::File<'_>) -> Written {
         if file.place > 0 {
             return self.motion_setup();
         }
         self.frames()?;
         self.motion_setup()?;
         self.blocks.all(&self.job.settings.common.profile.header)
+    }
+
+    /// The call of a part.
+    fn call(&mut self, part: script::File<'_>) -> Written {
+        let call = self.job.settings.controller.call(self.file(part));
+        self.blocks.line(&call)
+    }
+
+    /// The end of a file.
+    fn close(&mut self, file: script::File<'_>) -> Written {
+        for line in self.job.settings.controller.closing(self.file(file)) {
+            self.blocks.line(&line)?;
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self, _: &str) -> Written {
+        self.blocks.flush()
+    }
+
+    fn caution(&self, _: &str) -> Vec<String> {
+        vec![
+            "if started alone: the blade clear of the work,".to_owned(),
+            "watching the way to the first point".to_owned(),
+        ]
+    }
+}
+
+impl GcodeDialect<'_, '_, '_> {
+    fn file<'f>(&self, file: script::File<'f>) -> File<'f> {
+        let first = u64::from(self.job.settings.program_number);
+        File {
+            name: file.name,
+            place: file.place,
+            number: first.saturating_add(file.place as u64),
+        }
     }
 
     /// What the operator has to see to: the values that the program was proven with.
@@ -90,19 +122,5 @@ impl GcodeDialect<'_, '_, '_> {
             Some(line) => self.blocks.continuation(&line),
             None => Ok(()),
         }
-    }
-
-    /// The call of a part.
-    pub(crate) fn call_file(&mut self, part: script::File<'_>) -> Written {
-        let call = self.job.settings.controller.call(self.file(part));
-        self.blocks.line(&call)
-    }
-
-    /// The end of a file.
-    pub(crate) fn end_file(&mut self, file: script::File<'_>) -> Written {
-        for line in self.job.settings.controller.closing(self.file(file)) {
-            self.blocks.line(&line)?;
-        }
-        Ok(())
     }
 }

@@ -1,9 +1,9 @@
 //! Programs of the four dialects read back.
 //!
-//! A line is read in three steps that know nothing of each other's business. [`lines`] finds what of it is statement. A
-//! [`tongue`] turns the statement into an [`order`]: what the block says, in terms that all dialects share. [`control`] keeps
-//! what was said before, as a control does, and tells what the block therefore does; [`walk`] goes from file to file
-//! ([`scripts`]).
+//! A line is read in three steps that know nothing of each other's business. [`lines`](crate::statement) finds what of it is
+//! statement. The controller turns the statement into an [`Order`](crate::statement::Order): what the block says, in terms that
+//! all controllers share. [`control`] keeps what was said before, as a control does, and tells what the block therefore does;
+//! [`walk`] goes from file to file ([`scripts`]).
 //!
 //! # What is understood
 //!

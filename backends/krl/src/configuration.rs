@@ -30,6 +30,7 @@
 
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
+use vcutc_backend_api::readback::Stance;
 
 /// Status and turn of a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +45,12 @@ pub(crate) struct Configuration {
 const AT_ZERO: f64 = 2e-11;
 
 impl Configuration {
+    /// As readers compare it.
+    pub(crate) fn stance(self) -> Option<Stance> {
+        let [status, turn] = [self.status, self.turn].map(i32::try_from);
+        Some(Stance([status.ok()?, turn.ok()?, 0, 0]))
+    }
+
     /// That of an arm on a branch with its axes there; none for a branch that is not of such an arm.
     pub(crate) fn of(branch: Branch, axes: AxisValues) -> Option<Self> {
         Some(Self {

@@ -2,7 +2,7 @@
 
 use crate::attitude::Attitudes;
 use crate::configuration::Configuration;
-use crate::keywords::{HOME, part_name};
+use crate::keywords::HOME;
 use crate::options::Settings;
 use crate::turns::{Rates, Turns, rounded_down};
 use core::num::NonZeroU32;
@@ -10,7 +10,7 @@ use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::ir::{FeedId, RateId, Switch};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
-    Dialect, File, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written, feed, rate,
+    Dialect, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written, feed, rate,
 };
 use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::Duration;
@@ -32,31 +32,6 @@ pub(crate) struct KrlDialect<'a, 't, 's> {
 }
 
 impl Dialect for KrlDialect<'_, '_, '_> {
-    fn part_name(&self, main: &str, part: usize) -> String {
-        part_name(main, part)
-    }
-
-    fn open(&mut self, file: File<'_>) -> Written {
-        self.begin_source(file)
-    }
-
-    fn setup(&mut self, file: File<'_>) -> Written {
-        self.initialise(file)
-    }
-
-    fn call(&mut self, part: File<'_>) -> Written {
-        Ok(self.text.line(&format!("{}( )", part.name))?)
-    }
-
-    fn close(&mut self, file: File<'_>) -> Written {
-        self.text.line("END")?;
-        self.data(file)
-    }
-
-    fn finish(&mut self, _: &str) -> Written {
-        Ok(self.text.flush()?)
-    }
-
     fn comment(&mut self, ours: &str, theirs: &str) -> Written {
         self.text.put(b"; ");
         Ok(self.text.comment(ours, theirs)?)
@@ -64,14 +39,6 @@ impl Dialect for KrlDialect<'_, '_, '_> {
 
     fn verbatim(&mut self, line: &str) -> Written {
         Ok(self.text.line(line)?)
-    }
-
-    fn caution(&self, before: &str) -> Vec<String> {
-        vec![
-            format!("goes on where {before} stopped"),
-            "if started alone: in T1, the blade clear of the work, watching the way to the first point"
-                .to_owned(),
-        ]
     }
 
     /// Rates stand at the head of a part, because what `BAS (#INITMOV,0 )` leaves is the fastest there is.

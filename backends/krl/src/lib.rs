@@ -77,12 +77,13 @@ use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
 use crate::turns::Turns;
+use vcutc_backend_api::arm::foreign;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
 use vcutc_backend_api::ir::{MachineKind, Maker, Program};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, Layout, Source, Text, emission, split, write};
-use vcutc_backend_api::verify::{Capabilities, Capability};
+use vcutc_backend_api::script::{Borders, CAPABILITIES, Layout, Source, Text, emission, split, write};
+use vcutc_backend_api::verify::Capabilities;
 
 /// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
 /// below 132 characters, which every release reads. Behind a `;` the pendant reads `;%` as the start of its own marks.
@@ -106,13 +107,7 @@ impl Backend for Krl {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities::NONE
-            .with(Capability::LinearMove)
-            .with(Capability::JointMove)
-            .with(Capability::StillTipTurn)
-            .with(Capability::Output)
-            .with(Capability::AwaitInput)
-            .with(Capability::Dwell)
+        CAPABILITIES
     }
 
     fn options(&self) -> &'static [OptionSpec] {
@@ -120,7 +115,7 @@ impl Backend for Krl {
     }
 
     fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
-        limits::foreign(kind, maker)
+        foreign(kind, maker, Maker::Kuka)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

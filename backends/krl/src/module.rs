@@ -2,18 +2,22 @@
 
 use crate::attitude::push_angles;
 use crate::dialect::KrlDialect;
-use crate::keywords::HOME;
+use crate::keywords::{HOME, part_name};
 use crate::options::PartNames;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Load, PlacedFrame, Registered};
 use vcutc_backend_api::number::NotFinite;
-use vcutc_backend_api::script::{Dialect, File, Part, Written};
+use vcutc_backend_api::script::{File, Files, Part, Written};
 use vcutc_backend_api::state::Place;
 
-impl KrlDialect<'_, '_, '_> {
+impl Files for KrlDialect<'_, '_, '_> {
+    fn part_name(&self, main: &str, part: usize) -> String {
+        part_name(main, part)
+    }
+
     /// The head of a `.src`.
-    pub(crate) fn begin_source(&mut self, file: File<'_>) -> Written {
+    fn open(&mut self, file: File<'_>) -> Written {
         self.text.file(&format!("{}.src", file.name))?;
         self.marks()?;
         self.text.line(&format!("DEF {}( )", file.name))?;
@@ -26,16 +30,9 @@ impl KrlDialect<'_, '_, '_> {
         Ok(())
     }
 
-    /// The lines with `&` that the pendant's navigator shows; `.src` and `.dat` carry the same.
-    fn marks(&mut self) -> Written {
-        self.text.line("&ACCESS RVP")?;
-        self.text.line("&REL 1")?;
-        Ok(self.text.comment("&COMMENT ", &self.source.program().name)?)
-    }
-
     /// Everything that motions depend on. `BAS (#INITMOV,0 )` resets all of it, so it comes first [K-QG]; the lines that the
     /// machine wants in the main module stand in front of it.
-    pub(crate) fn initialise(&mut self, file: File<'_>) -> Written {
+    fn setup(&mut self, file: File<'_>) -> Written {
         if file.place == 0 {
             for line in &self.settings.common.profile.header {
                 self.text.line(line)?;
@@ -48,6 +45,36 @@ impl KrlDialect<'_, '_, '_> {
             Some(_) => self.motion_setup(),
             None => Ok(()),
         }
+    }
+
+    fn call(&mut self, part: File<'_>) -> Written {
+        Ok(self.text.line(&format!("{}( )", part.name))?)
+    }
+
+    fn close(&mut self, file: File<'_>) -> Written {
+        self.text.line("END")?;
+        self.data(file)
+    }
+
+    fn finish(&mut self, _: &str) -> Written {
+        Ok(self.text.flush()?)
+    }
+
+    fn caution(&self, before: &str) -> Vec<String> {
+        vec![
+            format!("goes on where {before} stopped"),
+            "if started alone: in T1, the blade clear of the work, watching the way to the first point"
+                .to_owned(),
+        ]
+    }
+}
+
+impl KrlDialect<'_, '_, '_> {
+    /// The lines with `&` that the pendant's navigator shows; `.src` and `.dat` carry the same.
+    fn marks(&mut self) -> Written {
+        self.text.line("&ACCESS RVP")?;
+        self.text.line("&REL 1")?;
+        Ok(self.text.comment("&COMMENT ", &self.source.program().name)?)
     }
 
     fn motion_setup(&mut self) -> Written {
@@ -104,7 +131,7 @@ impl KrlDialect<'_, '_, '_> {
     }
 
     /// The `.dat` of a module. Declarations live here only: one behind an instruction of a `.src` does not compile [K-QG].
-    pub(crate) fn data(&mut self, file: File<'_>) -> Written {
+    fn data(&mut self, file: File<'_>) -> Written {
         self.text.file(&format!("{}.dat", file.name))?;
         self.marks()?;
         self.text.line(&format!("DEFDAT {}", file.name))?;

@@ -3,7 +3,7 @@
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
 //! crate never asks for a key by its name.
 
-use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
+use vcutc_backend_api::backend::{OptionSpec, Options};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 
@@ -27,27 +27,22 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     approximation(
         "How far from a corner in the air the robot may start rounding it; 0 mm stops at every point.",
     ),
-    OptionSpec {
-        key: MOTION,
-        kind: OptionKind::Choice {
-            of: &[CLASSIC, SPLINE],
-        },
-        help: "Motion planner: classic writes PTP and LIN, spline writes SPTP and SLIN (KSS 8 and later).",
-    },
-    OptionSpec {
-        key: DECLARE_PARTS,
-        kind: OptionKind::Choice { of: &[NO, YES] },
-        help: "Whether the main program declares its parts with EXT lines, as old releases demand.",
-    },
-    OptionSpec {
-        key: HOME_SPEED,
-        kind: OptionKind::Integer {
-            min: 1,
-            max: 100,
-            default: 10,
-        },
-        help: "Axis speed of axis moves, to home and from there, in percent of the highest.",
-    },
+    OptionSpec::choice(
+        MOTION,
+        &[CLASSIC, SPLINE],
+        "Motion planner: classic writes PTP and LIN, spline writes SPTP and SLIN (KSS 8 and later).",
+    ),
+    OptionSpec::choice(
+        DECLARE_PARTS,
+        &[NO, YES],
+        "Whether the main program declares its parts with EXT lines, as old releases demand.",
+    ),
+    OptionSpec::integer(
+        HOME_SPEED,
+        (1, 100),
+        10,
+        "Axis speed of the moves of all axes, to home and from there, in percent of the greatest.",
+    ),
 ];
 
 /// Which motion planner of the controller moves the robot. The two do not blend into each other, so a program keeps
@@ -134,16 +129,9 @@ impl<'p> Settings<'p> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
     use vcutc_backend_api::backend::OptionValue;
     use vcutc_backend_api::script::{APPROXIMATION, DECIMALS, LINES_PER_PART};
     use vcutc_backend_api::units::Length;
-
-    #[test]
-    fn keys_are_unique() {
-        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
-        assert_eq!(keys.len(), OPTIONS.len());
-    }
 
     #[test]
     fn what_is_set_is_read() {
@@ -170,11 +158,5 @@ mod tests {
         assert_eq!(settings.planner, Planner::Spline);
         assert_eq!(settings.part_names, PartNames::Declared);
         assert_eq!(settings.home_speed, 30);
-    }
-
-    #[test]
-    fn nothing_is_rounded_unless_asked_for() {
-        let options = Options::defaults(OPTIONS);
-        assert_eq!(Settings::read(&options).common.approximation, None);
     }
 }

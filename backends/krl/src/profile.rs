@@ -1,4 +1,4 @@
-//! The habits of a machine, as far as KRL programs can have them.
+//! The post-processor profile of a machine, as far as KRL programs can follow it.
 //!
 //! Lines at the head and at the end of the main program are written as they are. They stand in front of
 //! `BAS (#INITMOV,0 )` and behind the last motion, so nothing that they set changes how the program moves. They may call,

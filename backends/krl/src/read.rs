@@ -34,6 +34,8 @@ mod profile;
 mod run;
 mod setup;
 pub mod syntax;
+mod types;
+mod values;
 pub mod variables;
 
 use crate::configuration::Configuration;
@@ -43,13 +45,11 @@ use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::readback::{Frames, Grain, Reader, Sources, Stance, Statement};
+use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct KrlReader;
-
-/// Half of the sixth decimal, in which speeds and times end.
-const FINE: f64 = 0.5e-6;
 
 impl Reader for KrlReader {
     fn recognises(&self, file: &str) -> bool {
@@ -67,10 +67,10 @@ impl Reader for KrlReader {
             // A, B and C may each be off by as much, and at B = 90 deg A and C turn about the same line.
             attitude: angle * 3.0,
             axis: angle,
-            speed: Speed::m_per_s(FINE),
+            speed: Speed::m_per_s(TRIMMED.half_unit()),
             rate: AngularSpeed::deg_per_s(RATES.half_unit()),
             per_minute: 0.0,
-            time: Duration::s(FINE),
+            time: Duration::s(TRIMMED.half_unit()),
         }
     }
 
@@ -79,21 +79,10 @@ impl Reader for KrlReader {
     }
 
     fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance> {
-        let Configuration { status, turn } = Configuration::of(branch, axes)?;
-        stance(status, turn)
+        Configuration::of(branch, axes)?.stance()
     }
 
     fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
         run::read(sources, heed);
     }
-}
-
-/// Status and turn as a way to stand.
-fn stance(status: u32, turn: u32) -> Option<Stance> {
-    Some(Stance([
-        i32::try_from(status).ok()?,
-        i32::try_from(turn).ok()?,
-        0,
-        0,
-    ]))
 }

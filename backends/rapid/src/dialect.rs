@@ -1,6 +1,6 @@
 //! How a program is put in RAPID.
 
-use crate::keywords::{AXES_SPEED, HOME, SPEED, ZONE, part_routine};
+use crate::keywords::{AXES_SPEED, HOME, SPEED, ZONE};
 use crate::options::Settings;
 use crate::orient::Quaternion;
 use crate::speeds::Speeds;
@@ -12,7 +12,7 @@ use vcutc_backend_api::ir::{AxisValues, Cell, OpId, OrientationId, RateId, Switc
 use vcutc_backend_api::motion::Waypoint;
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
-    Dialect, File, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written,
+    Dialect, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written,
 };
 use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::Duration;
@@ -84,33 +84,6 @@ impl<'a, 't, 's> RapidDialect<'a, 't, 's> {
 }
 
 impl Dialect for RapidDialect<'_, '_, '_> {
-    fn part_name(&self, main: &str, part: usize) -> String {
-        part_routine(main, part)
-    }
-
-    fn open(&mut self, file: File<'_>) -> Written {
-        self.begin_module(file)
-    }
-
-    fn setup(&mut self, file: File<'_>) -> Written {
-        self.begin_routine(file)
-    }
-
-    fn call(&mut self, part: File<'_>) -> Written {
-        self.begin(part.name.as_bytes());
-        Ok(self.text.line(";")?)
-    }
-
-    fn close(&mut self, _: File<'_>) -> Written {
-        self.text.line("  ENDPROC")?;
-        Ok(self.text.line("ENDMODULE")?)
-    }
-
-    fn finish(&mut self, main: &str) -> Written {
-        self.list(main)?;
-        Ok(self.text.flush()?)
-    }
-
     fn comment(&mut self, ours: &str, theirs: &str) -> Written {
         self.begin(b"! ");
         Ok(self.text.comment(ours, theirs)?)
@@ -123,14 +96,6 @@ impl Dialect for RapidDialect<'_, '_, '_> {
 
     fn verbatim(&mut self, line: &str) -> Written {
         Ok(self.text.line(line)?)
-    }
-
-    fn caution(&self, before: &str) -> Vec<String> {
-        vec![
-            format!("goes on where {before} stopped"),
-            "if started alone: in manual mode, the blade clear of the work, watching the way to the first point"
-                .to_owned(),
-        ]
     }
 
     fn part_begins(&mut self, part: &Part, _: Option<RateId>) -> Written {
@@ -223,7 +188,7 @@ impl Dialect for RapidDialect<'_, '_, '_> {
 
 impl RapidDialect<'_, '_, '_> {
     /// Starts a line of the routine.
-    fn begin(&mut self, start: &[u8]) {
+    pub(crate) fn begin(&mut self, start: &[u8]) {
         self.text.put(INDENT);
         self.text.put(start);
     }

@@ -65,12 +65,13 @@ use crate::dialect::RapidDialect;
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::RapidReader;
+use vcutc_backend_api::arm::foreign;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
 use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
-use vcutc_backend_api::script::{Borders, Layout, Lead, Source, Text, emission, split, write};
-use vcutc_backend_api::verify::{Capabilities, Capability};
+use vcutc_backend_api::script::{Borders, CAPABILITIES, Layout, Lead, Source, Text, emission, split, write};
+use vcutc_backend_api::verify::Capabilities;
 
 /// Lines end as those that RobotStudio writes.
 const LAYOUT: Layout = Layout {
@@ -93,13 +94,7 @@ impl Backend for Rapid {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities::NONE
-            .with(Capability::LinearMove)
-            .with(Capability::JointMove)
-            .with(Capability::StillTipTurn)
-            .with(Capability::Output)
-            .with(Capability::AwaitInput)
-            .with(Capability::Dwell)
+        CAPABILITIES
     }
 
     fn options(&self) -> &'static [OptionSpec] {
@@ -107,7 +102,7 @@ impl Backend for Rapid {
     }
 
     fn mismatch(&self, kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
-        limits::foreign(kind, maker)
+        foreign(kind, maker, Maker::Abb)
     }
 
     fn reader(&self) -> Option<&dyn Reader> {

@@ -7,33 +7,26 @@ use crate::keywords::{
 };
 use crate::options::{READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME};
 use crate::profile::objection;
+use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign, has_six_rotary_axes};
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::confdata::confdata;
-use vcutc_backend_api::findings::{Findings, Number};
+use vcutc_backend_api::findings::{Findings, driven_cell};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{
-    Action, AxisKind, AxisValues, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, Program, RateId,
-    Ready, Registered,
-};
+use vcutc_backend_api::ir::{Action, AxisValues, Cell, Load, Maker, Ready, Registered};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::wrist::{TOO_FAR, turn};
 
-/// Largest coordinate, in mm. A `num` is a single precision number [A-KER]: up to here it keeps half a micrometre, and no
-/// robot reaches half as far.
-const FARTHEST_MM: f64 = 9999.0;
-
-/// Tip speed in mm/s: zero is refused, and the fastest of ABB's own speeddata is v7000 [A-INS].
-const TIP_SPEED: (f64, f64) = (0.001, 7000.0);
-
-/// Rate of turning in deg/s: that of ABB's own speeddata is 500 [A-INS].
-const TURNING: (f64, f64) = (0.001, 500.0);
-
-/// `WaitTime` in s; a day.
-const LONGEST_WAIT_S: f64 = 86_400.0;
-
-/// Mass of `loaddata` in kg: zero is refused, and the largest arm is rated for 1000.
-const LOAD_MASS_KG: (f64, f64) = (0.001, 1000.0);
+const LIMITS: ArmLimits = ArmLimits {
+    // A `num` is a single precision number [A-KER]: up to here it keeps half a micrometre, and no robot reaches half as far.
+    farthest_mm: 9999.0,
+    speed_unit: SpeedUnit::MillimetresPerSecond,
+    // Zero is refused, and the fastest of ABB's own speeddata is v7000 [A-INS].
+    tip_speed: (0.001, 7000.0),
+    // That of ABB's own speeddata is 500 [A-INS].
+    rate: (0.001, 500.0),
+    // Of `loaddata`: zero is refused, and the largest arm is rated for 1000.
+    load_kg: (0.001, 1000.0),
+};
 
 /// A centre of mass nearer than this to the flange's origin, in mm, is none: all zeros are refused.
 const NO_DISTANCE_MM: f64 = 0.001;
@@ -45,11 +38,6 @@ const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
     field: "home",
     why: "a RAPID program begins and ends with a move of all six axes to angles that the job states, so that it does not \
           depend on where the arm happens to stand",
-};
-
-const GENERATOR_MISSING: BackendIssue = BackendIssue::MissingMachineField {
-    field: "ultrasonic",
-    why: "the program switches the generator on before the blade enters; a blade that does not vibrate breaks",
 };
 
 const LOAD_MISSING: BackendIssue = BackendIssue::MissingMachineField {
@@ -67,51 +55,25 @@ pub(crate) fn check<'p>(
     settings: &Settings<'_>,
     parts: usize,
 ) -> Result<&'p Cell, Vec<BackendIssue>> {
-    let wrong = |mismatch| {
-        let drives = DRIVES;
-        vec![BackendIssue::WrongMachine { mismatch, drives }]
-    };
-    // No program is assembled without a machine; if one were, it would have no arm to drive.
-    let Some(cell) = &program.program().cell else {
-        return Err(wrong(MachineMismatch::Arm));
-    };
-    if let Some(mismatch) = mismatch(cell, program) {
-        return Err(wrong(mismatch));
-    }
+    let cell = driven_cell(program, DRIVES, |cell| mismatch(cell, program))?;
     let mut findings = Findings::default();
     profile(settings, cell, &mut findings);
     names(settings, cell, &mut findings);
     reserved(settings, cell, &program.program().name, parts, &mut findings);
     machine(cell, &mut findings);
-    ops(program, &mut findings);
+    findings.arm_ops(program, &LIMITS, &mut |_, _, _| {});
     turns(program, &mut findings);
     findings.result().map(|()| cell)
 }
 
-/// What sets machines of a kind and maker apart from those that RAPID programs are for.
-pub(crate) const fn foreign(kind: MachineKind, maker: Maker) -> Option<MachineMismatch> {
-    match (kind, maker) {
-        (MachineKind::FiveAxis, _) => Some(MachineMismatch::Kind),
-        (MachineKind::Robot, Maker::Kuka | Maker::Other) => Some(MachineMismatch::Maker),
-        (MachineKind::Robot, Maker::Abb) => None,
-    }
-}
-
 /// What sets a machine apart from those that RAPID programs are for.
 fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> {
-    if let Some(mismatch) = foreign(cell.kind, cell.maker) {
-        return Some(mismatch);
-    }
-    let turns = |kind| match kind {
-        AxisKind::Rotary => true,
-        AxisKind::Linear => false,
-    };
-    let is_arm = cell.axes.len() == MOST_AXES && cell.axes.iter().all(|axis| turns(axis.kind));
     let has_confdata = program.motion().stretches.iter().all(|stretch| {
         let axes = program.axes_after(stretch.from);
         axes.and_then(|axes| confdata(stretch.branch, &axes)).is_some()
     });
-    (!(is_arm && has_confdata)).then_some(MachineMismatch::Arm)
+    let is_arm = has_six_rotary_axes(cell) && has_confdata;
+    foreign(cell.kind, cell.maker, Maker::Abb).or((!is_arm).then_some(MachineMismatch::Arm))
 }
 
 /// What the machine's profile asks for.
@@ -225,15 +187,13 @@ fn machine(cell: &Cell, findings: &mut Findings) {
     if cell.home.is_none() {
         findings.tell("home", HOME_MISSING);
     }
-    if cell.ultrasonic.is_none() {
-        findings.tell("ultrasonic", GENERATOR_MISSING);
-    }
+    findings.generator(cell);
     if cell.tool.number.is_none() {
         findings.point(
             None,
             ["tool X", "tool Y", "tool Z"],
             cell.tool.frame.origin,
-            FARTHEST_MM,
+            LIMITS.farthest_mm,
         );
         match cell.load {
             Some(Registered::Value(carried)) => load(carried, findings),
@@ -245,23 +205,17 @@ fn machine(cell: &Cell, findings: &mut Findings) {
             None,
             ["base X", "base Y", "base Z"],
             cell.base.frame.origin,
-            FARTHEST_MM,
+            LIMITS.farthest_mm,
         );
     }
     match cell.ready {
         Ready::Input(_) => {}
-        Ready::After(time) => wait(None, "time until ready", time, findings),
+        Ready::After(time) => findings.wait(None, "time until ready", time),
     }
 }
 
 fn load(load: Load, findings: &mut Findings) {
-    let mass = Number {
-        what: "load mass",
-        value: load.mass.to_kg(),
-        unit: "kg",
-    };
-    findings.range(None, &mass, LOAD_MASS_KG);
-    findings.point(None, ["load X", "load Y", "load Z"], load.centre, FARTHEST_MM);
+    findings.load(load, &LIMITS);
     let Point3 { x, y, z } = load.centre;
     if [x, y, z].iter().all(|part| part.abs() < NO_DISTANCE_MM) {
         let what = "load centre of mass";
@@ -275,34 +229,6 @@ fn load(load: Load, findings: &mut Findings) {
                 range: None,
             },
         );
-    }
-}
-
-fn ops(program: &ReachableProgram, findings: &mut Findings) {
-    let tables = program.program();
-    for (id, op) in program.verified().ops() {
-        if let Some(operation) = op.site.operation() {
-            findings.blade(tables, id, operation);
-        }
-        match op.action {
-            Action::Home | Action::Ultrasonic { .. } | Action::AwaitReady => {}
-            Action::AxisTravel { to, .. } => target(id, to, findings),
-            Action::Travel { to, feed, rate, .. } => {
-                target(id, to, findings);
-                tip_speed(id, tables, feed, findings);
-                turning(id, tables, rate, findings);
-            }
-            Action::Approach { to, feed } | Action::Retract { to, feed } | Action::Cut { to, feed, .. } => {
-                target(id, to, findings);
-                tip_speed(id, tables, feed, findings);
-            }
-            Action::Turn { rate, .. } => turning(id, tables, rate, findings),
-            Action::Dwell { time } => wait(Some(id), "waiting time", time, findings),
-            Action::ToolChange { .. } => {
-                let what = "a tool change within the program";
-                findings.tell(what, BackendIssue::Unsupported { op: id, what });
-            }
-        }
     }
 }
 
@@ -326,39 +252,4 @@ fn turns(program: &ReachableProgram, findings: &mut Findings) {
             before = Some(point);
         }
     }
-}
-
-fn target(op: OpId, to: Point3, findings: &mut Findings) {
-    findings.point(Some(op), ["X", "Y", "Z"], to, FARTHEST_MM);
-}
-
-fn tip_speed(op: OpId, program: &Program, feed: FeedId, findings: &mut Findings) {
-    if let Some(feed) = program.feeds.get(usize::from(feed.0)) {
-        let number = Number {
-            what: "tip speed",
-            value: feed.to_mm_per_s(),
-            unit: "mm/s",
-        };
-        findings.range(Some(op), &number, TIP_SPEED);
-    }
-}
-
-fn turning(op: OpId, program: &Program, rate: RateId, findings: &mut Findings) {
-    if let Some(rate) = program.rates.get(usize::from(rate.0)) {
-        let number = Number {
-            what: "reorientation rate",
-            value: rate.to_deg_per_s(),
-            unit: "deg/s",
-        };
-        findings.range(Some(op), &number, TURNING);
-    }
-}
-
-fn wait(op: Option<OpId>, what: &'static str, time: Duration, findings: &mut Findings) {
-    let number = Number {
-        what,
-        value: time.to_s(),
-        unit: "s",
-    };
-    findings.range(op, &number, (0.0, LONGEST_WAIT_S));
 }

@@ -1,24 +1,26 @@
 //! Modules: the main one with the data and the entry of the task, those of the parts that it calls, and the list of them.
 
 use crate::dialect::{NO_EXTERNAL_AXES, RapidDialect};
-use crate::keywords::{AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module};
+use crate::keywords::{AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine};
 use crate::options::zone_members;
 use crate::orient::Quaternion;
-use crate::read::TRIMMED_DECIMALS;
-use crate::speeds::{EXTERNAL, RATE_OF_NOTHING};
+use crate::speeds::{EXTERNAL, RATE_OF_NOTHING, named};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Action, Load, RateId, Registered};
-use vcutc_backend_api::number::FixedDecimal;
-use vcutc_backend_api::script::{File, Written, feed, rate};
+use vcutc_backend_api::script::{File, Files, TRIMMED, Written, feed, rate};
 use vcutc_backend_api::units::Length;
 
 /// The modes that moves depend on. A task that is started anew has them, one that is started at a part may not.
 const MODES: [&str; 3] = ["    ConfJ\\On;", "    ConfL\\On;", "    SingArea\\Off;"];
 
-impl RapidDialect<'_, '_, '_> {
+impl Files for RapidDialect<'_, '_, '_> {
+    fn part_name(&self, main: &str, part: usize) -> String {
+        part_routine(main, part)
+    }
+
     /// The head of a module.
-    pub(crate) fn begin_module(&mut self, file: File<'_>) -> Written {
+    fn open(&mut self, file: File<'_>) -> Written {
         let module = match file.place {
             0 => file.name.to_owned(),
             part => part_module(file.main, part),
@@ -30,7 +32,7 @@ impl RapidDialect<'_, '_, '_> {
     }
 
     /// The head of a routine: in the main module after the data, and with the lines that the machine wants there.
-    pub(crate) fn begin_routine(&mut self, file: File<'_>) -> Written {
+    fn setup(&mut self, file: File<'_>) -> Written {
         let routine = match file.place {
             0 => {
                 self.data()?;
@@ -53,8 +55,18 @@ impl RapidDialect<'_, '_, '_> {
         Ok(())
     }
 
+    fn call(&mut self, part: File<'_>) -> Written {
+        self.begin(part.name.as_bytes());
+        Ok(self.text.line(";")?)
+    }
+
+    fn close(&mut self, _: File<'_>) -> Written {
+        self.text.line("  ENDPROC")?;
+        Ok(self.text.line("ENDMODULE")?)
+    }
+
     /// The list of modules, which the controller loads as one program [A-OV].
-    pub(crate) fn list(&mut self, main: &str) -> Written {
+    fn finish(&mut self, main: &str) -> Written {
         self.text.file(&format!("{main}.pgf"))?;
         self.text
             .line("<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>")?;
@@ -62,24 +74,25 @@ impl RapidDialect<'_, '_, '_> {
         for module in &self.modules {
             self.text.line(&format!("  <Module>{module}</Module>"))?;
         }
-        Ok(self.text.line("</Program>")?)
+        self.text.line("</Program>")?;
+        Ok(self.text.flush()?)
     }
 
+    fn caution(&self, before: &str) -> Vec<String> {
+        vec![
+            format!("goes on where {before} stopped"),
+            "if started alone: in manual mode, the blade clear of the work, watching the way to the first point"
+                .to_owned(),
+        ]
+    }
+}
+
+impl RapidDialect<'_, '_, '_> {
     /// The data that moves refer to, each of which some move does refer to.
     fn data(&mut self) -> Written {
         let mut ops = self.source.program().ops.iter();
-        let moves = |action: &Action| match action {
-            Action::Home
-            | Action::Travel { .. }
-            | Action::AxisTravel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. } => true,
-            Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => false,
+        let moves = |action: &Action| {
+            named(action).is_some() || matches!(action, Action::Home | Action::AxisTravel { .. })
         };
         if !ops.any(|op| moves(&op.action)) {
             return Ok(());
@@ -170,7 +183,7 @@ impl RapidDialect<'_, '_, '_> {
         }
         for id in self.speeds.rates() {
             // Never faster than proven.
-            let turning = FixedDecimal::new(TRIMMED_DECIMALS).floored(rate(program, id)?.to_deg_per_s());
+            let turning = TRIMMED.floored(rate(program, id)?.to_deg_per_s());
             self.number(RATE, id.0, turning)?;
         }
         let rate = |id: Option<RateId>| {

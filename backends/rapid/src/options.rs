@@ -1,10 +1,10 @@
-//! The options block `rapid { ... }` of a job, and the habits of its machine.
+//! The options block `rapid { ... }` of a job.
 //!
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the crate
 //! never asks for a key by its name.
 
 use crate::keywords::{TOOL, WORK_OBJECT};
-use vcutc_backend_api::backend::{OptionKind, OptionSpec, Options};
+use vcutc_backend_api::backend::{OptionSpec, Options};
 use vcutc_backend_api::ir::{Cell, PlacedFrame};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
@@ -25,35 +25,28 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     ),
     header("Comment lines put at the head of the main module."),
     approximation("Zone in which a corner in the air may be rounded; 0 mm stops at every point."),
-    OptionSpec {
-        key: HOME_SPEED,
-        kind: OptionKind::Integer {
-            min: 1,
-            max: 5000,
-            default: 250,
-        },
-        help: "Tip speed of axis moves, to home and from there, in mm/s.",
-    },
-    OptionSpec {
-        key: TOOL_NAME,
-        kind: OptionKind::Text,
-        help: "Name of the tooldata; tool3 when the job gives the number 3, vc_tool when it gives values.",
-    },
-    OptionSpec {
-        key: WORK_OBJECT_NAME,
-        kind: OptionKind::Text,
-        help: "Name of the wobjdata; wobj2 when the job gives the number 2, vc_wobj when it gives values.",
-    },
-    OptionSpec {
-        key: ULTRASONIC_SIGNAL,
-        kind: OptionKind::Text,
-        help: "Name of the output of the generator; do12 for output(12) when not given.",
-    },
-    OptionSpec {
-        key: READY_SIGNAL,
-        kind: OptionKind::Text,
-        help: "Name of the input that tells the generator is up; di7 for input(7) when not given.",
-    },
+    OptionSpec::integer(
+        HOME_SPEED,
+        (1, 5000),
+        250,
+        "Tip speed of the moves of all axes, to home and from there, in mm/s.",
+    ),
+    OptionSpec::text(
+        TOOL_NAME,
+        "Name of the tooldata; tool3 when the job gives the number 3, vc_tool when it gives values.",
+    ),
+    OptionSpec::text(
+        WORK_OBJECT_NAME,
+        "Name of the wobjdata; wobj2 when the job gives the number 2, vc_wobj when it gives values.",
+    ),
+    OptionSpec::text(
+        ULTRASONIC_SIGNAL,
+        "Name of the output of the generator; do12 for output(12) when not given.",
+    ),
+    OptionSpec::text(
+        READY_SIGNAL,
+        "Name of the input that tells the generator is up; di7 for input(7) when not given.",
+    ),
 ];
 
 /// The options as types.
@@ -133,15 +126,8 @@ pub(crate) fn zone_members(distance: Length) -> [f64; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
     use vcutc_backend_api::backend::OptionValue;
     use vcutc_backend_api::script::{APPROXIMATION, DECIMALS, LINES_PER_PART};
-
-    #[test]
-    fn keys_are_unique() {
-        let keys: BTreeSet<_> = OPTIONS.iter().map(|spec| spec.key).collect();
-        assert_eq!(keys.len(), OPTIONS.len());
-    }
 
     #[test]
     fn what_is_set_is_read() {

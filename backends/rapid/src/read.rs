@@ -30,13 +30,10 @@ use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
-use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::readback::{Frames, Grain, Place, Reader, Says, Sources, Stance, Statement, essence};
+use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
-
-/// Decimals of numbers that lose their trailing zeros.
-pub(crate) const TRIMMED_DECIMALS: u8 = 6;
 
 /// Extensions of modules and lists.
 const EXTENSIONS: [&str; 5] = ["mod", "modx", "sys", "sysx", "pgf"];
@@ -54,7 +51,7 @@ impl Reader for RapidReader {
 
     fn grain(&self, options: &Options) -> Grain {
         let settings = Settings::read(options);
-        let trimmed = FixedDecimal::new(TRIMMED_DECIMALS).half_unit();
+        let trimmed = TRIMMED.half_unit();
         Grain {
             length: Length::mm(settings.common.lengths.half_unit()),
             attitude: Angle::rad(GRAIN_RAD),
@@ -247,9 +244,7 @@ impl Teller<'_, '_> {
         let mut called = None;
         let says = match piece.kind {
             PieceKind::EndRoutine => Says::Setting,
-            PieceKind::Broken => Says::Unreadable {
-                expected: "`;`".to_owned(),
-            },
+            PieceKind::Broken => Says::expected("`;`"),
             PieceKind::Statement => match sentence(text) {
                 Ok(Sentence::Declaration { .. }) => Says::Setting,
                 Ok(Sentence::Assignment { name }) => {
@@ -316,9 +311,7 @@ impl Teller<'_, '_> {
                     .get(module)
                     .and_then(|of| of.pieces.get(piece));
                 let says = match kind.map(|piece| piece.kind) {
-                    Some(PieceKind::Broken) => Says::Unreadable {
-                        expected: "`;`".to_owned(),
-                    },
+                    Some(PieceKind::Broken) => Says::expected("`;`"),
                     Some(_) | None => Says::Setting,
                 };
                 self.tell(module, piece, says);

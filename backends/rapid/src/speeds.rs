@@ -39,7 +39,7 @@ impl Speeds {
                 .get(usize::from(id.0))
                 .map_or(0.0, |rate| rate.to_rad_per_s())
         };
-        let mut speeds = Self {
+        let mut all = Self {
             numbers: BTreeMap::new(),
             pairs: Vec::new(),
             slowest: (
@@ -52,16 +52,16 @@ impl Speeds {
             ),
         };
         for pair in named() {
-            let pair = speeds.filled(pair);
-            let next = u32::try_from(speeds.pairs.len())
+            let pair = all.filled(pair);
+            let next = u32::try_from(all.pairs.len())
                 .unwrap_or(u32::MAX)
                 .saturating_add(1);
-            speeds.numbers.entry(pair).or_insert_with(|| {
-                speeds.pairs.push(pair);
+            all.numbers.entry(pair).or_insert_with(|| {
+                all.pairs.push(pair);
                 next
             });
         }
-        speeds
+        all
     }
 
     /// What is left open is the slowest there is.
@@ -102,18 +102,9 @@ fn sorted<T: Ord>(all: impl Iterator<Item = T>) -> Vec<T> {
 }
 
 /// The speeds that an action names; none for one that is no motion along a line.
-const fn named(action: &Action) -> Option<Pair> {
-    match *action {
-        Action::Travel { feed, rate, .. } => Some((Some(feed), Some(rate))),
-        Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
-            Some((Some(feed), None))
-        }
-        Action::Turn { rate, .. } => Some((None, Some(rate))),
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => None,
+pub(crate) fn named(action: &Action) -> Option<Pair> {
+    match (action.feed(), action.rate()) {
+        (None, None) => None,
+        named => Some(named),
     }
 }

@@ -3,7 +3,6 @@
 use super::model::Described;
 use super::report::{Checked, Reported, Reports};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use vcutc_backend_api::profile::Profile;
 use vcutc_diagnostics::source::{FileId, Loader, SourceMap, Span};
 
@@ -17,7 +16,7 @@ pub struct Session<'a> {
     /// Files of which a part could not be read. What seems to be missing there may be in the unreadable part.
     damaged: BTreeMap<FileId, Reported>,
     /// Machines read so far, by name of the catalogue or path of the file: a shop may put one arm into several cells.
-    pub machines: BTreeMap<String, Checked<Described>>,
+    pub(crate) machines: BTreeMap<String, Checked<Described>>,
     /// Profiles read so far, by path: the cells of a shop may share one.
     pub profiles: BTreeMap<String, Checked<Profile>>,
     /// Set when definitions may be missing because a file could not be had or read in full.

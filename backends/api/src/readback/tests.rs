@@ -4,10 +4,10 @@ use super::{
     Deed, Departure, DepartureKind, End, FrameRole, FrameSetting, Frames, Grain, Held, Judge, Mismatch, Pace,
     Place, Reader, Retrace, Retraced, Says, Sources, Stance, Statement, Target,
 };
-use crate::backend::Options;
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{Action, AxisValues, OpId, Program, Ready, Switch};
 use crate::motion::{Branch, Motion, ReachableProgram, Waypoint, Wrist};
+use crate::options::Options;
 use crate::segments::Segment;
 use crate::testkit::{Crossing, Recipe, axes_at, blade_in_work, reachable, samples};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};

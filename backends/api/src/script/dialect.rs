@@ -97,8 +97,8 @@ pub struct LinearMove<'a> {
     pub end: End,
 }
 
-/// The words of a controller.
-pub trait Dialect {
+/// How a program lies in files.
+pub trait Files {
     /// The name of a part, counted from 1.
     fn part_name(&self, main: &str, part: usize) -> String;
 
@@ -121,6 +121,12 @@ pub trait Dialect {
     /// Ends the program: files that come after all others, and what is still to be handed to the sink.
     fn finish(&mut self, main: &str) -> Written;
 
+    /// What someone should know who starts a part alone and not the part before it, as comments.
+    fn caution(&self, before: &str) -> Vec<String>;
+}
+
+/// The words of a controller: comments, motions, signals.
+pub trait Dialect: Files {
     /// A comment among the ops: words of ours, and words that people wrote after them.
     fn comment(&mut self, ours: &str, theirs: &str) -> Written;
 
@@ -136,9 +142,6 @@ pub trait Dialect {
 
     /// A line of the profile, as it is.
     fn verbatim(&mut self, line: &str) -> Written;
-
-    /// What someone should know who starts a part alone and not the part before it, as comments.
-    fn caution(&self, before: &str) -> Vec<String>;
 
     /// The ops of a part follow. A part that is started alone finds nothing set, so nothing written before counts. `rate` is
     /// the rate at which its motions turn first.

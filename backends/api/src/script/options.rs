@@ -20,39 +20,19 @@ pub const APPROXIMATION: &str = "approximation";
 /// Decimals of lengths in mm. The plan lies on a grid of a micrometre, so three print it exactly.
 #[must_use]
 pub const fn decimals(help: &'static str) -> OptionSpec {
-    OptionSpec {
-        key: DECIMALS,
-        kind: OptionKind::Integer {
-            min: 3,
-            max: 6,
-            default: 3,
-        },
-        help,
-    }
+    OptionSpec::integer(DECIMALS, (3, 6), 3, help)
 }
 
 /// Lines after which a program is split; 0 never splits.
 #[must_use]
 pub const fn lines_per_part(default: u32, help: &'static str) -> OptionSpec {
-    OptionSpec {
-        key: LINES_PER_PART,
-        kind: OptionKind::Integer {
-            min: 0,
-            max: 1_000_000,
-            default,
-        },
-        help,
-    }
+    OptionSpec::integer(LINES_PER_PART, (0, 1_000_000), default, help)
 }
 
 /// Comment lines at the head of the main program.
 #[must_use]
 pub const fn header(help: &'static str) -> OptionSpec {
-    OptionSpec {
-        key: HEADER,
-        kind: OptionKind::Lines,
-        help,
-    }
+    OptionSpec::lines(HEADER, help)
 }
 
 /// How far from a corner in the air it may be rounded; zero stops at every point.
@@ -82,7 +62,7 @@ pub struct Common<'p> {
     pub header: &'p [String],
     /// Rounding of corners in the air, when wanted.
     pub approximation: Option<Length>,
-    /// The habits of the machine.
+    /// The profile of the machine.
     pub profile: &'p Profile,
 }
 

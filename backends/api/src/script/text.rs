@@ -24,8 +24,8 @@ pub struct Layout {
     pub kept_out_of_comments: &'static [u8],
 }
 
-/// Speeds, times and masses are printed with at most so many decimals.
-const FINE: FixedDecimal = FixedDecimal::new(6);
+/// Speeds, times and masses are printed with at most so many decimals, and no further trailing zeros.
+pub const TRIMMED: FixedDecimal = FixedDecimal::new(6);
 
 /// Writes lines of the file at hand.
 pub struct Text<'s> {
@@ -156,7 +156,7 @@ impl<'s> Text<'s> {
 /// # Errors
 /// When it is not finite.
 pub fn push_trimmed(out: &mut Vec<u8>, value: f64) -> Result<(), NotFinite> {
-    FINE.push(out, value)?;
+    TRIMMED.push(out, value)?;
     while out.ends_with(b"0") && !out.ends_with(b".0") {
         out.pop();
     }

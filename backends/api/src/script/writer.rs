@@ -13,6 +13,16 @@ use crate::ir::{Action, Op, OpId, Ready, Switch};
 use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};
 use crate::state::{Generator, Place};
+use crate::verify::{Capabilities, Capability};
+
+/// The ops that are written: all but changes of the tool.
+pub const CAPABILITIES: Capabilities = Capabilities::NONE
+    .with(Capability::LinearMove)
+    .with(Capability::JointMove)
+    .with(Capability::StillTipTurn)
+    .with(Capability::Output)
+    .with(Capability::AwaitInput)
+    .with(Capability::Dwell);
 
 /// Writes all files of a program: the main program, and the parts that it calls where there are several.
 ///

@@ -3,19 +3,10 @@
 //! They are compared as texts, for nobody knows what they mean but the job, which says what they are for. One that has several
 //! lines is there when its last line is.
 
+use crate::codes::Role;
 use crate::controller::Codes;
 use crate::statement::{Code, Style};
 use vcutc_backend_api::readback::essence;
-
-/// What blocks of the job are for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
-    TcpOn,
-    TcpOff,
-    On,
-    Off,
-    Ready,
-}
 
 /// What a statement is to the blocks of the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,14 +33,7 @@ struct GivenBlock {
 impl Given {
     /// Those of a job.
     pub(super) fn new(codes: Codes<'_>, style: Style) -> Self {
-        let all = [
-            (Role::TcpOn, codes.tcp_on),
-            (Role::TcpOff, codes.tcp_off),
-            (Role::On, codes.on),
-            (Role::Off, codes.off),
-            (Role::Ready, codes.ready),
-        ];
-        let blocks = all.into_iter().filter_map(|(role, lines)| {
+        let blocks = codes.all().into_iter().filter_map(|(role, lines)| {
             let lines = essences(lines, style);
             let read = 0;
             (!lines.is_empty()).then_some(GivenBlock { role, lines, read })

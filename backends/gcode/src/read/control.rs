@@ -5,10 +5,10 @@
 //! a meaning of F, a way to stop. Coordinates that a block leaves out are those of the block before, which is the controller's rule
 //! too; behind a switch of tool-centre-point control the linear ones mean something else and have to be said anew.
 
-use super::codes::Role;
 use super::context::Context;
 use super::rates::is_too_fast;
 use crate::axes::WorkInOffset;
+use crate::codes::Role;
 use crate::controller::{AxisPace, Facts, TcpCodes, Unnumbered};
 use crate::statement::{
     Act, CONVENTIONS, Convention, Coordinates, Cycle, FeedMode, Mode, Motion, Once, Order, Parsed, ReadError,

@@ -8,7 +8,7 @@ use vcutc_backend_api::readback::{Place, ProgramFile};
 
 /// A file on the way.
 pub(super) struct Script<'t> {
-    file: u32,
+    file: usize,
     text: &'t str,
     pub(super) routine: Option<Routine<'t>>,
     /// Where the next statement is looked for.
@@ -19,7 +19,7 @@ pub(super) struct Script<'t> {
 }
 
 impl<'t> Script<'t> {
-    pub(super) fn new(file: u32, source: &'t ProgramFile, context: Context<'_>) -> Self {
+    pub(super) fn new(file: usize, source: &'t ProgramFile, context: Context<'_>) -> Self {
         let text = source.text.as_str();
         Self {
             file,
@@ -52,12 +52,7 @@ impl<'t> Script<'t> {
     }
 
     fn place(&self, span: Span) -> Place {
-        let byte = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-        Place {
-            file: self.file,
-            start: byte(span.start),
-            end: byte(span.end),
-        }
+        Place::of(self.file, span.start..span.end)
     }
 
     /// Whether nothing stands in front of a place, comments and numbers neither.

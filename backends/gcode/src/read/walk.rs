@@ -1,14 +1,15 @@
 //! The statements of all files in the order in which a control carries them out.
 
-use super::codes::{Found, Given, Role};
+use super::codes::{Found, Given};
 use super::context::Context;
 use super::control::{Control, given};
 use super::profile::{OfProfile, Stage};
 use super::scripts::{self, Directory, Line, Script};
 use crate::axes;
+use crate::codes::Role;
 use crate::controller::Heads;
 use crate::options::Settings;
-use crate::statement::{Flow, Order, ReadError, Routine};
+use crate::statement::{Flow, Order, Parsed, ReadError, Routine, expected};
 use vcutc_backend_api::readback::{Deed, Place, Says, Sources, Statement};
 
 /// Tells all statements of a program.
@@ -107,8 +108,7 @@ impl<'t> Walk<'t, '_> {
     fn ends_too_soon(&mut self, place: Place) {
         let [of_main, of_part] = self.context.settings.facts().endings;
         let missing = if self.stack.len() > 1 { of_part } else { of_main };
-        let expected = format!("`{missing}` at the end");
-        self.tell(place, Says::Unreadable { expected });
+        self.tell(place, Says::expected(format!("`{missing}` at the end")));
         self.stack.pop();
     }
 
@@ -163,9 +163,7 @@ impl<'t> Walk<'t, '_> {
         let longest = self.context.settings.facts().longest_line;
         let understood = match &line.code {
             Err(error) => Err(error.clone()),
-            Ok(_) if line.length > longest => Err(ReadError::Expected(format!(
-                "a line of at most {longest} characters"
-            ))),
+            Ok(_) if line.length > longest => expected(format!("a line of at most {longest} characters")),
             Ok(code) => self.understood(script, line.place, code),
         };
         let is_main = self.stack.len() == 1;
@@ -183,7 +181,7 @@ impl<'t> Walk<'t, '_> {
                 self.control.forget();
                 let says = match error {
                     ReadError::Unknown => Says::Unknown,
-                    ReadError::Expected(expected) => Says::Unreadable { expected },
+                    ReadError::Expected(expected) => Says::expected(expected),
                 };
                 (says, Onward::Next)
             }
@@ -193,9 +191,7 @@ impl<'t> Walk<'t, '_> {
     /// Nothing is done behind the lines at the end.
     fn in_its_stage(&mut self, says: Says) -> Says {
         match (&says, self.profile.stage) {
-            (Says::Deed(_) | Says::PartBegins, Stage::Foot) => Says::Unreadable {
-                expected: "the end of the program".to_owned(),
-            },
+            (Says::Deed(_) | Says::PartBegins, Stage::Foot) => Says::expected("the end of the program"),
             (Says::Deed(_) | Says::PartBegins, Stage::Head | Stage::Body) => {
                 self.profile.stage = Stage::Body;
                 says
@@ -204,12 +200,7 @@ impl<'t> Walk<'t, '_> {
         }
     }
 
-    fn understood(
-        &mut self,
-        script: usize,
-        place: Place,
-        code: &'t str,
-    ) -> Result<(Says, Onward), ReadError> {
+    fn understood(&mut self, script: usize, place: Place, code: &'t str) -> Parsed<(Says, Onward)> {
         let order = match self.given.heed(code) {
             Found::Part(Role::TcpOn | Role::TcpOff) => {
                 self.control.switch_tcp(None);
@@ -240,9 +231,7 @@ impl<'t> Walk<'t, '_> {
             Some(Flow::Tape | Flow::Head(_) | Flow::PartHead(_)) => {}
             Some(Flow::Call(_) | Flow::Return | Flow::ReturnFrom(_) | Flow::Close(_) | Flow::End) | None => {
                 if needs_head && begun == Some(false) {
-                    return Err(ReadError::Expected(
-                        "the name of the file, at its beginning".to_owned(),
-                    ));
+                    return expected("the name of the file, at its beginning");
                 }
             }
         }
@@ -258,24 +247,20 @@ impl<'t> Walk<'t, '_> {
         flow: Flow<'_>,
         begun: bool,
         order: &Order<'_>,
-    ) -> Result<(Says, Onward), ReadError> {
+    ) -> Parsed<(Says, Onward)> {
         let is_main = self.stack.len() == 1;
         let is_own = |routine: Routine<'_>| self.is_own(script, routine);
         if order.feed.is_some() {
-            return Err(ReadError::Expected("nothing else in the block".to_owned()));
+            return expected("nothing else in the block");
         }
         match flow {
             Flow::Tape if !begun => Ok((Says::Setting, Onward::Next)),
-            Flow::Tape => Err(ReadError::Expected(
-                "the end of the program before `%`".to_owned(),
-            )),
+            Flow::Tape => expected("the end of the program before `%`"),
             Flow::Head(routine) if !begun && is_own(routine) => Ok((Says::Setting, Onward::Next)),
             Flow::PartHead(routine) if !begun && is_own(routine) && !is_main => {
                 Ok((Says::Setting, Onward::Next))
             }
-            Flow::Head(_) | Flow::PartHead(_) => Err(ReadError::Expected(
-                "the name of the file, at its beginning".to_owned(),
-            )),
+            Flow::Head(_) | Flow::PartHead(_) => expected("the name of the file, at its beginning"),
             Flow::Call(routine) => {
                 let to = self.directory.find(routine);
                 let to = to.filter(|&to| self.scripts.get(to).is_some_and(|to| !to.entered));
@@ -292,9 +277,7 @@ impl<'t> Walk<'t, '_> {
             Flow::Return if !is_main => Ok((Says::Setting, Onward::Leave)),
             Flow::ReturnFrom(routine) if !is_main && is_own(routine) => Ok((Says::Setting, Onward::Leave)),
             Flow::Return | Flow::ReturnFrom(_) => Err(ReadError::Unknown),
-            Flow::Close(routine) if !is_own(routine) => {
-                Err(ReadError::Expected("the name of the file".to_owned()))
-            }
+            Flow::Close(routine) if !is_own(routine) => expected("the name of the file"),
             Flow::Close(_) if is_main => Ok((Says::Setting, Onward::Over)),
             Flow::Close(_) => Ok((Says::Setting, Onward::Leave)),
             Flow::End => Ok((Says::Setting, Onward::Over)),
@@ -302,7 +285,7 @@ impl<'t> Walk<'t, '_> {
     }
 }
 
-fn is_motion(understood: &Result<(Says, Onward), ReadError>) -> bool {
+fn is_motion(understood: &Parsed<(Says, Onward)>) -> bool {
     match understood {
         Ok((Says::Deed(deed), _)) => match deed {
             Deed::Axes(_) | Deed::AxesToPose(_) | Deed::Straight { .. } => true,

@@ -4,6 +4,7 @@
 //! in by the model of the control.
 
 use crate::axes::Word;
+use core::mem::discriminant;
 use vcutc_backend_api::ir::{MOST_AXES, Switch};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::units::{Duration, Length};
@@ -112,28 +113,14 @@ pub(crate) enum Mode {
     Cycle(Cycle),
 }
 
-/// What a mode is about: a block says it once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Group {
-    Convention(Convention),
-    Feed,
-    Stop,
-    Tcp,
-    Tool,
-    Work,
-    Cycle,
-}
-
 impl Mode {
-    const fn group(self) -> Group {
-        match self {
-            Self::Convention(convention) | Self::Not(convention) => Group::Convention(convention),
-            Self::Feed(_) => Group::Feed,
-            Self::Stop(_) => Group::Stop,
-            Self::Tcp(_) => Group::Tcp,
-            Self::Tool(_) => Group::Tool,
-            Self::Work(_) => Group::Work,
-            Self::Cycle(_) => Group::Cycle,
+    /// Whether two are about the same: a block says it once.
+    fn is_like(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Convention(one) | Self::Not(one), Self::Convention(another) | Self::Not(another)) => {
+                one == another
+            }
+            (_, _) => discriminant(&self) == discriminant(&other),
         }
     }
 }
@@ -269,7 +256,7 @@ impl<'t> Order<'t> {
 
     /// Adds what holds from here on.
     pub(crate) fn set(&mut self, mode: Mode) -> Parsed<()> {
-        if self.modes.iter().any(|known| known.group() == mode.group()) {
+        if self.modes.iter().any(|known| known.is_like(mode)) {
             return expected("one word of a group");
         }
         self.modes.push(mode);

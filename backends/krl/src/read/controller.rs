@@ -1,15 +1,14 @@
 //! What single instructions do.
 
-use super::run::unreadable;
 use super::setup::{Need, Setup, Wanted};
-use super::stance;
-use super::syntax::{
+use super::types::{
     Approximation, Component, Coordinates, Motion, MotionWord, Phrase, Target, Value, Variable, is_same_name,
 };
 use super::variables::{Asker, Outcome, Variables};
+use crate::configuration::Configuration;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{AxisValues, Switch};
-use vcutc_backend_api::readback::{Deed, End, FrameRole, FrameSetting, Held, Says, Target as Goal};
+use vcutc_backend_api::readback::{Deed, End, FrameRole, FrameSetting, Held, Says, Stance, Target as Goal};
 use vcutc_backend_api::units::{Angle, Duration};
 
 /// The state that instructions change.
@@ -26,16 +25,16 @@ pub(super) struct Controller<'a> {
 }
 
 /// Why a motion is not told as a deed.
-enum Trouble {
+enum MotionError {
     Unknown,
     Expected(&'static str),
 }
 
-impl From<Trouble> for Says {
-    fn from(trouble: Trouble) -> Self {
-        match trouble {
-            Trouble::Unknown => Self::Unknown,
-            Trouble::Expected(what) => unreadable(what),
+impl From<MotionError> for Says {
+    fn from(error: MotionError) -> Self {
+        match error {
+            MotionError::Unknown => Self::Unknown,
+            MotionError::Expected(what) => Says::expected(what),
         }
     }
 }
@@ -63,16 +62,16 @@ impl<'a> Controller<'a> {
         match phrase {
             Phrase::Motion(motion) => match self.motion(asker, motion) {
                 Ok(deed) => Says::Deed(deed),
-                Err(trouble) => {
+                Err(error) => {
                     // Nobody knows where it leads, so nobody knows what later targets leave out.
                     self.last = Coordinates::default();
-                    trouble.into()
+                    error.into()
                 }
             },
             Phrase::Assignment { to, value } => self.assign(asker, to, value),
             Phrase::Bas { command, value } => self.bas(command, *value),
             Phrase::WaitSec(seconds) if *seconds >= 0.0 => Says::Deed(Deed::Wait(Duration::s(*seconds))),
-            Phrase::WaitSec(_) => unreadable("a time that is not negative"),
+            Phrase::WaitSec(_) => Says::expected("a time that is not negative"),
             Phrase::WaitFor(variable) => match variable.index_in("$IN") {
                 Some(input) => Says::Deed(Deed::AwaitInput(input)),
                 None => Says::Unknown,
@@ -82,14 +81,14 @@ impl<'a> Controller<'a> {
                 Says::Unknown
             }
             Phrase::Halt | Phrase::Other(_) | Phrase::Call { .. } => Says::Unknown,
-            Phrase::Unreadable { expected } => unreadable(expected),
+            Phrase::Unreadable { expected } => Says::expected(*expected),
             Phrase::Mark(_)
             | Phrase::Def { .. }
             | Phrase::End
             | Phrase::DefDat { .. }
             | Phrase::EndDat
             | Phrase::Ext { .. }
-            | Phrase::Declaration(_) => unreadable("an instruction, or `END`"),
+            | Phrase::Declaration(_) => Says::expected("an instruction, or `END`"),
         }
     }
 
@@ -119,7 +118,7 @@ impl<'a> Controller<'a> {
                 | Value::Enum(_)
                 | Value::Text(_)
                 | Value::Coordinates(_)
-                | Value::Structure(_) => unreadable("`TRUE` or `FALSE`"),
+                | Value::Structure(_) => Says::expected("`TRUE` or `FALSE`"),
             };
         }
         if to.is("$TOOL") {
@@ -138,16 +137,9 @@ impl<'a> Controller<'a> {
     }
 
     fn frame(&mut self, asker: Asker<'_>, role: FrameRole, table: &str, value: &Value<'_>) -> Says {
-        let variable = match value {
-            Value::Variable(variable) => Some(variable),
-            Value::Number(_)
-            | Value::Bool(_)
-            | Value::Enum(_)
-            | Value::Text(_)
-            | Value::Coordinates(_)
-            | Value::Structure(_) => None,
-        };
-        if let Some(number) = variable.and_then(|variable| variable.index_in(table)) {
+        if let Value::Variable(variable) = value
+            && let Some(number) = variable.index_in(table)
+        {
             return Says::Frame(role, FrameSetting::Number(number));
         }
         let value = self.variables.value(asker, value);
@@ -164,24 +156,24 @@ impl<'a> Controller<'a> {
         }
     }
 
-    fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>) -> Result<Deed, Trouble> {
+    fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>) -> Result<Deed, MotionError> {
         let named;
         let target = match &motion.target {
             Target::Literal(coordinates) => coordinates,
             Target::Variable(variable) => {
                 let known = self.variables.get(asker, variable);
-                named = known.ok_or(Trouble::Expected("a position that is declared"))?;
+                named = known.ok_or(MotionError::Expected("a position that is declared"))?;
                 &named
             }
         };
         let external = Component::EXTERNAL.into_iter();
         let mut external = external.filter_map(|component| target.get(component));
         if external.any(|value| value != 0.0) {
-            return Err(Trouble::Unknown);
+            return Err(MotionError::Unknown);
         }
         let tail = &motion.tail;
         if tail.second.is_some() || tail.directions.is_some() || !tail.with.is_empty() {
-            return Err(Trouble::Unknown);
+            return Err(MotionError::Unknown);
         }
         let (need, end) = match (motion.word, tail.approximation) {
             (MotionWord::Ptp | MotionWord::Sptp, None) => (Need::Axes, End::Exact),
@@ -198,10 +190,10 @@ impl<'a> Controller<'a> {
                 | MotionWord::SptpRel
                 | MotionWord::SlinRel,
                 _,
-            ) => return Err(Trouble::Unknown),
+            ) => return Err(MotionError::Unknown),
         };
         if let Some(missing) = self.setup.missing(need, self.wanted) {
-            return Err(Trouble::Expected(missing));
+            return Err(MotionError::Expected(missing));
         }
         match need {
             Need::Axes if target.has_any(&Component::AXES) => self.axes(target).map(Deed::Axes),
@@ -209,7 +201,7 @@ impl<'a> Controller<'a> {
                 let stance = match (target.get(Component::S), target.get(Component::T)) {
                     (Some(status), Some(turn)) => whole(status)
                         .zip(whole(turn))
-                        .and_then(|(status, turn)| stance(status, turn)),
+                        .and_then(|(status, turn)| Configuration { status, turn }.stance()),
                     (_, _) => None,
                 };
                 self.goal(target, stance).map(Deed::AxesToPose)
@@ -223,13 +215,9 @@ impl<'a> Controller<'a> {
         }
     }
 
-    fn goal(
-        &mut self,
-        target: &Coordinates,
-        stance: Option<vcutc_backend_api::readback::Stance>,
-    ) -> Result<Goal, Trouble> {
+    fn goal(&mut self, target: &Coordinates, stance: Option<Stance>) -> Result<Goal, MotionError> {
         if target.has_any(&Component::AXES) {
-            return Err(Trouble::Expected("a pose: X, Y, Z, A, B, C"));
+            return Err(MotionError::Expected("a pose: X, Y, Z, A, B, C"));
         }
         let [x, y, z] = self.complete(target, Component::TIP)?;
         let angles = self.complete(target, Component::ANGLES)?;
@@ -256,9 +244,9 @@ impl<'a> Controller<'a> {
         orientation
     }
 
-    fn axes(&mut self, target: &Coordinates) -> Result<AxisValues, Trouble> {
+    fn axes(&mut self, target: &Coordinates) -> Result<AxisValues, MotionError> {
         if target.has_any(&Component::TIP) || target.has_any(&Component::ANGLES) {
-            return Err(Trouble::Expected("either a pose or axes"));
+            return Err(MotionError::Expected("either a pose or axes"));
         }
         let degrees = self.complete(target, Component::AXES)?;
         self.last.forget();
@@ -271,11 +259,11 @@ impl<'a> Controller<'a> {
         &self,
         target: &Coordinates,
         components: [Component; N],
-    ) -> Result<[f64; N], Trouble> {
+    ) -> Result<[f64; N], MotionError> {
         let mut values = [0.0; N];
         for (value, component) in values.iter_mut().zip(components) {
             let given = target.get(component).or_else(|| self.last.get(component));
-            *value = given.ok_or(Trouble::Expected(
+            *value = given.ok_or(MotionError::Expected(
                 "all components, where no target before it has them",
             ))?;
         }

@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::parse;
-use super::syntax::{Phrase, Scope, Span, is_same_name};
+use super::types::{Phrase, Scope, Span, is_same_name};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::readback::ProgramFile;
 

@@ -1,11 +1,11 @@
 //! Statements that move: the word, the target, and what stands behind it.
 
 use super::cursor::{Cursor, Number};
-use super::parse::{DEEPEST, Parsed, Trouble, at_end, coordinates, expected, name, value, variable};
-use super::syntax::{
+use super::types::{
     Approximation, Arc, ArcPoints, Directions, Motion, MotionWord, Phrase, Setting, SettingValue, Tail,
     Target, is_same_name, meaning,
 };
+use super::values::{DEEPEST, ParseError, Parsed, at_end, coordinates, expected, name, value, variable};
 
 /// A motion that begins with this word; none where the word begins something else.
 #[inline]
@@ -15,7 +15,7 @@ pub(super) fn phrase<'t>(word: &str, cursor: &mut Cursor<'t>) -> Option<Parsed<P
     }
     let points = arc_word(word)?;
     // How an arc is said in other ways than this is not described.
-    Some(arc(points, cursor).map_err(|_| Trouble::Other))
+    Some(arc(points, cursor).map_err(|_| ParseError::Other))
 }
 
 #[inline]
@@ -64,7 +64,7 @@ fn arc<'t>(points: ArcPoints, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
             Some(word) if is_same_name(word, "CA") => match cursor.number() {
                 Number::Is(degrees) => Some(degrees),
                 Number::Bad => return expected("a number"),
-                Number::None => return Err(Trouble::Other),
+                Number::None => return Err(ParseError::Other),
             },
             Some(_) | None => return expected("`CA`"),
         }
@@ -116,8 +116,10 @@ fn tail<'t>(cursor: &mut Cursor<'t>) -> Parsed<Tail<'t>> {
         } else {
             *cursor = before;
             return match at_end(cursor) {
-                Err(Trouble::Other) => Err(Trouble::Other),
-                Err(Trouble::Expected(_)) | Ok(()) => expected("`C_DIS` or its like, or the end of the line"),
+                Err(ParseError::Other) => Err(ParseError::Other),
+                Err(ParseError::Expected(_)) | Ok(()) => {
+                    expected("`C_DIS` or its like, or the end of the line")
+                }
             };
         }
     }

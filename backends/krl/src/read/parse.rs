@@ -2,25 +2,8 @@
 
 use super::cursor::{Cursor, Number};
 use super::motions;
-use super::syntax::{
-    Component, Coordinates, Declaration, Field, Phrase, Scope, Span, Value, Variable, is_same_name, meaning,
-};
-
-/// How deep structures lie within structures; `LOAD` needs two.
-pub(super) const DEEPEST: u32 = 4;
-
-/// Why a line is no phrase of its kind.
-pub(super) enum Trouble {
-    Expected(&'static str),
-    /// It is KRL, but not of the part that is read.
-    Other,
-}
-
-pub(super) type Parsed<T> = Result<T, Trouble>;
-
-pub(super) const fn expected<T>(what: &'static str) -> Parsed<T> {
-    Err(Trouble::Expected(what))
-}
+use super::types::{Declaration, Phrase, Scope, Span, is_same_name, meaning};
+use super::values::{DEEPEST, ParseError, Parsed, at_end, expected, name, value, variable};
 
 /// The statement of a line that begins at a byte of its text: without its comment and the blanks around it.
 #[inline]
@@ -63,8 +46,8 @@ pub(super) fn phrase(code: &str) -> Phrase<'_> {
     };
     match statement(word, &mut cursor) {
         Ok(phrase) => phrase,
-        Err(Trouble::Other) => Phrase::Other(word),
-        Err(Trouble::Expected(expected)) => Phrase::Unreadable { expected },
+        Err(ParseError::Other) => Phrase::Other(word),
+        Err(ParseError::Expected(expected)) => Phrase::Unreadable { expected },
     }
 }
 
@@ -164,7 +147,7 @@ fn keyword_statement<'t>(keyword: Keyword, cursor: &mut Cursor<'t>) -> Parsed<Ph
         Keyword::Bas => bas(cursor)?,
         Keyword::Wait => wait(cursor)?,
         Keyword::Halt => Phrase::Halt,
-        Keyword::Other => return Err(Trouble::Other),
+        Keyword::Other => return Err(ParseError::Other),
     };
     at_end(cursor)?;
     Ok(phrase)
@@ -177,7 +160,7 @@ fn global<'t>(cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
             let kind = name(cursor)?;
             declaration(kind, Scope::Global, cursor)?
         }
-        Some(word) if Keyword::of(word).is_some() => return Err(Trouble::Other),
+        Some(word) if Keyword::of(word).is_some() => return Err(ParseError::Other),
         Some(kind) => declaration(kind, Scope::Global, cursor)?,
         None => return expected("what is global"),
     };
@@ -207,14 +190,14 @@ fn arguments<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {
 fn bas<'t>(cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
     let mut inner = Cursor::new(arguments(cursor)?);
     if !inner.skip(b'#') {
-        return Err(Trouble::Other);
+        return Err(ParseError::Other);
     }
     let command = name(&mut inner)?;
     let value = if inner.skip(b',') {
         match inner.number() {
             Number::Is(value) => Some(value),
             Number::Bad => return expected("a number"),
-            Number::None => return Err(Trouble::Other),
+            Number::None => return Err(ParseError::Other),
         }
     } else {
         None
@@ -228,11 +211,11 @@ fn wait<'t>(cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
         Some(word) if is_same_name(word, "SEC") => match cursor.number() {
             Number::Is(seconds) => Ok(Phrase::WaitSec(seconds)),
             Number::Bad => expected("seconds"),
-            Number::None => Err(Trouble::Other),
+            Number::None => Err(ParseError::Other),
         },
         Some(word) if is_same_name(word, "FOR") => match cursor.word() {
             Some(name) if !is_same_name(name, "NOT") => Ok(Phrase::WaitFor(variable(name, cursor)?)),
-            Some(_) | None => Err(Trouble::Other),
+            Some(_) | None => Err(ParseError::Other),
         },
         Some(_) | None => expected("`SEC` or `FOR` after `WAIT`"),
     }
@@ -254,7 +237,7 @@ fn plain_statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<
             Phrase::Assignment { to, value }
         }
         // A label, where GOTO leads.
-        Some(b':') => return Err(Trouble::Other),
+        Some(b':') => return Err(ParseError::Other),
         Some(byte) if byte.is_ascii_alphabetic() || matches!(byte, b'_' | b'$') => {
             if !TYPES.iter().any(|name| is_same_name(word, name)) {
                 return expected("a statement of KRL");
@@ -269,7 +252,7 @@ fn plain_statement<'t>(word: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Phrase<
 
 fn declaration<'t>(kind: &'t str, scope: Scope, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
     if Keyword::of(kind).is_some() {
-        return Err(Trouble::Other);
+        return Err(ParseError::Other);
     }
     let name = name(cursor)?;
     let name = variable(name, cursor)?;
@@ -299,173 +282,6 @@ fn further_names(cursor: &mut Cursor<'_>) -> Parsed<()> {
         variable(name, cursor)?;
         if !cursor.skip(b',') {
             return Ok(());
-        }
-    }
-}
-
-pub(super) fn name<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {
-    cursor.word().ok_or(Trouble::Expected("a name"))
-}
-
-/// The place and the field behind a name.
-pub(super) fn variable<'t>(name: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Variable<'t>> {
-    let mut index = None;
-    if cursor.skip(b'[') {
-        // `TEXT[]`, `GRID[1,2]` and `POINTS[I]` are KRL as well.
-        index = Some(cursor.whole().ok_or(Trouble::Other)?);
-        if !cursor.skip(b']') {
-            return Err(Trouble::Other);
-        }
-    }
-    let mut field = None;
-    if cursor.skip(b'.') {
-        field = Some(self::name(cursor)?);
-    }
-    match cursor.peek() {
-        // A field of a field, or of a place in a field.
-        Some(b'.' | b'[') => Err(Trouble::Other),
-        _ => Ok(Variable { name, index, field }),
-    }
-}
-
-pub(super) fn value<'t>(cursor: &mut Cursor<'t>, depth: u32) -> Parsed<Value<'t>> {
-    let value = match cursor.peek() {
-        Some(b'{') => match coordinates(cursor)? {
-            Some(coordinates) => Value::Coordinates(coordinates),
-            None => structure(cursor, depth)?,
-        },
-        Some(b'#') => {
-            cursor.skip(b'#');
-            Value::Enum(name(cursor)?)
-        }
-        Some(b'"') => Value::Text(cursor.quoted(b'"').ok_or(Trouble::Expected("`\"`"))?),
-        Some(b'\'') => Value::Number(bits(cursor).ok_or(Trouble::Expected("a number such as 'B101'"))?),
-        Some(b'(') => return Err(Trouble::Other),
-        Some(_) => match cursor.number() {
-            Number::Is(number) => Value::Number(number),
-            Number::Bad => return expected("a number"),
-            Number::None => match cursor.word() {
-                Some(word) if is_same_name(word, "TRUE") => Value::Bool(true),
-                Some(word) if is_same_name(word, "FALSE") => Value::Bool(false),
-                Some(word) if is_same_name(word, "NOT") => return Err(Trouble::Other),
-                Some(word) => Value::Variable(variable(word, cursor)?),
-                // `-XP1.X`
-                None if matches!(cursor.peek(), Some(b'-' | b'+')) => return Err(Trouble::Other),
-                None => return expected("a value"),
-            },
-        },
-        None => return expected("a value"),
-    };
-    Ok(value)
-}
-
-/// `'B101'` or `'HFF'`.
-fn bits(cursor: &mut Cursor<'_>) -> Option<f64> {
-    let text = cursor.quoted(b'\'')?.trim_ascii();
-    let (radix, digits) = match text.split_at_checked(1)? {
-        ("B" | "b", digits) => (2, digits),
-        ("H" | "h", digits) => (16, digits),
-        _ => return None,
-    };
-    u32::from_str_radix(digits.trim_ascii(), radix)
-        .ok()
-        .map(f64::from)
-}
-
-/// `{E6POS: X 1.0,Y 2.0}` of known components only; none, and nothing read, when it is another structure.
-#[inline]
-pub(super) fn coordinates(cursor: &mut Cursor<'_>) -> Parsed<Option<Coordinates>> {
-    let mut inner = *cursor;
-    inner.skip(b'{');
-    let mut coordinates = Coordinates::default();
-    let mut first = true;
-    loop {
-        let Some(word) = inner.word() else {
-            return expected("the name of a component");
-        };
-        if first && inner.skip(b':') {
-            first = false;
-            continue;
-        }
-        first = false;
-        let Some(component) = Component::named(word) else {
-            return Ok(None);
-        };
-        let number = match inner.number() {
-            Number::Is(number) => number,
-            Number::Bad => return expected("a number"),
-            Number::None => match inner.peek() {
-                Some(b'\'') => bits(&mut inner).ok_or(Trouble::Expected("a number such as 'B101'"))?,
-                // A variable or a structure.
-                Some(b'{') => return Ok(None),
-                Some(byte) if byte.is_ascii_alphabetic() || matches!(byte, b'$' | b'(' | b'-' | b'+') => {
-                    return Err(Trouble::Other);
-                }
-                _ => return expected("a number"),
-            },
-        };
-        if coordinates.has(component) {
-            return expected("each component once");
-        }
-        coordinates.set(component, number);
-        if inner.skip(b'}') {
-            *cursor = inner;
-            return Ok(Some(coordinates));
-        }
-        separator(&mut inner)?;
-    }
-}
-
-/// What stands between two fields, or arithmetic.
-#[inline]
-fn separator(cursor: &mut Cursor<'_>) -> Parsed<()> {
-    if cursor.skip(b',') {
-        return Ok(());
-    }
-    match cursor.peek() {
-        Some(b'+' | b'-' | b'*' | b'/') => Err(Trouble::Other),
-        _ => expected("`,` or `}`"),
-    }
-}
-
-fn structure<'t>(cursor: &mut Cursor<'t>, depth: u32) -> Parsed<Value<'t>> {
-    let Some(depth) = depth.checked_sub(1) else {
-        return Err(Trouble::Other);
-    };
-    cursor.skip(b'{');
-    let mut fields = Vec::new();
-    loop {
-        let mut name = self::name(cursor)?;
-        if fields.is_empty() && cursor.skip(b':') {
-            name = self::name(cursor)?;
-        }
-        // `TQ_NAME[] "..."`
-        if cursor.skip(b'[') && !cursor.skip(b']') {
-            return Err(Trouble::Other);
-        }
-        let value = value(cursor, depth)?;
-        fields.push(Field { name, value });
-        if cursor.skip(b'}') {
-            return Ok(Value::Structure(fields));
-        }
-        separator(cursor)?;
-    }
-}
-
-/// Nothing may follow; an operator makes it arithmetic.
-pub(super) fn at_end(cursor: &mut Cursor<'_>) -> Parsed<()> {
-    match cursor.peek() {
-        None => Ok(()),
-        Some(b'+' | b'-' | b'*' | b'/' | b'=' | b'<' | b'>' | b':') => Err(Trouble::Other),
-        Some(_) => {
-            let operators = [
-                "AND", "OR", "EXOR", "NOT", "B_AND", "B_OR", "B_EXOR", "B_NOT", "C_DIS", "C_ORI", "C_VEL",
-                "WITH",
-            ];
-            match cursor.word() {
-                Some(word) if operators.iter().any(|name| is_same_name(word, name)) => Err(Trouble::Other),
-                Some(_) | None => expected("the end of the line"),
-            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The lines of a machine's profile, which stand in the program as they are and are not understood.
 
 use super::parse;
-use super::syntax::{Phrase, Span};
+use super::types::{Phrase, Span};
 use vcutc_backend_api::readback::essence;
 
 /// What the statements among some lines are, without layout.

@@ -22,7 +22,7 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
         .position(|file| u32::try_from(file.text.len()).is_err())
     {
         let nowhere = Span { start: 0, end: 0 };
-        return teller.tell(file, nowhere, unreadable("a file of less than 4 GiB"));
+        return teller.tell(file, nowhere, Says::expected("a file of less than 4 GiB"));
     }
     let index = Index::of(sources.files);
     let profile = sources.options.profile();
@@ -52,13 +52,6 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
     walk.never_called(&mut teller);
 }
 
-/// What stands there instead of what was expected.
-pub(super) fn unreadable(expected: &str) -> Says {
-    Says::Unreadable {
-        expected: expected.to_owned(),
-    }
-}
-
 struct Teller<'t, 'h> {
     files: &'t [ProgramFile],
     heed: &'h mut dyn FnMut(Statement),
@@ -66,12 +59,7 @@ struct Teller<'t, 'h> {
 
 impl<'t> Teller<'t, '_> {
     fn tell(&mut self, file: usize, span: Span, says: Says) {
-        let narrow = |value| u32::try_from(value).unwrap_or(u32::MAX);
-        let place = Place {
-            file: narrow(file),
-            start: narrow(span.start),
-            end: narrow(span.end),
-        };
+        let place = Place::of(file, span.start..span.end);
         (self.heed)(Statement { place, says });
     }
 
@@ -107,7 +95,7 @@ fn data(file: usize, source: &ProgramFile, controller: &mut Controller<'_>, tell
                 part = Part::Inside;
                 named_as_file(name, asker.module)
             }
-            (Part::Before, _) => unreadable("`DEFDAT` with the name of the file"),
+            (Part::Before, _) => Says::expected("`DEFDAT` with the name of the file"),
             (Part::Inside, Phrase::EndDat) => {
                 part = Part::Behind;
                 Says::Setting
@@ -120,9 +108,9 @@ fn data(file: usize, source: &ProgramFile, controller: &mut Controller<'_>, tell
                 said(controller.variables.assign(asker, to, value))
             }
             (Part::Inside, Phrase::Other(_)) => Says::Unknown,
-            (Part::Inside, Phrase::Unreadable { expected }) => unreadable(expected),
-            (Part::Inside, _) => unreadable("a declaration, or `ENDDAT`"),
-            (Part::Behind, _) => unreadable("nothing after `ENDDAT`"),
+            (Part::Inside, Phrase::Unreadable { expected }) => Says::expected(*expected),
+            (Part::Inside, _) => Says::expected("a declaration, or `ENDDAT`"),
+            (Part::Behind, _) => Says::expected("nothing after `ENDDAT`"),
         };
         teller.tell(file, line.span, says);
     }
@@ -134,7 +122,7 @@ fn data(file: usize, source: &ProgramFile, controller: &mut Controller<'_>, tell
 
 /// Tells what is missing where a text ends.
 fn missing(file: usize, end: usize, what: &str, teller: &mut Teller<'_, '_>) {
-    teller.tell(file, Span { start: end, end }, unreadable(what));
+    teller.tell(file, Span { start: end, end }, Says::expected(what));
 }
 
 fn said(outcome: Outcome) -> Says {
@@ -149,9 +137,7 @@ fn named_as_file(name: &str, module: &str) -> Says {
     if is_same_name(name, module) {
         Says::Setting
     } else {
-        Says::Unreadable {
-            expected: format!("`{module}`, the name of the file"),
-        }
+        Says::expected(format!("`{module}`, the name of the file"))
     }
 }
 
@@ -160,7 +146,7 @@ fn outside(file: usize, span: Span, teller: &mut Teller<'_, '_>) {
     for line in Statements::within(teller.text(file), span) {
         match line.phrase {
             Phrase::Mark(_) if span.start == 0 => {}
-            _ => teller.tell(file, line.span, unreadable("`DEF` of a routine")),
+            _ => teller.tell(file, line.span, Says::expected("`DEF` of a routine")),
         }
     }
 }
@@ -288,7 +274,7 @@ impl<'t> Walk<'t, '_> {
                 said(controller.variables.declare(call.asker, declaration))
             }
             (Stage::Instructions, Phrase::Ext { .. } | Phrase::Declaration(_)) => {
-                unreadable("declarations in front of the first instruction")
+                Says::expected("declarations in front of the first instruction")
             }
             (
                 Stage::Declarations,
@@ -334,7 +320,7 @@ impl<'t> Walk<'t, '_> {
             let mut head = true;
             for line in Statements::within(teller.text(routine.file), routine.span) {
                 let says = match line.phrase {
-                    Phrase::Unreadable { expected } => unreadable(expected),
+                    Phrase::Unreadable { expected } => Says::expected(expected),
                     _ if head => Says::Unknown,
                     _ => Says::Setting,
                 };

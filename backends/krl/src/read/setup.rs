@@ -4,15 +4,13 @@
 //! when everything it depends on has been said behind that; and what is said must be what the job says, because paths,
 //! rates and corners were proven for that. Another mode is not understood, even though the controller knows it.
 
-use super::syntax::{Component, Coordinates, Field, Value, Variable, is_same_name};
+use super::types::{Component, Coordinates, Field, Value, Variable, is_same_name};
 use crate::options::Settings;
 use vcutc_backend_api::ir::{Cell, Load, Registered};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::readback::{Pace, Says};
+use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{AngularSpeed, Speed};
-
-/// Decimals of speeds, distances and masses, as the writer trims them.
-const FINE: FixedDecimal = FixedDecimal::new(6);
 
 /// `$ADVANCE`: how many motions the controller looks ahead.
 const ADVANCE: f64 = 3.0;
@@ -169,7 +167,7 @@ impl Setup {
             self.note(Said::Advance, *value == Value::Number(ADVANCE))
         } else if to.is_field("$APO", "CDIS") {
             let should = wanted.settings.common.approximation;
-            let is = should.is_some_and(|should| is_number(value, should.to_mm(), FINE));
+            let is = should.is_some_and(|should| is_number(value, should.to_mm(), TRIMMED));
             self.note(Said::Rounding, is)
         } else if to.is("$LOAD") {
             let is = wanted.cell.load.as_ref();
@@ -208,16 +206,7 @@ const fn said_or_unknown(is_known: bool) -> Says {
 
 /// A number that a controller takes for a speed.
 fn positive(value: &Value<'_>) -> Option<f64> {
-    match value {
-        Value::Number(value) if *value > 0.0 => Some(*value),
-        Value::Number(_)
-        | Value::Bool(_)
-        | Value::Enum(_)
-        | Value::Text(_)
-        | Value::Coordinates(_)
-        | Value::Structure(_)
-        | Value::Variable(_) => None,
-    }
+    value.number().filter(|value| *value > 0.0)
 }
 
 fn is_word(value: &Value<'_>, word: &str) -> bool {
@@ -226,7 +215,7 @@ fn is_word(value: &Value<'_>, word: &str) -> bool {
 
 /// Whether a value is a number as printed in a format.
 fn is_number(value: &Value<'_>, should: f64, format: FixedDecimal) -> bool {
-    matches!(value, Value::Number(is) if is_near(*is, should, format))
+    value.number().is_some_and(|is| is_near(is, should, format))
 }
 
 fn is_near(is: f64, should: f64, format: FixedDecimal) -> bool {
@@ -253,7 +242,7 @@ fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>
                 of(mass, "M")
                     && of(centre, "CM")
                     && of(inertia, "J")
-                    && is_number(&mass.value, should.mass.to_kg(), FINE)
+                    && is_number(&mass.value, should.mass.to_kg(), TRIMMED)
                     && centre_of_mass
                     && no_inertia
             }

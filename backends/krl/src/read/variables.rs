@@ -1,6 +1,6 @@
 //! Named positions and frames, and who sees them.
 
-use super::syntax::{Component, Coordinates, Declaration, Scope, Value, Variable, meaning};
+use super::types::{Component, Coordinates, Declaration, Scope, Value, Variable, meaning};
 use std::collections::BTreeMap;
 
 /// Where a name is known. A controller looks in this order.

@@ -9,8 +9,8 @@ use crate::keywords::MAIN;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::Registered;
-use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::readback::{FrameRole, FrameSetting, ProgramFile, Says};
+use vcutc_backend_api::script::TRIMMED;
 
 /// A file with a module.
 #[derive(Debug)]
@@ -63,6 +63,13 @@ enum Within {
     Routine { index: Option<usize>, start: usize },
 }
 
+/// Whether a routine ends.
+#[derive(Clone, Copy)]
+enum Ends {
+    Here,
+    Later,
+}
+
 impl<'t> Program<'t> {
     /// Reads the files of a program.
     pub(super) fn of(files: &'t [ProgramFile], machine: Machine<'_>) -> Self {
@@ -101,10 +108,9 @@ impl<'t> Program<'t> {
             let is_first = named.is_none();
             let names = named.get_or_insert_default();
             let mut says = |entry: &Entry| match (entry.piece.kind, &entry.module) {
-                (PieceKind::Broken, _) => Says::Unreadable {
-                    expected: "a list of modules, `<Program> <Module>NAME.mod</Module> </Program>`"
-                        .to_owned(),
-                },
+                (PieceKind::Broken, _) => {
+                    Says::expected("a list of modules, `<Program> <Module>NAME.mod</Module> </Program>`")
+                }
                 _ if !is_first => Says::Unknown,
                 (_, Some(module)) => {
                     let name = module.to_ascii_uppercase();
@@ -122,72 +128,34 @@ impl<'t> Program<'t> {
 
     /// Finds the routines and data of a module that is loaded.
     fn structure(&mut self, module: &mut Module<'t>, stem: &str) {
-        let index = self.modules.len();
         let mut within = Within::Nothing;
         let mut header = None;
-        for place in 0..module.pieces.len() {
-            let Some(&piece) = module.pieces.get(place) else {
-                break;
-            };
-            let (says, next) = match (piece.kind, within) {
-                (PieceKind::OldHead, Within::Nothing) if place == 0 => (Some(Says::Setting), within),
-                (PieceKind::Module, Within::Nothing) if header.is_none() => {
-                    header = Some(place);
-                    (
-                        Some(self.module_header(piece.text(module.text), stem)),
-                        Within::Module,
-                    )
-                }
-                (_, Within::Nothing) => (Some(expected("MODULE, and nothing before or after it")), within),
-                (PieceKind::EndModule, Within::Module) => (Some(Says::Setting), Within::Nothing),
-                (PieceKind::Routine, Within::Module) => {
-                    let (says, routine) = self.routine_header(piece.text(module.text), index);
-                    (
-                        says,
-                        Within::Routine {
-                            index: routine,
-                            start: place,
-                        },
-                    )
-                }
-                (PieceKind::OtherRoutine, Within::Module) => (
-                    Some(Says::Setting),
-                    Within::Routine {
-                        index: None,
-                        start: place,
-                    },
-                ),
-                (PieceKind::Statement, Within::Module) => {
-                    let scope = Scope::Module(index);
-                    (Some(self.declaration(piece.text(module.text), scope)), within)
-                }
-                (PieceKind::Control, Within::Module) => (Some(Says::Unknown), within),
-                (PieceKind::Broken, Within::Module) => (Some(expected("`;`")), within),
-                (PieceKind::OldHead | PieceKind::Module | PieceKind::EndRoutine, Within::Module) => {
-                    (Some(expected("a declaration, PROC or ENDMODULE")), within)
-                }
-                (PieceKind::EndRoutine, Within::Routine { index, start }) => {
-                    if let Some(routine) = index.and_then(|index| self.routines.get_mut(index)) {
-                        routine.pieces = start..place + 1;
+        for (place, &piece) in module.pieces.iter().enumerate() {
+            let text = piece.text(module.text);
+            let (says, next) = match within {
+                Within::Nothing => match piece.kind {
+                    PieceKind::OldHead if place == 0 => (Some(Says::Setting), within),
+                    PieceKind::Module if header.is_none() => {
+                        header = Some(place);
+                        (Some(self.module_header(text, stem)), Within::Module)
                     }
-                    (None, Within::Module)
-                }
-                (
-                    PieceKind::OldHead
-                    | PieceKind::Module
-                    | PieceKind::EndModule
-                    | PieceKind::Routine
-                    | PieceKind::OtherRoutine,
-                    Within::Routine { .. },
-                ) => (Some(expected("ENDPROC")), within),
-                (
-                    PieceKind::Statement,
-                    Within::Routine {
-                        index: Some(routine), ..
-                    },
-                ) => (self.local_declaration(piece.text(module.text), routine), within),
-                (PieceKind::Statement | PieceKind::Control | PieceKind::Broken, Within::Routine { .. }) => {
-                    (None, within)
+                    _ => (
+                        Some(Says::expected("MODULE, and nothing before or after it")),
+                        within,
+                    ),
+                },
+                Within::Module => self.in_module(piece.kind, text, place),
+                Within::Routine { index, start } => {
+                    let (says, ends) = self.in_routine(piece.kind, text, index);
+                    match (ends, index.and_then(|index| self.routines.get_mut(index))) {
+                        (Ends::Here, Some(routine)) => routine.pieces = start..place + 1,
+                        (Ends::Here, None) | (Ends::Later, _) => {}
+                    }
+                    let next = match ends {
+                        Ends::Here => Within::Module,
+                        Ends::Later => within,
+                    };
+                    (says, next)
                 }
             };
             if let Some(says) = says {
@@ -196,13 +164,51 @@ impl<'t> Program<'t> {
             within = next;
         }
         match (within, header) {
-            (Within::Nothing, Some(_)) => {}
+            (Within::Nothing, Some(_)) | (_, None) => {}
             (_, Some(header)) => {
-                module
-                    .says
-                    .insert(header, expected("ENDMODULE at the end of this module"));
+                let missing = Says::expected("ENDMODULE at the end of this module");
+                module.says.insert(header, missing);
             }
-            (_, None) => {}
+        }
+    }
+
+    /// A piece between the head and the end of the module that comes next, and where the piece after it is.
+    fn in_module(&mut self, kind: PieceKind, text: &str, start: usize) -> (Option<Says>, Within) {
+        let module = self.modules.len();
+        match kind {
+            PieceKind::EndModule => (Some(Says::Setting), Within::Nothing),
+            PieceKind::Routine => {
+                let (says, index) = self.routine_header(text, module);
+                (says, Within::Routine { index, start })
+            }
+            PieceKind::OtherRoutine => (Some(Says::Setting), Within::Routine { index: None, start }),
+            PieceKind::Statement => (
+                Some(self.declaration(text, Scope::Module(module))),
+                Within::Module,
+            ),
+            PieceKind::Control => (Some(Says::Unknown), Within::Module),
+            PieceKind::Broken => (Some(Says::expected("`;`")), Within::Module),
+            PieceKind::OldHead | PieceKind::Module | PieceKind::EndRoutine => (
+                Some(Says::expected("a declaration, PROC or ENDMODULE")),
+                Within::Module,
+            ),
+        }
+    }
+
+    /// A piece of a routine, and whether the routine ends with it.
+    fn in_routine(&mut self, kind: PieceKind, text: &str, routine: Option<usize>) -> (Option<Says>, Ends) {
+        match (kind, routine) {
+            (PieceKind::EndRoutine, _) => (None, Ends::Here),
+            (
+                PieceKind::OldHead
+                | PieceKind::Module
+                | PieceKind::EndModule
+                | PieceKind::Routine
+                | PieceKind::OtherRoutine,
+                _,
+            ) => (Some(Says::expected("ENDPROC")), Ends::Later),
+            (PieceKind::Statement, Some(routine)) => (self.local_declaration(text, routine), Ends::Later),
+            (PieceKind::Statement | PieceKind::Control | PieceKind::Broken, _) => (None, Ends::Later),
         }
     }
 
@@ -229,7 +235,7 @@ impl<'t> Program<'t> {
         };
         let rest = rest.trim_start().strip_prefix("PROC").unwrap_or_default();
         let Some((name, parameters)) = rest.split_once('(') else {
-            return (Some(expected("a name and `()`")), None);
+            return (Some(Says::expected("a name and `()`")), None);
         };
         let name = name.trim().to_owned();
         let is_name = !name.is_empty() && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_');
@@ -264,9 +270,9 @@ impl<'t> Program<'t> {
                 self.declare(scope, &kind, name, value)
             }
             Ok(Sentence::Assignment { .. } | Sentence::Instruction { .. }) => {
-                expected("a declaration or PROC")
+                Says::expected("a declaration or PROC")
             }
-            Err(what) => Says::Unreadable { expected: what },
+            Err(what) => Says::expected(what),
         }
     }
 
@@ -392,12 +398,6 @@ const KINDS: [&str; 11] = [
     "EXTJOINT",
 ];
 
-fn expected(what: &str) -> Says {
-    Says::Unreadable {
-        expected: what.to_owned(),
-    }
-}
-
 /// Whether a file is a list of modules.
 fn is_list(name: &str) -> bool {
     name.rsplit_once('.')
@@ -412,11 +412,8 @@ fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Says> {
     };
     let length = machine.settings.common.lengths.half_unit();
     let near = |is: f64, should: f64, grain: f64| (is - should).abs() <= grain * (1.0 + 1e-6);
-    let is_load = near(
-        load.mass.to_kg(),
-        should.mass.to_kg(),
-        FixedDecimal::new(super::TRIMMED_DECIMALS).half_unit(),
-    ) && near(load.centre.x, should.centre.x, length)
+    let is_load = near(load.mass.to_kg(), should.mass.to_kg(), TRIMMED.half_unit())
+        && near(load.centre.x, should.centre.x, length)
         && near(load.centre.y, should.centre.y, length)
         && near(load.centre.z, should.centre.z, length);
     is_load.then_some(Says::Frame(FrameRole::Tool, FrameSetting::Value(frame)))
