@@ -1,9 +1,9 @@
 //! Every parameter of the job with its value and where it came from: a place in a text, `auto` with the reason, or the
 //! default of the language.
 
-use super::html::{Column, escaped, table, unbroken};
 use super::source::Listing;
 use super::{Section, Subject};
+use crate::html::{Column, Html, table, unbroken};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Load, Ready, Registered};
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -59,32 +59,22 @@ impl Row {
         }
     }
 
-    fn cells(&self, listing: &Listing<'_>) -> Vec<String> {
-        let origin = match &self.origin {
-            Origin::Written(span) => linked(listing, *span),
-            Origin::Chosen(None, why) => format!("<strong>auto</strong>: {}", unbroken(why)),
-            Origin::Chosen(Some(span), why) => {
-                format!(
-                    "<strong>auto</strong>: {}<br>{}",
-                    unbroken(why),
-                    linked(listing, *span)
-                )
-            }
-            Origin::Default => "default".to_owned(),
+    fn cells(&self, listing: &Listing<'_>) -> Vec<Html> {
+        let linked = |span: Span| {
+            let place = listing.place(span);
+            html!(in "{place} <code>{line}</code>", place = place.linked(), line = place.line)
         };
-        vec![self.name.to_owned(), unbroken(&self.value), origin]
+        let origin = match &self.origin {
+            Origin::Written(span) => linked(*span),
+            Origin::Chosen(span, why) => html!(
+                in "<strong>auto</strong>: {why}{place}",
+                why = unbroken(why),
+                place = span.map(|span| html!(in "<br>{place}", place = linked(span)))
+            ),
+            Origin::Default => unbroken("default"),
+        };
+        vec![unbroken(self.name), unbroken(&self.value), origin]
     }
-}
-
-/// A link to a place in a text, and its line.
-fn linked(listing: &Listing<'_>, span: Span) -> String {
-    let place = listing.place(span);
-    let words = escaped(&place.words);
-    let words = match place.link {
-        Some(link) => format!("<a href=\"#{link}\">{words}</a>"),
-        None => words,
-    };
-    format!("{words} <code>{}</code>", escaped(&place.line))
 }
 
 /// The section.
@@ -106,19 +96,19 @@ pub(super) fn section(subject: Subject<'_>, listing: &Listing<'_>) -> Section {
         } else {
             String::new()
         };
-        body += &rows(&format!("Blade{of}"), blade(asked));
-        body += &rows(&format!("Cut{of}"), as_laid_out(asked, cut(asked, planned)));
-        body += &rows(
+        body += rows(&format!("Blade{of}"), blade(asked));
+        body += rows(&format!("Cut{of}"), as_laid_out(asked, cut(asked, planned)));
+        body += rows(
             &format!("Motion{of}"),
             without_lattice(asked, motion(asked, planned)),
         );
         let limits = limits(asked);
         if !limits.is_empty() {
-            body += &rows(&format!("Limits{of}"), limits);
+            body += rows(&format!("Limits{of}"), limits);
         }
     }
     if let Some(machine) = &job.machine {
-        body += &rows("Machine", machine_rows(machine));
+        body += rows("Machine", machine_rows(machine));
     }
     Section {
         id: "parameters",
