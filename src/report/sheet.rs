@@ -9,7 +9,6 @@ use super::digest::hexadecimal;
 use super::facts;
 use super::html::{Html, Markup};
 use super::page::policy::{Requests, policy};
-use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::Outcome;
 use vcutc_driver::checks::ReadBack;
@@ -75,10 +74,8 @@ fn items<T: Markup>(lines: impl IntoIterator<Item = T>) -> Html {
 
 fn stock(material: &Material<'_>) -> Html {
     let stock = material.job.stock;
-    let sketch = setup::stock(&setup::Stock {
-        ids: Prefix::new("stock-"),
-        size: [stock.width, stock.depth, stock.height].map(|length| length.to_mm()),
-    });
+    let size = [stock.width, stock.depth, stock.height].map(|length| length.to_mm());
+    let sketch = setup::stock(Prefix::new("stock-"), size);
     let facts = [
         facts::stock(material.job),
         facts::base(material.job.machine.as_ref()),
@@ -90,15 +87,13 @@ fn stock(material: &Material<'_>) -> Html {
 fn blades(material: &Material<'_>) -> Html {
     let named = facts::blades(material);
     let sketch = named.first().map_or_else(String::new, |blade| {
-        setup::blade(&setup::Blade {
-            ids: Prefix::new("blade-"),
-            length: blade.cutting_length.value.to_mm(),
-            tangent: libm::tan(blade.half_apex.value.to_rad()),
-            edges: match blade.edges {
-                Edges::Single => setup::Edges::One,
-                Edges::Double => setup::Edges::Two,
-            },
-        })
+        let (edge, half_apex) = (blade.cutting_length.value, blade.half_apex.value);
+        setup::blade(
+            Prefix::new("blade-"),
+            blade.edges,
+            edge.to_mm(),
+            half_apex.to_rad(),
+        )
     });
     let tool = facts::tool(material.job.machine.as_ref());
     Html::trusted(sketch) + rows(&[facts::of_blades(&named), tool].concat())

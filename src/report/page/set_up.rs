@@ -13,10 +13,8 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
     let job = material.job;
     let machine = job.machine.as_ref();
-    let sketch = setup::stock(&setup::Stock {
-        ids: Prefix::new("stock-"),
-        size: [job.stock.width, job.stock.depth, job.stock.height].map(|length| length.to_mm()),
-    });
+    let size = [job.stock.width, job.stock.depth, job.stock.height].map(|length| length.to_mm());
+    let sketch = setup::stock(Prefix::new("stock-"), size);
     let facts: Vec<Fact> = [
         program(subject),
         facts::stock(job),
