@@ -1,13 +1,12 @@
 //! Two texts line by line: hunks with context, as people know them from `diff -u`.
 //!
 //! Lines are compared without their ends, since tools that copy files change those; when nothing else differs, that is what is
-//! told. Programs can have a million lines and nothing in common, so alignment is bounded ([`crate::align`]), and of what is
+//! reported. Programs can have a million lines and nothing in common, so the search is bounded ([`crate::align`]), and of what is
 //! found only as much is kept as anybody reads.
 
 use super::Change;
-use crate::align::common;
 use core::ops::Range;
-use std::collections::BTreeMap;
+use similar::{Algorithm, DiffOp, DiffTag, capture_diff_slices, group_diff_ops};
 
 /// Lines of context around a change.
 const CONTEXT: usize = 3;
@@ -77,43 +76,43 @@ impl LineKind {
 /// How two texts differ that are not the same bytes. `about` says what the bytes at a place of the fresh text do.
 pub(super) fn change(earlier: &[u8], fresh: &[u8], about: &dyn Fn(Range<usize>) -> Option<String>) -> Change {
     let (earlier, fresh) = (Lines::of(earlier), Lines::of(fresh));
-    let regions = regions(&earlier, &fresh);
-    let line_ends_differ = earlier.crlf != fresh.crlf;
-    if regions.is_empty() {
+    let ops = capture_diff_slices(Algorithm::Myers, &earlier.lines, &fresh.lines);
+    let (mut removed, mut added) = (0, 0);
+    for op in changes(&ops) {
+        removed += op.old_range().len();
+        added += op.new_range().len();
+    }
+    if removed + added == 0 {
         return Change::LineEnds {
             earlier_crlf: earlier.crlf,
             fresh_crlf: fresh.crlf,
         };
     }
-    let mut change = TextChange {
-        line_ends_differ,
-        ..TextChange::default()
-    };
-    for region in &regions {
-        change.removed += region.earlier.len();
-        change.added += region.fresh.len();
-    }
-    let mut room = MOST_LINES;
-    for group in groups(&regions) {
-        let changed: usize = group
-            .iter()
-            .map(|region| region.earlier.len() + region.fresh.len())
-            .sum();
+    let (mut hunks, mut room, mut shown) = (Vec::new(), MOST_LINES, 0);
+    for group in group_diff_ops(ops, CONTEXT) {
         if room == 0 {
-            change.left_out += changed;
-            continue;
+            break;
         }
-        let hunk = hunk(group, &earlier, &fresh, about, room);
-        let shown = hunk
+        let hunk = hunk(&group, &earlier, &fresh, about, room);
+        room -= hunk.lines.len();
+        shown += hunk
             .lines
             .iter()
             .filter(|line| line.kind != LineKind::Same)
             .count();
-        change.left_out += changed - shown;
-        room = room.saturating_sub(hunk.lines.len());
-        change.hunks.push(hunk);
+        hunks.push(hunk);
     }
-    Change::Text(change)
+    Change::Text(TextChange {
+        removed,
+        added,
+        hunks,
+        left_out: removed + added - shown,
+        line_ends_differ: earlier.crlf != fresh.crlf,
+    })
+}
+
+fn changes(ops: &[DiffOp]) -> impl Iterator<Item = &DiffOp> {
+    ops.iter().filter(|op| op.tag() != DiffTag::Equal)
 }
 
 /// The lines of a text without their ends.
@@ -151,87 +150,40 @@ impl<'t> Lines<'t> {
     }
 }
 
-/// A stretch in which the texts differ.
-#[derive(Clone, Debug)]
-struct Region {
-    earlier: Range<usize>,
-    fresh: Range<usize>,
-}
-
-/// Where the texts differ, in order.
-fn regions(earlier: &Lines<'_>, fresh: &Lines<'_>) -> Vec<Region> {
-    let mut numbers: BTreeMap<&[u8], u32> = BTreeMap::new();
-    let mut number_of = |line| {
-        let next = u32::try_from(numbers.len()).unwrap_or(u32::MAX);
-        *numbers.entry(line).or_insert(next)
-    };
-    let first: Vec<u32> = earlier.lines.iter().map(|line| number_of(*line)).collect();
-    let second: Vec<u32> = fresh.lines.iter().map(|line| number_of(*line)).collect();
-    let mut regions = Vec::new();
-    let (mut at, mut place) = (0, 0);
-    let end = (first.len(), second.len());
-    for (earlier, fresh) in common(&first, &second).into_iter().chain([end]) {
-        if at < earlier || place < fresh {
-            regions.push(Region {
-                earlier: at..earlier,
-                fresh: place..fresh,
-            });
-        }
-        (at, place) = (earlier + 1, fresh + 1);
-    }
-    regions
-}
-
-/// Regions whose context touches or overlaps, together.
-fn groups(regions: &[Region]) -> impl Iterator<Item = &[Region]> {
-    regions.chunk_by(|one, next| next.earlier.start - one.earlier.end <= 2 * CONTEXT)
-}
-
-/// The hunk of a group, cut off where there is no more room for lines.
+/// The hunk of a group of changes with their context, cut off where there is no more room for lines.
 fn hunk(
-    group: &[Region],
+    group: &[DiffOp],
     earlier: &Lines<'_>,
     fresh: &Lines<'_>,
     about: &dyn Fn(Range<usize>) -> Option<String>,
     room: usize,
 ) -> Hunk {
-    let (from, place) = group
-        .first()
-        .map_or((0, 0), |first| (first.earlier.start, first.fresh.start));
-    let lead = CONTEXT.min(from);
-    let (from, place) = (from - lead, place - lead);
-    let mut lines = Vec::new();
-    let (mut at, mut to) = (from, place);
-    let mut add = |kind: LineKind, line: Option<&&[u8]>| {
-        if let (true, Some(line)) = (lines.len() < room, line) {
-            lines.push(Line {
-                kind,
-                text: shown(line),
-            });
+    let of = |lines: &Lines<'_>, range: Range<usize>, kind: LineKind| -> Vec<Line> {
+        let lines = lines.lines.get(range).unwrap_or_default().iter().take(room);
+        let line = |line: &&[u8]| Line {
+            kind,
+            text: shown(line),
+        };
+        lines.map(line).collect()
+    };
+    let lines_of = |op: &DiffOp| match op.tag() {
+        DiffTag::Equal => of(earlier, op.old_range(), LineKind::Same),
+        DiffTag::Delete | DiffTag::Insert | DiffTag::Replace => {
+            let mut lines = of(earlier, op.old_range(), LineKind::Removed);
+            lines.extend(of(fresh, op.new_range(), LineKind::Added));
+            lines
         }
     };
-    for region in group {
-        for line in at..region.earlier.start {
-            add(LineKind::Same, earlier.lines.get(line));
-        }
-        for line in region.earlier.clone() {
-            add(LineKind::Removed, earlier.lines.get(line));
-        }
-        for line in region.fresh.clone() {
-            add(LineKind::Added, fresh.lines.get(line));
-        }
-        (at, to) = (region.earlier.end, region.fresh.end);
-    }
-    let tail = CONTEXT.min(earlier.lines.len() - at);
-    for line in at..at + tail {
-        add(LineKind::Same, earlier.lines.get(line));
-    }
-    let changed = group.first().map_or(place..to, |first| first.fresh.clone());
+    let whole = |range: fn(&DiffOp) -> Range<usize>| {
+        let ends = group.first().zip(group.last());
+        ends.map_or(0..0, |(first, last)| range(first).start..range(last).end)
+    };
+    let changed = changes(group).next().map_or(0..0, DiffOp::new_range);
     Hunk {
-        earlier: from..at + tail,
-        fresh: place..to + tail,
+        earlier: whole(DiffOp::old_range),
+        fresh: whole(DiffOp::new_range),
         about: about(fresh.bytes(changed)),
-        lines,
+        lines: group.iter().flat_map(lines_of).take(room).collect(),
     }
 }
 

@@ -5,6 +5,8 @@
 //! it uses are not found.
 
 use lsp_types::Uri;
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
+use std::borrow::Cow;
 
 /// The path of a document.
 pub(super) fn path_of(uri: &Uri) -> String {
@@ -36,48 +38,23 @@ pub(super) fn uri_of(path: &str) -> Option<Uri> {
     format!("file://{slash}{}", encoded(path)).parse().ok()
 }
 
-/// `%C3%A4` is `ä`. What is no such escape, or no text in UTF-8, stays as it is.
+/// `%C3%A4` is `ä`. What is not such an escape, or not text in UTF-8, stays as it is.
 fn decoded(text: &str) -> String {
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.as_bytes();
-    while let Some((&first, tail)) = rest.split_first() {
-        let escape = tail.get(..2).and_then(|digits| {
-            let digits = core::str::from_utf8(digits).ok()?;
-            let is_hex = digits.bytes().all(|digit| digit.is_ascii_hexdigit());
-            is_hex.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
-        });
-        match escape.filter(|_| first == b'%') {
-            Some(byte) => {
-                bytes.push(byte);
-                rest = tail.get(2..).unwrap_or_default();
-            }
-            None => {
-                bytes.push(first);
-                rest = tail;
-            }
-        }
-    }
-    String::from_utf8(bytes).unwrap_or_else(|_| text.to_owned())
+    let decoded = percent_decode_str(text).decode_utf8();
+    decoded.map_or_else(|_| text.to_owned(), Cow::into_owned)
 }
 
-/// Everything but what RFC 3986 calls unreserved, and `/`, as escapes. Editors escape the colon of a drive too.
+/// All but what RFC 3986 calls unreserved, and `/`. Editors escape the colon of a drive too.
+const ESCAPED: AsciiSet = NON_ALPHANUMERIC
+    .remove(b'-')
+    .remove(b'.')
+    .remove(b'_')
+    .remove(b'~')
+    .remove(b'/');
+
+/// A path with escapes.
 pub(super) fn encoded(path: &str) -> String {
-    const HEX: &[u8; 16] = b"0123456789ABCDEF";
-    let mut text = String::with_capacity(path.len());
-    for byte in path.bytes() {
-        match byte {
-            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => {
-                text.push(char::from(byte));
-            }
-            _ => {
-                let digit = |of: u8| HEX.get(usize::from(of)).map_or('0', |&digit| char::from(digit));
-                text.push('%');
-                text.push(digit(byte >> 4));
-                text.push(digit(byte & 15));
-            }
-        }
-    }
-    text
+    utf8_percent_encode(path, &ESCAPED).to_string()
 }
 
 #[cfg(test)]

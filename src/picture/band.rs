@@ -3,6 +3,8 @@
 //! Between two teeth that stand side by side a line would fill the ground between them: what can be seen of many is how high
 //! they are and how low the gaps.
 
+use super::Point;
+
 /// From how many cuts on their teeth, flanks and turns are not drawn one by one.
 pub(super) const MANY: usize = 100;
 
@@ -10,15 +12,24 @@ pub(super) const MANY: usize = 100;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Band {
     /// The highest values, from left to right.
-    pub(super) upper: Vec<[f64; 2]>,
+    pub(super) upper: Vec<Point>,
     /// The lowest values, at the same x.
-    pub(super) lower: Vec<[f64; 2]>,
+    pub(super) lower: Vec<Point>,
 }
 
 impl Band {
+    /// Around it.
+    pub(super) fn outline(&self) -> Vec<Point> {
+        self.upper
+            .iter()
+            .chain(self.lower.iter().rev())
+            .copied()
+            .collect()
+    }
+
     /// The band of a curve over its whole width, looked at in so many columns of equal width. What a curve does from one
     /// point to the next counts in every column that it passes.
-    pub(super) fn of(points: &[[f64; 2]], columns: u32) -> Self {
+    pub(super) fn of(points: &[Point], columns: u32) -> Self {
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Self::default();
         };
@@ -54,20 +65,17 @@ impl Band {
             number if number == most => last[0],
             number => left + (number as f64 + 0.5) * width,
         };
-        let filled = || extremes.iter().enumerate().filter(|(_, [low, high])| low <= high);
-        Self {
-            upper: filled()
-                .map(|(number, [_, high])| [middle(number), *high])
-                .collect(),
-            lower: filled()
-                .map(|(number, [low, _])| [middle(number), *low])
-                .collect(),
-        }
+        let numbered = extremes.iter().enumerate();
+        let filled = numbered.filter(|(_, [low, high])| low <= high);
+        let (upper, lower) = filled
+            .map(|(number, [low, high])| ([middle(number), *high], [middle(number), *low]))
+            .unzip();
+        Self { upper, lower }
     }
 }
 
 /// The value of a straight piece that is not upright at an x within it.
-fn at(from: [f64; 2], to: [f64; 2], x: f64) -> f64 {
+fn at(from: Point, to: Point, x: f64) -> f64 {
     from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0])
 }
 

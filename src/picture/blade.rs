@@ -4,11 +4,13 @@
 //! that +y runs to the right) the blade is seen in its plane; against the feed (from -y, so that +x runs to the right) it is seen
 //! on edge, and beside it, dashed, as the swing leans it for the two flanks. `docs/process.md` has the formulas.
 
-use super::Setting;
+use super::chart::FRAME;
 use super::palette::{BLUE, GREEN, INK, VERMILION};
-use super::sheet::{HALO, PHONE_WIDTH, WIDTH};
-use super::svg::{Anchor, Svg, number};
-use super::trace::Trace;
+use super::sheet::{self, HALO, PHONE_WIDTH, WIDTH};
+use super::svg::{Anchor, Svg};
+use super::trace::number;
+use super::{Point, Setting};
+use vcutc_backend_api::ir::Edges;
 
 pub use super::sheet::Heading;
 
@@ -21,49 +23,8 @@ pub struct Blade<'a> {
     pub rake: f64,
     /// Half the angle of the apex.
     pub half_apex: f64,
-    /// What the side of the blade away from `x_t` is.
-    pub back: Back,
-}
-
-/// The side of the blade that does not lead on a feed along +y.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Back {
-    /// An edge too.
-    Edge,
-    Blunt,
-}
-
-/// Where the two views are.
-struct Layout {
-    size: [f64; 2],
-    /// Where the tip is, seen from the side.
-    side: [f64; 2],
-    /// Where it is, seen against the feed.
-    front: [f64; 2],
-}
-
-impl Layout {
-    /// Beside each other, or one below the other on a telephone. A page has the words that stand above the views elsewhere.
-    const fn of(setting: Setting) -> Self {
-        const HEADING: f64 = 60.0;
-        match setting {
-            Setting::Alone => Self {
-                size: [WIDTH, 445.0],
-                side: [190.0, 330.0],
-                front: [540.0, 330.0],
-            },
-            Setting::Page => Self {
-                size: [WIDTH, 445.0 - HEADING],
-                side: [190.0, 330.0 - HEADING],
-                front: [540.0, 330.0 - HEADING],
-            },
-            Setting::Phone => Self {
-                size: [PHONE_WIDTH, 765.0],
-                side: [158.0, 270.0],
-                front: [200.0, 650.0],
-            },
-        }
-    }
+    /// On which sides it cuts: `x_t` points to the one that leads on a feed along +y.
+    pub edges: Edges,
 }
 
 /// Length of the edge, of the whole blade, and of the blade with its shank.
@@ -71,7 +32,7 @@ const EDGE: f64 = 110.0;
 const BODY: f64 = 150.0;
 const WHOLE: f64 = 235.0;
 /// Length of an axis.
-const AXIS: f64 = 62.0;
+const AXIS: f64 = 70.0;
 /// Half the thickness of the blade on edge, and half the width of its shank.
 const HALF_THICKNESS: f64 = 3.0;
 const HALF_SHANK: f64 = 9.0;
@@ -86,35 +47,33 @@ fn axes(rake: f64) -> [[f64; 2]; 2] {
     [[sine, -cosine], [-cosine, -sine]]
 }
 
+/// Draws it.
 #[must_use]
 pub fn draw(blade: &Blade<'_>) -> String {
     let description = "Two views of the blade over the work. From the side: the shank above, the tip below, the tool axis z from \
                        the shank out through the tip, x in the blade's plane towards the edge that leads when the feed is along \
                        plus y. Against the feed: y square to the flat, along plus x of the work.";
-    let layout = Layout::of(blade.heading.ids.setting);
-    let mut svg = Svg::new(
-        layout.size,
-        15,
-        blade.heading.ids,
-        blade.heading.title,
-        description,
-    );
-    match blade.heading.ids.setting {
-        Setting::Alone => words(&mut svg, blade.heading),
-        Setting::Page | Setting::Phone => {}
-    }
-    side(&mut svg, blade, layout.side);
-    front(&mut svg, blade, layout.front);
+    let heading = blade.heading;
+    // The size, and where the tips are: beside each other, or one below the other on a telephone. A page has the words that stand
+    // above the views elsewhere.
+    let (size, side_tip, front_tip) = match heading.ids.setting {
+        Setting::Alone => ([WIDTH, 445.0], [190.0, 330.0], [540.0, 330.0]),
+        Setting::Page => ([WIDTH, 385.0], [190.0, 270.0], [540.0, 270.0]),
+        Setting::Phone => ([PHONE_WIDTH, 765.0], [158.0, 270.0], [200.0, 650.0]),
+    };
+    let mut svg = Svg::new(size, 15, heading.ids, heading.title, description);
+    sheet::words(&mut svg, heading);
+    side(&mut svg, blade, side_tip);
+    front(&mut svg, blade, front_tip);
     svg.finish()
 }
 
-fn words(svg: &mut Svg, heading: Heading<'_>) {
-    let bold = "font-size=\"18\" font-weight=\"bold\"";
-    svg.text((24.0, 32.0), Anchor::Start, bold, heading.title);
-    svg.text((24.0, 56.0), Anchor::Start, "font-size=\"14\"", heading.subtitle);
-}
+const FLAT: &str = "fill=\"#dfe7ee\" stroke=\"#2b2a27\"";
+const SHANK: &str = "fill=\"#b9b3a3\" stroke=\"#2b2a27\"";
+const SHARP: &str = "stroke=\"#d55e00\" stroke-width=\"4\" stroke-linecap=\"round\" fill=\"none\"";
+const LEANT: &str = "fill=\"none\" stroke=\"#8a857a\" stroke-dasharray=\"5 4\"";
 
-fn side(svg: &mut Svg, blade: &Blade<'_>, tip: [f64; 2]) {
+fn side(svg: &mut Svg, blade: &Blade<'_>, tip: Point) {
     let [x, z] = axes(blade.rake);
     // A place in the blade's plane: along x_t, and from the tip towards the shank.
     let at = |across: f64, up: f64| {
@@ -123,121 +82,84 @@ fn side(svg: &mut Svg, blade: &Blade<'_>, tip: [f64; 2]) {
             tip[1] - (across * x[1] - up * z[1]),
         ]
     };
+    let across =
+        |half: f64, from: f64, to: f64| [at(half, from), at(half, to), at(-half, to), at(-half, from)];
     ground(svg, tip, [tip[0] - 130.0, tip[0] + 210.0]);
     let half = EDGE * libm::tan(blade.half_apex.max(NARROWEST));
     let shank = half.min(HALF_SHANK);
-    let body = [
-        at(0.0, 0.0),
-        at(half, EDGE),
-        at(half, BODY),
-        at(-half, BODY),
-        at(-half, EDGE),
-    ];
-    closed(svg, &body, "fill=\"#dfe7ee\" stroke=\"#2b2a27\"");
-    let held = [
-        at(shank, BODY),
-        at(shank, WHOLE),
-        at(-shank, WHOLE),
-        at(-shank, BODY),
-    ];
-    closed(svg, &held, "fill=\"#b9b3a3\" stroke=\"#2b2a27\"");
-    let edge = format!("stroke=\"{VERMILION}\" stroke-width=\"4\" stroke-linecap=\"round\" fill=\"none\"");
-    line(svg, at(0.0, 0.0), at(half, EDGE), &edge);
-    let words = match blade.back {
-        Back::Edge => {
-            line(svg, at(0.0, 0.0), at(-half, EDGE), &edge);
+    svg.closed([tip].into_iter().chain(across(half, EDGE, BODY)), FLAT);
+    svg.closed(across(shank, BODY, WHOLE), SHANK);
+    svg.open([tip, at(half, EDGE)], SHARP);
+    let back = match blade.edges {
+        Edges::Double => {
+            svg.open([tip, at(-half, EDGE)], SHARP);
             "edge for -y"
         }
-        Back::Blunt => "blunt back",
+        Edges::Single => "blunt back",
     };
-    arrow(svg, tip, at(AXIS, 0.0), VERMILION);
-    arrow(svg, tip, at(0.0, -AXIS), BLUE);
-    towards_the_eye(svg, tip);
-    label(svg, at(AXIS + 10.0, 0.0), Anchor::Start, "tool x");
-    label(svg, at(6.0, -AXIS - 12.0), Anchor::Start, "tool z");
-    label(svg, [tip[0] - 32.0, tip[1] + 22.0], Anchor::End, "tool y, to you");
-    label(svg, at(half + 10.0, EDGE * 0.75), Anchor::Start, "leading edge");
-    label(svg, at(-half - 4.0, EDGE * 0.7), Anchor::End, words);
-    label(svg, at(-half - 10.0, BODY), Anchor::End, "flat, to you");
-    label(svg, at(shank + 10.0, WHOLE - 20.0), Anchor::Start, "shank");
+    svg.arrow(tip, at(AXIS, 0.0), VERMILION);
+    svg.arrow(tip, at(0.0, -AXIS), BLUE);
+    svg.towards_the_eye(tip, GREEN);
+    let words = [
+        (at(AXIS + 3.0, 0.0), Anchor::Start, "tool x"),
+        (at(6.0, -AXIS - 5.0), Anchor::Start, "tool z"),
+        ([tip[0] - 32.0, tip[1] + 22.0], Anchor::End, "tool y, to you"),
+        (at(half + 10.0, EDGE * 0.75), Anchor::Start, "leading edge"),
+        (at(-half - 4.0, EDGE * 0.7), Anchor::End, back),
+        (at(-half - 10.0, BODY), Anchor::End, "flat, to you"),
+        (at(shank + 10.0, WHOLE - 20.0), Anchor::Start, "shank"),
+    ];
+    for (place, anchor, words) in words {
+        label(svg, place, anchor, words);
+    }
     rake(svg, blade.rake, tip);
-    let under = tip[1] + 96.0;
-    svg.text(
-        (tip[0], under),
-        Anchor::Middle,
-        "font-weight=\"bold\"",
-        "from the side, +y to the right",
-    );
+    caption(svg, tip, "from the side, +y to the right");
 }
 
 /// The angle between the feed and the shank, beyond the tip of the x axis.
-fn rake(svg: &mut Svg, rake: f64, [x, y]: [f64; 2]) {
+fn rake(svg: &mut Svg, rake: f64, [x, y]: Point) {
     let radius = 44.0;
-    let end = [x + radius * libm::cos(rake), y - radius * libm::sin(rake)];
-    let path = format!(
+    let towards =
+        |angle: f64, [across, up]: [f64; 2]| [x + across * libm::cos(angle), y - up * libm::sin(angle)];
+    let [from, to] = [0.0, rake].map(|angle| towards(angle, [radius; 2]).map(number));
+    let arc = format!(
         "M{} {}A{radius} {radius} 0 0 0 {} {}",
-        number(x + radius),
-        number(y),
-        number(end[0]),
-        number(end[1])
+        from[0], from[1], to[0], to[1]
     );
-    svg.path(&path, &format!("stroke=\"{INK}\" fill=\"none\""));
-    let half = rake / 2.0;
+    svg.path(&arc, FRAME);
     let words = format!("rake {}\u{b0}", number(rake.to_degrees()));
-    label(
-        svg,
-        [x + 54.0 * libm::cos(half), y - 50.0 * libm::sin(half)],
-        Anchor::Start,
-        &words,
-    );
-    arrow(svg, [x + 140.0, y - 14.0], [x + 196.0, y - 14.0], INK);
+    label(svg, towards(rake / 2.0, [54.0, 50.0]), Anchor::Start, &words);
+    svg.arrow([x + 140.0, y - 14.0], [x + 205.0, y - 14.0], INK);
     label(svg, [x + 140.0, y - 34.0], Anchor::Start, "feed +y");
 }
 
-fn front(svg: &mut Svg, blade: &Blade<'_>, tip: [f64; 2]) {
+fn front(svg: &mut Svg, blade: &Blade<'_>, tip: Point) {
     // Seen against the feed a blade that leans along it is shorter.
     let short = libm::sin(blade.rake);
     ground(svg, tip, [tip[0] - 100.0, tip[0] + 110.0]);
-    for lean in [-SHOWN_SWING, SHOWN_SWING] {
-        on_edge(
-            svg,
-            short,
-            lean,
-            tip,
-            "fill=\"none\" stroke=\"#8a857a\" stroke-dasharray=\"5 4\"",
-        );
+    for (lean, paint) in [(-SHOWN_SWING, LEANT), (SHOWN_SWING, LEANT), (0.0, FLAT)] {
+        on_edge(svg, short, lean, tip, paint);
     }
-    on_edge(svg, short, 0.0, tip, "fill=\"#dfe7ee\" stroke=\"#2b2a27\"");
-    arrow(svg, tip, [tip[0] + AXIS, tip[1]], GREEN);
-    arrow(svg, tip, [tip[0], tip[1] + AXIS * short], BLUE);
-    label(svg, [tip[0] + AXIS + 8.0, tip[1] - 14.0], Anchor::Start, "tool y");
-    label(
-        svg,
-        [tip[0] + 8.0, tip[1] + AXIS * short + 4.0],
-        Anchor::Start,
-        "tool z",
-    );
-    let top = tip[1] - WHOLE * short;
-    label(
-        svg,
-        [tip[0] - 12.0, top - 6.0],
-        Anchor::End,
-        "left flank: swing -",
-    );
-    label(svg, [tip[0] + 12.0, top - 6.0], Anchor::Start, "right flank: +");
-    let under = tip[1] + 96.0;
-    svg.text(
-        (tip[0], under),
-        Anchor::Middle,
-        "font-weight=\"bold\"",
-        "from -y, +x to the right",
-    );
+    let at = |right: f64, up: f64| [tip[0] + right, tip[1] - up];
+    svg.arrow(tip, at(AXIS, 0.0), GREEN);
+    svg.arrow(tip, at(0.0, -AXIS * short), BLUE);
+    let top = WHOLE * short + 6.0;
+    let words = [
+        (at(AXIS + 1.0, 14.0), Anchor::Start, "tool y"),
+        (at(8.0, 5.0 - AXIS * short), Anchor::Start, "tool z"),
+        (at(-12.0, top), Anchor::End, "left flank: swing -"),
+        (at(12.0, top), Anchor::Start, "right flank: +"),
+    ];
+    for (place, anchor, words) in words {
+        label(svg, place, anchor, words);
+    }
+    caption(svg, tip, "from -y, +x to the right");
 }
 
 /// The blade on edge, leaning to the right by that angle.
-fn on_edge(svg: &mut Svg, short: f64, lean: f64, tip: [f64; 2], paint: &str) {
+fn on_edge(svg: &mut Svg, short: f64, lean: f64, tip: Point, paint: &str) {
     let (sine, cosine) = (libm::sin(lean), libm::cos(lean));
-    let at = |across: f64, up: f64| {
+    let at = |[across, up]: [f64; 2]| {
         let up = up * short;
         [
             tip[0] + across * cosine + up * sine,
@@ -245,73 +167,30 @@ fn on_edge(svg: &mut Svg, short: f64, lean: f64, tip: [f64; 2], paint: &str) {
         ]
     };
     let (thin, wide) = (HALF_THICKNESS, HALF_SHANK * 0.7);
-    let outline = [
-        at(-thin, 0.0),
-        at(thin, 0.0),
-        at(thin, BODY),
-        at(wide, BODY),
-        at(wide, WHOLE),
-        at(-wide, WHOLE),
-        at(-wide, BODY),
-        at(-thin, BODY),
-    ];
-    closed(svg, &outline, paint);
+    let right = [[thin, 0.0], [thin, BODY], [wide, BODY], [wide, WHOLE]];
+    let left = right.into_iter().rev().map(|[across, up]| [-across, up]);
+    svg.closed(right.into_iter().chain(left).map(at), paint);
 }
 
 /// The work under the tip.
-fn ground(svg: &mut Svg, [_, y]: [f64; 2], [left, right]: [f64; 2]) {
+fn ground(svg: &mut Svg, [_, y]: Point, [left, right]: [f64; 2]) {
     svg.rect([left, y, right - left, 8.0], "fill=\"#e9e6df\"");
-    line(svg, [left, y], [right, y], "stroke=\"#b9b3a3\" fill=\"none\"");
+    svg.open([[left, y], [right, y]], "stroke=\"#b9b3a3\" fill=\"none\"");
 }
 
-fn closed(svg: &mut Svg, points: &[[f64; 2]], paint: &str) {
-    let mut trace = Trace::default();
-    trace.closed(points.iter().copied());
-    svg.path(trace.text(), paint);
+fn label(svg: &mut Svg, [x, y]: Point, anchor: Anchor, words: &str) {
+    svg.text([x, y + 5.0], anchor, HALO, words);
 }
 
-fn line(svg: &mut Svg, from: [f64; 2], to: [f64; 2], paint: &str) {
-    let [a, b, c, d] = [from[0], from[1], to[0], to[1]].map(number);
-    svg.path(&format!("M{a} {b}L{c} {d}"), paint);
-}
-
-fn arrow(svg: &mut Svg, from: [f64; 2], to: [f64; 2], colour: &str) {
-    line(
-        svg,
-        from,
-        to,
-        &format!("stroke=\"{colour}\" stroke-width=\"3\" fill=\"none\""),
-    );
-    let (x, y) = (to[0] - from[0], to[1] - from[1]);
-    let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
-    let (x, y) = (x / length, y / length);
-    let corner = |along: f64, across: f64| [to[0] + along * x - across * y, to[1] + along * y + across * x];
-    closed(
-        svg,
-        &[corner(9.0, 0.0), corner(-4.0, 6.0), corner(-4.0, -6.0)],
-        &format!("fill=\"{colour}\""),
-    );
-}
-
-/// An axis that points out of the picture.
-fn towards_the_eye(svg: &mut Svg, [x, y]: [f64; 2]) {
-    let (x, y) = (number(x), number(y));
-    svg.line(&format!(
-        "  <circle cx=\"{x}\" cy=\"{y}\" r=\"8\" fill=\"#fbfaf7\" stroke=\"{GREEN}\" stroke-width=\"3\"/>"
-    ));
-    svg.line(&format!(
-        "  <circle cx=\"{x}\" cy=\"{y}\" r=\"2.5\" fill=\"{GREEN}\"/>"
-    ));
-}
-
-fn label(svg: &mut Svg, [x, y]: [f64; 2], anchor: Anchor, words: &str) {
-    svg.text((x, y + 5.0), anchor, HALO, words);
+/// What a view is, below it.
+fn caption(svg: &mut Svg, [x, y]: Point, words: &str) {
+    svg.text([x, y + 96.0], Anchor::Middle, "font-weight=\"bold\"", words);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vcutc_backend_api::ir::{Edges, Flank};
+    use vcutc_backend_api::ir::Flank;
     use vcutc_backend_api::units::Angle;
     use vcutc_process::posture::{Feed, Holder};
 

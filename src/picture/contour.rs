@@ -1,10 +1,11 @@
 //! What the cuts leave: the part, the machined contour above it, the chips that were taken out, and the highest scallop.
 
-use super::lattice::{EDGE, PART, SHADES, Surface, is_many, shades, surfaces};
+use super::chart::FRAME;
+use super::lattice::{EDGE, PART, SHADES, is_many, shades, surfaces};
 use super::palette::{INK, ORANGE};
 use super::section::{BELOW, Section};
 use super::sheet::{self, Entry, HALO};
-use super::svg::{Anchor, Svg, number};
+use super::svg::{Anchor, Svg};
 use super::trace::Trace;
 
 pub use super::sheet::Heading;
@@ -22,8 +23,8 @@ pub struct Contour<'a> {
     pub machined: &'a [[f64; 2]],
     /// The chips in the order in which they come free. From a hundred on they are not drawn one by one.
     pub chips: &'a [Chip],
-    /// The surface when each layer is cut, in their order: what is drawn of many cuts.
-    pub surfaces: &'a [Surface],
+    /// The surface when each layer is cut, in their order, from left to right: what is drawn of many cuts.
+    pub surfaces: &'a [Vec<[f64; 2]>],
     /// The highest scallop.
     pub highest: Highest,
 }
@@ -57,25 +58,14 @@ fn line(contour: &Contour<'_>) -> String {
 #[must_use]
 pub fn draw(contour: &Contour<'_>) -> String {
     let section = Section::of(contour.stock, contour.heading.ids);
-    let legend = legend(contour);
-    let mut svg = sheet::sheet(
-        contour.heading,
-        section.room,
-        &description(contour),
-        section.bottom + BELOW,
-        &legend,
-    );
+    let bottom = section.bottom + BELOW;
+    let (description, legend) = (description(contour), legend(contour));
+    let mut svg = sheet::sheet(contour.heading, section.room, &description, bottom, &legend);
     chips(&mut svg, contour, &section);
-    svg.path(
-        section.below(contour.machined).text(),
-        &format!("fill=\"{ORANGE}\""),
-    );
-    svg.path(section.below(contour.part).text(), PART);
-    svg.path(
-        Trace::through(section.curve(contour.machined)).text(),
-        &line(contour),
-    );
-    section.stock(&mut svg, &format!("fill=\"none\" stroke=\"{INK}\""));
+    section.below(&mut svg, contour.machined, &format!("fill=\"{ORANGE}\""));
+    section.below(&mut svg, contour.part, PART);
+    svg.open(section.curve(contour.machined), &line(contour));
+    section.stock(&mut svg, FRAME);
     highest(&mut svg, contour, &section);
     section.axes(&mut svg);
     svg.finish()
@@ -104,13 +94,13 @@ fn legend(contour: &Contour<'_>) -> Vec<Entry> {
         legend.push(Entry::area(shade(0), "chips of odd layers"));
         legend.push(Entry::area(shade(1), "of even layers"));
     }
-    legend.push(Entry::area(format!("fill=\"{ORANGE}\""), "stays on the part"));
-    legend.push(Entry::line(line(contour), "machined contour"));
-    legend.push(Entry::area(PART, "part"));
-    legend.push(Entry::line(
-        format!("stroke=\"{HIGHEST}\" stroke-width=\"3\""),
-        "highest scallop",
-    ));
+    let highest = format!("stroke=\"{HIGHEST}\" stroke-width=\"3\"");
+    legend.extend([
+        Entry::area(format!("fill=\"{ORANGE}\""), "stays on the part"),
+        Entry::line(line(contour), "machined contour"),
+        Entry::area(PART, "part"),
+        Entry::line(highest, "highest scallop"),
+    ]);
     legend
 }
 
@@ -129,14 +119,8 @@ fn chips(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
     }
     let width = (12.0 / (contour.chips.len() as f64 + 1.0).sqrt()).clamp(0.15, 0.8);
     for (trace, shade) in layers.iter().zip(SHADES) {
-        if !trace.is_empty() {
-            svg.path(
-                trace.text(),
-                &format!(
-                    "fill=\"{shade}\" stroke=\"{EDGE}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\""
-                ),
-            );
-        }
+        let edge = format!("stroke=\"{EDGE}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\"");
+        svg.path(trace.text(), &format!("fill=\"{shade}\" {edge}"));
     }
 }
 
@@ -147,19 +131,10 @@ fn highest(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
         return;
     }
     let [from, to] = [nearest(contour.part, peak), peak].map(|point| section.at(point));
-    svg.path(
-        &format!(
-            "M{} {}L{} {}",
-            number(from[0]),
-            number(from[1]),
-            number(to[0]),
-            number(to[1])
-        ),
-        &format!("stroke=\"{HIGHEST}\" stroke-width=\"3\" stroke-linecap=\"round\""),
-    );
+    let paint = format!("stroke=\"{HIGHEST}\" stroke-width=\"3\" stroke-linecap=\"round\"");
+    svg.open([from, to], &paint);
     let [left, right] = section.x.places;
-    let share = (to[0] - left) / (right - left);
-    let (x, anchor) = match share {
+    let (x, anchor) = match (to[0] - left) / (right - left) {
         share if share < 0.15 => (to[0].max(left + 6.0), Anchor::Start),
         share if share > 0.85 => (to[0].min(right - 6.0), Anchor::End),
         _ => (to[0], Anchor::Middle),
@@ -169,12 +144,8 @@ fn highest(svg: &mut Svg, contour: &Contour<'_>, section: &Section) {
         above if above > section.room.top + 4.0 => above,
         _ => from[1] + 21.0,
     };
-    svg.text(
-        (x, y),
-        anchor,
-        &format!("font-weight=\"bold\" {HALO}"),
-        &format!("{height:.2} mm"),
-    );
+    let bold = format!("font-weight=\"bold\" {HALO}");
+    svg.text([x, y], anchor, &bold, &format!("{height:.2} mm"));
 }
 
 /// The point of a polyline nearest to another.

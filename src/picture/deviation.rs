@@ -1,10 +1,10 @@
 //! How far the machined contour stands off the part, along the whole profile.
 
 use super::band::{Band, MANY};
+use super::chart::{Chart, Plot, Series, Shape};
 use super::palette::{BLUE, GREEN, VERMILION};
-use super::plot::{BELOW, Plot};
-use super::sheet::{self, Entry, Room, Swatch};
-use super::svg::{Along, Anchor, Svg, number};
+use super::sheet::Room;
+use super::svg::{Along, Mark};
 use super::thin::Thinned;
 
 pub use super::sheet::Heading;
@@ -34,97 +34,83 @@ const CURVE: &str = "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.5\" strok
 /// Writes the picture as SVG.
 #[must_use]
 pub fn draw(deviation: &Deviation<'_>) -> String {
-    let [from, to] =
-        [deviation.curve.first(), deviation.curve.last()].map(|end| end.map_or(0.0, |end| end[0]));
+    let (first, last) = (deviation.curve.first(), deviation.curve.last());
     let highest = deviation.largest[1]
         .max(deviation.limit.unwrap_or_default())
         .max(deviation.hollow.map_or(0.0, |[_, height]| height))
         .max(1e-3);
     let room = Room::of(deviation.heading.ids);
-    let bottom = room.top + HEIGHT;
-    // Above the highest there is room for its words.
-    let plot = Plot::new(room, [from, to], [0.0, highest * 1.2], [room.top, bottom]);
-    let mut svg = sheet::sheet(
-        deviation.heading,
-        room,
-        &description(deviation),
-        bottom + BELOW,
-        &legend(deviation),
-    );
-    plot.ground(&mut svg);
-    curve(&mut svg, deviation, &plot, room);
-    svg.path(&plot.level(deviation.mean), &mean());
-    if let Some(limit) = deviation.limit {
-        svg.path(&plot.level(limit), &self::limit());
+    Chart {
+        heading: deviation.heading,
+        description: description(deviation),
+        // Above the highest there is room for its words.
+        plot: Plot::new(
+            room,
+            [first, last].map(|end| end.map_or(0.0, |end| end[0])),
+            [0.0, highest * 1.2],
+            [room.top, room.top + HEIGHT],
+        ),
+        labels: ["x, mm", "distance from the part, mm"],
+        series: series(deviation, room),
+        along: Some(Along::Width),
     }
-    let circle = format!("r=\"5\" fill=\"{BLUE}\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
-    let levels: Vec<f64> = deviation
-        .limit
-        .into_iter()
-        .chain([deviation.mean])
-        .map(|level| plot.y.at(level))
-        .collect();
-    let mut taken = Vec::new();
+    .draw()
+}
+
+fn series(deviation: &Deviation<'_>, room: Room) -> Vec<Series> {
+    let mut series = Vec::from(distances(deviation, room));
+    let dashed = |colour, dashes| {
+        format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" stroke-dasharray=\"{dashes}\"")
+    };
+    let mean = Series::new(Shape::Level(deviation.mean), dashed(GREEN, "2 4"));
+    series.push(mean.named(format!("mean, {:.2} mm", deviation.mean)));
+    let words = |[x, height]: [f64; 2]| Some(format!("{height:.2} mm at x {x:.1}"));
     if let Some(hollow) = deviation.hollow {
-        mark(&mut svg, hollow, &plot, &ring(), &levels, &mut taken);
+        let hollow = Series::mark(Mark::HOLLOW, hollow, words(hollow));
+        series.push(hollow.named("deepest corner no cut reaches"));
     }
-    mark(&mut svg, deviation.largest, &plot, &circle, &levels, &mut taken);
-    plot.frame(&mut svg, "x, mm", "distance from the part, mm");
-    svg.cursor(Along::Width, &plot.x, [room.top, bottom]);
-    svg.finish()
+    if let Some(limit) = deviation.limit {
+        let line = Series::new(Shape::Level(limit), dashed(VERMILION, "9 4"));
+        series.push(line.named(format!("limit, {limit:.2} mm")));
+    }
+    series.push(Series::mark(
+        Mark::DISC,
+        deviation.largest,
+        words(deviation.largest),
+    ));
+    series
 }
 
-/// How many teeth the contour has.
-fn teeth(deviation: &Deviation<'_>) -> usize {
-    let is_tip = |three: &[[f64; 2]]| matches!(three, [a, b, c] if b[1] > a[1] && b[1] >= c[1]);
-    deviation.curve.windows(3).filter(|three| is_tip(three)).count()
-}
-
-/// Whether the teeth are so many, or so close, that they are drawn as the band that they fill.
-fn are_many(deviation: &Deviation<'_>) -> bool {
-    let teeth = teeth(deviation);
-    let across = Room::of(deviation.heading.ids).across();
-    teeth >= MANY || teeth as f64 * NARROWEST > across
-}
-
-/// The distances: their curve, or of many teeth the band that they fill.
-fn curve(svg: &mut Svg, deviation: &Deviation<'_>, plot: &Plot, room: Room) {
-    if are_many(deviation) {
+/// The distances, and the area below: their curve, or of many teeth the band that they fill.
+fn distances(deviation: &Deviation<'_>, room: Room) -> [Series; 2] {
+    let is_tip = |three: &&[[f64; 2]]| matches!(three, [a, b, c] if b[1] > a[1] && b[1] >= c[1]);
+    let teeth = deviation.curve.windows(3).filter(is_tip).count();
+    if teeth >= MANY || teeth as f64 * NARROWEST > room.across() {
         // More than a tooth a column, so that there are no gaps between them.
-        let columns = (teeth(deviation) as f64 / 1.3)
-            .min(room.across() / NARROWEST)
-            .max(1.0);
+        let columns = (teeth as f64 / 1.3).min(room.across() / NARROWEST).max(1.0);
         let band = Band::of(deviation.curve, columns as u32);
-        svg.path(plot.between(&band).text(), BAND);
-        svg.path(plot.curve(&band.upper).text(), CURVE);
+        let upper = Series::new(Shape::Curve(band.upper.clone()), CURVE);
+        let paint = format!("{BAND} stroke=\"{BLUE}\"");
+        [
+            Series::new(Shape::Polygon(band.outline()), paint).named("distance (teeth drawn as a band)"),
+            upper,
+        ]
     } else {
         let curve = Thinned::of(deviation.curve, 2 * room.columns());
-        svg.path(plot.area(&curve).text(), BAND);
-        svg.path(plot.curve(&curve).text(), CURVE);
+        let line = Series::new(Shape::Curve(curve.clone()), CURVE);
+        let words = "distance of the contour from the part";
+        [Series::new(Shape::Area(curve), BAND), line.named(words)]
     }
-}
-
-fn mean() -> String {
-    format!("fill=\"none\" stroke=\"{GREEN}\" stroke-width=\"2\" stroke-dasharray=\"2 4\"")
-}
-
-fn limit() -> String {
-    format!("fill=\"none\" stroke=\"{VERMILION}\" stroke-width=\"2\" stroke-dasharray=\"9 4\"")
 }
 
 fn description(deviation: &Deviation<'_>) -> String {
-    let limit = match deviation.limit {
-        Some(limit) => format!("; the limit is {limit:.2} mm"),
-        None => String::new(),
-    };
-    let hollow = match deviation.hollow {
-        Some([x, height]) => {
-            format!(
-                " The deepest corner that no cut reaches is {height:.2} mm from the machined contour, at x {x:.1} mm."
-            )
-        }
-        None => String::new(),
-    };
+    let limit = deviation
+        .limit
+        .map(|limit| format!("; the limit is {limit:.2} mm"));
+    let hollow = deviation.hollow.map(|[x, height]| {
+        format!(" The deepest corner that no cut reaches is {height:.2} mm from the machined contour, at x {x:.1} mm.")
+    });
+    let (limit, hollow) = (limit.unwrap_or_default(), hollow.unwrap_or_default());
     format!(
         "{}. Distance of the machined contour from the part over x: at most {:.2} mm, at x {:.1} mm, and {:.2} mm on \
          average{limit}.{hollow}",
@@ -132,88 +118,11 @@ fn description(deviation: &Deviation<'_>) -> String {
     )
 }
 
-fn legend(deviation: &Deviation<'_>) -> Vec<Entry> {
-    let distance = if are_many(deviation) {
-        Entry::area(
-            format!("{BAND} stroke=\"{BLUE}\""),
-            "distance (teeth drawn as a band)",
-        )
-    } else {
-        Entry::line(CURVE, "distance of the contour from the part")
-    };
-    let mut legend = vec![
-        distance,
-        Entry::line(mean(), format!("mean, {:.2} mm", deviation.mean)),
-    ];
-    if deviation.hollow.is_some() {
-        legend.push(Entry {
-            swatch: Swatch::Mark(
-                "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z".to_owned(),
-                format!("fill=\"#ffffff\" stroke=\"{VERMILION}\" stroke-width=\"2\""),
-            ),
-            words: "deepest corner no cut reaches".to_owned(),
-        });
-    }
-    if let Some(value) = deviation.limit {
-        legend.push(Entry::line(limit(), format!("limit, {value:.2} mm")));
-    }
-    legend
-}
-
-fn ring() -> String {
-    format!("r=\"5\" fill=\"#ffffff\" stroke=\"{VERMILION}\" stroke-width=\"2\"")
-}
-
-/// How high words are above and below their line.
-const ASCENT: f64 = 12.0;
-const DESCENT: f64 = 4.0;
-
-/// A circle at a place, with its distance and x. The words stand clear of the lines at these levels and of words that are there:
-/// `taken` holds their ends and their lines.
-fn mark(
-    svg: &mut Svg,
-    place: [f64; 2],
-    plot: &Plot,
-    circle: &str,
-    levels: &[f64],
-    taken: &mut Vec<([f64; 2], f64)>,
-) {
-    let [x, y] = plot.at(place);
-    svg.line(&format!(
-        "  <circle cx=\"{}\" cy=\"{}\" {circle}/>",
-        number(x),
-        number(y)
-    ));
-    let words = format!("{:.2} mm at x {:.1}", place[1], place[0]);
-    let [left, right] = plot.x.places;
-    let width = sheet::text_width(&words);
-    let (anchor, side, ends) = if x > f64::midpoint(left, right) {
-        (Anchor::End, -10.0, [x - 10.0 - width, x - 10.0])
-    } else {
-        (Anchor::Start, 10.0, [x + 10.0, x + 10.0 + width])
-    };
-    let [bottom, top] = plot.y.places;
-    let is_free = |line: &f64| {
-        let crossed = levels
-            .iter()
-            .any(|level| (line - ASCENT - 3.0..line + DESCENT + 3.0).contains(level));
-        let meets = |(other, at): &([f64; 2], f64)| {
-            ends[0] < other[1] && other[0] < ends[1] && (line - at).abs() < ASCENT + DESCENT
-        };
-        !crossed && !taken.iter().any(meets) && line - ASCENT > top && line + DESCENT < bottom
-    };
-    // Above it, where no curve can be, before below it.
-    let lines = [-8.0, -14.0, -24.0, -36.0, 5.0, 16.0, 26.0, 36.0, -50.0, 50.0].map(|down| y + down);
-    let line = lines.into_iter().find(is_free).unwrap_or(y - 4.0);
-    taken.push((ends, line));
-    let style = format!("font-weight=\"bold\" {}", sheet::HALO);
-    svg.text((x + side, line), anchor, &style, &words);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Prefix;
+    use crate::chart::{ASCENT, DESCENT};
 
     /// Where words of a picture stand that hold a text.
     fn line_of(picture: &str, words: &str) -> f64 {
@@ -234,7 +143,7 @@ mod tests {
     fn level_of(picture: &str, paint: &str) -> f64 {
         let line = picture
             .lines()
-            .find(|line| line.contains(paint) && !line.contains("h24"))
+            .find(|line| line.contains(paint) && line.contains('H'))
             .unwrap();
         let path = line.split("d=\"M").nth(1).unwrap();
         path.split(' ')
@@ -270,7 +179,7 @@ mod tests {
             });
             let mut lines = vec![line_of(&picture, &format!("{largest:.2} mm at"))];
             lines.extend(hollow.map(|height| line_of(&picture, &format!("{height:.2} mm at"))));
-            let levels = [level_of(&picture, &limit()), level_of(&picture, &mean())];
+            let levels = ["9 4", "2 4"].map(|dashes| level_of(&picture, dashes));
             for line in &lines {
                 let clear = levels
                     .iter()

@@ -1,9 +1,11 @@
 //! The lattice: where the tips of all cuts lie, how they came to be there, and the flanks that rise from them.
 
+use super::Point;
 use super::band::MANY;
-use super::palette::{BLUE, GREEN, INK, PURPLE, VERMILION};
+use super::chart::FRAME;
+use super::palette::{BLUE, GREEN, PURPLE, VERMILION};
 use super::section::{BELOW, Section};
-use super::sheet::{self, Entry, Swatch};
+use super::sheet::{self, Entry};
 use super::svg::{Anchor, Svg};
 use super::trace::Trace;
 use std::collections::BTreeSet;
@@ -21,36 +23,24 @@ pub struct Lattice<'a> {
     pub part: &'a [[f64; 2]],
     /// The part with the allowance of each operation that has one.
     pub bounds: &'a [&'a [[f64; 2]]],
+    /// The tips.
     pub tips: &'a [Tip],
     /// The Vs: where the left flank comes out, the tip, where the right one does. From a hundred on they are not drawn one by
     /// one.
     pub vees: &'a [[[f64; 2]; 3]],
-    /// The surface when each layer is cut, in their order: what is drawn of many cuts.
-    pub surfaces: &'a [Surface],
+    /// The surface when each layer is cut, in their order, from left to right: what is drawn of many cuts.
+    pub surfaces: &'a [Vec<[f64; 2]>],
     /// The layers from the top: what they are called, and the height of their tips.
     pub layers: &'a [(String, f64)],
 }
 
+/// A tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {
+    /// Where.
     pub at: [f64; 2],
     /// How it came to be there.
     pub origin: Origin,
-}
-
-/// Neighbouring layers are shaded differently.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shade {
-    Light,
-    Dark,
-}
-
-/// What the stock's surface is when a layer is cut, or several.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
-    pub shade: Shade,
-    /// The surface, from left to right.
-    pub contour: Vec<[f64; 2]>,
 }
 
 /// How a tip came to be where it is.
@@ -90,8 +80,13 @@ impl Origin {
         }
     }
 
+    /// How many of them there are.
+    fn count(self, lattice: &Lattice<'_>) -> usize {
+        lattice.tips.iter().filter(|tip| tip.origin == self).count()
+    }
+
     /// Its mark, so large: a disc, a triangle, a square standing on a corner, a square.
-    fn mark(self, trace: &mut Trace, [x, y]: [f64; 2], r: f64) {
+    fn mark(self, trace: &mut Trace, [x, y]: Point, r: f64) {
         match self {
             Self::Lattice => trace.dot([x, y]),
             Self::Lifted => trace.closed([[x - r, y + r * 0.8], [x, y - r], [x + r, y + r * 0.8]]),
@@ -119,26 +114,25 @@ impl Origin {
 #[must_use]
 pub fn draw(lattice: &Lattice<'_>) -> String {
     let section = Section::of(lattice.stock, lattice.heading.ids);
-    let legend = legend(lattice);
-    let mut svg = sheet::sheet(
-        lattice.heading,
-        section.room,
-        &description(lattice),
-        section.bottom + BELOW,
-        &legend,
-    );
+    let bottom = section.bottom + BELOW;
+    let (description, legend) = (description(lattice), legend(lattice));
+    let mut svg = sheet::sheet(lattice.heading, section.room, &description, bottom, &legend);
     if is_many(lattice.vees.len()) {
         surfaces(&mut svg, lattice.surfaces, &section);
-        svg.path(section.below(lattice.part).text(), PART);
+        section.below(&mut svg, lattice.part, PART);
     } else {
-        section.stock(&mut svg, "fill=\"#f6f1e2\"");
-        svg.path(section.below(lattice.part).text(), PART);
-        vees(&mut svg, lattice, &section);
+        section.stock(&mut svg, STAYS);
+        section.below(&mut svg, lattice.part, PART);
+        let vees = lattice.vees.iter().map(|vee| vee.map(|point| section.at(point)));
+        let width = (fineness(lattice, &section) * 0.28).max(0.2);
+        let paint =
+            format!("fill=\"none\" stroke=\"{VEE}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\"");
+        svg.path(Trace::pieces(vees).text(), &paint);
     }
     for bound in lattice.bounds {
-        svg.path(Trace::through(section.curve(bound)).text(), BOUND);
+        svg.open(section.curve(bound), BOUND);
     }
-    section.stock(&mut svg, &format!("fill=\"none\" stroke=\"{INK}\""));
+    section.stock(&mut svg, FRAME);
     tips(&mut svg, lattice, &section);
     layers(&mut svg, lattice, &section);
     section.axes(&mut svg);
@@ -147,57 +141,47 @@ pub fn draw(lattice: &Lattice<'_>) -> String {
 
 pub(super) const PART: &str = "fill=\"#b7c6d3\" stroke=\"#3d5a73\" stroke-width=\"1.5\"";
 const BOUND: &str = "fill=\"none\" stroke=\"#3d5a73\" stroke-dasharray=\"5 4\"";
+const STAYS: &str = "fill=\"#f6f1e2\"";
 const VEE: &str = "#9c8a5c";
 
 fn description(lattice: &Lattice<'_>) -> String {
-    let counts = ORIGINS.map(|origin| (count(lattice, origin), origin.words()));
-    let counts: Vec<String> = counts
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, words)| format!("{count} {words}"))
-        .collect();
+    let of = |count: usize, one: &str| match count {
+        1 => format!("1 {one}"),
+        count => format!("{count} {one}s"),
+    };
+    let counts: Vec<String> = origins(lattice).map(|(_, words)| words).collect();
     format!(
-        "{}. Section of a stock {:.1} mm wide and {:.1} mm high with the tips of {} {} in {} {} above the part: {}.",
+        "{}. Section of a stock {:.1} mm wide and {:.1} mm high with the tips of {} in {} above the part: {}.",
         lattice.heading.subtitle,
         lattice.stock[0],
         lattice.stock[1],
-        lattice.tips.len(),
-        if lattice.tips.len() == 1 { "cut" } else { "cuts" },
-        lattice.layers.len(),
-        if lattice.layers.len() == 1 {
-            "layer"
-        } else {
-            "layers"
-        },
+        of(lattice.tips.len(), "cut"),
+        of(lattice.layers.len(), "layer"),
         counts.join(", ")
     )
 }
 
-fn count(lattice: &Lattice<'_>, origin: Origin) -> usize {
-    lattice.tips.iter().filter(|tip| tip.origin == origin).count()
+/// The origins that tips have, with their numbers.
+fn origins(lattice: &Lattice<'_>) -> impl Iterator<Item = (Origin, String)> {
+    let counted = ORIGINS.into_iter().map(|origin| (origin, origin.count(lattice)));
+    let had = counted.filter(|(_, count)| *count > 0);
+    had.map(|(origin, count)| (origin, format!("{count} {}", origin.words())))
 }
 
 fn legend(lattice: &Lattice<'_>) -> Vec<Entry> {
-    let mut legend = Vec::new();
-    for origin in ORIGINS {
-        let count = count(lattice, origin);
-        if count > 0 {
-            let mut mark = Trace::default();
-            origin.mark(&mut mark, [0.0, 0.0], 5.0);
-            legend.push(Entry {
-                swatch: Swatch::Mark(mark.text().to_owned(), origin.paint(5.0)),
-                words: format!("{count} {}", origin.words()),
-            });
-        }
-    }
+    let mark = |(origin, words): (Origin, String)| {
+        Entry::new(words, move |svg, [x, y]| {
+            let mut trace = Trace::default();
+            origin.mark(&mut trace, [x + 12.0, y], 5.0);
+            svg.path(trace.text(), &origin.paint(5.0));
+        })
+    };
+    let mut legend: Vec<Entry> = origins(lattice).map(mark).collect();
     if is_many(lattice.vees.len()) {
-        legend.push(shades());
-        legend.push(Entry::area("fill=\"#f6f1e2\"", "stays"));
+        legend.extend([shades(), Entry::area(STAYS, "stays")]);
     } else {
-        legend.push(Entry::line(
-            format!("stroke=\"{VEE}\" stroke-width=\"1.5\""),
-            "flanks, as far as they cut",
-        ));
+        let line = format!("stroke=\"{VEE}\" stroke-width=\"1.5\"");
+        legend.push(Entry::line(line, "flanks, as far as they cut"));
     }
     legend.push(Entry::area(PART, "part"));
     if !lattice.bounds.is_empty() {
@@ -223,52 +207,28 @@ pub(super) fn shades() -> Entry {
 }
 
 /// What each layer takes: the area above its surface, the later ones over the earlier ones; and what stays below the last.
-pub(super) fn surfaces(svg: &mut Svg, surfaces: &[Surface], section: &Section) {
-    section.stock(svg, &format!("fill=\"{}\"", shade(surfaces.first())));
-    for pair in surfaces.windows(2) {
-        if let [before, next] = pair {
-            let paint = format!(
-                "fill=\"{}\" stroke=\"{EDGE}\" stroke-width=\"0.3\"",
-                shade(Some(next))
-            );
-            svg.path(section.below(&before.contour).text(), &paint);
-        }
+pub(super) fn surfaces(svg: &mut Svg, surfaces: &[Vec<Point>], section: &Section) {
+    section.stock(svg, &format!("fill=\"{}\"", SHADES[0]));
+    let later = surfaces.iter().zip(surfaces.iter().skip(1));
+    for ((before, _), shade) in later.zip(SHADES.iter().cycle().skip(1)) {
+        let paint = format!("fill=\"{shade}\" stroke=\"{EDGE}\" stroke-width=\"0.3\"");
+        section.below(svg, before, &paint);
     }
     if let Some(last) = surfaces.last() {
-        svg.path(section.below(&last.contour).text(), "fill=\"#f6f1e2\"");
-    }
-}
-
-fn shade(surface: Option<&Surface>) -> &'static str {
-    match surface.map(|surface| surface.shade) {
-        Some(Shade::Dark) => SHADES[1],
-        Some(Shade::Light) | None => SHADES[0],
+        section.below(svg, last, STAYS);
     }
 }
 
 /// Lines and marks become finer where there are many; where they are drawn together, they do not touch.
 fn fineness(lattice: &Lattice<'_>, section: &Section) -> f64 {
+    let (width, tips) = (section.x.length(), lattice.tips.len().max(1) as f64);
     if is_many(lattice.vees.len()) {
-        let longest = lattice.layers.len().max(1);
-        let each =
-            (section.x.places[1] - section.x.places[0]) * longest as f64 / lattice.tips.len().max(1) as f64;
-        return (each * 0.3).clamp(0.35, 3.0);
+        let each = width * lattice.layers.len().max(1) as f64 / tips;
+        (each * 0.3).clamp(0.35, 3.0)
+    } else {
+        let each = (width * section.z.length() / tips).sqrt();
+        (each / 6.0).clamp(0.4, 4.2)
     }
-    let area = (section.x.places[1] - section.x.places[0]) * (section.z.places[0] - section.z.places[1]);
-    let each = (area / (lattice.tips.len().max(1) as f64)).sqrt();
-    (each / 6.0).clamp(0.4, 4.2)
-}
-
-fn vees(svg: &mut Svg, lattice: &Lattice<'_>, section: &Section) {
-    let mut trace = Trace::default();
-    for vee in lattice.vees {
-        trace.open(vee.map(|point| section.at(point)));
-    }
-    let width = (fineness(lattice, section) * 0.28).max(0.2);
-    svg.path(
-        trace.text(),
-        &format!("fill=\"none\" stroke=\"{VEE}\" stroke-width=\"{width:.2}\" stroke-linejoin=\"round\""),
-    );
 }
 
 /// Tips of each origin are one path. Where there are more than can be told apart, those that fall onto one spot are one.
@@ -285,9 +245,7 @@ fn tips(svg: &mut Svg, lattice: &Lattice<'_>, section: &Section) {
                 origin.mark(&mut trace, at, r);
             }
         }
-        if !trace.is_empty() {
-            svg.path(trace.text(), &origin.paint(r));
-        }
+        svg.path(trace.text(), &origin.paint(r));
     }
 }
 
@@ -313,17 +271,11 @@ fn layers(svg: &mut Svg, lattice: &Lattice<'_>, section: &Section) {
     let right = section.x.places[1];
     let mut lines = Trace::default();
     for ((name, y), place) in names.iter().zip(apart(&names, section.bottom + BELOW / 2.0)) {
-        lines.open([
-            [right, *y],
-            [right + 5.0, *y],
-            [right + 13.0, place],
-            [right + 15.0, place],
-        ]);
-        svg.text((right + 17.0, place + 5.0), Anchor::Start, "", name);
+        let [near, far] = [[right + 5.0, *y], [right + 13.0, place]];
+        lines.open([[right, *y], near, far, [right + 15.0, place]]);
+        svg.text([right + 17.0, place + 5.0], Anchor::Start, "", name);
     }
-    if !lines.is_empty() {
-        svg.path(lines.text(), &format!("fill=\"none\" stroke=\"{VEE}\""));
-    }
+    svg.path(lines.text(), &format!("fill=\"none\" stroke=\"{VEE}\""));
 }
 
 /// Places for names as near to where they belong as they can be without touching, none below an end.

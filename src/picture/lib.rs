@@ -1,23 +1,24 @@
 //! Pictures: SVG texts, made without fonts, clocks or chance, so that the same data gives the same bytes.
 //!
 //! Each picture takes plain numbers and knows nothing of jobs, plans and programs. What several of them share: the sheet
-//! with its headings and legend (`sheet`), scales with round values (`scale`), the x-z section (`section`), plots of
-//! curves (`plot`), what lies between the lowest and the highest of a curve (`band`), colours and their partners on a dark
-//! ground (`palette`), paths in relative coordinates (`trace`), and curves of any number of points in as many as can be seen (`thin`).
+//! with its headings and legend (`sheet`), scales with round values (`scale`), charts of series over two axes (`chart`), the
+//! x-z section (`section`), solids in space (`projection`), what lies between the lowest and the highest of a curve (`band`),
+//! colours and their partners on a dark ground (`palette`), paths in relative coordinates (`trace`), and curves of any number of
+//! points in as many as can be seen (`thin`).
 
 mod band;
 pub mod blade;
+mod chart;
 pub mod contour;
 pub mod correlation;
 pub mod deviation;
 pub mod heat_map;
 pub mod joints;
 pub mod lattice;
-mod marks;
 mod palette;
 pub mod pareto;
 pub mod paths;
-mod plot;
+mod projection;
 mod scale;
 mod section;
 pub mod setup;
@@ -30,6 +31,9 @@ mod trace;
 pub use palette::dark;
 pub use sheet::{PAGE_WIDTH, PHONE_WIDTH};
 pub use svg::escaped;
+
+/// A place in a picture, or a point of a plane.
+type Point = [f64; 2];
 
 /// What the ids within a picture begin with, and where it is shown. Pictures that stand in one page need different ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,11 +5,13 @@
 
 pub use super::sheet::Heading;
 
-use super::palette::{BLUE, INK, VERMILION};
-use super::section::most_ticks;
-use super::sheet::{self, Entry, LEFT, RIGHT, Room, TOP, WIDTH};
-use super::svg::{Anchor, Svg, number};
-use super::trace::Trace;
+use super::chart;
+use super::palette::{BLUE, VERMILION};
+use super::projection::{View, corners};
+use super::scale::round_step;
+use super::sheet::{self, Entry, Room, WIDTH};
+use super::svg::{Anchor, Svg};
+use super::trace::{Trace, number};
 
 /// What is drawn, from plain numbers in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,202 +46,103 @@ const EDGES: &str = "fill=\"none\" stroke=\"#9c8a5c\" stroke-dasharray=\"4 4\"";
 /// Writes the picture as SVG.
 #[must_use]
 pub fn draw(paths: &Paths<'_>) -> String {
-    let view = View::of(paths);
-    let legend = legend(paths);
+    let room = Room::of(paths.heading.ids).of_width(WIDTH);
+    let milled = paths.milling.iter().flatten();
+    let everything = milled
+        .chain(paths.cutting)
+        .chain(paths.blades.iter().flatten())
+        .copied();
+    let everything = || corners(paths.blank).into_iter().chain(everything.clone());
+    let size = [room.across(), HIGHEST];
+    let height = View::of(everything(), [room.left, 0.0], size).height;
+    let bottom = room.top + height;
+    let view = View::of(everything(), [room.left, bottom], size);
     let mut svg = sheet::sheet(
         paths.heading,
-        Room::of(paths.heading.ids).of_width(WIDTH),
+        room,
         &description(paths),
-        view.bottom + 30.0,
-        &legend,
+        bottom + 30.0,
+        &legend(paths),
     );
     remains(&mut svg, paths, &view);
-    let mut blades = Trace::default();
     if paths.blades.len() <= MOST_BLADES {
-        for blade in paths.blades {
-            blades.open(blade.map(|point| view.at(point)));
-        }
+        let blades = paths.blades.iter().map(|blade| blade.map(|point| view.at(point)));
+        svg.path(Trace::pieces(blades).text(), BLADE);
     }
-    if !blades.is_empty() {
-        svg.path(blades.text(), BLADE);
-    }
-    let cutting = paths.cutting.iter().take(MOST_CORNERS);
-    svg.path(
-        Trace::through(cutting.map(|&point| view.at(point))).text(),
-        CUTTING,
-    );
-    let mut milling = Trace::default();
-    for piece in paths.milling {
-        milling.open(piece.iter().take(MOST_CORNERS).map(|&point| view.at(point)));
-    }
-    svg.path(milling.text(), MILLING);
-    bar(&mut svg, paths, &view);
+    let at = |&point: &[f64; 3]| view.at(point);
+    svg.open(paths.cutting.iter().take(MOST_CORNERS).map(at), CUTTING);
+    let milling = paths
+        .milling
+        .iter()
+        .map(|piece| piece.iter().take(MOST_CORNERS).map(at));
+    svg.path(Trace::pieces(milling).text(), MILLING);
+    names(&mut svg, paths, &view);
+    let step = round_step(paths.blank[0] / (room.across() / 70.0).floor()).size;
+    let words = format!("{} mm in x", number(step));
+    chart::bar(&mut svg, [room.right, bottom + 20.0], view.along_x(step), &words);
     svg.finish()
-}
-
-/// A parallel projection onto the sheet.
-struct View {
-    scale: f64,
-    /// Where the least coordinates of the projection are.
-    least: [f64; 2],
-    bottom: f64,
-}
-
-/// The right of the view in the axes of the blank: turned by 30 deg from x towards y.
-const RIGHTWARDS: [f64; 3] = [0.866_025, 0.5, 0.0];
-/// The up of the view: 25 deg from above the level.
-const UPWARDS: [f64; 3] = [-0.211_309, 0.366_000, 0.906_308];
-
-fn projected(point: [f64; 3]) -> [f64; 2] {
-    let along = |axis: [f64; 3]| axis.iter().zip(point).map(|(axis, value)| axis * value).sum();
-    [along(RIGHTWARDS), along(UPWARDS)]
-}
-
-impl View {
-    /// The largest view in which everything is seen.
-    fn of(paths: &Paths<'_>) -> Self {
-        let [width, depth, height] = paths.blank;
-        let corners = [0.0, width].into_iter().flat_map(|x| {
-            [0.0, depth]
-                .into_iter()
-                .flat_map(move |y| [0.0, height].map(|z| [x, y, z]))
-        });
-        let all = corners
-            .chain(paths.milling.iter().flatten().copied())
-            .chain(paths.cutting.iter().copied())
-            .chain(paths.blades.iter().flatten().copied());
-        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for place in all.map(projected) {
-            for ((least, most), value) in least.iter_mut().zip(&mut most).zip(place) {
-                *least = least.min(value);
-                *most = most.max(value);
-            }
-        }
-        let size = [most[0] - least[0], most[1] - least[1]];
-        let scale = ((RIGHT - LEFT) / size[0]).min(HIGHEST / size[1]);
-        Self {
-            scale,
-            least,
-            bottom: TOP + size[1] * scale,
-        }
-    }
-
-    fn at(&self, point: [f64; 3]) -> [f64; 2] {
-        let [right, up] = projected(point);
-        [
-            LEFT + (right - self.least[0]) * self.scale,
-            self.bottom - (up - self.least[1]) * self.scale,
-        ]
-    }
 }
 
 /// What is left of the blank, and the edges of what it was.
 fn remains(svg: &mut Svg, paths: &Paths<'_>, view: &View) {
     let [width, depth, height] = paths.blank;
     let face = |y: f64| {
-        let ends = [[width, y, 0.0], [0.0, y, 0.0]];
         let surface = paths.contour.iter().map(move |&[x, z]| [x, y, z]);
-        surface.chain(ends)
+        let outline = surface.chain([[width, y, 0.0], [0.0, y, 0.0]]);
+        outline.map(|point| view.at(point)).collect::<Vec<_>>()
     };
-    let mut back = Trace::default();
-    back.closed(face(depth).map(|point| view.at(point)));
-    svg.path(back.text(), REMAINS);
-    let mut side = Trace::default();
+    svg.closed(face(depth), REMAINS);
+    let mut strips = Trace::default();
     for pair in paths.contour.windows(2) {
         if let [[x0, z0], [x1, z1]] = *pair {
             let strip = [[x0, 0.0, z0], [x1, 0.0, z1], [x1, depth, z1], [x0, depth, z0]];
-            side.closed(strip.map(|point| view.at(point)));
+            strips.closed(strip.map(|point| view.at(point)));
         }
     }
-    svg.path(side.text(), REMAINS);
+    svg.path(strips.text(), REMAINS);
     let last = paths.contour.last().map_or(height, |&[_, z]| z);
-    let end = [
-        [width, 0.0, 0.0],
-        [width, depth, 0.0],
-        [width, depth, last],
-        [width, 0.0, last],
-    ];
-    let mut right = Trace::default();
-    right.closed(end.map(|point| view.at(point)));
-    svg.path(right.text(), REMAINS);
-    let mut front = Trace::default();
-    front.closed(face(0.0).map(|point| view.at(point)));
-    svg.path(front.text(), REMAINS);
+    let end = [[0.0, 0.0], [depth, 0.0], [depth, last], [0.0, last]].map(|[y, z]| view.at([width, y, z]));
+    svg.closed(end, REMAINS);
+    svg.closed(face(0.0), REMAINS);
+    let corners = corners(paths.blank).map(|corner| view.at(corner));
     let mut edges = Trace::default();
-    for y in [0.0, depth] {
-        edges.closed(
-            [
-                [0.0, y, 0.0],
-                [width, y, 0.0],
-                [width, y, height],
-                [0.0, y, height],
-            ]
-            .map(|point| view.at(point)),
-        );
+    for front in [0, 2] {
+        edges.closed([0, 1, 5, 4].map(|corner| corners[corner + front]));
     }
-    for (x, z) in [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)] {
-        edges.open([[x, 0.0, z], [x, depth, z]].map(|point| view.at(point)));
+    for left in [0, 1, 5, 4] {
+        edges.open([corners[left], corners[left + 2]]);
     }
     svg.path(edges.text(), EDGES);
 }
 
-/// A bar along x for comparison, with the names of the axes at the blank.
-fn bar(svg: &mut Svg, paths: &Paths<'_>, view: &View) {
+/// The names of the axes at the blank.
+fn names(svg: &mut Svg, paths: &Paths<'_>, view: &View) {
     let [width, depth, height] = paths.blank;
     let names = [
-        ("x", [width / 2.0, 0.0, 0.0], 18.0),
-        ("y", [width, depth / 2.0, 0.0], 18.0),
-        ("z", [0.0, 0.0, height / 4.0], 5.0),
+        ("x", [width / 2.0, 0.0, 0.0], [0.0, 18.0]),
+        ("y", [width, depth / 2.0, 0.0], [14.0, 18.0]),
+        ("z", [0.0, 0.0, height / 4.0], [-14.0, 5.0]),
     ];
-    for (name, place, down) in names {
+    for (name, place, [aside, down]) in names {
         let [x, y] = view.at(place);
-        let aside = if name == "x" {
-            0.0
-        } else if name == "y" {
-            14.0
-        } else {
-            -14.0
-        };
-        svg.text(
-            (x + aside, y + down),
-            Anchor::Middle,
-            "font-style=\"italic\"",
-            name,
-        );
+        let italic = "font-style=\"italic\"";
+        svg.text([x + aside, y + down], Anchor::Middle, italic, name);
     }
-    let step = super::scale::round_step(width / f64::from(most_ticks(RIGHT - LEFT, 70.0))).size();
-    let (right, y) = (RIGHT, view.bottom + 20.0);
-    let length = step * view.scale * RIGHTWARDS[0];
-    let path = format!("M{} {}v-5m0 5h-{}v-5", number(right), number(y), number(length));
-    svg.path(
-        &path,
-        &format!("stroke=\"{INK}\" stroke-width=\"2\" fill=\"none\""),
-    );
-    let words = format!("{} mm in x", number(step));
-    svg.text((right - length - 9.0, y + 5.0), Anchor::End, "", &words);
 }
 
 fn legend(paths: &Paths<'_>) -> Vec<Entry> {
-    let mut legend = vec![
-        Entry::line(
-            format!("stroke=\"{VERMILION}\" stroke-width=\"2\""),
-            "milling program",
-        ),
-        Entry::line(
-            format!("stroke=\"{BLUE}\" stroke-width=\"2\""),
-            "tip of the blade",
-        ),
-    ];
-    if paths.blades.len() <= MOST_BLADES {
-        legend.push(Entry::line(BLADE, "edge where a flank begins"));
-    } else {
-        legend.push(Entry::area(
-            "fill=\"none\"",
-            format!("more than {MOST_BLADES} flanks: edges are not drawn"),
-        ));
-    }
-    legend.push(Entry::area("fill=\"#e4dcc3\" stroke=\"#9c8a5c\"", "what is left"));
-    legend
+    let line = |colour| format!("stroke=\"{colour}\" stroke-width=\"2\"");
+    vec![
+        Entry::line(line(VERMILION), "milling program"),
+        Entry::line(line(BLUE), "tip of the blade"),
+        if paths.blades.len() <= MOST_BLADES {
+            Entry::line(BLADE, "edge where a flank begins")
+        } else {
+            let words = format!("more than {MOST_BLADES} flanks: edges are not drawn");
+            Entry::area("fill=\"none\"", words)
+        },
+        Entry::area("fill=\"#e4dcc3\" stroke=\"#9c8a5c\"", "what is left"),
+    ]
 }
 
 fn description(paths: &Paths<'_>) -> String {

@@ -1,5 +1,7 @@
 //! How values become places along a direction of a picture, and which values are written beside it.
 
+use super::trace::number;
+
 /// A stretch of values laid along a stretch of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scale {
@@ -7,75 +9,150 @@ pub(super) struct Scale {
     pub(super) values: [f64; 2],
     /// Where these are in the picture.
     pub(super) places: [f64; 2],
+    form: Form,
+}
+
+/// What a scale is of, and how its values are spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    /// Numbers, evenly.
+    Numbers,
+    /// Times in s, evenly, written as on a clock.
+    Clock,
+    /// Times in s: a time twice as long is always as far away.
+    Factors,
 }
 
 impl Scale {
     /// Lays values along places. Values that do not ascend are widened.
-    pub(super) fn new([from, to]: [f64; 2], places: [f64; 2]) -> Self {
+    pub(super) fn new(values: [f64; 2], places: [f64; 2]) -> Self {
+        Self::of_form(Form::Numbers, values, places)
+    }
+
+    /// Lays times in s along places.
+    pub(super) fn clock(values: [f64; 2], places: [f64; 2]) -> Self {
+        Self::of_form(Form::Clock, values, places)
+    }
+
+    /// Lays times in s, which are longer than none, along places by factors.
+    pub(super) fn factors(values: [f64; 2], places: [f64; 2]) -> Self {
+        Self::of_form(Form::Factors, values, places)
+    }
+
+    fn of_form(form: Form, [from, to]: [f64; 2], places: [f64; 2]) -> Self {
         let to = if to > from { to } else { from + 1.0 };
         Self {
             values: [from, to],
             places,
+            form,
         }
     }
 
+    /// Where a value is.
     pub(super) fn at(&self, value: f64) -> f64 {
-        let share = (value - self.values[0]) / (self.values[1] - self.values[0]);
+        let [from, to] = self.values.map(|value| self.spread(value));
+        let share = (self.spread(value) - from) / (to - from);
         self.places[0] + (self.places[1] - self.places[0]) * share
+    }
+
+    fn spread(&self, value: f64) -> f64 {
+        match self.form {
+            Form::Numbers | Form::Clock => value,
+            Form::Factors => libm::log(value),
+        }
     }
 
     /// Places to a unit, taken positive.
     pub(super) fn per_unit(&self) -> f64 {
-        ((self.places[1] - self.places[0]) / (self.values[1] - self.values[0])).abs()
+        (self.length() / (self.values[1] - self.values[0])).abs()
     }
 
-    /// Values in s as times: at most this many steps of a round number of seconds, minutes or hours.
-    pub(super) fn clock(&self, most: u32) -> Clock {
+    /// How long it is in the picture.
+    pub(super) fn length(&self) -> f64 {
+        (self.places[1] - self.places[0]).abs()
+    }
+
+    /// Round values within that leave each other so much room, and how they are written.
+    pub(super) fn ticks(&self, room: f64) -> Vec<(f64, String)> {
+        let most = ((self.length() / room) as u32).max(1);
+        match self.form {
+            Form::Numbers => self.numbers(most),
+            Form::Clock => self.times(most),
+            Form::Factors => self.apart(room),
+        }
+    }
+
+    /// What is written beside times.
+    pub(super) fn time_label(&self) -> &'static str {
+        match self.values[1] {
+            most if most <= 60.0 => "time, s",
+            most if most < 3600.0 => "time, min:s",
+            _ => "time, h:min:s",
+        }
+    }
+
+    fn numbers(&self, most: u32) -> Vec<(f64, String)> {
+        let Step { size, decimals } = round_step((self.values[1] - self.values[0]) / f64::from(most));
+        // Adding zero turns a negative zero into zero.
+        let values = self.steps(size, most).map(|count| count * size + 0.0);
+        values
+            .map(|value| (value, format!("{value:.decimals$}")))
+            .collect()
+    }
+
+    /// The multiples of a step within.
+    fn steps(&self, step: f64, most: u32) -> impl Iterator<Item = f64> + use<> {
+        let [from, to] = self.values;
+        let first = (from / step).ceil();
+        let counts = (0..=most).map(move |tick| first + f64::from(tick));
+        counts.take_while(move |count| count * step <= to + step * 1e-9)
+    }
+
+    /// At most this many steps of a round number of seconds, minutes or hours.
+    fn times(&self, most: u32) -> Vec<(f64, String)> {
         const STEPS: [f64; 22] = [
             0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 900.0, 1800.0, 3600.0,
             7200.0, 14_400.0, 28_800.0, 86_400.0, 172_800.0, 432_000.0,
         ];
         let [from, to] = self.values;
-        let least = (to - from) / f64::from(most.max(1));
-        let step = STEPS.into_iter().find(|step| *step >= least * (1.0 - 1e-9));
-        if to <= 60.0 || step.is_none() {
-            return Clock {
-                ticks: self.ticks(most),
-                label: "time, s",
-            };
-        }
-        let (step, has_hours) = (step.unwrap_or(least), to >= 3600.0);
-        let first = (from / step).ceil();
-        let ticks = (0..=most)
-            .map(|tick| (first + f64::from(tick)) * step)
-            .take_while(|value| *value <= to + step * 1e-9);
-        Clock {
-            ticks: ticks
-                .map(|value| (value, clock_words(value, has_hours)))
-                .collect(),
-            label: if has_hours { "time, h:min:s" } else { "time, min:s" },
+        let least = (to - from) / f64::from(most) * (1.0 - 1e-9);
+        match STEPS.into_iter().find(|step| *step >= least) {
+            Some(step) if to > 60.0 => {
+                let shown = |count: f64| (count * step, clock_words(count * step, to >= 3600.0));
+                self.steps(step, most).map(shown).collect()
+            }
+            Some(_) | None => self.numbers(most),
         }
     }
 
-    /// Round values within, at most this many steps of them, and how they are written.
-    pub(super) fn ticks(&self, most: u32) -> Vec<(f64, String)> {
-        let [from, to] = self.values;
-        let step = round_step((to - from) / f64::from(most.max(1)));
-        let first = (from / step.size()).ceil();
-        (0..=most)
-            .map(|tick| first + f64::from(tick))
-            .map(|count| (count * step.size(), step.shown(count)))
-            .take_while(|(value, _)| *value <= to + step.size() * 1e-9)
-            .collect()
+    /// Round times that do not come too close to each other: those of the roundest kind come first.
+    fn apart(&self, room: f64) -> Vec<(f64, String)> {
+        const ROUND: [f64; 47] = [
+            0.1, 1.0, 10.0, 60.0, 600.0, 3600.0, 36e3, 36e4, 36e5, 36e6, 36e7, //
+            0.5, 5.0, 30.0, 300.0, 1800.0, 18e3, 18e4, 18e5, 18e6, 18e7, //
+            0.2, 2.0, 20.0, 120.0, 1200.0, 7200.0, 72e3, 72e4, 72e5, 72e6, //
+            0.3, 3.0, 15.0, 40.0, 90.0, 180.0, 240.0, 420.0, 900.0, 2400.0, 10_800.0, 14_400.0, 28_800.0,
+            108e3, 144e3, 108e4,
+        ];
+        let mut ticks: Vec<f64> = Vec::new();
+        for time in ROUND {
+            let is_apart = |other: &f64| (self.at(*other) - self.at(time)).abs() >= room;
+            if (self.values[0]..=self.values[1]).contains(&time) && ticks.iter().all(is_apart) {
+                ticks.push(time);
+            }
+        }
+        ticks.sort_by(f64::total_cmp);
+        ticks.into_iter().map(|time| (time, time_words(time))).collect()
     }
 }
 
-/// Times beside an axis.
-pub(super) struct Clock {
-    /// Each in s, and as it is written.
-    pub(super) ticks: Vec<(f64, String)>,
-    /// What they are, with their unit.
-    pub(super) label: &'static str,
+/// A round time as people say it: `30 s`, `2 min`, `5 h`.
+fn time_words(seconds: f64) -> String {
+    match seconds {
+        hours if hours >= 3600.0 => format!("{} h", number(hours / 3600.0)),
+        minutes if minutes >= 60.0 => format!("{} min", number(minutes / 60.0)),
+        seconds => format!("{} s", number(seconds)),
+    }
 }
 
 /// `2:30`, or `1:02:30` where there are hours.
@@ -90,45 +167,44 @@ fn clock_words(seconds: f64, has_hours: bool) -> String {
 }
 
 /// A round step: 1, 2 or 5 times a power of ten.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
-    digit: u8,
-    power: i8,
+    /// Its size.
+    pub(super) size: f64,
+    decimals: usize,
 }
+
+/// Powers of ten, of which the first six have decimals.
+const POWERS: [f64; 16] = [
+    1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9,
+];
 
 /// The least round step that is no smaller than a value.
 pub(super) fn round_step(least: f64) -> Step {
-    let all = (-6..=9_i8).flat_map(|power| [1, 2, 5].map(|digit| Step { digit, power }));
-    let mut fitting = all.filter(|step| step.size() >= least * (1.0 - 1e-9));
-    fitting.next().unwrap_or(Step { digit: 1, power: 9 })
-}
-
-impl Step {
-    pub(super) fn size(self) -> f64 {
-        let ten = (0..self.power.unsigned_abs()).fold(1.0, |ten, _| ten * 10.0);
-        let digit = f64::from(self.digit);
-        if self.power < 0 { digit / ten } else { digit * ten }
-    }
-
-    /// So many steps, with as many decimals as the step has.
-    fn shown(self, count: f64) -> String {
-        let decimals = if self.power < 0 {
-            self.power.unsigned_abs()
-        } else {
-            0
-        };
-        // Adding zero turns a negative zero into zero.
-        format!("{:.*}", usize::from(decimals), count * self.size() + 0.0)
-    }
+    let steps = POWERS.into_iter().enumerate().flat_map(|(index, power)| {
+        [1.0, 2.0, 5.0].map(|digit| Step {
+            size: digit * power,
+            decimals: 6_usize.saturating_sub(index),
+        })
+    });
+    let mut fitting = steps.filter(|step| step.size >= least * (1.0 - 1e-9));
+    fitting.next().unwrap_or(Step {
+        size: 1e9,
+        decimals: 0,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn shown(values: [f64; 2], most: u32) -> Vec<String> {
-        let ticks = Scale::new(values, [0.0, 100.0]).ticks(most);
+    fn words(scale: &Scale, most: u32) -> Vec<String> {
+        let ticks = scale.ticks(scale.length() / f64::from(most));
         ticks.into_iter().map(|(_, text)| text).collect()
+    }
+
+    fn shown(values: [f64; 2], most: u32) -> Vec<String> {
+        words(&Scale::new(values, [0.0, 100.0]), most)
     }
 
     #[test]
@@ -143,9 +219,8 @@ mod tests {
     #[test]
     fn times_are_written_as_on_a_clock() {
         let shown = |to, most| {
-            let clock = Scale::new([0.0, to], [0.0, 100.0]).clock(most);
-            let words = clock.ticks.into_iter().map(|(_, text)| text);
-            (words.collect::<Vec<_>>().join(" "), clock.label)
+            let clock = Scale::clock([0.0, to], [0.0, 100.0]);
+            (words(&clock, most).join(" "), clock.time_label())
         };
         assert_eq!(shown(45.0, 3), ("0 20 40".to_owned(), "time, s"));
         assert_eq!(shown(150.0, 3), ("0:00 1:00 2:00".to_owned(), "time, min:s"));
@@ -169,5 +244,43 @@ mod tests {
             (upwards.at(0.0), upwards.at(25.0), upwards.per_unit()),
             (300.0, 200.0, 4.0)
         );
+    }
+
+    #[test]
+    fn times_of_every_size_have_words_beside_them() {
+        const APART: f64 = 24.0;
+        let ticks = |least: f64, most: f64| {
+            let scale = Scale::factors([least, most], [0.0, 340.0]);
+            let ticks = scale.ticks(APART);
+            let places: Vec<f64> = ticks.iter().map(|(time, _)| scale.at(*time)).collect();
+            let are_apart = |pair: &[f64]| pair[1] - pair[0] >= APART - 1e-9;
+            assert!(places.windows(2).all(are_apart));
+            assert!(!ticks.is_empty(), "{least} to {most}: {ticks:?}");
+            ticks
+                .into_iter()
+                .map(|(_, words)| words)
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        assert_eq!(
+            ticks(179.0, 311_000.0),
+            "5 min, 10 min, 30 min, 1 h, 2 h, 5 h, 10 h, 20 h, 50 h"
+        );
+        let mut least = 0.5;
+        while least < 1e6 {
+            for factor in [2.6, 7.0, 1e3] {
+                let _ = ticks(least / 1.1, least * factor);
+            }
+            least *= 1.7;
+        }
+    }
+
+    #[test]
+    fn a_time_twice_as_long_is_always_as_far_away() {
+        let scale = Scale::factors([10.0, 10_000.0], [0.0, 1.0]);
+        let step = scale.at(20.0) - scale.at(10.0);
+        for time in [15.0, 100.0, 4000.0] {
+            assert!((scale.at(2.0 * time) - scale.at(time) - step).abs() < 1e-12);
+        }
     }
 }

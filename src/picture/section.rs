@@ -3,13 +3,13 @@
 //! It is drawn to scale: the angle of a V on paper is that of the blade. A flat stock gets a wider sheet; only one that would be no
 //! more than a line, over forty times as wide as it is high, is drawn higher by a round factor, which is said below the axis.
 
-use super::palette::INK;
+use super::chart;
 use super::scale::{Scale, round_step};
 use super::sheet::{MARGIN, PAGE_WIDTH, Room};
-use super::svg::{Along, Anchor, Svg, number};
+use super::svg::{Along, Anchor, Svg};
 use super::thin::Thinned;
-use super::trace::Trace;
-use super::{Prefix, Setting};
+use super::trace::number;
+use super::{Point, Prefix, Setting};
 
 /// The highest plot.
 const HIGHEST: f64 = 600.0;
@@ -60,55 +60,40 @@ impl Section {
     }
 
     /// Where a point in mm is.
-    pub(super) fn at(&self, [x, z]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn at(&self, [x, z]: Point) -> Point {
         [self.x.at(x), self.z.at(z)]
     }
 
     /// A curve over x, of no more points than can be seen.
-    pub(super) fn curve(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    pub(super) fn curve(&self, points: &[Point]) -> Vec<Point> {
         let thinned = Thinned::of(points, FINER * self.room.columns());
         thinned.into_iter().map(|point| self.at(point)).collect()
     }
 
     /// What is below a curve.
-    pub(super) fn below(&self, points: &[[f64; 2]]) -> Trace {
-        let mut outline = self.curve(points);
-        let ends = [outline.last(), outline.first()].map(|end| end.map(|end| [end[0], self.bottom]));
-        outline.extend(ends.into_iter().flatten());
-        let mut trace = Trace::default();
-        trace.closed(outline);
-        trace
+    pub(super) fn below(&self, svg: &mut Svg, points: &[Point], paint: &str) {
+        let curve = self.curve(points);
+        let ends = [curve.last(), curve.first()].map(|end| end.map(|end| [end[0], self.bottom]));
+        svg.closed(curve.iter().copied().chain(ends.into_iter().flatten()), paint);
     }
 
     /// The stock, as its outline, with attributes.
     pub(super) fn stock(&self, svg: &mut Svg, paint: &str) {
-        let [left, right] = self.x.places;
-        let top = self.room.top;
-        svg.rect([left, top, right - left, self.bottom - top], paint);
+        let ([left, _], [_, top]) = (self.x.places, self.z.places);
+        svg.rect([left, top, self.x.length(), self.z.length()], paint);
     }
 
-    /// Axes with round values, and a bar for comparison.
+    /// Axes with round values, and a bar of a round length for comparison, at most a fifth of the width.
     pub(super) fn axes(&self, svg: &mut Svg) {
-        let (left, right, bottom) = (self.x.places[0], self.x.places[1], self.bottom);
-        let top = self.room.top;
-        let mut marks = String::new();
-        for (value, text) in self.x.ticks(most_ticks(right - left, 70.0)) {
-            let at = self.x.at(value);
-            marks += &format!("M{} {}v6", number(at), number(bottom));
-            svg.text((at, bottom + 23.0), Anchor::Middle, "", &text);
-        }
-        for (value, text) in self.z.ticks(most_ticks(bottom - top, 28.0)) {
-            let at = self.z.at(value);
-            marks += &format!("M{} {}h-6", number(left), number(at));
-            svg.text((left - 11.0, at + 5.0), Anchor::End, "", &text);
-        }
-        svg.path(&marks, &format!("stroke=\"{INK}\" fill=\"none\""));
-        svg.text((left, bottom + 49.0), Anchor::Start, "", &self.x_label());
+        let ([left, right], [bottom, top]) = (self.x.places, self.z.places);
+        chart::ticks_below(svg, &self.x, bottom, 70.0);
+        chart::ticks_beside(svg, &self.z, left, 28.0);
+        svg.text([left, bottom + 49.0], Anchor::Start, "", &self.x_label());
         // A turned name takes as much room upwards as it has letters.
-        let middle = f64::midpoint(top, bottom).max(top + 20.0);
-        let turned = format!("transform=\"rotate(-90 18 {})\"", number(middle));
-        svg.text((18.0, middle), Anchor::Middle, &turned, "z, mm");
-        self.bar(svg);
+        svg.upwards([18.0, top.midpoint(bottom).max(top + 20.0)], "z, mm");
+        let step = round_step(self.x.values[1] / 10.0).size;
+        let words = format!("{} mm", number(step));
+        chart::bar(svg, [right, bottom + 44.0], step * self.x.per_unit(), &words);
         svg.cursor(Along::Width, &self.x, [top, bottom]);
     }
 
@@ -118,26 +103,6 @@ impl Section {
             stretch => format!("x, mm; z is drawn {stretch} times larger"),
         }
     }
-
-    /// A bar of a round length, at most a fifth of the width.
-    fn bar(&self, svg: &mut Svg) {
-        let width = self.x.values[1];
-        let step = round_step(width / 10.0).size();
-        let (right, y) = (self.x.places[1], self.bottom + 44.0);
-        let length = step * self.x.per_unit();
-        let path = format!("M{} {}v-5m0 5h-{}v-5", number(right), number(y), number(length));
-        svg.path(
-            &path,
-            &format!("stroke=\"{INK}\" stroke-width=\"2\" fill=\"none\""),
-        );
-        let words = format!("{} mm", number(step));
-        svg.text((right - length - 9.0, y + 5.0), Anchor::End, "", &words);
-    }
-}
-
-/// How many steps fit along an axis when each needs so much room.
-pub(super) fn most_ticks(length: f64, room: f64) -> u32 {
-    ((length / room) as u32).max(1)
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@
 //! more for telephones; the page has its words. Colours are those that people who do not tell red from green tell apart [Okabe 2008], and marks
 //! differ in shape too.
 
-use super::svg::{Anchor, Svg, number};
-use super::{Prefix, Setting};
+use super::svg::{Anchor, Mark, Svg};
+use super::{Point, Prefix, Setting};
 
 /// Width of a sheet that stands alone.
 pub(super) const WIDTH: f64 = 680.0;
@@ -16,20 +16,16 @@ pub const PAGE_WIDTH: f64 = 1160.0;
 pub const PHONE_WIDTH: f64 = 400.0;
 /// Size of letters.
 pub(super) const FONT: u32 = 15;
-/// Left edge of what is plotted on a sheet that stands alone.
-pub(super) const LEFT: f64 = 66.0;
-/// Right edge of what is plotted on a sheet that stands alone.
-pub(super) const RIGHT: f64 = 636.0;
-/// Upper edge of what is plotted below a heading.
-pub(super) const TOP: f64 = 92.0;
 /// Room to the right of a plot.
-pub(super) const MARGIN: f64 = WIDTH - RIGHT;
+pub(super) const MARGIN: f64 = 44.0;
 
 /// The room that a sheet has for its plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Room {
     /// Width of the sheet.
     pub(super) width: f64,
+    /// Left edge of words below and above the plot.
+    pub(super) indent: f64,
     /// Left edge of what is plotted.
     pub(super) left: f64,
     /// Right edge.
@@ -41,13 +37,14 @@ pub(super) struct Room {
 impl Room {
     /// The room where a picture is shown.
     pub(super) const fn of(ids: Prefix) -> Self {
-        let (width, left, top) = match ids.setting {
-            Setting::Alone => (WIDTH, LEFT, TOP),
-            Setting::Page => (PAGE_WIDTH, LEFT, 22.0),
-            Setting::Phone => (PHONE_WIDTH, 54.0, 22.0),
+        let (width, indent, left, top) = match ids.setting {
+            Setting::Alone => (WIDTH, 24.0, 66.0, 92.0),
+            Setting::Page => (PAGE_WIDTH, 24.0, 66.0, 22.0),
+            Setting::Phone => (PHONE_WIDTH, 8.0, 54.0, 22.0),
         };
         Self {
             width,
+            indent,
             left,
             right: width - MARGIN,
             top,
@@ -89,34 +86,51 @@ pub struct Heading<'a> {
     pub subtitle: &'a str,
 }
 
-/// An entry of a legend.
-pub(super) struct Entry {
-    pub(super) swatch: Swatch,
-    /// What it means.
-    pub(super) words: String,
+impl<'a> Heading<'a> {
+    /// For a picture that stands alone.
+    pub(super) const fn alone(title: &'a str, subtitle: &'a str) -> Self {
+        Self {
+            ids: Prefix::NONE,
+            title,
+            subtitle,
+        }
+    }
 }
 
-/// What an entry of a legend looks like; attributes of SVG.
-pub(super) enum Swatch {
-    Area(String),
-    Line(String),
-    /// A path around (0, 0), no wider and higher than 12.
-    Mark(String, String),
+/// Draws what an entry looks like, within 24 by 16 to the right of a point and around its height.
+type Swatch = Box<dyn Fn(&mut Svg, Point)>;
+
+/// An entry of a legend.
+pub(super) struct Entry {
+    swatch: Swatch,
+    /// What it means.
+    words: String,
 }
 
 impl Entry {
-    pub(super) fn area(paint: impl Into<String>, words: impl Into<String>) -> Self {
+    pub(super) fn new(words: impl Into<String>, swatch: impl Fn(&mut Svg, Point) + 'static) -> Self {
         Self {
-            swatch: Swatch::Area(paint.into()),
+            swatch: Box::new(swatch),
             words: words.into(),
         }
     }
 
+    pub(super) fn area(paint: impl Into<String>, words: impl Into<String>) -> Self {
+        let paint = paint.into();
+        Self::new(words, move |svg, [x, y]| {
+            svg.rect([x, y - 8.0, 24.0, 16.0], &paint)
+        })
+    }
+
     pub(super) fn line(paint: impl Into<String>, words: impl Into<String>) -> Self {
-        Self {
-            swatch: Swatch::Line(paint.into()),
-            words: words.into(),
-        }
+        let paint = paint.into();
+        Self::new(words, move |svg, [x, y]| {
+            svg.open([[x, y], [x + 24.0, y]], &paint)
+        })
+    }
+
+    pub(super) fn mark(mark: Mark, words: impl Into<String>) -> Self {
+        Self::new(words, move |svg, [x, y]| svg.mark([x + 12.0, y], mark))
     }
 
     /// Room that it takes in a row, by the usual width of letters.
@@ -143,49 +157,34 @@ pub(super) fn sheet(
     bottom: f64,
     legend: &[Entry],
 ) -> Svg {
-    let indent = match heading.ids.setting {
-        Setting::Alone | Setting::Page => 24.0,
-        Setting::Phone => 8.0,
-    };
-    let rows = rows(legend, indent, room.width);
+    let rows = rows(legend, room.indent, room.width);
     let height = bottom + 18.0 + rows.len() as f64 * ROW;
-    let mut svg = Svg::new(
-        [room.width, height],
-        FONT,
-        heading.ids,
-        heading.title,
-        description,
-    );
-    match heading.ids.setting {
-        Setting::Alone => words(&mut svg, heading),
-        Setting::Page | Setting::Phone => {}
-    }
+    let size = [room.width, height];
+    let mut svg = Svg::new(size, FONT, heading.ids, heading.title, description);
+    words(&mut svg, heading);
     for (row, entries) in rows.iter().enumerate() {
         let y = bottom + ROW * (row as f64 + 0.5);
-        let mut x = indent;
+        let mut x = room.indent;
         for entry in *entries {
-            swatch(&mut svg, (x, y), &entry.swatch);
-            svg.text((x + 34.0, y + 5.0), Anchor::Start, "", &entry.words);
+            (entry.swatch)(&mut svg, [x, y]);
+            svg.text([x + 34.0, y + 5.0], Anchor::Start, "", &entry.words);
             x += entry.width();
         }
     }
     svg
 }
 
-/// Title and subtitle.
-fn words(svg: &mut Svg, heading: Heading<'_>) {
-    svg.text(
-        (24.0, 32.0),
-        Anchor::Start,
-        "font-size=\"18\" font-weight=\"bold\"",
-        &shortened(heading.title, 56),
-    );
-    svg.text(
-        (24.0, 56.0),
-        Anchor::Start,
-        "font-size=\"14\"",
-        &shortened(heading.subtitle, 76),
-    );
+/// Title and subtitle of a picture that stands alone.
+pub(super) fn words(svg: &mut Svg, heading: Heading<'_>) {
+    match heading.ids.setting {
+        Setting::Alone => {
+            let (title, subtitle) = (shortened(heading.title, 56), shortened(heading.subtitle, 76));
+            let bold = "font-size=\"18\" font-weight=\"bold\"";
+            svg.text([24.0, 32.0], Anchor::Start, bold, &title);
+            svg.text([24.0, 56.0], Anchor::Start, "font-size=\"14\"", &subtitle);
+        }
+        Setting::Page | Setting::Phone => {}
+    }
 }
 
 /// Entries in rows that fit.
@@ -204,18 +203,6 @@ fn rows(legend: &[Entry], indent: f64, width: f64) -> Vec<&[Entry]> {
         rest = later;
     }
     rows
-}
-
-fn swatch(svg: &mut Svg, (x, y): (f64, f64), swatch: &Swatch) {
-    match swatch {
-        Swatch::Area(paint) => svg.rect([x, y - 8.0, 24.0, 16.0], paint),
-        Swatch::Line(paint) => svg.path(&format!("M{} {}h24", number(x), number(y)), paint),
-        Swatch::Mark(path, paint) => svg.line(&format!(
-            "  <path transform=\"translate({} {})\" d=\"{path}\" {paint}/>",
-            number(x + 12.0),
-            number(y)
-        )),
-    }
 }
 
 /// A text of at most so many letters.

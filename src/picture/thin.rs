@@ -98,20 +98,15 @@ impl Column {
     }
 
     fn keep(&self, kept: &mut Vec<[f64; 2]>) {
-        let mut points = [
+        let mut points = vec![
             (0, self.first),
             self.lowest,
             self.highest,
             (self.count - 1, self.last),
         ];
         points.sort_by_key(|(number, _)| *number);
-        let mut before = None;
-        for (number, point) in points {
-            if before != Some(number) {
-                kept.push(point);
-            }
-            before = Some(number);
-        }
+        points.dedup_by_key(|(number, _)| *number);
+        kept.extend(points.into_iter().map(|(_, point)| point));
     }
 }
 

@@ -1,11 +1,11 @@
 //! What time is spent on: a bar for each kind of motion, and one for each layer, divided by kind.
 
-use super::Setting;
-use super::palette::{BLUE, GREEN, INK, ORANGE, PURPLE, SKY};
+use super::chart::{self, FRAME};
+use super::palette::{BLUE, GREEN, ORANGE, PURPLE, SKY};
 use super::scale::Scale;
-use super::section::most_ticks;
 use super::sheet::{self, Entry, Room};
-use super::svg::{Anchor, Svg, number};
+use super::svg::{Anchor, Svg};
+use super::trace::Trace;
 
 pub use super::sheet::Heading;
 
@@ -45,7 +45,7 @@ pub(super) const KINDS: [&str; 5] = [BLUE, ORANGE, SKY, PURPLE, GREEN];
 /// Most rows: more layers are put together.
 const MOST_ROWS: usize = 30;
 /// Room for names of rows.
-const NAMES: f64 = 118.0;
+const NAMES: f64 = 94.0;
 /// Room for the words behind a bar.
 const WORDS: f64 = 170.0;
 const BAR: f64 = 18.0;
@@ -54,133 +54,83 @@ const ROW: f64 = 25.0;
 /// Writes the picture as SVG.
 #[must_use]
 pub fn draw(times: &Times<'_>) -> String {
-    let total: f64 = times.kinds.iter().map(|kind| kind.seconds).sum();
     let rows = gathered(times.rows);
     let room = Room::of(times.heading.ids);
-    let edge = match times.heading.ids.setting {
-        Setting::Alone | Setting::Page => 24.0,
-        Setting::Phone => 8.0,
-    };
-    let left = edge + NAMES - 24.0;
+    let left = room.indent + NAMES;
+    let kinds = times.kinds.iter().zip(KINDS);
+    let shown: Vec<(&Kind, &str)> = kinds.filter(|(kind, _)| kind.seconds > 0.0).collect();
     let by_kind = room.top + 22.0;
-    let shown = shown(times);
     let by_row = by_kind + shown.len() as f64 * ROW + 40.0;
     let bottom = by_row + rows.len() as f64 * ROW + 6.0;
-    let longest = rows
-        .iter()
-        .map(|(row, _)| row.seconds.iter().sum())
-        .fold(0.0, f64::max);
-    let mut svg = sheet::sheet(
-        times.heading,
-        room,
-        &description(times, total),
-        bottom + 62.0,
-        &legend(times),
-    );
-    svg.text(
-        (edge, room.top + 6.0),
-        Anchor::Start,
-        "font-weight=\"bold\"",
-        "by kind of motion",
-    );
-    let scale = Scale::new([0.0, longest_kind(times)], [left, room.right - WORDS]);
-    for (number, (kind, colour)) in (0_u32..).zip(shown) {
-        let y = by_kind + f64::from(number) * ROW;
-        svg.text((left - 10.0, y + 14.0), Anchor::End, "", kind.name);
-        bar(&mut svg, &scale, [0.0, kind.seconds], y, colour);
-        let share = if total > 0.0 {
-            kind.seconds / total * 100.0
-        } else {
-            0.0
-        };
+    let entry = |(kind, colour): &(&Kind, &str)| Entry::area(format!("fill=\"{colour}\""), kind.name);
+    let legend: Vec<Entry> = shown.iter().map(entry).collect();
+    let total: f64 = times.kinds.iter().map(|kind| kind.seconds).sum();
+    let description = description(times, total);
+    let mut svg = sheet::sheet(times.heading, room, &description, bottom + 62.0, &legend);
+    let bold = "font-weight=\"bold\"";
+    let heading = [room.indent, room.top + 6.0];
+    svg.text(heading, Anchor::Start, bold, "by kind of motion");
+    let longest = shown.iter().map(|(kind, _)| kind.seconds).fold(0.0, f64::max);
+    let scale = Scale::clock([0.0, longest], [left, room.right - WORDS]);
+    for (number, (kind, colour)) in shown.iter().enumerate() {
+        let y = by_kind + number as f64 * ROW;
+        bars(&mut svg, &scale, y, kind.name, [(kind.seconds, *colour)]);
+        let share = kind.seconds / total * 100.0;
         let words = format!("{}, {share:.1} %", kind.words);
-        svg.text(
-            (scale.at(kind.seconds) + 9.0, y + 14.0),
-            Anchor::Start,
-            "",
-            &words,
-        );
+        let end = [scale.at(kind.seconds) + 9.0, y + 14.0];
+        svg.text(end, Anchor::Start, "", &words);
     }
-    svg.text(
-        (edge, by_row - 16.0),
-        Anchor::Start,
-        "font-weight=\"bold\"",
-        "by layer",
-    );
-    let scale = Scale::new([0.0, longest], [left, room.right - 20.0]);
+    svg.text([room.indent, by_row - 16.0], Anchor::Start, bold, "by layer");
+    let sums = rows.iter().map(|(row, _)| row.seconds.iter().sum());
+    let scale = Scale::clock([0.0, sums.fold(0.0, f64::max)], [left, room.right - 20.0]);
     axis(&mut svg, &scale, [by_row - 6.0, bottom]);
-    for (number, (row, names)) in (0_u32..).zip(&rows) {
-        let y = by_row + f64::from(number) * ROW;
-        svg.text((left - 10.0, y + 14.0), Anchor::End, "", &row.name);
-        let mut from = 0.0;
-        for (seconds, colour) in row.seconds.iter().zip(KINDS) {
-            bar(&mut svg, &scale, [from, from + seconds], y, colour);
-            from += seconds;
-        }
-        let area = [left, y - 2.0, room.right - 20.0 - left, BAR + 4.0];
-        svg.row_of_layers(area, names);
+    for (number, (row, names)) in rows.iter().enumerate() {
+        let y = by_row + number as f64 * ROW;
+        let seconds = row.seconds.iter().copied();
+        bars(&mut svg, &scale, y, &row.name, seconds.zip(KINDS));
+        svg.row_of_layers([left, y - 2.0, scale.length(), BAR + 4.0], names);
     }
     svg.finish()
 }
 
-/// The kinds that take time, with their colours.
-fn shown<'a>(times: &Times<'a>) -> Vec<(&'a Kind, &'static str)> {
-    let kinds = times.kinds.iter().zip(KINDS);
-    kinds.filter(|(kind, _)| kind.seconds > 0.0).collect()
-}
-
-fn longest_kind(times: &Times<'_>) -> f64 {
-    times.kinds.iter().map(|kind| kind.seconds).fold(0.0, f64::max)
-}
-
-fn bar(svg: &mut Svg, scale: &Scale, [from, to]: [f64; 2], y: f64, colour: &str) {
-    let (left, right) = (scale.at(from), scale.at(to));
-    if right > left {
-        svg.rect(
-            [left, y, right - left, BAR],
-            &format!("fill=\"{colour}\" stroke=\"#fbfaf7\" stroke-width=\"0.6\""),
-        );
+/// A row: its name, and its times one after the other.
+fn bars<'a>(
+    svg: &mut Svg,
+    scale: &Scale,
+    y: f64,
+    name: &str,
+    times: impl IntoIterator<Item = (f64, &'a str)>,
+) {
+    svg.text([scale.places[0] - 10.0, y + 14.0], Anchor::End, "", name);
+    let mut from = 0.0;
+    for (seconds, colour) in times {
+        let [left, right] = [from, from + seconds].map(|time| scale.at(time));
+        if right > left {
+            let paint = format!("fill=\"{colour}\" stroke=\"#fbfaf7\" stroke-width=\"0.6\"");
+            svg.rect([left, y, right - left, BAR], &paint);
+        }
+        from += seconds;
     }
 }
 
 fn axis(svg: &mut Svg, scale: &Scale, [top, bottom]: [f64; 2]) {
-    let mut marks = String::new();
     let [left, right] = scale.places;
-    let clock = scale.clock(most_ticks(right - left, 80.0));
-    for (value, text) in clock.ticks {
-        let at = scale.at(value);
-        marks += &format!("M{} {}V{}", number(at), number(top), number(bottom + 6.0));
-        svg.text((at, bottom + 23.0), Anchor::Middle, "", &text);
-    }
-    svg.path(&marks, "stroke=\"#dcd6c8\" fill=\"none\"");
-    let ground = format!("M{} {}H{}", number(left), number(bottom), number(right));
-    svg.path(&ground, &format!("stroke=\"{INK}\" fill=\"none\""));
-    svg.text(
-        (f64::midpoint(left, right), bottom + 46.0),
-        Anchor::Middle,
-        "",
-        clock.label,
-    );
+    let xs = scale.ticks(80.0).into_iter().map(|(value, _)| scale.at(value));
+    let grid = Trace::pieces(xs.map(|x| [[x, top], [x, bottom]]));
+    svg.path(grid.text(), "stroke=\"#dcd6c8\" fill=\"none\"");
+    chart::ticks_below(svg, scale, bottom, 80.0);
+    svg.open([[left, bottom], [right, bottom]], FRAME);
+    let middle = [left.midpoint(right), bottom + 46.0];
+    svg.text(middle, Anchor::Middle, "", scale.time_label());
 }
 
 fn description(times: &Times<'_>, total: f64) -> String {
-    let kinds: Vec<String> = times
-        .kinds
-        .iter()
+    let kinds = times.kinds.iter();
+    let kinds: Vec<String> = kinds
         .map(|kind| format!("{} {:.1} s", kind.name, kind.seconds))
         .collect();
-    format!(
-        "{}. Time of {total:.1} s by kind of motion: {}; and by layer.",
-        times.heading.subtitle,
-        kinds.join(", ")
-    )
-}
-
-fn legend(times: &Times<'_>) -> Vec<Entry> {
-    shown(times)
-        .into_iter()
-        .map(|(kind, colour)| Entry::area(format!("fill=\"{colour}\""), kind.name))
-        .collect()
+    let (subtitle, kinds) = (times.heading.subtitle, kinds.join(", "));
+    format!("{subtitle}. Time of {total:.1} s by kind of motion: {kinds}; and by layer.")
 }
 
 /// Rows, neighbours put together until they are few enough: named by the first and the last, and with the names of all.

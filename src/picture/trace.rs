@@ -1,8 +1,9 @@
-//! Paths in relative coordinates: short, and without drift.
+//! Numbers with two decimals, and paths of them in relative coordinates: short, and without drift.
 //!
 //! Points are rounded to hundredths once, and what is written is the difference of rounded points: errors do not add up along
 //! the path.
 
+use super::Point;
 use core::fmt::Write;
 
 /// A path under construction.
@@ -17,14 +18,37 @@ pub(super) struct Trace {
 
 impl Trace {
     /// A path through points, as one open piece.
-    pub(super) fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+    pub(super) fn through(points: impl IntoIterator<Item = Point>) -> Self {
+        Self::pieces([points])
+    }
+
+    /// A path of open pieces.
+    pub(super) fn pieces(pieces: impl IntoIterator<Item: IntoIterator<Item = Point>>) -> Self {
         let mut trace = Self::default();
-        trace.open(points);
+        for piece in pieces {
+            trace.open(piece);
+        }
+        trace
+    }
+
+    /// A path around points, as one closed piece.
+    pub(super) fn around(points: impl IntoIterator<Item = Point>) -> Self {
+        let mut trace = Self::default();
+        trace.closed(points);
+        trace
+    }
+
+    /// Discs at points.
+    pub(super) fn dots(points: impl IntoIterator<Item = Point>) -> Self {
+        let mut trace = Self::default();
+        for point in points {
+            trace.dot(point);
+        }
         trace
     }
 
     /// Adds an open piece through points.
-    pub(super) fn open(&mut self, points: impl IntoIterator<Item = [f64; 2]>) {
+    pub(super) fn open(&mut self, points: impl IntoIterator<Item = Point>) {
         let mut points = points.into_iter();
         let Some(first) = points.next() else { return };
         self.begin(first);
@@ -37,22 +61,20 @@ impl Trace {
         }
     }
 
-    /// Adds a closed piece through points.
-    pub(super) fn closed(&mut self, points: impl IntoIterator<Item = [f64; 2]>) {
+    /// Adds a closed piece through points, if there are any.
+    pub(super) fn closed(&mut self, points: impl IntoIterator<Item = Point>) {
+        let before = self.text.len();
         self.open(points);
-        self.text.push('z');
-        self.at = self.start;
+        if self.text.len() > before {
+            self.text.push('z');
+            self.at = self.start;
+        }
     }
 
     /// Adds a dot: a piece of no length, which is seen as a disc when lines have round ends.
-    pub(super) fn dot(&mut self, point: [f64; 2]) {
+    pub(super) fn dot(&mut self, point: Point) {
         self.begin(point);
         self.text.push_str("h0");
-    }
-
-    /// Whether nothing was added.
-    pub(super) fn is_empty(&self) -> bool {
-        self.text.is_empty()
     }
 
     /// The path.
@@ -60,7 +82,7 @@ impl Trace {
         &self.text
     }
 
-    fn begin(&mut self, point: [f64; 2]) {
+    fn begin(&mut self, point: Point) {
         self.text.push('m');
         self.step(point.map(hundredths), false);
         self.start = self.at;
@@ -77,6 +99,17 @@ impl Trace {
         }
         push(&mut self.text, dz);
         self.at = to;
+    }
+}
+
+/// Two decimals, without those that are zero, and never `-0`.
+pub(super) fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" {
+        "0".to_owned()
+    } else {
+        short.to_owned()
     }
 }
 
@@ -128,6 +161,20 @@ mod tests {
             }
         }
         corners
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_minus_zero() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.001, "0"),
+            (12.0, "12"),
+            (1.5, "1.5"),
+            (-0.126, "-0.13"),
+            (100.0, "100"),
+        ] {
+            assert_eq!(number(value), text);
+        }
     }
 
     #[test]

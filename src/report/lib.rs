@@ -1,5 +1,7 @@
 //! `vcutc report`: all there is to see of a job as one page, its set-up sheet, and its pictures by themselves.
 
+#[macro_use]
+mod html;
 mod base64;
 mod digest;
 mod facts;

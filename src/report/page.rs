@@ -11,7 +11,6 @@ mod cuts;
 mod deviation;
 mod figure;
 mod help;
-pub(super) mod html;
 mod live;
 mod machine;
 mod parameters;
@@ -21,8 +20,8 @@ mod source;
 mod times;
 mod top;
 
+use super::html::Html;
 use super::{Material, playback};
-use html::escaped;
 pub use live::Served;
 use policy::Requests;
 use vcutc_diagnostics::Diagnostic;
@@ -70,8 +69,8 @@ struct Section {
     id: &'static str,
     /// Its heading.
     title: &'static str,
-    /// What it holds, as HTML.
-    body: String,
+    /// What it holds.
+    body: Html,
 }
 
 const STYLE: &str = include_str!("assets/page.css");
@@ -86,12 +85,12 @@ pub fn page(outcome: &Outcome, further: Further<'_>) -> Option<String> {
 /// What a page shows, without what is around it: it can be shown once more below messages of errors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Content {
-    /// The job's name, as HTML.
+    /// The job's name.
     name: String,
     /// Job, verdict, warnings and table of contents.
-    top: String,
+    top: Html,
     /// Key numbers and sections.
-    body: String,
+    body: Html,
 }
 
 impl Content {
@@ -116,21 +115,27 @@ impl Content {
             Some(listing.section()),
         ];
         let sections: Vec<Section> = sections.into_iter().flatten().collect();
-        let mut body = top::key_numbers(subject) + &help::block(subject, &listing);
-        for Section {
-            id,
-            title,
-            body: held,
-        } in &sections
-        {
-            body += &format!(
-                "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{title}</h2>\n{held}</section>\n"
-            );
-        }
+        let link = |section: &Section| {
+            html!(
+                in "<li><a href=\"#{id}\">{title}</a></li>\n",
+                id = section.id,
+                title = section.title
+            )
+        };
+        let links: Html = sections.iter().map(link).collect();
+        let section = |section: &Section| {
+            html!(
+                "section.html",
+                id = section.id,
+                title = section.title,
+                body = section.body
+            )
+        };
+        let shown: Html = sections.iter().map(section).collect();
         Some(Self {
-            name: escaped(&subject.material.job.name),
-            top: top::header(subject) + &contents(&sections),
-            body,
+            name: subject.material.job.name.clone(),
+            top: top::header(subject) + html!("contents.html", links = links),
+            body: top::key_numbers(subject) + help::block(subject, &listing) + shown,
         })
     }
 }
@@ -145,30 +150,25 @@ pub fn served_page(content: &Content, served: &Served) -> String {
 /// its sequences), and below them the last report without errors, marked as out of date.
 #[must_use]
 pub fn served_errors(job: &str, messages: &str, last: Option<&Content>, served: &Served) -> String {
-    let (scripts, stale): (&[&str], String) = match last {
-        None => (&[], String::new()),
-        Some(content) => (
-            &[SCRIPT, playback::SCRIPT],
-            format!(
-                "<div class=\"stale\" role=\"region\" aria-label=\"The last report without errors\">\n\
-                 <p class=\"stale-note\">Out of date: the last report without errors</p>\n{}{}</div>\n<script>{SCRIPT}</script>\n",
-                content.top, content.body
-            ),
-        ),
-    };
-    let body = format!(
-        "<main id=\"content\" data-shows=\"errors\">\n<h1>{}</h1>\n<p class=\"trouble\" role=\"alert\">This job has errors.{}</p>\n\
-         <pre class=\"messages\" tabindex=\"0\">{}</pre>\n</main>\n",
-        escaped(job),
-        if last.is_some() {
-            " The last report without them is below."
-        } else {
-            ""
-        },
-        ansi::html(messages)
+    let mut body = html!(
+        "errors.html",
+        job = job,
+        last = last.map(|_| " The last report without them is below."),
+        messages = ansi::html(messages),
     );
-    let head = head(&format!("{} - errors", escaped(job)), scripts, Some(served));
-    format!("{head}{body}{stale}{}</body>\n</html>\n", live::element())
+    if let Some(content) = last {
+        body += html!(
+            "stale.html",
+            top = content.top,
+            content = content.body,
+            script = Html::trusted(SCRIPT)
+        );
+    }
+    let scripts: &[&str] = match last {
+        None => &[],
+        Some(_) => &[SCRIPT, playback::SCRIPT],
+    };
+    around(&body, &format!("{job} - errors"), scripts, Some(served))
 }
 
 /// The cuts played back in space.
@@ -177,53 +177,38 @@ fn played(subject: Subject<'_>) -> Section {
     Section {
         id: "playback",
         title: "Playback",
-        body: playback::section(plan, compiled),
+        body: Html::trusted(playback::section(plan, compiled)),
     }
-}
-
-/// The beginning of a document: all before what it shows.
-fn head(title: &str, scripts: &[&str], served: Option<&Served>) -> String {
-    let (requests, version) = match served {
-        Some(served) => (Requests::OwnServer, served.meta()),
-        None => (Requests::None, String::new()),
-    };
-    let live = served.map(|_| live::SCRIPT);
-    let scripts: Vec<&str> = scripts.iter().copied().chain(live).collect();
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n{version}\
-         <title>{title}</title>\n<style>\n{STYLE}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>\n</head>\n<body>\n",
-        policy::policy(&scripts, requests),
-        dark(".view svg"),
-    )
 }
 
 /// The document around what it shows.
 fn document(content: &Content, served: Option<&Served>) -> String {
+    let body = html!(
+        "page.html",
+        trouble = served.and_then(Served::banner),
+        top = content.top,
+        content = content.body,
+        version = env!("CARGO_PKG_VERSION"),
+        script = Html::trusted(SCRIPT),
+    );
     let title = format!("{} - vcutc report", content.name);
-    let mut page = head(&title, &[SCRIPT, playback::SCRIPT], served);
-    page += "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n";
-    page += &served.map(Served::banner).unwrap_or_default();
-    page += &content.top;
-    page += "<main id=\"content\">\n";
-    page += &content.body;
-    page += "</main>\n<footer>Made by vcutc ";
-    page += env!("CARGO_PKG_VERSION");
-    page += ". The file is complete in itself: it loads nothing.</footer>\n<script>";
-    page += SCRIPT;
-    page += "</script>\n";
-    page += &served.map(|_| live::element()).unwrap_or_default();
-    page += "</body>\n</html>\n";
-    page
+    around(&body, &title, &[SCRIPT, playback::SCRIPT], served)
 }
 
-/// The table of contents.
-fn contents(sections: &[Section]) -> String {
-    let links: String = sections
-        .iter()
-        .map(|Section { id, title, .. }| format!("<li><a href=\"#{id}\">{title}</a></li>\n"))
-        .collect();
-    format!("<nav aria-label=\"Contents\">\n<ul>\n{links}</ul>\n</nav>\n")
+/// A document around its body, with a policy for its scripts and, where a server shows it, one more.
+fn around(body: &Html, title: &str, scripts: &[&str], served: Option<&Served>) -> String {
+    let requests = served.map_or(Requests::None, |_| Requests::OwnServer);
+    let live = served.map(|_| live::SCRIPT);
+    let scripts: Vec<&str> = scripts.iter().copied().chain(live).collect();
+    let document = html!(
+        "document.html",
+        policy = policy::policy(&scripts, requests),
+        version = served.map(Served::meta),
+        title = title,
+        style = Html::trusted(STYLE),
+        dark = Html::trusted(dark(".view svg")),
+        body = body,
+        live = live.map(|script| html!(in "<script>{script}</script>\n", script = Html::trusted(script))),
+    );
+    document.into_text()
 }

@@ -190,7 +190,7 @@ struct Machined {
     /// The chips in the order in which they come free.
     chips: Vec<contour::Chip>,
     /// The surface after each layer, or after every few layers of many.
-    surfaces: Vec<lattice::Surface>,
+    surfaces: Vec<Vec<[f64; 2]>>,
 }
 
 /// Most surfaces that are kept: more layers could not be told apart.
@@ -218,7 +218,7 @@ fn machined(material: &Material<'_>) -> Machined {
         {
             passed += 1;
             if passed.is_multiple_of(every) {
-                surfaces.push(after(&surfaces, surface.corners()));
+                surfaces.push(seen(surface.corners()));
             }
         }
         if let Some(outline) = surface.chip(release.vee) {
@@ -228,7 +228,7 @@ fn machined(material: &Material<'_>) -> Machined {
             });
         }
     });
-    surfaces.push(after(&surfaces, replay.surface.corners()));
+    surfaces.push(seen(replay.surface.corners()));
     Machined {
         contour: replay.surface.corners().map(pair).collect(),
         chips,
@@ -236,17 +236,10 @@ fn machined(material: &Material<'_>) -> Machined {
     }
 }
 
-/// A surface after those that there are.
-fn after(surfaces: &[lattice::Surface], corners: impl Iterator<Item = Point2>) -> lattice::Surface {
+/// A surface, of no more points than can be seen.
+fn seen(corners: impl Iterator<Item = Point2>) -> Vec<[f64; 2]> {
     let corners: Vec<[f64; 2]> = corners.map(pair).collect();
-    lattice::Surface {
-        shade: if surfaces.len().is_multiple_of(2) {
-            lattice::Shade::Light
-        } else {
-            lattice::Shade::Dark
-        },
-        contour: Thinned::of(&corners, COLUMNS),
-    }
+    Thinned::of(&corners, COLUMNS)
 }
 
 /// Where the left flank comes out, the tip, and where the right flank comes out: the ends of a chip's outline.

@@ -7,12 +7,11 @@
 use super::Material;
 use super::digest::hexadecimal;
 use super::facts;
-use super::page::html::escaped;
+use super::html::{Html, Markup};
 use super::page::policy::{Requests, policy};
-use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::Outcome;
-use vcutc_driver::checks::{Checks, ReadBack};
+use vcutc_driver::checks::ReadBack;
 use vcutc_driver::summary::time;
 use vcutc_picture::{Prefix, setup};
 
@@ -27,105 +26,76 @@ const MOST_FILES: usize = 4;
 #[must_use]
 pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])], read_back: Option<ReadBack>) -> Option<String> {
     let material = Material::of(outcome)?;
-    let job = material.job;
+    let (job, report) = (material.job, &material.compiled.report);
     let machine = job.machine.as_ref();
-    let mut body = header(outcome, &material);
-    body += "<div class=\"columns\">\n";
-    body += &section("Stock and zero of the work", &stock(&material));
-    body += &section("Blade", &blades(&material));
-    body += &section("Cuts", &cuts(&material));
-    body += &section(
-        "Machine and program",
-        &(rows(&[facts::control(machine), facts::speeds(&material)].concat()) + &programs(files)),
-    );
-    body += "</div>\n<div class=\"columns\" style=\"grid-template-columns: 1fr\">\n";
-    body += &section(
-        "To check by hand",
-        &checklist(&material, &material.compiled.checks.with(read_back)),
-    );
-    body += "</div>\n<p class=\"signed\"><span>Set up by</span><span>Date</span><span>Blade no.</span></p>\n";
-    Some(document(&escaped(&job.name), &body))
-}
-
-/// The document around its content.
-fn document(name: &str, body: &str) -> String {
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{name} - set-up sheet</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}\
-         <footer>Made by vcutc {}. All frames: x, y, z in mm, then a, b, c in deg, turned about z, the new y and the new x.</footer>\n\
-         </body>\n</html>\n",
-        policy(&[], Requests::None),
-        env!("CARGO_PKG_VERSION")
-    )
-}
-
-fn section(title: &str, body: &str) -> String {
-    format!("<section>\n<h2>{title}</h2>\n{body}</section>\n")
-}
-
-/// Rows of names and values.
-fn rows(rows: &[(&str, String)]) -> String {
-    let rows: String = rows
-        .iter()
-        .map(|(name, value)| {
-            format!(
-                "<tr><th scope=\"row\">{name}</th><td>{}</td></tr>\n",
-                escaped(value)
-            )
-        })
-        .collect();
-    format!("<table class=\"facts\">\n<tbody>\n{rows}</tbody>\n</table>\n")
-}
-
-fn header(outcome: &Outcome, material: &Material<'_>) -> String {
-    let job = material.job;
-    let machine = job.machine.as_ref().map_or_else(
+    let named = machine.map_or_else(
         || "no machine".to_owned(),
         |machine| format!("{} ({})", machine.name, machine.model.name),
     );
-    let report = &material.compiled.report;
-    format!(
-        "<header>\n<h1><small>Set-up sheet</small>{}</h1>\n<p>{}<br>{}<br>{}, {}, {}</p>\n</header>\n",
-        escaped(&job.name),
-        escaped(outcome.sources.name(job.name_span.file)),
-        escaped(&machine),
-        time(report.times.all.total()),
-        counted(report.cuts(), "cut"),
-        counted(report.layers.len(), "layer"),
-    )
+    let program = [facts::control(machine), facts::speeds(&material)].concat();
+    let sheet = html!(
+        "sheet.html",
+        policy = policy(&[], Requests::None),
+        name = job.name,
+        style = Html::trusted(STYLE),
+        file = outcome.sources.name(job.name_span.file),
+        machine = named,
+        time = time(report.times.all.total()),
+        cuts = counted(report.cuts(), "cut"),
+        layers = counted(report.layers.len(), "layer"),
+        stock = stock(&material),
+        blade = blades(&material),
+        layers_table = cuts(&material),
+        program = rows(&program) + programs(files),
+        on_the_floor = items(on_the_floor(&material)),
+        not_checked = items(material.compiled.checks.with(read_back).by_hand()),
+        version = env!("CARGO_PKG_VERSION"),
+    );
+    Some(sheet.into_text())
 }
 
-fn stock(material: &Material<'_>) -> String {
+/// Rows of names and values.
+fn rows(rows: &[(&str, String)]) -> Html {
+    let row = |(name, value): &(&str, String)| {
+        html!(
+            in "<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>\n",
+            name = name,
+            value = value
+        )
+    };
+    html!("facts.html", rows = rows.iter().map(row).collect::<Html>())
+}
+
+fn items<T: Markup>(lines: impl IntoIterator<Item = T>) -> Html {
+    let item = |line: T| html!(in "<li>{line}</li>\n", line = line);
+    lines.into_iter().map(item).collect()
+}
+
+fn stock(material: &Material<'_>) -> Html {
     let stock = material.job.stock;
-    let sketch = setup::stock(&setup::Stock {
-        ids: Prefix::new("stock-"),
-        size: [stock.width, stock.depth, stock.height].map(|length| length.to_mm()),
-    });
+    let size = [stock.width, stock.depth, stock.height].map(|length| length.to_mm());
+    let sketch = setup::stock(Prefix::new("stock-"), size);
     let facts = [
         facts::stock(material.job),
         facts::base(material.job.machine.as_ref()),
     ];
-    sketch + &rows(&facts.concat())
+    Html::trusted(sketch) + rows(&facts.concat())
 }
 
 /// The blades, with the way they are held.
-fn blades(material: &Material<'_>) -> String {
+fn blades(material: &Material<'_>) -> Html {
     let named = facts::blades(material);
     let sketch = named.first().map_or_else(String::new, |blade| {
-        setup::blade(&setup::Blade {
-            ids: Prefix::new("blade-"),
-            length: blade.cutting_length.value.to_mm(),
-            tangent: libm::tan(blade.half_apex.value.to_rad()),
-            edges: match blade.edges {
-                Edges::Single => setup::Edges::One,
-                Edges::Double => setup::Edges::Two,
-            },
-        })
+        let (edge, half_apex) = (blade.cutting_length.value, blade.half_apex.value);
+        setup::blade(
+            Prefix::new("blade-"),
+            blade.edges,
+            edge.to_mm(),
+            half_apex.to_rad(),
+        )
     });
     let tool = facts::tool(material.job.machine.as_ref());
-    sketch + &rows(&[facts::of_blades(&named), tool].concat())
+    Html::trusted(sketch) + rows(&[facts::of_blades(&named), tool].concat())
 }
 
 /// A row of the list of cuts.
@@ -138,50 +108,46 @@ struct Layer {
 }
 
 /// The cuts layer by layer, with a sum.
-fn cuts(material: &Material<'_>) -> String {
+fn cuts(material: &Material<'_>) -> Html {
     let layers = layers(material);
     let (shown, folded) = layers.split_at(match layers.len() {
         count if count > MOST_LAYERS => MOST_LAYERS - 1,
         count => count,
     });
-    let mut html = String::from(
-        "<table>\n<thead><tr><th scope=\"col\">layer</th><th scope=\"col\" class=\"n\">cuts</th>\
-         <th scope=\"col\" class=\"n\">tips at z, mm</th><th scope=\"col\" class=\"n\">time</th></tr></thead>\n<tbody>\n",
-    );
-    for layer in shown {
-        html += &row(layer);
-    }
+    let mut rows: Html = shown.iter().map(row).collect();
     if let (Some(first), Some(last)) = (folded.first(), folded.last()) {
-        html += &row(&together(folded, format!("{} to {}", first.name, last.name)));
+        rows += row(&together(folded, format!("{} to {}", first.name, last.name)));
     }
     let report = &material.compiled.report;
-    let rest = report.times.rest.total();
-    if rest > Duration::ZERO {
-        html += &format!(
-            "<tr><th scope=\"row\">from and to home</th><td></td><td></td><td class=\"n\">{}</td></tr>\n",
-            time(rest)
-        );
-    }
-    html += &format!(
-        "<tr class=\"sum\"><th scope=\"row\">all</th><td class=\"n\">{}</td><td></td><td class=\"n\">{}</td></tr>\n",
-        report.cuts(),
-        time(report.times.all.total())
-    );
-    html + "</tbody>\n</table>\n"
+    let rest = Some(report.times.rest.total()).filter(|rest| *rest > Duration::ZERO);
+    let rest = rest.map(|rest| {
+        html!(
+            in "<tr><th scope=\"row\">from and to home</th><td></td><td></td><td class=\"n\">{time}</td></tr>\n",
+            time = time(rest)
+        )
+    });
+    html!(
+        "sheet_cuts.html",
+        rows = rows,
+        rest = rest,
+        cuts = report.cuts(),
+        time = time(report.times.all.total()),
+    )
 }
 
-fn row(layer: &Layer) -> String {
+fn row(layer: &Layer) -> Html {
     let [low, high] = layer.z;
     let z = if high - low < 0.005 {
         format!("{low:.2}")
     } else {
         format!("{low:.2} to {high:.2}")
     };
-    format!(
-        "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{z}</td><td class=\"n\">{}</td></tr>\n",
-        layer.name,
-        layer.cuts,
-        time(layer.time)
+    html!(
+        in "<tr><th scope=\"row\">{name}</th><td class=\"n\">{cuts}</td><td class=\"n\">{z}</td><td class=\"n\">{time}</td></tr>\n",
+        name = layer.name,
+        cuts = layer.cuts,
+        z = z,
+        time = time(layer.time)
     )
 }
 
@@ -235,7 +201,7 @@ fn together(layers: &[Layer], name: String) -> Layer {
 }
 
 /// The files of the program, and what they are known by.
-fn programs(files: &[(&str, &[u8])]) -> String {
+fn programs(files: &[(&str, &[u8])]) -> Html {
     if files.is_empty() {
         return rows(&[("program", "not written for any target".to_owned())]);
     }
@@ -243,32 +209,27 @@ fn programs(files: &[(&str, &[u8])]) -> String {
         count if count > MOST_FILES => MOST_FILES - 1,
         count => count,
     });
-    let row = |name: &str, digest: &str| {
-        format!(
-            "<tr><th scope=\"row\">{}</th><td><code>{digest}</code></td></tr>\n",
-            escaped(name)
+    let row = |name: &str, bytes: &[u8]| {
+        html!(
+            in "<tr><th scope=\"row\">{name}</th><td><code>{digest}</code></td></tr>\n",
+            name = name,
+            digest = hexadecimal(bytes)
         )
     };
-    let mut html = String::from(
-        "<table>\n<thead><tr><th scope=\"col\">program</th><th scope=\"col\">SHA-256</th></tr></thead>\n<tbody>\n",
-    );
-    for (name, bytes) in named {
-        html += &row(name, &hexadecimal(bytes));
-    }
+    let mut rows: Html = named.iter().map(|(name, bytes)| row(name, bytes)).collect();
     if !others.is_empty() {
         let all: Vec<u8> = others
             .iter()
             .flat_map(|(_, bytes)| bytes.iter().copied())
             .collect();
-        let name = format!("{} more, one after the other", others.len());
-        html += &row(&name, &hexadecimal(&all));
+        rows += row(&format!("{} more, one after the other", others.len()), &all);
     }
-    html + "</tbody>\n</table>\n"
+    html!("sheet_files.html", rows = rows)
 }
 
-/// What has to be right on the floor, and then what the compiler did not check of this program.
-fn checklist(material: &Material<'_>, checks: &Checks) -> String {
-    let mut on_the_floor = vec![
+/// What has to be right on the floor.
+fn on_the_floor(material: &Material<'_>) -> Vec<&'static str> {
+    let mut lines = vec![
         "Blade as named above, sharp, clamped; tip and flat calibrated: the tool frame on the control is the one above.",
         "Base frame measured at the corner of the stock that is marked zero; x, y and z point as in the sketch.",
         "Stock of the size above, fixed so that nothing of the fixture is in the way of the blade.",
@@ -277,21 +238,9 @@ fn checklist(material: &Material<'_>, checks: &Checks) -> String {
     ];
     let machine = material.job.machine.as_ref();
     if machine.is_some_and(|machine| machine.load.is_none()) {
-        on_the_floor.push("Load data on the control are those of this blade and holder.");
+        lines.push("Load data on the control are those of this blade and holder.");
     }
-    let list = |lines: &[String]| {
-        let items: String = lines
-            .iter()
-            .map(|line| format!("<li>{}</li>\n", escaped(line)))
-            .collect();
-        format!("<ul>\n{items}</ul>\n")
-    };
-    let on_the_floor: Vec<String> = on_the_floor.into_iter().map(str::to_owned).collect();
-    format!(
-        "{}<h3>Not checked by the compiler</h3>\n{}",
-        list(&on_the_floor),
-        list(&checks.by_hand())
-    )
+    lines
 }
 
 /// `1 layer`, `2 layers`.
@@ -313,9 +262,9 @@ mod tests {
             .iter()
             .map(|name| (name.as_str(), name.as_bytes()))
             .collect();
-        let html = programs(&files);
+        let html = programs(&files).into_text();
         assert!(html.contains("3 more, one after the other"), "{html}");
         assert!(html.contains(&hexadecimal(b"345")), "{html}");
-        assert!(programs(&files[..4]).contains(&hexadecimal(b"3")));
+        assert!(programs(&files[..4]).into_text().contains(&hexadecimal(b"3")));
     }
 }

@@ -300,14 +300,12 @@ fn pictures_of_large_jobs_stay_small() {
     let part = [[0.0, 10.0], [1000.0, 10.0]];
     for (count, drawn) in [(99, true), (100, false), (20_001, false), (400_000, false)] {
         let (tips, vees) = many(count);
-        let surfaces: Vec<lattice::Surface> = (0..60)
-            .map(|number| lattice::Surface {
-                shade: lattice::Shade::Dark,
-                contour: (0..5000)
-                    .map(|i| [f64::from(i) / 5.0, 100.0 - f64::from(number) - f64::from(i % 2)])
-                    .collect(),
-            })
-            .collect();
+        let surface = |number: i32| {
+            (0..5000)
+                .map(|i| [f64::from(i) / 5.0, 100.0 - f64::from(number) - f64::from(i % 2)])
+                .collect()
+        };
+        let surfaces: Vec<Vec<[f64; 2]>> = (0..60).map(surface).collect();
         let picture = lattice::draw(&lattice::Lattice {
             heading: HEADING,
             stock: [1000.0, 120.0],

@@ -1,7 +1,7 @@
 //! Text with the colours of a terminal as HTML: the sequences that the renderer of diagnostics writes (ECMA-48, "select graphic
 //! rendition") become spans with a class for each colour, and all others vanish.
 
-use super::html::escaped;
+use crate::html::Html;
 
 /// What letters look like.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -12,17 +12,17 @@ struct Look {
 }
 
 /// The text as HTML, line by line as it is.
-pub(super) fn html(text: &str) -> String {
-    let mut html = String::with_capacity(text.len() * 2);
+pub(super) fn html(text: &str) -> Html {
+    let mut html = Html::default();
     let mut look = Look::default();
     let mut pieces = text.split('\u{1b}');
-    html += &shown(pieces.next().unwrap_or_default(), look);
+    html += shown(pieces.next().unwrap_or_default(), look);
     for piece in pieces {
         let (sequence, rest) = sequence(piece);
         if let Some(codes) = sequence {
             look = look.after(codes);
         }
-        html += &shown(rest, look);
+        html += shown(rest, look);
     }
     html
 }
@@ -99,24 +99,27 @@ fn nearest(number: u8) -> u8 {
 }
 
 /// A stretch of one look, its lines as they are.
-fn shown(text: &str, look: Look) -> String {
+fn shown(text: &str, look: Look) -> Html {
     if text.is_empty() {
-        return String::new();
+        return Html::default();
     }
-    // What is escaped has no lines.
-    let lines: Vec<String> = text.split('\n').map(escaped).collect();
-    let text = lines.join("\n");
+    let text = Html::lines(text);
+    let colour = look.colour.map(usize::from);
     match (look.colour, look.is_bold) {
         (None, false) => text,
-        (None, true) => format!("<b>{text}</b>"),
-        (Some(colour), false) => format!("<span class=\"c{colour}\">{text}</span>"),
-        (Some(colour), true) => format!("<b class=\"c{colour}\">{text}</b>"),
+        (None, true) => html!(in "<b>{text}</b>", text = text),
+        (Some(_), false) => html!(in "<span class=\"c{colour}\">{text}</span>", colour = colour, text = text),
+        (Some(_), true) => html!(in "<b class=\"c{colour}\">{text}</b>", colour = colour, text = text),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn html(text: &str) -> String {
+        super::html(text).into_text()
+    }
 
     #[test]
     fn colours_become_spans_and_lines_stay() {

@@ -30,6 +30,6 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     Section {
         id: "cross-section",
         title: "Cut",
-        body: contour + &lattice + &cuts::table_of_cuts(material),
+        body: contour + lattice + cuts::table_of_cuts(material),
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! A page has room for so many rows only: of a program with more cuts each layer has one.
 
-use super::html::{Column, escaped, table, unbroken};
 use crate::Material;
+use crate::html::{Column, Html, table, unbroken};
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, Program, Site};
 use vcutc_backend_api::units::Duration;
@@ -30,7 +30,7 @@ struct Cut {
 /// The cuts of each layer in the order of work; layers by operation and number, both from 1.
 type Layers = BTreeMap<(u32, u32), Vec<Cut>>;
 
-pub(super) fn table_of_cuts(material: &Material<'_>) -> String {
+pub(super) fn table_of_cuts(material: &Material<'_>) -> Html {
     let program = material.compiled.program.verified().program();
     let layers = layers(program, &material.compiled.op_times);
     let height = program.stock.height.to_mm();
@@ -46,25 +46,27 @@ pub(super) fn table_of_cuts(material: &Material<'_>) -> String {
 }
 
 /// All of it, folded away; nothing where nothing is cut.
-fn folded(layers: &Layers, height: f64, name: &dyn Fn((u32, u32)) -> String) -> String {
-    let cuts: usize = layers.values().map(Vec::len).sum();
-    if cuts == 0 {
-        return String::new();
-    }
-    let body = if cuts > MOST_CUTS {
-        format!(
-            "<p>{cuts} cuts are too many for a row each (at most {MOST_CUTS}), so each layer has one; the playback has every cut.</p>\n{}",
-            by_layer(layers, name)
-        )
-    } else {
-        let hint = "<p>Depth is measured from the top of the stock to the tip. The way is that of both flanks, with their extensions \
-                    beyond the stock. The time includes turns and the way to the cut. Choose a start to see it in the playback.</p>\n";
-        let all = layers
-            .iter()
-            .map(|(layer, cuts)| layer_of_cuts(&name(*layer), cuts, height));
-        all.fold(hint.to_owned(), |html, layer| html + &layer)
+fn folded(layers: &Layers, height: f64, name: &dyn Fn((u32, u32)) -> String) -> Html {
+    let count: usize = layers.values().map(Vec::len).sum();
+    let body = match count {
+        0 => return Html::default(),
+        count if count > MOST_CUTS => html!(
+            in "<p>{count} cuts are too many for a row each (at most {most}), so each layer has one; the playback has every cut.</p>\n\
+                {table}",
+            count = count,
+            most = MOST_CUTS,
+            table = by_layer(layers, name)
+        ),
+        _ => {
+            let hint = "Depth is measured from the top of the stock to the tip. The way is that of both flanks, with their extensions \
+                        beyond the stock. The time includes turns and the way to the cut. Choose a start to see it in the playback.";
+            let all = layers
+                .iter()
+                .map(|(layer, cuts)| layer_of_cuts(&name(*layer), cuts, height));
+            html!(in "<p>{hint}</p>\n{layers}", hint = hint, layers = all.collect::<Html>())
+        }
     };
-    format!("<details class=\"cuts\">\n<summary>Cuts, one by one: {cuts}</summary>\n{body}</details>\n")
+    html!("cuts.html", count = count, body = body)
 }
 
 /// What the program cuts, in the order of its ops.
@@ -107,35 +109,27 @@ fn layers(program: &Program, op_times: &[Duration]) -> Layers {
 }
 
 /// The cuts of a layer, folded away.
-fn layer_of_cuts(name: &str, cuts: &[Cut], height: f64) -> String {
-    let mut html = format!(
-        "<details>\n<summary>Layer {name}: {}</summary>\n<div class=\"wide\" role=\"region\" aria-label=\"Cuts of layer {name}\" tabindex=\"0\">\n\
-         <table>\n<thead><tr><th scope=\"col\">Cut</th>",
-        unbroken(&in_words(cuts))
-    );
-    for column in ["x, mm", "z, mm", "depth, mm", "way, mm", "start", "time, s"] {
-        html += &format!("<th scope=\"col\" class=\"n\">{column}</th>");
-    }
-    html += "</tr></thead>\n<tbody>\n";
-    for cut in cuts {
-        let Cut {
-            number,
-            x,
-            z,
-            way,
-            start,
-            time,
-        } = cut;
-        let start = start.to_s();
-        html += &format!(
-            "<tr><th scope=\"row\">{number}</th><td>{x:.2}</td><td>{z:.2}</td><td>{:.2}</td><td>{way:.1}</td>\
-             <td><button type=\"button\" data-seek=\"{start:.3}\">{}</button></td><td>{:.1}</td></tr>\n",
-            height - z,
-            clock(start),
-            time.to_s()
-        );
-    }
-    html + "</tbody>\n</table>\n</div>\n</details>\n"
+fn layer_of_cuts(name: &str, cuts: &[Cut], height: f64) -> Html {
+    let row = |cut: &Cut| {
+        let start = cut.start.to_s();
+        html!(
+            "cut.html",
+            number = cut.number as usize,
+            x = format!("{:.2}", cut.x),
+            z = format!("{:.2}", cut.z),
+            depth = format!("{:.2}", height - cut.z),
+            way = format!("{:.1}", cut.way),
+            seek = format!("{start:.3}"),
+            start = clock(start),
+            time = format!("{:.1}", cut.time.to_s()),
+        )
+    };
+    html!(
+        "layer.html",
+        name = name,
+        words = unbroken(&in_words(cuts)),
+        rows = cuts.iter().map(row).collect::<Html>(),
+    )
 }
 
 /// `13 cuts, tips at z 28.43 mm, 1 min 27.1 s`.
@@ -168,7 +162,7 @@ fn heights(cuts: &[Cut]) -> String {
 }
 
 /// A row for each layer.
-fn by_layer(layers: &Layers, name: &dyn Fn((u32, u32)) -> String) -> String {
+fn by_layer(layers: &Layers, name: &dyn Fn((u32, u32)) -> String) -> Html {
     let columns = [
         Column::Words("Layer"),
         Column::Numbers("cuts"),
@@ -180,13 +174,10 @@ fn by_layer(layers: &Layers, name: &dyn Fn((u32, u32)) -> String) -> String {
             name(*layer),
             cuts.len().to_string(),
             heights(cuts),
-            escaped(&time(together(cuts))),
+            time(together(cuts)),
         ]
     });
-    format!(
-        "<div class=\"long\">{}</div>\n",
-        table("Cuts by layer", &columns, rows)
-    )
+    html!(in "<div class=\"long\">{table}</div>\n", table = table("Cuts by layer", &columns, rows))
 }
 
 /// `1:02.3`, or `2:01:02.3` where there are hours.
@@ -232,7 +223,7 @@ mod tests {
 
     #[test]
     fn a_page_has_room_for_so_many_rows_only() {
-        let html = |count: u32| folded(&layers_of(count), 200.0, &|(_, layer)| layer.to_string());
+        let html = |count: u32| folded(&layers_of(count), 200.0, &|(_, layer)| layer.to_string()).into_text();
         assert_eq!(html(0), "");
         let most = html(2000);
         assert_eq!(

@@ -1,8 +1,8 @@
 //! How far what the cuts leave is from the part.
 
 use super::figure::{Ids, Zoom, figure};
-use super::html::{Column, table};
 use super::{Section, Subject};
+use crate::html::{Column, Html, table};
 use crate::pictures;
 use vcutc_simulation::report::Report;
 
@@ -29,16 +29,17 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     Section {
         id: "deviation",
         title: "Deviation",
-        body: deviation
-            + &figures(subject)
-            + &format!(
-                "<details>\n<summary>Correlation of the contours</summary>\n{correlation}</details>\n"
-            ),
+        body: html!(
+            in "{deviation}{figures}<details>\n<summary>Correlation of the contours</summary>\n{correlation}</details>\n",
+            deviation = deviation,
+            figures = figures(subject),
+            correlation = correlation,
+        ),
     }
 }
 
 /// The figures by which [Cui IV.B] judges a contour, and how they are meant.
-fn figures(subject: Subject<'_>) -> String {
+fn figures(subject: Subject<'_>) -> Html {
     let report = &subject.material.compiled.report;
     let columns = [
         Column::Words("Figure"),

@@ -1,6 +1,6 @@
 //! What a page has besides when a server shows it: its version, and a script that loads it anew when there is another one.
 
-use super::html::escaped;
+use crate::html::Html;
 
 /// The script, to the byte.
 pub(super) const SCRIPT: &str = include_str!("../assets/live.js");
@@ -34,22 +34,16 @@ impl Served {
     }
 
     /// What went wrong, for the top of the page.
-    pub(super) fn banner(&self) -> String {
-        let paragraph =
-            |text: &String| format!("<p class=\"trouble\" role=\"alert\">{}</p>\n", escaped(text));
-        self.trouble.as_ref().map_or_else(String::new, paragraph)
+    pub(super) fn banner(&self) -> Option<Html> {
+        let text = self.trouble.as_ref()?;
+        Some(html!(in "<p class=\"trouble\" role=\"alert\">{text}</p>\n", text = text))
     }
 
     /// The version, for the head of the page.
-    pub(super) fn meta(&self) -> String {
-        format!(
-            "<meta name=\"vcutc-version\" content=\"{}\">\n",
-            escaped(&self.version)
+    pub(super) fn meta(&self) -> Html {
+        html!(
+            in "<meta name=\"vcutc-version\" content=\"{version}\">\n",
+            version = self.version
         )
     }
-}
-
-/// The script in its element, for the end of the page.
-pub(super) fn element() -> String {
-    format!("<script>{SCRIPT}</script>\n")
 }

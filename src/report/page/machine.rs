@@ -1,8 +1,8 @@
 //! What the job asks of its machine: angles, rates and margins.
 
 use super::figure::{Zoom, framed};
-use super::html::{Column, escaped, near, table, terms};
 use super::{Section, Subject};
+use crate::html::{Column, Html, near, table, terms};
 use crate::pictures;
 use vcutc_diagnostics::number::show;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
@@ -14,27 +14,26 @@ const SCARCE: f64 = 0.05;
 /// The section; none for a job without a machine.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let figures = subject.material.compiled.figures.as_ref()?;
-    let mut body = String::new();
     let lines = reach_summary::lines(figures);
-    body += &terms(lines.iter().map(|(name, line)| (*name, line.as_str())));
+    let mut body = terms(lines.iter().map(|(name, line)| (*name, line.as_str())));
     let ids = [Prefix::new("joints-"), Prefix::for_phones("joints-phone-")];
     if let Some([page, phone]) = pictures::joints_twice(&subject.material, ids) {
         let caption = "Positions, speeds and margins of the axes over time, with the axis moves from and to home; the \
                        table below leaves these out. Axis speeds are those at the programmed speeds.";
-        body += &framed(&page, "for-page", Zoom::Free, caption);
-        body += &framed(&phone, "for-phones", Zoom::Free, caption);
+        body += framed(page, "for-page", Zoom::Free, caption);
+        body += framed(phone, "for-phones", Zoom::Free, caption);
     }
     let blade = |ids| pictures::blade(&subject.material, ids);
     let places = [Prefix::new("blade-"), Prefix::for_phones("blade-phone-")];
     if let [Some(page), Some(phone)] = places.map(blade) {
         let caption = "How to clamp the blade for this program, over the work at swing 0, with the axes of `tool`: hold it \
                        beside the flange and compare. The proofs do not cover the direction of edge and flat.";
-        body += &framed(&page, "for-page", Zoom::Fixed, caption);
-        body += &framed(&phone, "for-phones", Zoom::Fixed, caption);
+        body += framed(page, "for-page", Zoom::Fixed, caption);
+        body += framed(phone, "for-phones", Zoom::Fixed, caption);
     }
-    body += &axes(figures);
+    body += axes(figures);
     if !figures.singular.is_empty() {
-        body += &singular(figures);
+        body += singular(figures);
     }
     Some(Section {
         id: "machine",
@@ -43,7 +42,7 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     })
 }
 
-fn axes(figures: &ReachFigures) -> String {
+fn axes(figures: &ReachFigures) -> Html {
     let columns = [
         Column::Words("Axis"),
         Column::Numbers("from"),
@@ -58,37 +57,36 @@ fn axes(figures: &ReachFigures) -> String {
     table("Use of the axes", &columns, figures.axes.iter().map(axis))
 }
 
-fn axis(axis: &AxisFigure) -> Vec<String> {
+fn axis(axis: &AxisFigure) -> Vec<Html> {
     let unit = axis.unit;
     let share = match axis.rate_limit {
         Some(limit) if limit > 0.0 => {
-            let words = format!("{:.0} %", axis.rate / limit * 100.0);
-            if axis.rate > (1.0 - SCARCE) * limit {
-                near(&words)
-            } else {
-                words
-            }
+            let share = axis.rate / limit;
+            by_room(1.0 - share)(&format!("{:.0} %", share * 100.0))
         }
-        Some(_) | None => "unknown".to_owned(),
+        Some(_) | None => Html::text("unknown"),
     };
+    let margin = by_room(axis.margin)(&margin_words(axis.margin));
+    let text = Html::text;
     vec![
-        escaped(&axis.name),
-        format!("{:.2} {unit}", axis.low),
-        format!("{:.2} {unit}", axis.high),
-        format!("{} to {} {unit}", show(axis.min), show(axis.max)),
-        if axis.margin < SCARCE {
-            near(&margin_words(axis.margin))
-        } else {
-            margin_words(axis.margin)
-        },
-        escaped(&axis.margin_at.words),
-        format!("{:.2} {unit}/s", axis.rate),
+        text(&axis.name),
+        text(&format!("{:.2} {unit}", axis.low)),
+        text(&format!("{:.2} {unit}", axis.high)),
+        text(&format!("{} to {} {unit}", show(axis.min), show(axis.max))),
+        margin,
+        text(&axis.margin_at.words),
+        text(&format!("{:.2} {unit}/s", axis.rate)),
         share,
-        escaped(&axis.rate_at.words),
+        text(&axis.rate_at.words),
     ]
 }
 
-fn singular(figures: &ReachFigures) -> String {
+/// How a value is set that has so much of its limit left.
+fn by_room(left: f64) -> fn(&str) -> Html {
+    if left < SCARCE { near } else { Html::text }
+}
+
+fn singular(figures: &ReachFigures) -> Html {
     let columns = [
         Column::Words("Singular pose"),
         Column::Numbers("distance"),
@@ -107,7 +105,7 @@ fn singular(figures: &ReachFigures) -> String {
                 (*kind).to_owned(),
                 format!("{distance:.2} {unit}"),
                 margin_words(*share),
-                escaped(&at.words),
+                at.words.clone(),
             ]
         },
     );

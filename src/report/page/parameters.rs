@@ -1,9 +1,9 @@
 //! Every parameter of the job with its value and where it came from: a place in a text, `auto` with the reason, or the
 //! default of the language.
 
-use super::html::{Column, escaped, table, unbroken};
 use super::source::Listing;
 use super::{Section, Subject};
+use crate::html::{Column, Html, table, unbroken};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Load, Ready, Registered};
 use vcutc_diagnostics::number::show;
@@ -12,31 +12,21 @@ use vcutc_job::Machine;
 use vcutc_job::description::{Origin, ParameterRow as Row, ParameterTable};
 
 /// The cells of a parameter's row.
-fn cells(row: &Row, listing: &Listing<'_>) -> Vec<String> {
+fn cells(row: &Row, listing: &Listing<'_>) -> Vec<Html> {
+    let linked = |span: Span| {
+        let place = listing.place(span);
+        html!(in "{place} <code>{line}</code>", place = place.linked(), line = place.line)
+    };
     let origin = match &row.origin {
-        Origin::Written(span) => linked(listing, *span),
-        Origin::Chosen(None, why) => format!("<strong>auto</strong>: {}", unbroken(why)),
-        Origin::Chosen(Some(span), why) => {
-            format!(
-                "<strong>auto</strong>: {}<br>{}",
-                unbroken(why),
-                linked(listing, *span)
-            )
-        }
-        Origin::Default => "default".to_owned(),
+        Origin::Written(span) => linked(*span),
+        Origin::Chosen(span, why) => html!(
+            in "<strong>auto</strong>: {why}{place}",
+            why = unbroken(why),
+            place = span.map(|span| html!(in "<br>{place}", place = linked(span)))
+        ),
+        Origin::Default => unbroken("default"),
     };
-    vec![row.name.to_owned(), unbroken(&row.value), origin]
-}
-
-/// A link to a place in a text, and its line.
-fn linked(listing: &Listing<'_>, span: Span) -> String {
-    let place = listing.place(span);
-    let words = escaped(&place.words);
-    let words = match place.link {
-        Some(link) => format!("<a href=\"#{link}\">{words}</a>"),
-        None => words,
-    };
-    format!("{words} <code>{}</code>", escaped(&place.line))
+    vec![unbroken(row.name), unbroken(&row.value), origin]
 }
 
 /// The section.
@@ -58,11 +48,11 @@ pub(super) fn section(subject: Subject<'_>, listing: &Listing<'_>) -> Section {
             String::new()
         };
         for ParameterTable { caption, rows: of_it } in planned.tables() {
-            body += &rows(&format!("{caption}{of}"), of_it);
+            body += rows(&format!("{caption}{of}"), of_it);
         }
     }
     if let Some(machine) = &job.machine {
-        body += &rows("Machine", machine_rows(machine));
+        body += rows("Machine", machine_rows(machine));
     }
     Section {
         id: "parameters",

@@ -2,20 +2,18 @@
 //! set-up sheet (`vcutc report --sheet`) has the same facts for paper.
 
 use super::figure::{Zoom, framed};
-use super::html::{escaped, terms};
 use super::{Section, Subject};
 use crate::digest::hexadecimal;
 use crate::facts::{self, Fact};
+use crate::html::{Html, terms};
 use vcutc_picture::{Prefix, setup};
 
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
     let job = material.job;
     let machine = job.machine.as_ref();
-    let sketch = setup::stock(&setup::Stock {
-        ids: Prefix::new("stock-"),
-        size: [job.stock.width, job.stock.depth, job.stock.height].map(|length| length.to_mm()),
-    });
+    let size = [job.stock.width, job.stock.depth, job.stock.height].map(|length| length.to_mm());
+    let sketch = setup::stock(Prefix::new("stock-"), size);
     let facts: Vec<Fact> = [
         program(subject),
         facts::stock(job),
@@ -31,10 +29,11 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     Section {
         id: "set-up",
         title: "Set-up",
-        body: format!(
-            "<div class=\"beside\">\n{}<div>\n{list}{}</div>\n</div>\n",
-            framed(&sketch, "sketch", Zoom::Fixed, caption),
-            files(subject)
+        body: html!(
+            "set_up.html",
+            sketch = framed(sketch, "sketch", Zoom::Fixed, caption),
+            facts = list,
+            files = files(subject),
         ),
     }
 }
@@ -53,19 +52,15 @@ fn program(subject: Subject<'_>) -> Vec<Fact> {
 }
 
 /// The files of the program, where it was written for a target.
-fn files(subject: Subject<'_>) -> String {
-    if subject.further.files.is_empty() {
-        return String::new();
-    }
-    let rows = subject.further.files.iter().map(|(name, bytes)| {
-        format!(
-            "<div><dt>{}</dt><dd><code>{}</code></dd></div>\n",
-            escaped(name),
-            hexadecimal(bytes)
+fn files(subject: Subject<'_>) -> Option<Html> {
+    let files = subject.further.files;
+    let row = |(name, bytes): &(&str, &[u8])| {
+        html!(
+            in "<div><dt>{name}</dt><dd><code>{digest}</code></dd></div>\n",
+            name = name,
+            digest = hexadecimal(bytes)
         )
-    });
-    format!(
-        "<details open>\n<summary>Files of the program, with their SHA-256</summary>\n<dl class=\"terms files\">\n{}</dl>\n</details>\n",
-        rows.collect::<String>()
-    )
+    };
+    let rows: Html = files.iter().map(row).collect();
+    (!files.is_empty()).then(|| html!("files.html", rows = rows))
 }

@@ -1,7 +1,7 @@
 //! The texts that the job was made from, line by line, so that parameters can point into them.
 
-use super::html::escaped;
 use super::{Section, Subject};
+use crate::html::Html;
 use vcutc_diagnostics::position::position;
 use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 
@@ -24,6 +24,17 @@ pub(super) struct Place {
     pub(super) words: String,
     /// The line, without the space around it.
     pub(super) line: String,
+}
+
+impl Place {
+    /// What it is called, with its link.
+    pub(super) fn linked(&self) -> Html {
+        let words = &self.words;
+        match &self.link {
+            Some(link) => html!(in "<a href=\"#{link}\">{words}</a>", link = link, words = words),
+            None => html!(in "{words}", words = words),
+        }
+    }
 }
 
 impl<'a> Listing<'a> {
@@ -77,25 +88,23 @@ fn anchor(file: usize, line: usize) -> String {
 }
 
 /// A text with a number at each line; the job's own is open.
-fn text(number: usize, name: &str, text: &str) -> String {
-    let open = if number == 0 { " open" } else { "" };
+fn text(number: usize, name: &str, text: &str) -> Html {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut html = format!(
-        "<details{open}>\n<summary>{}</summary>\n<ol class=\"text\">\n",
-        escaped(name)
-    );
-    for (index, line) in text.lines().take(MOST_LINES).enumerate() {
-        html += &format!(
-            "<li id=\"{}\"><code>{}</code></li>\n",
-            anchor(number, index + 1),
-            escaped(&short(line))
-        );
-    }
-    html += "</ol>\n";
-    if text.lines().count() > MOST_LINES {
-        html += &format!("<p>The first {MOST_LINES} lines are shown.</p>\n");
-    }
-    html + "</details>\n"
+    let lines = text.lines().take(MOST_LINES).enumerate().map(|(index, line)| {
+        html!(
+            in "<li id=\"{id}\"><code>{line}</code></li>\n",
+            id = anchor(number, index + 1),
+            line = short(line)
+        )
+    });
+    let is_cut = text.lines().nth(MOST_LINES).is_some();
+    html!(
+        "listing.html",
+        open = (number == 0).then_some(" open"),
+        name = name,
+        lines = lines.collect::<Html>(),
+        more = is_cut.then(|| html!(in "<p>The first {most} lines are shown.</p>\n", most = MOST_LINES)),
+    )
 }
 
 /// A line, cut off where nobody reads on.
@@ -112,7 +121,7 @@ mod tests {
 
     #[test]
     fn lines_are_numbered_as_places_count_them() {
-        let shown = text(0, "a<b>.vcut", "\u{feff}one\ntwo & <three>\n");
+        let shown = text(0, "a<b>.vcut", "\u{feff}one\ntwo & <three>\n").into_text();
         assert!(
             shown.contains("<li id=\"text-0-2\"><code>two &amp; &lt;three&gt;</code></li>"),
             "{shown}"

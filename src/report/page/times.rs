@@ -1,8 +1,8 @@
 //! Where the time goes: by kind of motion and by layer.
 
 use super::figure::{Ids, Zoom, figure};
-use super::html::{Column, paragraph, percent, table};
 use super::{Section, Subject};
+use crate::html::{Column, Html, paragraph, percent, table};
 use crate::pictures;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary::time;
@@ -14,8 +14,8 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
     let whole = &report.times.all;
     let mut body = paragraph(&agreement(subject, whole.total()));
     let basis = &subject.material.compiled.times.basis_words;
-    body += &paragraph(&format!("Basis: {basis}."));
-    body += &figure(
+    body += paragraph(&format!("Basis: {basis}."));
+    body += figure(
         &Ids {
             page: "time-",
             phone: "time-phone-",
@@ -24,8 +24,8 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
         "The time by kind of motion and by layer.",
         &|ids| pictures::time(&subject.material, ids),
     );
-    body += &by_kind(whole);
-    body += &by_layer(report);
+    body += by_kind(whole);
+    body += by_layer(report);
     Section {
         id: "time",
         title: "Time",
@@ -48,7 +48,7 @@ fn agreement(subject: Subject<'_>, total: Duration) -> String {
     )
 }
 
-fn by_kind(whole: &Timing) -> String {
+fn by_kind(whole: &Timing) -> Html {
     let columns = [
         Column::Words("Kind"),
         Column::Numbers("time"),
@@ -76,7 +76,7 @@ fn by_kind(whole: &Timing) -> String {
     table("Time by kind", &columns, rows)
 }
 
-fn by_layer(report: &Report) -> String {
+fn by_layer(report: &Report) -> Html {
     let columns = [
         Column::Words("Layer"),
         Column::Numbers("flanks"),
@@ -115,8 +115,5 @@ fn by_layer(report: &Report) -> String {
         row(name, 2 * cuts, &layer.timing)
     });
     let rows = core::iter::once(row("no layer".to_owned(), 0, &report.times.rest)).chain(of_layers);
-    format!(
-        "<div class=\"long\">{}</div>\n",
-        table("Time by layer", &columns, rows)
-    )
+    html!(in "<div class=\"long\">{table}</div>\n", table = table("Time by layer", &columns, rows))
 }

@@ -1,78 +1,77 @@
 //! The top of the page: what was made, what is proven of it, and its key numbers.
 
 use super::Subject;
-use super::html::{escaped, unbroken};
+use crate::html::{Html, unbroken};
 use vcutc_diagnostics::render::{ColorChoice, render};
 use vcutc_driver::checks::{Checks, Standing};
 use vcutc_driver::summary::{self, time};
 use vcutc_motion::summary::margin_words;
 
 /// The header: job, machine, verdict, warnings.
-pub(super) fn header(subject: Subject<'_>) -> String {
+pub(super) fn header(subject: Subject<'_>) -> Html {
     let job = subject.material.job;
-    let file = subject.sources.name(job.name_span.file);
     let machine = job.machine.as_ref().map_or_else(
         || "no machine".to_owned(),
         |machine| format!("{} ({})", machine.name, machine.model.name),
     );
-    let mut header = format!(
-        "<header>\n<h1>{}</h1>\n<p class=\"about\">{} on {}</p>\n{}",
-        escaped(&job.name),
-        escaped(file),
-        escaped(&machine),
-        verdict(&subject.material.compiled.checks.with(subject.further.read_back))
-    );
-    if !subject.warnings.is_empty() {
-        let told = render(subject.warnings, subject.sources, ColorChoice::Plain);
-        let lines: Vec<String> = told.lines().map(escaped).collect();
-        header += &format!(
-            "<details open class=\"warnings\"><summary>{}</summary>\n<pre tabindex=\"0\">{}</pre></details>\n",
-            counted(subject.warnings.len(), "warning"),
-            lines.join("\n")
-        );
-    }
-    header + "</header>\n"
+    html!(
+        "header.html",
+        name = job.name,
+        file = subject.sources.name(job.name_span.file),
+        machine = machine,
+        verdict = verdict(&subject.material.compiled.checks.with(subject.further.read_back)),
+        warnings = (!subject.warnings.is_empty()).then(|| warnings(subject)),
+    )
+}
+
+fn warnings(subject: Subject<'_>) -> Html {
+    let told = render(subject.warnings, subject.sources, ColorChoice::Plain);
+    html!(
+        "warnings.html",
+        count = counted(subject.warnings.len(), "warning"),
+        lines = Html::lines(told.strip_suffix('\n').unwrap_or(&told))
+    )
 }
 
 /// What is proven, and apart from that what is not checked.
-fn verdict(checks: &Checks) -> String {
+fn verdict(checks: &Checks) -> Html {
     let standing = checks.standing();
     let class = match standing {
         Standing::Proven => "verdict",
         Standing::InPart => "verdict in-part",
     };
-    let proven = format!("{}: {}.", standing.words(), checks.proven());
-    let verdict = format!("<p class=\"{class}\">{}</p>\n", escaped(&proven));
-    let open = checks.not_checked().map_or_else(String::new, |open| {
-        format!(
-            "<p class=\"unchecked\"><strong>Not checked:</strong> {}.</p>\n",
-            escaped(&open)
+    let open = checks.not_checked().map(|open| {
+        html!(
+            in "<p class=\"unchecked\"><strong>Not checked:</strong> {open}.</p>\n",
+            open = open
         )
     });
-    verdict + &open
+    html!(
+        in "<p class=\"{class}\">{standing}: {proven}.</p>\n{open}",
+        class = class,
+        standing = standing.words(),
+        proven = checks.proven(),
+        open = open
+    )
 }
 
 /// The key numbers as a list of terms and values.
-pub(super) fn key_numbers(subject: Subject<'_>) -> String {
-    let mut numbers = String::from("<dl class=\"key\">\n");
-    for Key {
-        name,
-        value,
-        remark,
-        room,
-    } in rows(subject)
-    {
-        let class = match room {
-            Room::Enough => "",
-            Room::Scarce => " class=\"scarce\"",
+pub(super) fn key_numbers(subject: Subject<'_>) -> Html {
+    let row = |key: Key| {
+        let class = match key.room {
+            Room::Enough => None,
+            Room::Scarce => Some(html!(in " class=\"scarce\"")),
         };
-        numbers += &format!(
-            "<div{class}><dt>{name}</dt><dd>{}<small>{}</small></dd></div>\n",
-            unbroken(&value),
-            unbroken(&remark)
-        );
-    }
-    numbers + "</dl>\n"
+        html!(
+            in "<div{class}><dt>{name}</dt><dd>{value}<small>{remark}</small></dd></div>\n",
+            class = class,
+            name = key.name,
+            value = unbroken(&key.value),
+            remark = unbroken(&key.remark)
+        )
+    };
+    let rows: Html = rows(subject).into_iter().map(row).collect();
+    html!(in "<dl class=\"key\">\n{rows}</dl>\n", rows = rows)
 }
 
 struct Key {

@@ -1,7 +1,6 @@
 //! The blade of a job as it is held: for people who clamp it.
 
 use crate::Material;
-use vcutc_backend_api::ir::Edges;
 use vcutc_diagnostics::number::show;
 use vcutc_picture::{Prefix, blade};
 
@@ -24,9 +23,6 @@ pub fn blade(material: &Material<'_>, ids: Prefix) -> Option<String> {
         },
         rake: setup.rake.value.to_rad(),
         half_apex: held.half_apex.value.to_rad(),
-        back: match held.edges {
-            Edges::Double => blade::Back::Edge,
-            Edges::Single => blade::Back::Blunt,
-        },
+        edges: held.edges,
     }))
 }
