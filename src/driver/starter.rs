@@ -16,7 +16,7 @@ use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
 use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc_diagnostics::{Diagnostic, has_errors};
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_machine::Model;
 use vcutc_motion::moves::above_first_pose;
 use vcutc_motion::place::motions::TellingMotions;

@@ -6,13 +6,11 @@
 pub mod description;
 pub mod operation;
 mod places;
-pub mod planned;
-pub mod search;
 pub mod sema;
 pub mod setup;
 
-pub use operation::Operation;
-pub use planned::{PlannedJob, PlannedOperation};
+pub use operation::planned::{self, PlannedJob, PlannedOperation};
+pub use operation::{Operation, search};
 pub use setup::Setup;
 
 use std::sync::Arc;

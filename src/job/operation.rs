@@ -1,63 +1,23 @@
 //! What an operation is to every stage: the interface between the stages and the folders in `src/operations`.
 //!
-//! An operation passes through three types. A [`Kind`] says how it is written and checks it; what it checked is an
-//! [`Operation`], which plans itself; the plan is a [`PlannedOperation`], which writes itself down as motions, explains what
-//! a proof finds wrong with it, and describes itself for summary, report and editor. The stages know no more of it than
-//! that.
+//! An operation passes through three types. A [`Kind`](crate::sema::kind::Kind) says how it is written and checks it. What
+//! it checked is an [`Operation`], which plans itself. The plan is a [`PlannedOperation`], which writes itself down as
+//! motions, explains what a proof finds wrong with it, and describes itself for summary, report and editor. The stages know
+//! no more of it than that.
 
-use super::search::SearchSpace;
-use super::sema::written::Written;
-use super::{CheckedJob, PlannedOperation, Setup, Sourced};
-use crate::sema::report::Checked;
-use crate::sema::session::Session;
-use crate::sema::spec::BlockSpec;
+pub mod planned;
+pub mod search;
+
+use super::{CheckedJob, Setup, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
+use planned::PlannedOperation;
+use search::SearchSpace;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
 use vcutc_simulation::surface::Surface;
-
-/// A kind of operation in the language.
-pub trait Kind: Debug + Sync {
-    /// The two words of its head: `rough vcut`.
-    fn head(&self) -> &'static str;
-
-    /// The two words, one by one.
-    fn words(&self) -> [&'static str; 2] {
-        let (first, second) = self.head().split_once(' ').unwrap_or((self.head(), ""));
-        [first, second]
-    }
-
-    /// Words that people write for it by mistake.
-    fn mistaken_for(&self) -> &'static [&'static str] {
-        &[]
-    }
-
-    /// The table of its fields.
-    fn spec(&self) -> &'static BlockSpec;
-
-    /// A block of it with this blade, as an example for a job that has none.
-    fn example(&self, blade: &str) -> String;
-
-    /// Works out what a block of it means.
-    fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>>;
-}
-
-/// The kinds of operation that this compiler knows.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Operations(pub &'static [&'static dyn Kind]);
-
-impl Operations {
-    /// The kind whose head begins with these words; the first one of its first word where the second is none of theirs.
-    #[must_use]
-    pub fn find(self, first: &str, second: Option<&str>) -> Option<&'static dyn Kind> {
-        let mut kinds = self.0.iter().copied().filter(|kind| kind.words()[0] == first);
-        let named = kinds.clone().find(|kind| Some(kind.words()[1]) == second);
-        named.or_else(|| kinds.next())
-    }
-}
 
 /// An operation as the job asks for it.
 pub trait Operation: OperationValue + Any + Debug + Send + Sync {

@@ -15,7 +15,7 @@ use vcutc_driver::hints::{Hint, hints};
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Typed, Unhurried};
 use vcutc_job::PlannedJob;
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::study::{Study, study};
 use vcutc_job::sema::{Choices, Part};
 use vcutc_syntax::ast::{Ast, Item};

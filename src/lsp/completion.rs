@@ -12,7 +12,7 @@ use super::surroundings::BlockAround;
 use super::values::{Begun, Place};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::Backend;
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
 use vcutc_machine::catalogue;
 

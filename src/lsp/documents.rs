@@ -5,8 +5,8 @@ use super::analysis::{Analysis, OpenTexts, Overlay};
 use super::text::{Encoding, Text};
 use lsp_types::Uri;
 use std::collections::{BTreeMap, BTreeSet};
-use vcutc_job::operation::Operations;
 use vcutc_job::sema::Part;
+use vcutc_job::sema::kind::Operations;
 
 /// How the client calls an open document.
 #[derive(Clone, Debug)]

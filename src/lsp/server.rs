@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::Wanted;
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 
 /// How far the conversation is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 //! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
 
 use vcutc_diagnostics::source::{Span, Spanned};
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
 use vcutc_syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
 

@@ -4,7 +4,7 @@ use super::sites::{Kind, Named, sites};
 use super::text::Text;
 use lsp_types::{SemanticToken, SemanticTokenModifier, SemanticTokenType};
 use std::collections::BTreeMap;
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::vocabulary;
 use vcutc_syntax::ast::Ast;
 use vcutc_syntax::lexical::{Token, TokenKind, tokens};

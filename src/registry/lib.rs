@@ -1,7 +1,7 @@
 //! The operations and the backends that this build knows.
 
 use vcutc_backend_api::backend::Backend;
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 
 /// All operations.
 pub const OPERATIONS: Operations = Operations(&[&vcutc_vcut::Vcut]);

@@ -3,7 +3,7 @@
 use super::*;
 use crate::{Outcome, Request, Typed, compile};
 use vcutc_diagnostics::source::{LoadError, Loader};
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_motion::remedy::trial;
 use vcutc_motion::solve::Unreached;
 use vcutc_process::plan::plan;

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Needless, Wanted};
 use vcutc_diagnostics::source::{LoadError, Loader};
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_registry as registry;
 
 /// A job file, and what it says at each of the places that are edited.

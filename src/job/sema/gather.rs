@@ -3,13 +3,13 @@
 use super::fields::{Place, head_span};
 use super::files::Files;
 use super::heads::{Kind, classify};
+use super::kind::{Kind as OperationKind, Operations};
 use super::lets::Let;
 use super::machine::Head;
 use super::names::{Names, Thing, did_you_mean, more_than_one};
 use super::overrides::Overrides;
 use super::report::{Reported, Reports};
 use super::session::Session;
-use crate::operation::{self, Operations};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Expr, Item};
@@ -55,7 +55,7 @@ pub(crate) struct Definitions<'a> {
     /// The choice of the machine.
     pub(crate) cell: Option<Placed<'a>>,
     /// Operations, in order.
-    pub(crate) operations: Vec<(&'static dyn operation::Kind, Placed<'a>)>,
+    pub(crate) operations: Vec<(&'static dyn OperationKind, Placed<'a>)>,
     /// Set when a block could not be made out: it may be any that seems to be missing.
     pub(crate) doubtful: Option<Reported>,
 }

@@ -1,9 +1,9 @@
 //! What the heads of blocks at the top of a file say.
 
 use super::fields::head_span;
+use super::kind::{Kind as OperationKind, Operations};
 use super::machine;
 use super::names::did_you_mean;
-use crate::operation::{self, Operations};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
@@ -22,7 +22,7 @@ pub(crate) enum Kind<'a> {
     /// `blade NAME`.
     Blade(Spanned<&'a str>),
     /// An operation such as `rough vcut`.
-    Operation(&'static dyn operation::Kind),
+    Operation(&'static dyn OperationKind),
     /// `machine NAME = robot "model"`.
     Machine(machine::Head<'a>),
 }

@@ -3,10 +3,10 @@
 use super::cell::Anchor;
 use super::files::File;
 use super::gather::Definitions;
+use super::kind::Operations;
 use super::quantity::number;
 use super::report::Reported;
 use super::session::{Session, start_of};
-use crate::operation::Operations;
 use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};

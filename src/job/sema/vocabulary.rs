@@ -7,12 +7,12 @@ pub use super::dimension::Dimension;
 pub use super::eval::walk;
 pub use super::functions::Signature;
 use super::heads::{self, Kind};
+use super::kind::Operations;
 use super::profile::{data, drawing};
 pub(crate) use super::range::Range;
 use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
 pub use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
-use crate::operation::Operations;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_syntax::ast::Block;
 

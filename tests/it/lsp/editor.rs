@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use vcutc::diagnostics::source::{Entry, LoadError, Loader, entries_among};
-use vcutc::job::operation::Operations;
+use vcutc::job::sema::kind::Operations;
 use vcutc::lsp::wire::Incoming;
 use vcutc::lsp::{Server, Workspace};
 use vcutc::registry;

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap, entries_among};
 use vcutc_diagnostics::{Code, Diagnostic, fix};
-use vcutc_job::operation::Operations;
+use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::{Choices, Typed, check};
 use vcutc_job::{Auto, CheckedJob, Sourced};
 

@@ -1,9 +1,9 @@
 //! The planned job: every choice made, nothing promised. What a plan of an operation is to the stages after it.
 
-use super::description::{ParameterFigure, ParameterTable};
-use super::operation::{Operation, Trials, WorksThere};
 use super::search::RouteSet;
-use super::{Machine, Order, Sourced};
+use super::{Operation, Trials, WorksThere};
+use crate::description::{ParameterFigure, ParameterTable};
+use crate::{Machine, Order, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use vcutc_backend_api::builder::ProgramBuilder;

@@ -1,6 +1,7 @@
 //! Which part of what a job leaves open is searched: all of it, or less where the machine does not follow.
 
-use super::{Order, PlannedJob};
+use super::planned::PlannedJob;
+use crate::Order;
 use vcutc_backend_api::units::Angle;
 
 /// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,

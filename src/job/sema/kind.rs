@@ -1,0 +1,48 @@
+//! What a kind of operation is in the language.
+
+use super::report::Checked;
+use super::session::Session;
+use super::spec::BlockSpec;
+use super::written::Written;
+use crate::operation::Operation;
+use core::fmt::Debug;
+
+/// A kind of operation in the language.
+pub trait Kind: Debug + Sync {
+    /// The two words of its head: `rough vcut`.
+    fn head(&self) -> &'static str;
+
+    /// The two words, one by one.
+    fn words(&self) -> [&'static str; 2] {
+        let (first, second) = self.head().split_once(' ').unwrap_or((self.head(), ""));
+        [first, second]
+    }
+
+    /// Words that people write for it by mistake.
+    fn mistaken_for(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// The table of its fields.
+    fn spec(&self) -> &'static BlockSpec;
+
+    /// A block of it with this blade, as an example for a job that has none.
+    fn example(&self, blade: &str) -> String;
+
+    /// Works out what a block of it means.
+    fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>>;
+}
+
+/// The kinds of operation that this compiler knows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Operations(pub &'static [&'static dyn Kind]);
+
+impl Operations {
+    /// The kind whose head begins with these words; the first one of its first word where the second is none of theirs.
+    #[must_use]
+    pub fn find(self, first: &str, second: Option<&str>) -> Option<&'static dyn Kind> {
+        let mut kinds = self.0.iter().copied().filter(|kind| kind.words()[0] == first);
+        let named = kinds.clone().find(|kind| Some(kind.words()[1]) == second);
+        named.or_else(|| kinds.next())
+    }
+}
