@@ -5,13 +5,14 @@ pub mod catalogue;
 pub mod facts;
 pub mod habits;
 pub mod kinematics;
-pub mod limit_places;
+mod limit_places;
 pub mod path_limits;
 mod reach;
 pub mod sheet;
 pub mod urdf;
 mod usual_home;
 
+pub use limit_places::LimitPlaces;
 pub use usual_home::usual_home;
 
 use crate::kinematics::Mechanism;
@@ -77,6 +78,15 @@ pub fn read(name: &str, kind: FileKind, text: &str) -> Result<Model, Vec<Flaw>> 
     match kind {
         FileKind::Sheet => sheet::parse(text).map(|sheet| sheet.machine(name)),
         FileKind::Urdf => urdf::parse(name, text, urdf::Flange::ByConvention),
+    }
+}
+
+/// The places of the limits of all axes of a machine that was read from this text.
+#[must_use]
+pub fn limit_places(kind: FileKind, text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
+    match kind {
+        FileKind::Sheet => sheet::limit_places(text, axes),
+        FileKind::Urdf => urdf::limit_places(text, axes),
     }
 }
 

@@ -1,8 +1,6 @@
 //! Where the file of a machine states the limits of its axes, so that a message about a limit can point at its line.
 
-use super::{FileKind, sheet, urdf};
 use core::ops::Range;
-use vcutc_backend_api::ir::Axis;
 
 /// Where the limits of an axis are, in bytes of the text; none for a limit that the file does not state.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -13,19 +11,10 @@ pub struct LimitPlaces {
     pub rate: Option<Range<usize>>,
 }
 
-/// The places of the limits of all axes of a machine that was read from this text.
-#[must_use]
-pub fn limit_places(kind: FileKind, text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
-    match kind {
-        FileKind::Sheet => sheet::limit_places(text, axes),
-        FileKind::Urdf => urdf::limit_places(text, axes),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::read;
+    use crate::{FileKind, limit_places, read};
 
     fn stated(kind: FileKind, text: &str) -> Vec<(String, Option<&str>, Option<&str>)> {
         let axes = read("machine", kind, text).map_or_else(|flaws| panic!("{flaws:?}"), |model| model.axes);

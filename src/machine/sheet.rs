@@ -8,9 +8,9 @@ mod five_axis;
 mod robot;
 mod types;
 
+use super::LimitPlaces;
 use super::Model;
 use super::facts::{self, Facts, FkCheck};
-use super::limit_places::LimitPlaces;
 use super::path_limits::{self, PathLimits};
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};

@@ -19,8 +19,8 @@ mod elements;
 mod tests;
 mod tree;
 
+use super::LimitPlaces;
 use super::Model;
-use super::limit_places::LimitPlaces;
 use super::path_limits::PathLimits;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::{JointAxis, SerialArm};

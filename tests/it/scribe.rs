@@ -124,12 +124,9 @@ impl Mark {
     /// What keeps it from being marked: the part.
     fn refused(&self, ground: &Ground<'_>) -> Option<Diagnostic> {
         let vee = self.vee(ground.job.stock);
-        let enters = ground
-            .job
-            .profile
-            .points()
-            .iter()
-            .any(|point| point.z > vee.height(point.x) + 1e-9);
+        let part = &ground.job.profile;
+        let corners = part.points().iter().any(|point| point.z > vee.height(point.x));
+        let enters = corners || part.height(vee.tip.x) > vee.tip.z;
         let span = self.depth.span.unwrap_or(self.setup.head_span);
         enters.then(|| {
             Diagnostic::new(
@@ -427,6 +424,8 @@ fn the_editor_knows_its_fields_and_what_was_chosen() {
             ("line.vcut", &text),
             ("shop/cells.vcut", &cells),
             ("shop/blades.vcut", &blades),
+            ("shop/gantry.toml", &shop("gantry.toml")),
+            ("shop/knife_gantry.toml", &shop("knife_gantry.toml")),
         ],
     );
     editor.open("/shop/line.vcut");

@@ -46,6 +46,7 @@ pub mod backend;
 pub mod builder;
 pub mod bundle;
 pub mod confdata;
+pub mod corners;
 pub mod exchange;
 pub mod findings;
 pub mod geometry;

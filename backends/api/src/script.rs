@@ -3,7 +3,6 @@
 //!
 //! A dialect has its own words for all of this, and shares the decisions.
 
-mod corners;
 mod dialect;
 mod emission;
 mod head;
@@ -14,7 +13,6 @@ mod tables;
 mod text;
 mod writer;
 
-pub use corners::may_round;
 pub use dialect::{Dialect, File, Files, JointMove, JointTarget, LinearMove, Source};
 pub use emission::emission;
 pub use head::{HeadLine, duration_words, head_lines};

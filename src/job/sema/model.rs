@@ -13,8 +13,7 @@ use std::sync::Arc;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Span, Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_machine::limit_places::{LimitPlaces, limit_places};
-use vcutc_machine::{self as machine, FileKind, Model, Origin, catalogue};
+use vcutc_machine::{self as machine, FileKind, LimitPlaces, Model, Origin, catalogue, limit_places};
 
 /// A model, and where its file states the limits of its axes.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! What is different between an op and a deed.
 
 use super::{Deed, End, Grain, Held, Pace, Reader, Stance, Target};
+use crate::corners::may_round;
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
-use crate::script::may_round;
 use crate::segments::LinearSegment;
 use crate::state::{Generator, State, TipPose};
 use crate::swivel::Apart;

@@ -1,6 +1,5 @@
 //! The one writer of programs: files, headings and ops in their order. How each of them reads is the [`Dialect`]'s.
 
-use super::corners::may_round;
 use super::dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
 use super::head::head_lines;
 use super::listing::{Lead, Modal, first_of};
@@ -9,6 +8,7 @@ use super::split::Part;
 use super::tables::operation_heading;
 use super::text::Written;
 use crate::backend::EmitError;
+use crate::corners::may_round;
 use crate::ir::{Action, Op, OpId, Ready, Switch};
 use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};

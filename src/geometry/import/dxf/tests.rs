@@ -100,7 +100,7 @@ fn faults_of_entities_are_pointed_at() {
             .contains("SEQEND")
     );
     assert!(whole("0 INSERT 2 RIB 10 0 20 0").1.contains("no block `RIB`"));
-    assert!(whole("0 INSERT 2 RIB 10 0 20 0 41 0").1.contains("to nothing"));
+    assert!(whole("0 INSERT 2 RIB 10 0 20 0 41 0").1.contains("to zero"));
     let spline = "0 SPLINE 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 1 20 1 10 2 20 0";
     assert!(dxf(&entities(spline), None).is_ok());
     assert!(
