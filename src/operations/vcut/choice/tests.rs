@@ -43,8 +43,7 @@ fn planned_and_proven(job: &CheckedJob) -> Option<(PlannedJob, Proven)> {
 }
 
 fn vcut(plan: &PlannedJob) -> &PlannedVcut {
-    let vcut = planned(&plan);
-    vcut
+    planned(plan)
 }
 
 /// What a plan's cuts leave.
