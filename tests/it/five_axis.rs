@@ -1,8 +1,9 @@
 //! A job on every arrangement of five-axis machines: those that hold its postures carry it out, the others say what they lack.
 
-use crate::pipeline::{Files, compile, numbers, told};
-use crate::repository::read;
+use crate::pipeline::{Files, compile, compile_on, numbers, told};
+use crate::repository::{read, root};
 use glam::{DMat3, DVec3};
+use vcutc::diagnostics::Code;
 use vcutc::motion::solve::rig;
 use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::vcut::PlannedVcut;
@@ -239,4 +240,22 @@ fn a_turn_too_near_the_work_says_how_far_is_enough() {
     );
     assert_eq!(numbers(&with("8.5 mm").diagnostics), ["VC0528"]);
     assert!(with("8.6 mm").compiled.is_some());
+}
+
+/// The user's own sheet states the limit, so the message points there and not only at the model's name in the job.
+#[test]
+fn a_limit_points_at_its_line_in_the_sheet() {
+    let sheet = read("examples/shop/gantry.toml");
+    let stated = sheet.lines().find(|line| line.starts_with("range_deg")).unwrap();
+    let narrow = "range_deg = [-20.0, 20.0]";
+    let files = Files::of(root().join("examples")).with("shop/gantry.toml", sheet.replace(stated, narrow));
+    let outcome = compile_on(Some("gantry"), "spoiler_clarky.vcut", &files);
+    let refused = &outcome.diagnostics[0];
+    assert_eq!(refused.code, Code::AxisLimit);
+    let pointed: Vec<&str> = refused
+        .secondary
+        .iter()
+        .map(|label| outcome.sources.slice(label.span))
+        .collect();
+    assert_eq!(pointed, ["[-20.0, 20.0]"]);
 }
