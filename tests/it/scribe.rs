@@ -437,7 +437,8 @@ fn the_editor_knows_its_fields_and_what_was_chosen() {
     let whole = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 99, "character": 0 } });
     let params = json!({ "textDocument": { "uri": uri("/shop/line.vcut") }, "range": whole });
     let hints = editor.ask("textDocument/inlayHint", params).unwrap();
-    assert_eq!(hints[0]["label"], "12.053 mm");
+    // 10 mm of edge lean over the work by cos(60 deg - 7.13 deg), and `run_out` is 2 mm.
+    assert_eq!(hints[0]["label"], "= 8.037 mm");
     let offers = editor
         .ask(
             "textDocument/completion",
