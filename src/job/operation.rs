@@ -187,6 +187,9 @@ pub trait OperationValue {
 
     /// Whether the two ask for the same.
     fn is_same(&self, other: &dyn Operation) -> bool;
+
+    /// Takes over what another operation of this type asks for.
+    fn assign(&mut self, other: &dyn Operation);
 }
 
 impl<T: Operation + Clone + PartialEq> OperationValue for T {
@@ -197,6 +200,13 @@ impl<T: Operation + Clone + PartialEq> OperationValue for T {
     fn is_same(&self, other: &dyn Operation) -> bool {
         let other: &dyn Any = other;
         other.downcast_ref::<T>() == Some(self)
+    }
+
+    fn assign(&mut self, other: &dyn Operation) {
+        let other: &dyn Any = other;
+        if let Some(other) = other.downcast_ref() {
+            self.clone_from(other);
+        }
     }
 }
 

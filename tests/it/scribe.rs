@@ -70,10 +70,6 @@ impl Kind for Line {
         &SPEC
     }
 
-    fn example(&self, blade: &str) -> String {
-        format!("mark line {{ blade = {blade} }}")
-    }
-
     fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>> {
         let fields = Fields::sort(&SPEC, written.place, &written.block.entries, session);
         let setup = setup::check(&fields, written, session);
@@ -194,11 +190,6 @@ impl PlannedOperation for Marked {
 
     fn asked_mut(&mut self) -> &mut dyn Operation {
         &mut self.asked
-    }
-
-    fn set_asked(&mut self, asked: &dyn Operation) {
-        let asked: &dyn core::any::Any = asked;
-        self.asked.clone_from(asked.downcast_ref().unwrap());
     }
 
     fn tips(&self) -> Vec<PlannedTip> {
@@ -448,6 +439,20 @@ fn the_editor_knows_its_fields_and_what_was_chosen() {
     let offered = serde_json::to_string(&offers).unwrap();
     assert!(
         offered.contains("direction") && !offered.contains("lattice"),
+        "{offered}"
+    );
+}
+
+/// A job without operations is offered the first kind, with the fields that it must have.
+#[test]
+fn a_job_without_operations_is_offered_one() {
+    let offered = Line.example("dagger");
+    assert!(
+        offered.starts_with("mark line {\n  blade = dagger\n"),
+        "{offered}"
+    );
+    assert!(
+        offered.contains("depth = 3 mm") && !offered.contains("direction"),
         "{offered}"
     );
 }

@@ -70,7 +70,9 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
     fn asked_mut(&mut self) -> &mut dyn Operation;
 
     /// Takes the same operation of another text for what the job asks for.
-    fn set_asked(&mut self, asked: &dyn Operation);
+    fn set_asked(&mut self, asked: &dyn Operation) {
+        self.asked_mut().assign(asked);
+    }
 
     /// How many cuts it has.
     fn cuts(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use super::report::Checked;
 use super::session::Session;
-use super::spec::BlockSpec;
+use super::spec::{BlockSpec, Need, Takes};
 use super::written::Written;
 use crate::operation::Operation;
 use core::fmt::Debug;
@@ -27,7 +27,18 @@ pub trait Kind: Debug + Sync {
     fn spec(&self) -> &'static BlockSpec;
 
     /// A block of it with this blade, as an example for a job that has none.
-    fn example(&self, blade: &str) -> String;
+    fn example(&self, blade: &str) -> String {
+        let required = self
+            .spec()
+            .fields
+            .iter()
+            .filter(|field| field.need == Need::Required);
+        let lines = required.map(|field| match field.takes {
+            Takes::Blade => format!("  {} = {blade}\n", field.name),
+            _ => format!("  {}\n", field.sample()),
+        });
+        format!("{} {{\n{}}}", self.head(), lines.collect::<String>())
+    }
 
     /// Works out what a block of it means.
     fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>>;

@@ -39,12 +39,6 @@ impl PlannedOperation for PlannedVcut {
         &mut self.asked
     }
 
-    fn set_asked(&mut self, asked: &dyn Operation) {
-        if let Some(asked) = RoughVcut::of(asked) {
-            self.asked.clone_from(asked);
-        }
-    }
-
     fn cuts(&self) -> usize {
         self.cuts.len()
     }
