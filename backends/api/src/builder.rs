@@ -5,12 +5,15 @@ use crate::ir::{
     Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, Purpose, RateId,
     Site, Stock,
 };
+use crate::state::State;
 use crate::units::{AngularSpeed, Speed};
 
 /// A program in the making.
 #[derive(Clone, Debug)]
 pub struct ProgramBuilder {
     program: Program,
+    /// After the last op.
+    state: State,
 }
 
 impl ProgramBuilder {
@@ -31,6 +34,7 @@ impl ProgramBuilder {
                 rates: Vec::new(),
                 ops: Vec::new(),
             },
+            state: State::START,
         }
     }
 
@@ -42,41 +46,14 @@ impl ProgramBuilder {
 
     /// Whether the tip is at a point of W, and not at home or wherever the machine was left.
     #[must_use]
-    pub fn knows_tip(&self) -> bool {
-        match self.program.ops.last().map(|op| op.action) {
-            None | Some(Action::Home) => false,
-            Some(
-                Action::Travel { .. }
-                | Action::AxisTravel { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. }
-                | Action::Ultrasonic { .. }
-                | Action::AwaitReady
-                | Action::Dwell { .. }
-                | Action::ToolChange { .. },
-            ) => true,
-        }
+    pub const fn knows_tip(&self) -> bool {
+        self.state.place.pose().is_some()
     }
 
     /// How the blade is held; none at home or wherever the machine was left.
     #[must_use]
     pub fn held(&self) -> Option<Orientation> {
-        let last = self.program.ops.iter().rev().find_map(|op| match op.action {
-            Action::Travel { orientation, .. } | Action::AxisTravel { orientation, .. } => {
-                Some(Some(orientation))
-            }
-            Action::Turn { to, .. } => Some(Some(to)),
-            Action::Home | Action::ToolChange { .. } => Some(None),
-            Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. } => None,
-        });
-        let OrientationId(index) = last.flatten()?;
+        let OrientationId(index) = self.state.place.pose()?.orientation;
         self.program.orientations.get(index as usize).copied()
     }
 
@@ -98,6 +75,7 @@ impl ProgramBuilder {
             | Action::ToolChange { .. } => true,
         };
         if exists {
+            self.state = self.state.after(&action);
             self.program.ops.push(Op { site, action });
         }
     }

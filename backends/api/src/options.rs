@@ -163,7 +163,7 @@ impl Options {
         Ok(())
     }
 
-    /// A whole number; 0 for a key that is no such option (a backend only asks for its own).
+    /// A whole number; 0 for a key that is not such an option (a backend only asks for its own).
     #[must_use]
     pub fn integer(&self, key: &str) -> u32 {
         match self.values.get(key) {
@@ -172,7 +172,7 @@ impl Options {
         }
     }
 
-    /// A length; zero for a key that is no such option.
+    /// A length; zero for a key that is not such an option.
     #[must_use]
     pub fn length(&self, key: &str) -> Length {
         match self.values.get(key) {
@@ -181,7 +181,7 @@ impl Options {
         }
     }
 
-    /// Lines of text; none for a key that is no such option.
+    /// Lines of text; none for a key that is not such an option.
     #[must_use]
     pub fn lines(&self, key: &str) -> &[String] {
         match self.values.get(key) {
@@ -190,7 +190,7 @@ impl Options {
         }
     }
 
-    /// A text; empty when not given, and for a key that is no such option.
+    /// A text; empty when not given, and for a key that is not such an option.
     #[must_use]
     pub fn text(&self, key: &str) -> &str {
         match self.values.get(key) {
@@ -199,7 +199,7 @@ impl Options {
         }
     }
 
-    /// A word; empty for a key that is no such option.
+    /// A word; empty for a key that is not such an option.
     #[must_use]
     pub fn choice(&self, key: &str) -> &'static str {
         match self.values.get(key) {

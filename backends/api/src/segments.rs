@@ -291,7 +291,7 @@ impl Segments<'_> {
     fn path(&mut self, from: Option<TipPose>, action: &Action) -> Path {
         match (*action, from) {
             (Action::Home, _) => Path::Home,
-            // Before the first pose the blade is at home or somewhere unknown, so there is no line to go along.
+            // Before the first pose the blade is at home or somewhere unknown, so the motion has no line to follow.
             (Action::AxisTravel { to: tip, orientation }, _)
             | (
                 Action::Travel {

@@ -154,7 +154,7 @@ pub(crate) struct Facts {
     pub(crate) tool_of_axis_moves: Option<u32>,
     /// How turns about the still tip get their time.
     pub(crate) still_tip: FeedMode,
-    /// Moves from here on end at a standstill; none where there is no other way.
+    /// Moves from here on end at a standstill; none where they always do.
     pub(crate) exact: Option<&'static str>,
     /// The word after which moves end at a standstill, for messages.
     pub(crate) exact_word: &'static str,
