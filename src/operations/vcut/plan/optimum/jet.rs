@@ -330,10 +330,9 @@ impl<S: Scalar, const D: usize, const P: usize> Number for Jet<S, D, P> {
     }
     fn over_hypotenuse(self, leg: f64) -> Self {
         let inverse = self.value.hypotenuse(leg).inverse();
-        let square = inverse * inverse;
-        let first = (square * inverse).times(leg * leg);
+        let first = (inverse * inverse * inverse).times(leg * leg);
         let share = self.value.over_hypotenuse(leg);
-        self.of(share, first, (share * square * first).times(-3.0))
+        self.of(share, first, (share * inverse * first).times(-3.0))
     }
     fn arc_tangent(self) -> Self {
         let first = (self.value * self.value).plus(1.0).inverse();

@@ -116,6 +116,10 @@ proptest! {
         let kinked = (value(place + step) - 2.0 * here.value + value(place - step)).abs() / (step * step)
             > 10.0 * (1.0 + here.curve[0].abs());
         prop_assert!(kinked || (slope - here.by[0]).abs() < 1e-5 * (1.0 + here.value / place), "{slope} {here:?}");
+        let by = |place: f64| model.at_widest(OnLine::coordinate(0, place)).time.by[0];
+        let curve = (by(place + step) - by(place - step)) / (2.0 * step);
+        let size = 1.0 + (here.value / place + here.by[0].abs()) / place;
+        prop_assert!(kinked || (curve - here.curve[0]).abs() < 1e-5 * size, "{curve} {here:?}");
     }
 }
 
