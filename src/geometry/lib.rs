@@ -14,6 +14,7 @@ pub mod cone;
 pub mod curve;
 pub mod grid;
 pub mod import;
+pub mod number;
 pub mod offset;
 mod point;
 pub mod profile;

@@ -18,7 +18,7 @@
 //! The course is cut into spans. On a span, with a parameter `t` from -1 to 1, the closed-form inverse kinematics of the arm
 //! (Brandstötter, Angerer, Hofbaur 2014) is computed once, with *functions of `t`* in the place of numbers. Each step of the
 //! formulas, a sum, a product, a root, an arc, takes functions and returns one; of each function `f` five intervals are kept
-//! ([`along`]): what `f(0)` and `f'(0)` are, and what `f`, `f'` and `f''` range over on the whole span.
+//! ([`vcutc_geometry::number::Along`]): what `f(0)` and `f'(0)` are, and what `f`, `f'` and `f''` range over on the whole span.
 //!
 //! 1. *The intervals are right.* Sums and products follow Leibniz' rule, roots and arcs the chain rule, for instance for the
 //!    arc `q` of a point `(x, y)` at the distance `r` from the origin, in which all angles of an arm end:
@@ -66,7 +66,6 @@
 //! - The machine is as its model says. Calibration, elasticity and what else is in the cell are for others.
 
 mod abreast;
-mod along;
 mod arm;
 mod arm_course;
 mod axes;
@@ -74,14 +73,13 @@ mod bounds;
 mod chain;
 mod course;
 pub mod five_axis;
-mod interval;
 mod march;
-mod number;
 mod refuted;
 mod serial;
 #[cfg(test)]
 mod tests;
 mod types;
+mod wide;
 mod worst;
 
 pub use axes::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};

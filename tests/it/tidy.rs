@@ -32,7 +32,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
             "src/machine/kinematics/lanes.rs",
             "src/machine/kinematics/batch.rs",
             "src/motion/path/arm.rs",
-            "src/motion/path/number.rs",
+            "src/motion/path/wide.rs",
         ],
     ),
     ("anstream::", &["src/cli/"]),

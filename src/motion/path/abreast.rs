@@ -8,11 +8,11 @@ use super::arm::{Carrying, LANES};
 use super::arm_course::{ArmCourse, Solver};
 use super::bounds::{Bounds, Progress, Stretch};
 use super::course::Turning;
-use super::interval::Interval;
 use super::march::{Effort, March};
 use super::types::{Breach, Clearance, Course, Proof, Violation};
 use crate::rig::Rig;
 use vcutc_backend_api::motion::Branch;
+use vcutc_geometry::number::Interval;
 use vcutc_machine::kinematics::Joints;
 
 /// A course whose proof is under way.

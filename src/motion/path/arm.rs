@@ -4,16 +4,15 @@
 //! of numbers. Every root and arc exists on the whole span or the span is refused, so what comes out is one continuous
 //! branch. Several courses are computed side by side, as lanes of a vector.
 
-use super::along::{Along, Held};
 use super::bounds::Stretch;
 use super::course::{CARRIED, Flange, Flight, Span, Turning};
-use super::interval::Interval;
-use super::number::{Number, Wide};
 use super::types::{Clearance, Singularity, Violation};
+use super::wide::Wide;
 use core::f64::consts::PI;
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
+use vcutc_geometry::number::{Along, Held, Interval, Number};
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
 
 /// The branch of an arm.

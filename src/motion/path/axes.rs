@@ -4,13 +4,12 @@
 //! the move, as [`super::along`] does, and a span is proven when one face of the stock has all of them on its outer side.
 //! What is between the points is then out there too, since a half space that has the points has their convex hull.
 
-use super::along::Along;
 use super::bounds::limits;
 use super::chain::{Chain, Point, evenly, moved};
-use super::interval::Interval;
 use super::march::{Tried, march};
 use crate::rig::Rig;
 use glam::DVec3;
+use vcutc_geometry::number::{Along, Interval};
 use vcutc_machine::kinematics::Joints;
 
 /// By how much a point may be inside of a face, in mm: rounding.

@@ -1,10 +1,10 @@
 //! What the axes do on a span, and whether that keeps the bounds.
 
-use super::interval::Interval;
 use super::march::{Effort, Tried};
 use super::types::{Clearance, Proof, Singularity, Violation};
 use core::f64::consts::{PI, TAU};
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
+use vcutc_geometry::number::Interval;
 use vcutc_machine::kinematics::Joints;
 
 /// What an axis may be beyond its range (rad, mm), and a pose nearer to a singular one: rounding.

@@ -1,8 +1,8 @@
 //! Where axes carry a point, computed along a span on which they move: forward kinematics of every mechanism.
 
-use super::along::Along;
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_geometry::number::Along;
 use vcutc_machine::kinematics::five_axis::FiveAxis;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::serial::SerialArm;

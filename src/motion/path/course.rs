@@ -1,11 +1,9 @@
 //! The motion of the blade as controllers interpolate it, seen from the machine's root.
 
-use super::along::Along;
-use super::interval::Interval;
-use super::number::Number;
 use super::types::Course;
 use crate::rig::Rig;
 use glam::{DMat3, DQuat, DVec3};
+use vcutc_geometry::number::{Along, Interval, Number};
 use vcutc_machine::kinematics::pose::Pose;
 
 /// Farther out (mm) there is nothing to work on, and nothing to compute with.

@@ -27,10 +27,10 @@
 
 use super::bounds::Stretch;
 use super::course::{Flight, Span};
-use super::interval::Interval;
 use super::types::{Clearance, Violation};
 use glam::DVec3;
 use vcutc_backend_api::ir::MOST_AXES;
+use vcutc_geometry::number::Interval;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::serial::SerialArm;
 use vcutc_machine::kinematics::{Joints, newton};

@@ -3,10 +3,10 @@
 //!
 //! * [`problem`](self) says what is asked and answered, [`Bound`] names what is bounded.
 //! * `formulas` turns a swing and an overlap into the thickest layer that the bounds allow and what that costs, for
-//!   numbers and for boxes of numbers (`number`). `docs/process.md`, "The optimum", proves that no other layer is better.
+//!   numbers and for boxes of numbers ([`vcutc_geometry::number`]). `docs/process.md`, "The optimum", proves that no other layer is better.
 //! * `ground` says what a shape comes to by which functions.
 //! * `line` proves the least in a few microseconds where one coordinate tells it; else
-//! * `descent` goes down to where it is best around a shape, by the slopes and curvatures of `jet`, `certain` proves that, and
+//! * `descent` goes down to where it is best around a shape, by slopes and curvatures, `certain` proves that, and
 //!   `search` that there is nothing better elsewhere, by branch and bound in the coordinates of `chart`. `polish` helps out
 //!   where a descent comes to no rest.
 //! * `conflict` says why nothing keeps all bounds, `trade` what a bound costs.
@@ -21,9 +21,7 @@ mod conflict;
 mod descent;
 mod formulas;
 mod ground;
-mod jet;
 mod line;
-mod number;
 mod polish;
 mod problem;
 pub mod published;

@@ -9,9 +9,8 @@
 
 use super::descent::{Meets, Rest};
 use super::ground::{Ground, Term};
-use super::jet::OnPlane;
-use super::number::{Interval, Number, Slopes};
 use super::search::swing;
+use vcutc_geometry::number::{Interval, OnPlane, Scalar, Slopes};
 
 /// How far the first box that is tried reaches, as a share of the place; each further one reaches half as far.
 const WIDEST: f64 = 0.3;
@@ -54,11 +53,11 @@ impl Blend {
     }
 
     fn slopes(&self, ground: &Ground<'_>, sides: [Interval; 2]) -> Slopes {
-        let at = [Slopes::first(sides[0]), Slopes::second(sides[1])];
+        let at = [Slopes::coordinate(0, sides[0]), Slopes::coordinate(1, sides[1])];
         self.blended(|term| ground.term(term, at))
     }
 
-    fn blended<N: Number>(&self, value: impl Fn(Term) -> N) -> N {
+    fn blended<N: Scalar>(&self, value: impl Fn(Term) -> N) -> N {
         let mut sum = N::constant(0.0);
         for (term, weight) in self.parts {
             if weight > 0.0 {
@@ -124,7 +123,7 @@ impl Blend {
             let [a, b] = condition.by;
             let far = off + a.magnitude() * widths[0] + b.magnitude() * widths[1];
             let gain = Interval::exactly(2.0 * shift / far.max(f64::MIN_POSITIVE) * (1.0 - 1e-9));
-            let shares = [a.square(), a * b, b.square()];
+            let shares = [a.squared(), a * b, b.squared()];
             gains = [0, 1, 2].map(|k| gains[k] + gain * shares[k]);
         }
         value >= least && self.rounded(ground, sides, gains)

@@ -5,7 +5,7 @@
 //! overlap, or a given layer and step (which fix `u`) are sides of the rectangle, never a curve across it.
 
 use super::formulas::{Model, Shape, Tooth};
-use super::number::{Interval, Number};
+use vcutc_geometry::number::{Interval, Scalar};
 
 /// Which two of the three are coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ impl Chart {
     }
 
     /// The shape at two coordinates.
-    pub(super) fn shape<N: Number>(&self, first: N, second: N) -> Shape<N> {
+    pub(super) fn shape<N: Scalar>(&self, first: N, second: N) -> Shape<N> {
         match self.plane {
             Plane::TangentShare => Shape {
                 tangent: first,
@@ -85,7 +85,7 @@ impl Chart {
     }
 
     /// By how much the third keeps its range, as shares of its ends.
-    pub(super) fn slack<N: Number>(&self, shape: Shape<N>) -> [N; 2] {
+    pub(super) fn slack<N: Scalar>(&self, shape: Shape<N>) -> [N; 2] {
         let third = match self.plane {
             Plane::TangentShare => shape.aspect,
             Plane::TangentAspect => shape.share,

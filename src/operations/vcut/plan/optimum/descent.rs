@@ -7,7 +7,7 @@
 //! first. Nothing here needs to be certain: what is found is tried as any other shape, and proven or not in `certain`.
 
 use super::ground::{Ground, KEPT, Term};
-use super::jet::OnPlane;
+use vcutc_geometry::number::OnPlane;
 
 const MOST_STEPS: u32 = 40;
 

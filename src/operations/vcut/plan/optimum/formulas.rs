@@ -5,10 +5,10 @@
 //! bound on `h`, and the time falls with `h` (`docs/process.md`, "The optimum"), so the thickest layer is the best.
 
 use super::ground::Asked;
-use super::number::Number;
 use super::problem::{Extension, Problem, Range};
 use crate::asked::{Formulas, Lattice};
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::number::Scalar;
 
 /// Shares this close below a jump of the reach count as the jump: the same nanometre in a millimetre that simulation grants.
 const AT_JUMP: f64 = 1e-9;
@@ -309,7 +309,7 @@ impl Model {
         self.factor(share, Tooth::Behind(self.behind(share)))
     }
 
-    fn factor<N: Number>(&self, share: N, tooth: Tooth) -> N {
+    fn factor<N: Scalar>(&self, share: N, tooth: Tooth) -> N {
         match (self.formulas, self.lattice, tooth) {
             (Formulas::Paper, Lattice::Orthogonal, _) => N::constant(1.5),
             (Formulas::Paper, Lattice::Interlaced, _) => N::constant(1.0),
@@ -326,7 +326,7 @@ impl Model {
     }
 
     /// Scallop for each millimetre of layer: [Cui 12], or what is derived in `docs/process.md`, "Scallop".
-    pub(super) fn scallop_factor<N: Number>(&self, shape: Shape<N>) -> N {
+    pub(super) fn scallop_factor<N: Scalar>(&self, shape: Shape<N>) -> N {
         let drop = shape.share.plus(1.0);
         match self.lattice {
             Lattice::Orthogonal | Lattice::Free => (shape.aspect * shape.aspect + drop * drop).root(),
@@ -342,7 +342,7 @@ impl Model {
         self.allowance + self.drop(tangent)
     }
 
-    fn drop<N: Number>(&self, tangent: N) -> N {
+    fn drop<N: Scalar>(&self, tangent: N) -> N {
         tangent.over_hypotenuse(1.0).under(self.standoff)
     }
 
@@ -351,7 +351,7 @@ impl Model {
         self.reach_factor(shape.share) * layer * (1.0 + shape.tangent * shape.tangent).sqrt() / self.sin_lead
     }
 
-    fn flank<N: Number>(&self, shape: Shape<N>, tooth: Tooth) -> Flank<N> {
+    fn flank<N: Scalar>(&self, shape: Shape<N>, tooth: Tooth) -> Flank<N> {
         Flank {
             secant: shape.tangent.hypotenuse(1.0),
             factor: self.factor(shape.share, tooth),
@@ -359,12 +359,12 @@ impl Model {
     }
 
     /// The layer that the blade reaches.
-    fn by_reach<N: Number>(&self, flank: Flank<N>) -> N {
+    fn by_reach<N: Scalar>(&self, flank: Flank<N>) -> N {
         (flank.secant * flank.factor).under(self.upright_reach)
     }
 
     /// What bounds the layer of a shape.
-    pub(super) fn bounds<N: Number>(&self, shape: Shape<N>, tooth: Tooth) -> Bounds<N> {
+    pub(super) fn bounds<N: Scalar>(&self, shape: Shape<N>, tooth: Tooth) -> Bounds<N> {
         let flank = self.flank(shape, tooth);
         let by_reach = self.by_reach(flank);
         let room = self.scallop.map(|scallop| {
@@ -388,7 +388,7 @@ impl Model {
     }
 
     /// The layer that is asked for at least.
-    pub(super) fn asked<N: Number>(&self, shape: Shape<N>, asked: Asked) -> N {
+    pub(super) fn asked<N: Scalar>(&self, shape: Shape<N>, asked: Asked) -> N {
         match asked {
             Asked::Layer => N::constant(self.layer[0]),
             Asked::Step => shape.aspect.under(0.5 * self.step[0]),
@@ -396,7 +396,7 @@ impl Model {
     }
 
     /// The layer that some of the bounds allow.
-    fn layer<N: Number>(&self, bounds: &Bounds<N>, keeping: Keeping) -> N {
+    fn layer<N: Scalar>(&self, bounds: &Bounds<N>, keeping: Keeping) -> N {
         if self.given() {
             return bounds.least;
         }
@@ -426,7 +426,7 @@ impl Model {
     }
 
     /// What a shape costs with the layer that some of the bounds allow.
-    pub(super) fn cost<N: Number>(&self, shape: Shape<N>, bounds: &Bounds<N>, keeping: Keeping) -> Cost<N> {
+    pub(super) fn cost<N: Scalar>(&self, shape: Shape<N>, bounds: &Bounds<N>, keeping: Keeping) -> Cost<N> {
         let layer = self.layer(bounds, keeping);
         let reached = match keeping {
             Keeping::Both | Keeping::Reach if !self.given() => self.reached(shape, bounds.flank),
@@ -445,7 +445,7 @@ impl Model {
 
     /// The widest half step that the blade reaches in a box: `rho t h` is `rho` times the sine of the swing and the length of
     /// edge that `h` is of, which says more of wide boxes than the product of their highest values does.
-    fn reached<N: Number>(&self, shape: Shape<N>, flank: Flank<N>) -> f64 {
+    fn reached<N: Scalar>(&self, shape: Shape<N>, flank: Flank<N>) -> f64 {
         let longest = self.upright_reach / flank.factor.lowest();
         // For roundings, and for what still counts as reached.
         shape.share.highest() * shape.tangent.highest().over_hypotenuse(1.0) * longest * (1.0 + 1e-10)
@@ -453,7 +453,7 @@ impl Model {
 
     /// What cuts cost [Cui 8-11]: two passes with their run-outs, the turn between them, and the turn or the step to the next
     /// cut, whichever takes longer.
-    fn cost_of<N: Number>(&self, cut: &Cut<N>) -> Cost<N> {
+    fn cost_of<N: Scalar>(&self, cut: &Cut<N>) -> Cost<N> {
         let layers = cut.layers.plus(-0.5).greater(N::constant(1.0));
         let cuts = cut.points.plus(0.5) * layers;
         let sideways = cut.half_step.times(2.0 / self.travel_feed);
@@ -468,7 +468,7 @@ impl Model {
     }
 
     /// What comes of a shape.
-    pub(super) fn outcome<N: Number>(&self, shape: Shape<N>, tooth: Tooth, keeping: Keeping) -> Outcome<N> {
+    pub(super) fn outcome<N: Scalar>(&self, shape: Shape<N>, tooth: Tooth, keeping: Keeping) -> Outcome<N> {
         let bounds = self.bounds(shape, tooth);
         let cost = self.cost(shape, &bounds, keeping);
         let one = N::constant(1.0);
@@ -517,7 +517,7 @@ impl Model {
 
     /// What a swing costs with the thickest layer that the blade reaches and the widest step, whatever else is bounded. All of
     /// the edge is in use then, so the extension is the same for all swings.
-    pub(super) fn at_widest<N: Number>(&self, tangent: N) -> Cost<N> {
+    pub(super) fn at_widest<N: Scalar>(&self, tangent: N) -> Cost<N> {
         let share = self.ranges.share[1];
         let upright = self.upright_reach / self.reach_factor(share);
         let (secant, sine) = (tangent.hypotenuse(1.0), tangent.over_hypotenuse(1.0));
@@ -541,7 +541,7 @@ impl Model {
     }
 
     /// Time of a turn: phi = 2 acos(cos(alpha) sin(theta)), of which the arc is half.
-    fn turn<N: Number>(&self, tangent: N) -> N {
+    fn turn<N: Scalar>(&self, tangent: N) -> N {
         tangent
             .hypotenuse(self.cos_rake)
             .times(1.0 / self.sin_rake)
@@ -550,7 +550,7 @@ impl Model {
     }
 
     /// How far a cut runs out.
-    fn extension<N: Number>(&self, shape: Shape<N>, flank: Flank<N>, layer: N) -> N {
+    fn extension<N: Scalar>(&self, shape: Shape<N>, flank: Flank<N>, layer: N) -> N {
         match self.extension {
             Extension::Fixed(length) => N::constant(length.to_mm()),
             Extension::EdgeInUse => (flank.factor * layer * flank.secant).times(self.along),

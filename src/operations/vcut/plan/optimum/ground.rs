@@ -6,8 +6,7 @@
 
 use super::chart::Chart;
 use super::formulas::{Keeping, Model, Outcome, Shape, Tooth};
-use super::jet::OnPlane;
-use super::number::{Interval, Number, Slopes};
+use vcutc_geometry::number::{Interval, OnPlane, Scalar, Slopes};
 
 /// Bounds are kept to this share of them: what rounding may take.
 pub(super) const KEPT: f64 = 1e-11;
@@ -151,7 +150,7 @@ impl Ground<'_> {
     pub(super) fn enclosed(&self, sides: [Interval; 2]) -> (Slopes, [Slopes; 6]) {
         let shape = self
             .chart
-            .shape(Slopes::first(sides[0]), Slopes::second(sides[1]));
+            .shape(Slopes::coordinate(0, sides[0]), Slopes::coordinate(1, sides[1]));
         let outcome = self.model.outcome(shape, self.tooth, Keeping::Both);
         let ([a, b, c, d], [e, f]) = (outcome.slack, self.chart.slack(shape));
         let measured = match self.measure {
@@ -163,7 +162,7 @@ impl Ground<'_> {
     }
 
     /// A term at a place, or over a box.
-    pub(super) fn term<N: Number>(&self, term: Term, [first, second]: [N; 2]) -> N {
+    pub(super) fn term<N: Scalar>(&self, term: Term, [first, second]: [N; 2]) -> N {
         let shape = self.chart.shape(first, second);
         let bounds = || self.model.bounds(shape, self.tooth);
         let cost = |keeping: Keeping| self.model.cost(shape, &bounds(), keeping);

@@ -13,8 +13,7 @@
 use super::chart::Chart;
 use super::formulas::{Model, Tooth};
 use super::ground::{Found, Ground, Measure};
-use super::jet::OnLine;
-use super::number::{Interval, Number};
+use vcutc_geometry::number::{Interval, OnLine, Scalar};
 
 /// That nothing is less by this share is proven.
 const GAP: f64 = 1e-12;
@@ -68,7 +67,7 @@ impl<'m> Line<'m> {
         })
     }
 
-    fn at<N: Number>(&self, tangent: N) -> N {
+    fn at<N: Scalar>(&self, tangent: N) -> N {
         let cost = self.model.at_widest(tangent);
         match self.measure {
             Measure::Time | Measure::Breach => cost.time,

@@ -2,7 +2,7 @@
 //! along the first coordinate the best along the second. What is found is never worse.
 
 use super::ground::{Found, Ground, Merit};
-use super::number::Interval;
+use vcutc_geometry::number::Interval;
 
 /// The golden ratio's smaller part.
 const PART: f64 = 0.381_966_011_250_105_2;

@@ -15,10 +15,10 @@ use super::chart::Chart;
 use super::descent::{self, Rest};
 use super::formulas::{Keeping, Model, Tooth};
 use super::ground::{Found, Ground, KEPT, Measure, Merit};
-use super::number::{Interval, Slopes};
 use super::polish;
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
+use vcutc_geometry::number::{Interval, Slopes};
 
 /// A box that promises less than this share of improvement is not looked into.
 const GAP: f64 = 1e-7;
@@ -269,7 +269,11 @@ impl<'m> Search<'m> {
     fn look_around(&mut self, number: usize) {
         let ground = self.grounds[number];
         let mut best: Option<([f64; 2], Merit)> = None;
-        let along = |i: usize, step: u32| ground.chart.sides[i].part(step, TRIES[i]);
+        // The middle of one of so many equal parts of a side.
+        let along = |i: usize, step: u32| {
+            let side = ground.chart.sides[i];
+            side.low + side.width() * (f64::from(step) + 0.5) / f64::from(TRIES[i])
+        };
         for first in 0..TRIES[0] {
             for second in 0..TRIES[1] {
                 let place = [along(0, first), along(1, second)];

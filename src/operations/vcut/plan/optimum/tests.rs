@@ -1,7 +1,6 @@
 //! Checks against published numbers, against search on a grid, and against another author's optimiser.
 
 use super::formulas::{Keeping, Model, Tooth};
-use super::number::{Interval, Slopes};
 use super::published::table_1;
 use super::{Bound, Extension, Infeasible, Optimum, Problem, Range, Work, sensitivities, solve, trade_off};
 use crate::asked::{Formulas, Lattice, Objective};
@@ -9,6 +8,7 @@ use crate::plan::blade_reach::{needed_reach, scallop_bound};
 use crate::plan::time_model::TimeModel;
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
+use vcutc_geometry::number::{Interval, Slopes};
 
 mod line;
 
@@ -412,9 +412,9 @@ proptest! {
         let sides = [side(0.1 + at.0), side(0.1 + at.1)];
         let shape = |tangent, share| super::formulas::Shape { tangent, share, aspect: tangent * share };
         let enclosed = model.outcome(super::formulas::Shape {
-            tangent: Slopes::first(sides[0]),
-            share: Slopes::second(sides[1]),
-            aspect: Slopes::first(sides[0]) * Slopes::second(sides[1]),
+            tangent: Slopes::coordinate(0, sides[0]),
+            share: Slopes::coordinate(1, sides[1]),
+            aspect: Slopes::coordinate(0, sides[0]) * Slopes::coordinate(1, sides[1]),
         }, tooth, Keeping::Both);
         let place = [sides[0].low + inside.0 * (sides[0].high - sides[0].low), sides[1].low + inside.1 * (sides[1].high - sides[1].low)];
         let value = |place: [f64; 2]| model.outcome(shape(place[0], place[1]), tooth, Keeping::Both).time;

@@ -2,9 +2,7 @@
 
 use super::super::formulas::Model;
 use super::super::ground::Measure;
-use super::super::jet::OnLine;
 use super::super::line;
-use super::super::number::Interval;
 use super::super::published::table_1;
 use super::super::search::{self, Goal};
 use super::super::{Extension, Problem, Range, Work, solve};
@@ -12,6 +10,7 @@ use super::{Point, some_work};
 use crate::asked::{Formulas, Lattice, Objective};
 use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::number::{Interval, OnLine};
 
 /// Problems whose least one coordinate may tell: the paper's formulas with layer and step open.
 fn problem_of_the_paper() -> impl Strategy<Value = Problem> {

@@ -11,7 +11,7 @@
 //! quantity stays in their domain on the whole span.
 
 use super::interval::{HUGE, Interval};
-use super::number::Number;
+use super::plain::Number;
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// Below this, a divisor or a radicand counts as zero: in mm^2 or without unit.
@@ -19,7 +19,7 @@ const NEXT_TO_NOTHING: f64 = 1e-12;
 
 /// A quantity on a span; derivatives are by the span's parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Along<N = f64> {
+pub struct Along<N = f64> {
     /// `f(0)`.
     here: Interval<N>,
     /// `f'(0)`.
@@ -34,7 +34,7 @@ pub(super) struct Along<N = f64> {
 
 impl<N: Number> Along<N> {
     #[inline(always)]
-    pub(super) fn constant(number: N) -> Self {
+    pub fn constant(number: N) -> Self {
         let zero = Interval::exactly(number.of(0.0));
         Self {
             here: Interval::exactly(number),
@@ -47,7 +47,7 @@ impl<N: Number> Along<N> {
 
     /// `middle + slope t`.
     #[inline(always)]
-    pub(super) fn line(middle: N, slope: N) -> Self {
+    pub fn line(middle: N, slope: N) -> Self {
         Self {
             here: Interval::exactly(middle),
             slope: Interval::exactly(slope),
@@ -59,36 +59,36 @@ impl<N: Number> Along<N> {
 
     /// On the whole span.
     #[inline(always)]
-    pub(super) const fn value(self) -> Interval<N> {
+    pub const fn value(self) -> Interval<N> {
         self.value
     }
 
     /// The derivative on the whole span.
     #[inline(always)]
-    pub(super) const fn rate(self) -> Interval<N> {
+    pub const fn rate(self) -> Interval<N> {
         self.rate
     }
 
     /// The second derivative on the whole span.
     #[inline(always)]
-    pub(super) const fn bend(self) -> Interval<N> {
+    pub const fn bend(self) -> Interval<N> {
         self.bend
     }
 
     /// At the beginning of the span.
     #[inline(always)]
-    pub(super) fn begin(self) -> Interval<N> {
+    pub fn begin(self) -> Interval<N> {
         (self.here - self.slope + self.bend * 0.5).and(self.value)
     }
 
     /// At the end of the span.
     #[inline(always)]
-    pub(super) fn end(self) -> Interval<N> {
+    pub fn end(self) -> Interval<N> {
         (self.here + self.slope + self.bend * 0.5).and(self.value)
     }
 
     #[inline(always)]
-    pub(super) fn squared(self) -> Self {
+    pub fn squared(self) -> Self {
         Self {
             here: self.here.squared(),
             slope: self.here * self.slope * 2.0,
@@ -101,7 +101,7 @@ impl<N: Number> Along<N> {
 
     /// The root, where the quantity stays positive.
     #[inline(always)]
-    pub(super) fn root(self) -> Held<N> {
+    pub fn root(self) -> Held<N> {
         let is_positive = at_least(self.value.low, NEXT_TO_NOTHING);
         let (here, value) = (self.here.and(self.value).root(), self.value.root());
         let rate = self.rate.over(value) * 0.5;
@@ -118,7 +118,7 @@ impl<N: Number> Along<N> {
 
     /// Sine and cosine.
     #[inline(always)]
-    pub(super) fn sin_cos(self) -> (Self, Self) {
+    pub fn sin_cos(self) -> (Self, Self) {
         let (sin_here, cos_here) = self.here.sin_cos();
         // Neither changes faster than the angle.
         let change = (self.value - self.here).magnitude();
@@ -146,7 +146,7 @@ impl<N: Number> Along<N> {
     /// The angle of a point `(x, y)` that stays away from the origin. It is continuous on the span, and at the middle of
     /// the span within half a turn either way.
     #[inline(always)]
-    pub(super) fn arc(y: Self, x: Self) -> Held<N> {
+    pub fn arc(y: Self, x: Self) -> Held<N> {
         let distance_squared = x.value.squared() + y.value.squared();
         let is_away = at_least(distance_squared.low, NEXT_TO_NOTHING);
         let here = Interval::direction(y.here, x.here, distance_squared.root().low);
@@ -168,7 +168,7 @@ impl<N: Number> Along<N> {
 
     /// Shifted by a constant.
     #[inline(always)]
-    pub(super) fn plus(self, constant: f64) -> Self {
+    pub fn plus(self, constant: f64) -> Self {
         let by = Interval::exactly(self.here.low.of(constant));
         Self {
             here: self.here + by,
@@ -191,7 +191,7 @@ impl<N: Number> Along<N> {
 
     /// Multiplied by a number.
     #[inline(always)]
-    pub(super) fn scaled(self, factor: N) -> Self {
+    pub fn scaled(self, factor: N) -> Self {
         Self {
             here: self.here.scaled(factor),
             slope: self.slope.scaled(factor),
@@ -213,10 +213,10 @@ impl<N: Number> Along<N> {
 
 /// A quantity that may not exist on the whole span: what stands there then means nothing.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Held<N> {
-    pub(super) along: Along<N>,
+pub struct Held<N> {
+    pub along: Along<N>,
     /// 1 where it exists, 0 where it does not.
-    pub(super) exists: N,
+    pub exists: N,
 }
 
 /// 1 where a number is below [`HUGE`], else 0.

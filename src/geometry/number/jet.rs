@@ -1,80 +1,135 @@
-//! Functions with their first and second derivatives, of numbers or of intervals.
+//! Functions with their slopes and curvatures, at a place or enclosed over a box.
 //!
-//! Where a function has a kink in a box, its derivatives there are unknown. Sums, products and compositions follow the usual
-//! rules (Griewank and Walther: Evaluating Derivatives, 2008).
+//! Sums, products and compositions follow the usual rules (Griewank and Walther: Evaluating Derivatives, 2008). Of a kink of a
+//! minimum or maximum within a box, the slopes are those on either side and all in between (Clarke: Optimization and
+//! Nonsmooth Analysis, 1983); its curvature is unknown.
 
-use super::number::{Interval, Number, outward};
+use super::interval::Interval;
+use super::plain::Number;
 use core::ops::{Add, Div, Mul, Sub};
 
-/// What the parts of a jet are: numbers, or enclosures of them.
-pub(super) trait Scalar: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    /// Just this.
-    fn exactly(value: f64) -> Self;
-    fn unknown() -> Self;
-    /// This many times a plain number.
+/// What formulas are computed with: plain numbers, enclosures of them, and functions with their derivatives.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    fn constant(value: f64) -> Self;
+    /// This many times a plain number: as with a constant, in a fraction of the work.
     fn times(self, factor: f64) -> Self;
     /// With a plain number added.
     fn plus(self, more: f64) -> Self;
-    /// One part in something positive.
-    fn inverse(self) -> Self;
+    /// A plain number over this, which is positive.
+    fn under(self, numerator: f64) -> Self;
+    /// The smaller of two.
+    fn lesser(self, other: Self) -> Self;
+    /// The larger of two.
+    fn greater(self, other: Self) -> Self;
     /// The root of something positive.
     fn root(self) -> Self;
-    /// The hypotenuse over this leg, which is not negative, and a plain one.
+    /// The hypotenuse over this leg, which is not negative, and a plain one, which is positive.
     fn hypotenuse(self, leg: f64) -> Self;
-    /// This leg over that hypotenuse.
+    /// This leg, which is not negative, over that hypotenuse.
     fn over_hypotenuse(self, leg: f64) -> Self;
     /// The arc of a tangent.
     fn arc_tangent(self) -> Self;
-    /// Whether this is the smaller of two; unsure where they overlap.
-    fn compared(self, other: Self) -> Compared;
     /// No value is above this one.
     fn highest(self) -> f64;
     /// No value is below this one.
     fn lowest(self) -> f64;
     /// This, of which it is known that it is no more than that.
     fn known_below(self, most: f64) -> Self;
-    /// The smaller of two.
-    fn smaller(self, other: Self) -> Self;
-    /// The larger of two.
-    fn larger(self, other: Self) -> Self;
+    /// Something from 1 to this, of which no more is known; for a plain number, itself.
+    fn or_down_to_one(self) -> Self;
+}
+
+/// What the parts of a jet are: numbers, or enclosures of them.
+pub trait Part: Scalar {
+    /// A derivative about which nothing is known.
+    fn unknown() -> Self;
+    /// One over something positive.
+    fn inverse(self) -> Self;
+    /// Whether this is the smaller of two; unsure where they overlap.
+    fn compared(self, other: Self) -> Compared;
+    /// What encloses both.
+    fn hull(self, other: Self) -> Self;
 }
 
 /// Which of two is smaller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Compared {
+pub enum Compared {
     First,
     Second,
     Unsure,
 }
 
 impl Scalar for f64 {
-    fn exactly(value: f64) -> Self {
+    #[inline]
+    fn constant(value: f64) -> Self {
         value
     }
-    fn unknown() -> Self {
-        0.0
-    }
+    #[inline]
     fn times(self, factor: f64) -> Self {
         self * factor
     }
+    #[inline]
     fn plus(self, more: f64) -> Self {
         self + more
     }
-    fn inverse(self) -> Self {
-        1.0 / self
+    #[inline]
+    fn under(self, numerator: f64) -> Self {
+        numerator / self
     }
+    #[inline]
+    fn lesser(self, other: Self) -> Self {
+        Number::lesser(self, other)
+    }
+    #[inline]
+    fn greater(self, other: Self) -> Self {
+        Number::greater(self, other)
+    }
+    #[inline]
     fn root(self) -> Self {
         self.sqrt()
     }
+    #[inline]
     fn hypotenuse(self, leg: f64) -> Self {
-        Number::hypotenuse(self, leg)
+        (self * self + leg * leg).sqrt()
     }
+    #[inline]
     fn over_hypotenuse(self, leg: f64) -> Self {
-        Number::over_hypotenuse(self, leg)
+        self / self.hypotenuse(leg)
     }
+    #[inline]
     fn arc_tangent(self) -> Self {
         libm::atan(self)
     }
+    #[inline]
+    fn highest(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn lowest(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn known_below(self, _: f64) -> Self {
+        self
+    }
+    #[inline]
+    fn or_down_to_one(self) -> Self {
+        self
+    }
+}
+
+impl Part for f64 {
+    #[inline]
+    fn unknown() -> Self {
+        0.0
+    }
+    #[inline]
+    fn inverse(self) -> Self {
+        1.0 / self
+    }
+    #[inline]
     fn compared(self, other: Self) -> Compared {
         if self < other {
             Compared::First
@@ -82,53 +137,100 @@ impl Scalar for f64 {
             Compared::Second
         }
     }
-    fn highest(self) -> f64 {
-        self
+    /// Not asked for: of two numbers one is the smaller.
+    #[inline]
+    fn hull(self, _: Self) -> Self {
+        Self::unknown()
     }
-    fn lowest(self) -> f64 {
-        self
-    }
-    fn known_below(self, _: f64) -> Self {
-        self
-    }
-    fn smaller(self, other: Self) -> Self {
-        self.lesser(other)
-    }
-    fn larger(self, other: Self) -> Self {
-        self.greater(other)
+}
+
+impl Div for Interval {
+    type Output = Self;
+    /// The divisor is positive throughout.
+    #[inline]
+    fn div(self, divisor: Self) -> Self {
+        self.over(divisor)
     }
 }
 
 impl Scalar for Interval {
-    fn exactly(value: f64) -> Self {
+    #[inline]
+    fn constant(value: f64) -> Self {
         Self::exactly(value)
     }
+    #[inline]
+    fn times(self, factor: f64) -> Self {
+        self.scaled(factor)
+    }
+    #[inline]
+    fn plus(self, more: f64) -> Self {
+        self + Self::exactly(more)
+    }
+    #[inline]
+    fn under(self, numerator: f64) -> Self {
+        self.inverse().scaled(numerator)
+    }
+    #[inline]
+    fn lesser(self, other: Self) -> Self {
+        self.lesser(other)
+    }
+    #[inline]
+    fn greater(self, other: Self) -> Self {
+        self.greater(other)
+    }
+    #[inline]
+    fn root(self) -> Self {
+        self.root()
+    }
+    // Both grow with this leg.
+    #[inline]
+    fn hypotenuse(self, leg: f64) -> Self {
+        self.raised(|side| Scalar::hypotenuse(side, leg))
+    }
+    #[inline]
+    fn over_hypotenuse(self, leg: f64) -> Self {
+        self.raised(|side| Scalar::over_hypotenuse(side, leg))
+    }
+    #[inline]
+    fn arc_tangent(self) -> Self {
+        // Within one unit in the last place (musl).
+        self.raised(libm::atan)
+    }
+    #[inline]
+    fn highest(self) -> f64 {
+        self.high
+    }
+    #[inline]
+    fn lowest(self) -> f64 {
+        self.low
+    }
+    /// What is above altogether comes down to its low end.
+    #[inline]
+    fn known_below(self, most: f64) -> Self {
+        Self {
+            low: self.low,
+            high: Scalar::greater(Scalar::lesser(self.high, most), self.low),
+        }
+    }
+    #[inline]
+    fn or_down_to_one(self) -> Self {
+        Self {
+            low: 1.0,
+            high: self.high,
+        }
+    }
+}
+
+impl Part for Interval {
+    #[inline]
     fn unknown() -> Self {
         Self::UNKNOWN
     }
-    fn times(self, factor: f64) -> Self {
-        self.times(factor)
-    }
-    fn plus(self, more: f64) -> Self {
-        self.plus(more)
-    }
+    #[inline]
     fn inverse(self) -> Self {
         self.inverse()
     }
-    fn root(self) -> Self {
-        outward(self.low.sqrt(), self.high.sqrt())
-    }
-    fn hypotenuse(self, leg: f64) -> Self {
-        self.hypotenuse(leg)
-    }
-    fn over_hypotenuse(self, leg: f64) -> Self {
-        self.over_hypotenuse(leg)
-    }
-    fn arc_tangent(self) -> Self {
-        // Within one unit in the last place (musl), so two are enough.
-        let value = outward(libm::atan(self.low), libm::atan(self.high));
-        outward(value.low, value.high)
-    }
+    #[inline]
     fn compared(self, other: Self) -> Compared {
         if self.high < other.low {
             Compared::First
@@ -138,53 +240,39 @@ impl Scalar for Interval {
             Compared::Unsure
         }
     }
-    fn highest(self) -> f64 {
-        self.high
-    }
-    fn lowest(self) -> f64 {
-        self.low
-    }
-    fn known_below(self, most: f64) -> Self {
-        self.known_below(most)
-    }
-    fn smaller(self, other: Self) -> Self {
-        Self {
-            low: self.low.lesser(other.low),
-            high: self.high.lesser(other.high),
-        }
-    }
-    fn larger(self, other: Self) -> Self {
-        Self {
-            low: self.low.greater(other.low),
-            high: self.high.greater(other.high),
-        }
+    #[inline]
+    fn hull(self, other: Self) -> Self {
+        self.hull(other)
     }
 }
 
-/// A function of so many coordinates (one or two) with its slopes along them and as many curvatures as there are pairs of
-/// coordinates: along the first, across, along the second.
+/// A function of so many coordinates (one or two) with its slopes along them and its curvatures for so many pairs of
+/// coordinates (none, or all of them): along the first, across, along the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Jet<S, const COORDINATES: usize, const PAIRED: usize> {
-    pub(super) value: S,
-    pub(super) by: [S; COORDINATES],
-    pub(super) curve: [S; PAIRED],
+pub struct Jet<S, const COORDINATES: usize, const PAIRED: usize> {
+    pub value: S,
+    pub by: [S; COORDINATES],
+    pub curve: [S; PAIRED],
 }
 
 /// A function of one coordinate.
-pub(super) type OnLine<S> = Jet<S, 1, 1>;
+pub type OnLine<S> = Jet<S, 1, 1>;
 
 /// A function of two coordinates.
-pub(super) type OnPlane<S> = Jet<S, 2, 3>;
+pub type OnPlane<S> = Jet<S, 2, 3>;
+
+/// A function of two coordinates over a box: its values and its slopes.
+pub type Slopes = Jet<Interval, 2, 0>;
 
 /// Which two coordinates a curvature is along.
 const PAIRS: [(usize, usize); 3] = [(0, 0), (0, 1), (1, 1)];
 
-impl<S: Scalar, const D: usize, const P: usize> Jet<S, D, P> {
+impl<S: Part, const D: usize, const P: usize> Jet<S, D, P> {
     /// A coordinate (the first or the second) over its range.
-    pub(super) fn coordinate(number: usize, range: S) -> Self {
-        let nothing = S::exactly(0.0);
+    pub fn coordinate(number: usize, range: S) -> Self {
+        let nothing = S::constant(0.0);
         let mut by = [nothing; D];
-        by[number] = S::exactly(1.0);
+        by[number] = S::constant(1.0);
         Self {
             value: range,
             by,
@@ -204,17 +292,17 @@ impl<S: Scalar, const D: usize, const P: usize> Jet<S, D, P> {
         }
     }
 
-    /// With this value, its derivatives unknown.
-    fn kinked(value: S) -> Self {
+    /// Where this and another function may both apply, with the value of the one that does.
+    fn or(self, other: Self, value: S) -> Self {
         Self {
             value,
-            by: [S::unknown(); D],
+            by: core::array::from_fn(|i| self.by[i].hull(other.by[i])),
             curve: [S::unknown(); P],
         }
     }
 }
 
-impl<S: Scalar, const D: usize, const P: usize> Add for Jet<S, D, P> {
+impl<S: Part, const D: usize, const P: usize> Add for Jet<S, D, P> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self {
@@ -225,7 +313,7 @@ impl<S: Scalar, const D: usize, const P: usize> Add for Jet<S, D, P> {
     }
 }
 
-impl<S: Scalar, const D: usize, const P: usize> Sub for Jet<S, D, P> {
+impl<S: Part, const D: usize, const P: usize> Sub for Jet<S, D, P> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         Self {
@@ -236,7 +324,7 @@ impl<S: Scalar, const D: usize, const P: usize> Sub for Jet<S, D, P> {
     }
 }
 
-impl<S: Scalar, const D: usize, const P: usize> Mul for Jet<S, D, P> {
+impl<S: Part, const D: usize, const P: usize> Mul for Jet<S, D, P> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         Self {
@@ -253,7 +341,7 @@ impl<S: Scalar, const D: usize, const P: usize> Mul for Jet<S, D, P> {
     }
 }
 
-impl<S: Scalar, const D: usize, const P: usize> Div for Jet<S, D, P> {
+impl<S: Part, const D: usize, const P: usize> Div for Jet<S, D, P> {
     type Output = Self;
     /// The divisor is positive.
     fn div(self, other: Self) -> Self {
@@ -270,11 +358,11 @@ impl<S: Scalar, const D: usize, const P: usize> Div for Jet<S, D, P> {
     }
 }
 
-impl<S: Scalar, const D: usize, const P: usize> Number for Jet<S, D, P> {
+impl<S: Part, const D: usize, const P: usize> Scalar for Jet<S, D, P> {
     fn constant(value: f64) -> Self {
-        let nothing = S::exactly(0.0);
+        let nothing = S::constant(0.0);
         Self {
-            value: S::exactly(value),
+            value: S::constant(value),
             by: [nothing; D],
             curve: [nothing; P],
         }
@@ -303,14 +391,14 @@ impl<S: Scalar, const D: usize, const P: usize> Number for Jet<S, D, P> {
         match self.value.compared(other.value) {
             Compared::First => self,
             Compared::Second => other,
-            Compared::Unsure => Self::kinked(self.value.smaller(other.value)),
+            Compared::Unsure => self.or(other, self.value.lesser(other.value)),
         }
     }
     fn greater(self, other: Self) -> Self {
         match self.value.compared(other.value) {
             Compared::First => other,
             Compared::Second => self,
-            Compared::Unsure => Self::kinked(self.value.larger(other.value)),
+            Compared::Unsure => self.or(other, self.value.greater(other.value)),
         }
     }
     fn root(self) -> Self {
@@ -352,14 +440,18 @@ impl<S: Scalar, const D: usize, const P: usize> Number for Jet<S, D, P> {
         }
     }
     fn or_down_to_one(self) -> Self {
-        Self::kinked(S::exactly(1.0).larger(self.value))
+        Self {
+            value: self.value.or_down_to_one(),
+            by: [S::unknown(); D],
+            curve: [S::unknown(); P],
+        }
     }
 }
 
 /// The sum of two products.
-fn crossed<S: Scalar>(a: S, b: S, c: S, d: S) -> S {
+fn crossed<S: Part>(a: S, b: S, c: S, d: S) -> S {
     a * b + c * d
 }
-fn total<S: Scalar>(one: S, other: S) -> S {
+fn total<S: Part>(one: S, other: S) -> S {
     one + other
 }
