@@ -12,6 +12,7 @@ pub mod json;
 pub mod number;
 pub mod position;
 pub mod render;
+pub mod schema;
 pub mod source;
 pub mod suggest;
 

@@ -77,11 +77,8 @@ impl Kind for Line {
             scope: written.scope,
             reports: &mut session.reports,
         };
-        let (swing, at) = (
-            reader.required(&fields, "swing", SWING),
-            reader.required(&fields, "at", SIZE),
-        );
-        let depth = reader.required(&fields, "depth", SIZE);
+        let (swing, at) = (reader.required(&fields, "swing"), reader.required(&fields, "at"));
+        let depth = reader.required(&fields, "depth");
         Ok(Box::new(Mark {
             setup: setup?,
             swing: swing?,

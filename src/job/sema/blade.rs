@@ -39,9 +39,9 @@ pub(crate) fn check(
         scope,
         reports: &mut session.reports,
     };
-    let cutting_length = reader.required(&fields, "cutting_length", SIZE);
-    let half_apex = reader.required(&fields, "half_apex", HALF_APEX);
-    let thickness = reader.required(&fields, "thickness", DISTANCE);
+    let cutting_length = reader.required(&fields, "cutting_length");
+    let half_apex = reader.required(&fields, "half_apex");
+    let thickness = reader.required(&fields, "thickness");
     let edges = fields
         .required_value("edges", reader.reports)
         .and_then(|expr| reader.word("edges", expr, EDGES));

@@ -1,20 +1,49 @@
 //! The fields of a block, sorted by name.
 //!
-//! Which fields a block has is a table ([`BlockSpec`], in `spec`). Sorting the entries into it finds everything that does not
+//! Which fields a block has is a table ([`BlockSpec`]). Sorting the entries into it finds everything that does not
 //! depend on values: unknown names, fields given twice, things that belong elsewhere. Reading a field then finds the
 //! rest. A field whose fault has been reported is remembered as such, and reading it stays quiet.
 
-use super::names::did_you_mean;
 use super::report::{Checked, Reported, Reports};
 use super::session::Session;
 use std::collections::BTreeMap;
+use vcutc_diagnostics::schema::dimension::Dimension;
+use vcutc_diagnostics::schema::faults::{self, did_you_mean};
+pub use vcutc_diagnostics::schema::field::{
+    BlockSpec, FieldSpec, Form, Inner, Takes, block, bounds, limit, points, value,
+};
+use vcutc_diagnostics::schema::range::Range;
 use vcutc_diagnostics::source::{SourceMap, Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Curve, Entry, Expr, HeadPart, Point, Relation};
 
-use super::spec::Written;
-pub use super::spec::{BlockSpec, FieldSpec, Form, Inner, Takes, block, bounds, limit, points, value};
+/// How an entry is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Written {
+    /// `name = value`.
+    Value,
+    /// `name { ... }`.
+    Block,
+    /// `name <= value` or `name >= value`.
+    Limit(Relation),
+    /// `name (x, z) (x, z) ...`.
+    Points,
+}
+
+impl Written {
+    /// Whether a field of this form is written so.
+    const fn fits(self, form: Form) -> bool {
+        match (form, self) {
+            (Form::Value, Self::Value)
+            | (Form::Block, Self::Block)
+            | (Form::Limit, Self::Limit(Relation::AtMost))
+            | (Form::Bounds, Self::Limit(Relation::AtMost | Relation::AtLeast))
+            | (Form::Points, Self::Points) => true,
+            (Form::Value | Form::Block | Form::Limit | Form::Bounds | Form::Points, _) => false,
+        }
+    }
+}
 
 /// Where a block stands, as far as its fields need to know.
 #[derive(Clone, Copy, Debug)]
@@ -132,8 +161,8 @@ impl<'a> Fields<'a> {
     fn put(&mut self, given: Given<'_, 'a>, reports: &mut Reports) {
         let name = given.name;
         let Some(spec) = self.spec.field(&name.node) else {
-            let near = nearest(&name.node, self.spec.fields.iter().map(|spec| spec.name));
-            let reported = reports.push(self.unknown_field(name, &near));
+            let (diagnostic, near) = self.unknown_field(name);
+            let reported = reports.push(diagnostic);
             self.misspelt.extend(near.first().map(|&first| (first, reported)));
             return;
         };
@@ -155,7 +184,7 @@ impl<'a> Fields<'a> {
             reports.push(diagnostic);
             return;
         }
-        let slot = if spec.form.takes(given.written) {
+        let slot = if given.written.fits(spec.form) {
             given.slot
         } else {
             Slot::Spoiled(reports.push(given.wrong_form(spec)))
@@ -206,6 +235,12 @@ impl<'a> Fields<'a> {
         self.block(name)?.ok_or_else(|| self.missing(name, reports))
     }
 
+    /// The range of a field's values, which are of this dimension.
+    pub fn range(&self, name: &str, dimension: Dimension) -> Range {
+        let spec = self.spec.field(name);
+        spec.map_or(Range::all(dimension), |spec| spec.range(dimension))
+    }
+
     /// A typical value of a field.
     pub fn typical(&self, name: &str) -> Option<&'static str> {
         self.spec.field(name).map(|spec| spec.typical)
@@ -219,12 +254,7 @@ impl<'a> Fields<'a> {
         }
         let spec = self.spec.field(name);
         let sample = spec.map_or_else(|| name.to_owned(), FieldSpec::sample);
-        let diagnostic = Diagnostic::new(
-            Code::MissingField,
-            format!("{} needs `{name}`", self.spec.title),
-            self.place.head,
-            format!("`{name}` is missing here"),
-        );
+        let diagnostic = faults::missing(Code::MissingField, self.spec.title, &[name], self.place.head);
         let title = format!("add it, for example `{sample}`");
         reports.push(diagnostic.fix(title, self.insertion.at, self.insertion.text(&sample)))
     }
@@ -234,21 +264,17 @@ impl<'a> Fields<'a> {
         diagnostic.fix(title, self.insertion.at, self.insertion.text(field))
     }
 
-    fn unknown_field(&self, name: &Spanned<String>, near: &[&str]) -> Diagnostic {
-        let diagnostic = Diagnostic::new(
-            Code::UnknownField,
-            format!("{} has no field `{}`", self.spec.title, name.node),
-            name.span,
-            "not a field of this block",
-        );
-        let diagnostic = did_you_mean(diagnostic, name.span, near);
+    fn unknown_field(&self, name: &Spanned<String>) -> (Diagnostic, Vec<&'static str>) {
+        let fields: Vec<&str> = self.spec.fields.iter().map(|field| field.name).collect();
+        let given = Spanned::new(name.node.as_str(), name.span);
+        let (diagnostic, near) = faults::unknown(Code::UnknownField, self.spec.title, given, &fields);
         let diagnostic = match self.block_with(&name.node) {
             Some((block, sample)) => diagnostic.help(format!(
                 "it is a field of `{block}`: write `{block} {{ {sample} }}`"
             )),
             None => diagnostic,
         };
-        diagnostic.note(field_list(self.spec))
+        (diagnostic, near)
     }
 
     /// The block within this one that has a field of that name, and how it is written there.
@@ -289,16 +315,6 @@ fn tips_name(row: Span) -> Spanned<String> {
     const WORD: &str = "tips";
     let end = row.start.saturating_add(4).min(row.end);
     Spanned::new(WORD.to_owned(), Span { end, ..row })
-}
-
-/// The fields of a block, as a note.
-fn field_list(spec: &BlockSpec) -> String {
-    let names: Vec<&str> = spec.fields.iter().map(|spec| spec.name).collect();
-    match names.as_slice() {
-        [] => format!("{} has no fields", spec.title),
-        [one] => format!("its only field is {one}"),
-        several => format!("its fields are {}", several.join(", ")),
-    }
 }
 
 /// The head of a block, from its first word to the last.

@@ -2,7 +2,6 @@
 
 use super::arguments::{Parameter, calls};
 use super::dimension::Dimension;
-use super::quantity::with_unit;
 use super::range::{AXIS_ANGLE, COORDINATE};
 use super::read::Reader;
 use super::report::Checked;
@@ -168,7 +167,7 @@ fn edit(axis: &Axis, place: &Place) -> Edit {
 
 fn text(axis: &Axis, value: f64) -> String {
     let dimension = dimension(axis);
-    with_unit(value / dimension.unit_size(), dimension)
+    dimension.show(value / dimension.unit_size())
 }
 
 const fn dimension(axis: &Axis) -> Dimension {

@@ -2,10 +2,10 @@
 
 use super::report::Checked;
 use super::session::Session;
-use super::spec::{BlockSpec, Need, Takes};
 use super::written::Written;
 use crate::operation::Operation;
 use core::fmt::Debug;
+use vcutc_diagnostics::schema::field::{BlockSpec, Need, Takes};
 
 /// A kind of operation in the language.
 pub trait Kind: Debug + Sync {

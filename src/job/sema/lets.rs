@@ -6,7 +6,7 @@
 use super::dimension::Dimension;
 use super::eval::{Scope, walk};
 use super::names::{Names, Thing};
-use super::quantity::{Quantity, with_unit};
+use super::quantity::Quantity;
 use super::report::{Checked, Reports};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -144,7 +144,7 @@ fn keeps_dimension(
     let name = &subject.name.node;
     let (wanted, found) = (before.dimension.words(), value.dimension.words());
     let sample = if value.dimension == Dimension::PURE {
-        with_unit(value.value, before.dimension)
+        before.dimension.show(value.value)
     } else {
         before.text()
     };

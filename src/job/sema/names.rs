@@ -7,6 +7,7 @@ use super::report::{Reported, Reports};
 use super::units;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+pub use vcutc_diagnostics::schema::faults::did_you_mean;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -180,18 +181,6 @@ impl<'a> Names<'a> {
             };
         }
         diagnostic
-    }
-}
-
-/// Adds near names: a fix when there is one, a help line when there are several.
-pub fn did_you_mean(diagnostic: Diagnostic, span: Span, near: &[&str]) -> Diagnostic {
-    match near {
-        [] => diagnostic,
-        [one] => diagnostic.fix(format!("did you mean `{one}`?"), span, *one),
-        several => {
-            let names: Vec<String> = several.iter().map(|name| format!("`{name}`")).collect();
-            diagnostic.help(format!("did you mean {}?", names.join(" or ")))
-        }
     }
 }
 

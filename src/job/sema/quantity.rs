@@ -2,6 +2,7 @@
 
 use super::dimension::Dimension;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+pub use vcutc_diagnostics::number::number;
 
 /// A number with its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,43 +49,13 @@ impl Quantity {
 
     /// As people write it, to six digits: `34.16 deg`.
     pub fn text(self) -> String {
-        with_unit(self.value / self.dimension.unit_size(), self.dimension)
-    }
-}
-
-/// A number of the dimension's usual unit, with that unit: `34.16 deg`.
-pub fn with_unit(number_of_units: f64, dimension: Dimension) -> String {
-    let (number, unit) = (number(number_of_units), dimension.unit());
-    if unit.is_empty() {
-        number
-    } else {
-        format!("{number} {unit}")
+        self.dimension.show(self.value / self.dimension.unit_size())
     }
 }
 
 /// A length as people write it.
 pub fn mm(value: f64) -> String {
     Quantity::length(value).text()
-}
-
-/// A number to six digits, without trailing zeros.
-pub fn number(value: f64) -> String {
-    let magnitude = value.abs();
-    if magnitude == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-4..1e10).contains(&magnitude) {
-        return format!("{value:.2e}");
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "between -4 and 10")]
-    let before_point = libm::floor(libm::log10(magnitude)) as i32;
-    let decimals = usize::try_from(5 - before_point).unwrap_or(0);
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
 }
 
 /// A type of the later stages that a quantity turns into.
@@ -126,18 +97,6 @@ measured! {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        assert_eq!(number(0.0), "0");
-        assert_eq!(number(4.0), "4");
-        assert_eq!(number(-0.5), "-0.5");
-        assert_eq!(number(1.0 / 3.0), "0.333333");
-        assert_eq!(number(100_000.0), "100000");
-        assert_eq!(number(123_456.7), "123457");
-        assert_eq!(number(1.5e-7), "1.50e-7");
-        assert_eq!(number(9.999_999_9), "10");
-    }
 
     #[test]
     fn quantities_are_shown_in_the_units_of_the_trade() {

@@ -3,13 +3,12 @@
 use super::dimension::Dimension;
 use super::eval::Scope;
 use super::fields::Fields;
-use super::names::did_you_mean;
 use super::quantity::{Measured, Quantity, number};
 use super::range::Range;
 use super::report::{Checked, Reports};
 use crate::{Auto, Sourced};
+use vcutc_diagnostics::schema::faults;
 use vcutc_diagnostics::source::{Span, Spanned};
-use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::Expr;
 
@@ -57,12 +56,7 @@ impl Reader<'_> {
             return Ok(value);
         }
         let text = Quantity::new(value, range.dimension).text();
-        let diagnostic = Diagnostic::new(
-            Code::OutOfRange,
-            format!("{taker} must be {}, but is {text}", range.words()),
-            expr.span,
-            format!("this is {text}"),
-        );
+        let diagnostic = faults::out_of_range(Code::OutOfRange, taker, range, &text, expr.span);
         let diagnostic = match self.scope.let_named_by(expr) {
             Some(by) => diagnostic.and(by.value.span, format!("`{}` gets its value here", by.name.node)),
             None => diagnostic,
@@ -80,40 +74,25 @@ impl Reader<'_> {
     }
 
     /// The value of a field, if it is given.
-    pub fn optional<T: Measured>(
-        &mut self,
-        fields: &Fields<'_>,
-        name: &str,
-        range: Range,
-    ) -> Checked<Option<Sourced<T>>> {
+    pub fn optional<T: Measured>(&mut self, fields: &Fields<'_>, name: &str) -> Checked<Option<Sourced<T>>> {
         match fields.value(name)? {
-            Some(expr) => self.field(fields, name, expr, range).map(Some),
+            Some(expr) => self.field(fields, name, expr).map(Some),
             None => Ok(None),
         }
     }
 
     /// The value that a field is to be at least, if it is given.
-    pub fn least<T: Measured>(
-        &mut self,
-        fields: &Fields<'_>,
-        name: &str,
-        range: Range,
-    ) -> Checked<Option<Sourced<T>>> {
+    pub fn least<T: Measured>(&mut self, fields: &Fields<'_>, name: &str) -> Checked<Option<Sourced<T>>> {
         match fields.least(name)? {
-            Some(expr) => self.field(fields, name, expr, range).map(Some),
+            Some(expr) => self.field(fields, name, expr).map(Some),
             None => Ok(None),
         }
     }
 
     /// The value of a field that must be given.
-    pub fn required<T: Measured>(
-        &mut self,
-        fields: &Fields<'_>,
-        name: &str,
-        range: Range,
-    ) -> Checked<Sourced<T>> {
+    pub fn required<T: Measured>(&mut self, fields: &Fields<'_>, name: &str) -> Checked<Sourced<T>> {
         let expr = fields.required_value(name, self.reports)?;
-        self.field(fields, name, expr, range)
+        self.field(fields, name, expr)
     }
 
     /// The value of a field that has a default.
@@ -121,27 +100,21 @@ impl Reader<'_> {
         &mut self,
         fields: &Fields<'_>,
         name: &str,
-        range: Range,
         otherwise: T,
     ) -> Checked<Sourced<T>> {
-        let given = self.optional(fields, name, range)?;
+        let given = self.optional(fields, name)?;
         Ok(given.unwrap_or(default(otherwise)))
     }
 
     /// The value of a field that may be left to the compiler, which is also its default.
-    pub fn auto<T: Measured>(
-        &mut self,
-        fields: &Fields<'_>,
-        name: &str,
-        range: Range,
-    ) -> Checked<Sourced<Auto<T>>> {
+    pub fn auto<T: Measured>(&mut self, fields: &Fields<'_>, name: &str) -> Checked<Sourced<Auto<T>>> {
         let Some(expr) = fields.value(name)? else {
             return Ok(default(Auto::Auto));
         };
         if matches!(&expr.node, Expr::Name(word) if word == "auto") {
             return Ok(sourced(Auto::Auto, expr.span));
         }
-        let given: Sourced<T> = self.field(fields, name, expr, range)?;
+        let given: Sourced<T> = self.field(fields, name, expr)?;
         Ok(sourced(Auto::Given(given.value), expr.span))
     }
 
@@ -150,7 +123,6 @@ impl Reader<'_> {
         fields: &Fields<'_>,
         name: &str,
         expr: &Spanned<Expr>,
-        range: Range,
     ) -> Checked<Sourced<T>> {
         if matches!(&expr.node, Expr::Name(word) if word == "auto") {
             let diagnostic = Diagnostic::new(
@@ -165,11 +137,8 @@ impl Reader<'_> {
             };
             return Err(self.reports.push(diagnostic));
         }
-        debug_assert_eq!(
-            range.dimension,
-            T::DIMENSION,
-            "the range of `{name}` is one of another dimension"
-        );
+        let range = fields.range(name, T::DIMENSION);
+        debug_assert_eq!(range.dimension, T::DIMENSION, "the range of `{name}`");
         let value = self.within(expr, range, &format!("`{name}`"), fields.typical(name))?;
         Ok(sourced(T::from_base(value), expr.span))
     }
@@ -211,44 +180,27 @@ impl Reader<'_> {
     ) -> Checked<Sourced<T>> {
         let find = |given: &str| words.iter().find(|(word, _)| *word == given);
         let known = words_of(words);
-        let list = format!("`{name}` takes one of {}", known.join(", "));
+        let taker = format!("`{name}`");
+        let wrong_kind =
+            |wanted: &str, found: &str| faults::wrong_kind(Code::WrongKind, &taker, wanted, found, expr.span);
+        let list = format!("{taker} takes one of {}", known.join(", "));
         let diagnostic = match &expr.node {
             Expr::Name(word) => match find(word) {
                 Some((_, choice)) => return Ok(sourced(*choice, expr.span)),
                 None => {
-                    let diagnostic = Diagnostic::new(
-                        Code::UnknownChoice,
-                        format!("`{name}` cannot be `{word}`"),
-                        expr.span,
-                        "not one of its words",
-                    );
-                    let near = nearest(word, known.iter().copied());
-                    did_you_mean(diagnostic, expr.span, &near).help(list)
+                    let word = Spanned::new(word.as_str(), expr.span);
+                    faults::unknown_word(Code::UnknownChoice, &taker, word, &known, str::to_owned)
                 }
             },
-            Expr::Text(text) => {
-                let diagnostic = Diagnostic::new(
-                    Code::WrongKind,
-                    format!("`{name}` takes a word, not a text in quotes"),
-                    expr.span,
-                    "this is a text",
-                );
-                match find(text) {
-                    Some((word, _)) => diagnostic.fix("delete the quotes", expr.span, *word),
-                    None => diagnostic.help(list),
-                }
-            }
+            Expr::Text(text) => match find(text) {
+                Some((word, _)) => wrong_kind("a word", "a text").fix("delete the quotes", expr.span, *word),
+                None => wrong_kind("a word", "a text").help(list),
+            },
             Expr::Number { .. }
             | Expr::Call { .. }
             | Expr::Negate(_)
             | Expr::Binary { .. }
-            | Expr::Tuple(_) => Diagnostic::new(
-                Code::WrongKind,
-                format!("`{name}` takes a word, not a value"),
-                expr.span,
-                "this is a value",
-            )
-            .help(list),
+            | Expr::Tuple(_) => wrong_kind("a word", "a value").help(list),
         };
         Err(self.reports.push(diagnostic))
     }
@@ -261,11 +213,13 @@ impl Reader<'_> {
         if let Expr::Text(text) = &expr.node {
             return Ok(Some(Spanned::new(text.clone(), expr.span)));
         }
-        let diagnostic = Diagnostic::new(
+        let found = looks_like(&expr.node);
+        let diagnostic = faults::wrong_kind(
             Code::WrongKind,
-            format!("`{name}` takes a text in quotes"),
+            &format!("`{name}`"),
+            "a text in quotes",
+            found,
             expr.span,
-            format!("this is {}", looks_like(&expr.node)),
         );
         let diagnostic = match &expr.node {
             Expr::Name(word) => diagnostic.fix("put it in quotes", expr.span, format!("\"{word}\"")),
@@ -285,24 +239,7 @@ impl Reader<'_> {
     /// A whole number within a range.
     pub fn whole(&mut self, expr: &Spanned<Expr>, range: Range, taker: &str) -> Checked<u32> {
         let value = self.within(expr, range, taker, None)?;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "whole and within a range of u32, by the comparison"
-        )]
-        let whole = value as u32;
-        if f64::from(whole).total_cmp(&value).is_eq() {
-            return Ok(whole);
-        }
-        let diagnostic = Diagnostic::new(
-            Code::OutOfRange,
-            format!("{taker} is a whole number, not {}", number(value)),
-            expr.span,
-            "not a whole number",
-        );
-        Err(self
-            .reports
-            .push(diagnostic.help(format!("write `{whole}`, or another whole number"))))
+        faults::whole(Code::OutOfRange, taker, value, expr.span).map_err(|fault| self.reports.push(*fault))
     }
 }
 

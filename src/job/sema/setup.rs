@@ -64,11 +64,11 @@ pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_
     let blade = fields
         .required_value("blade", reader.reports)
         .and_then(|expr| find_blade(expr, written.blades, &mut reader));
-    let rake = reader.required(fields, "rake", RAKE);
+    let rake = reader.required(fields, "rake");
     let direction = reader.choice(fields, "direction", Direction::WORDS);
-    let clearance = reader.required(fields, "clearance", SIZE);
-    let extension = reader.auto(fields, "extension", DISTANCE);
-    let run_out = reader.defaulted(fields, "run_out", DISTANCE, RUN_OUT);
+    let clearance = reader.required(fields, "clearance");
+    let extension = reader.auto(fields, "extension");
+    let run_out = reader.defaulted(fields, "run_out", RUN_OUT);
     let feeds = feeds?;
     Ok(Setup {
         head_span: written.place.head,
@@ -106,9 +106,9 @@ fn feeds(inner: &Block, written: Written<'_>, session: &mut Session<'_>) -> Chec
         scope: written.scope,
         reports: &mut session.reports,
     };
-    let cut = reader.required(&fields, "cut", SPEED);
-    let travel = reader.required(&fields, "travel", SPEED);
-    let reorient = reader.required(&fields, "reorient", TURNING_RATE);
+    let cut = reader.required(&fields, "cut");
+    let travel = reader.required(&fields, "travel");
+    let reorient = reader.required(&fields, "reorient");
     Ok(Feeds {
         cut: cut?,
         travel: travel?,

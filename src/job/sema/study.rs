@@ -10,7 +10,7 @@ use super::gather::Definitions;
 use super::kind::Operations;
 use super::names::{Names, Thing};
 use super::overrides::{self, keep_fixes_to_files};
-use super::quantity::{Quantity, with_unit};
+use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
 use super::session::Session;
 use super::{Choices, Part, Said, cell, cut_short, options, understand, units};
@@ -206,7 +206,7 @@ impl Value {
         let mut texts: Vec<String> = written.into_iter().collect();
         texts.push(self.text());
         if self.0.dimension.angle != 0 {
-            texts.push(with_unit(self.0.value, Dimension::default()) + " " + &self.base_unit());
+            texts.push(number(self.0.value) + " " + &self.base_unit());
         }
         let mut shown: Vec<String> = Vec::new();
         for text in texts {
@@ -225,7 +225,7 @@ impl Value {
         let one = units::quantity(1.0, &unit.node)?;
         let fits = one.dimension == self.0.dimension && one.dimension != Dimension::PURE;
         fits.then(|| {
-            let count = with_unit(self.0.value / one.value, Dimension::PURE);
+            let count = number(self.0.value / one.value);
             format!("{count} {}", unit.node)
         })
     }

@@ -11,9 +11,9 @@ use super::kind::Operations;
 use super::profile::{data, drawing};
 pub(crate) use super::range::Range;
 use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
-pub use super::spec::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
 use vcutc_backend_api::ir::MachineKind;
+pub use vcutc_diagnostics::schema::field::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use vcutc_syntax::ast::Block;
 
 /// What can stand at the top of a file: its first word, and how all of it looks.

@@ -104,17 +104,17 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         reports: &mut session.reports,
     };
     let lattice = reader.auto_choice(&fields, "lattice", Lattice::WORDS);
-    let swing = reader.auto(&fields, "swing", SWING);
-    let layer = reader.auto(&fields, "layer", SIZE);
-    let step = reader.auto(&fields, "step", SIZE);
-    let overlap = reader.auto(&fields, "overlap", OVERLAP);
+    let swing = reader.auto(&fields, "swing");
+    let layer = reader.auto(&fields, "layer");
+    let step = reader.auto(&fields, "step");
+    let overlap = reader.auto(&fields, "overlap");
     let objective = reader.choice(&fields, "objective", Objective::WORDS);
     let formulas = reader.choice(&fields, "model", Formulas::WORDS);
-    let allowance = reader.defaulted(&fields, "allowance", DISTANCE, Length::ZERO);
+    let allowance = reader.defaulted(&fields, "allowance", Length::ZERO);
     let residual = reader.auto_choice(&fields, "residual", Residual::WORDS);
     let order = reader.auto_choice(&fields, "order", Order::WORDS);
     let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
-    let standoff = reader.auto(&fields, "standoff", DISTANCE);
+    let standoff = reader.auto(&fields, "standoff");
     let operation = RoughVcut {
         setup: setup?,
         tips: None,

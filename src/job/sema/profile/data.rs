@@ -82,9 +82,9 @@ pub(super) fn points(
         reports: &mut session.reports,
     };
     let unit = reader.choice(&fields, "unit", FILE_UNITS);
-    let x = reader.defaulted(&fields, "x", COORDINATE, Length::ZERO);
-    let z = reader.defaulted(&fields, "z", COORDINATE, Length::ZERO);
-    let scale = reader.defaulted(&fields, "scale", SCALE, 1.0);
+    let x = reader.defaulted(&fields, "x", Length::ZERO);
+    let z = reader.defaulted(&fields, "z", Length::ZERO);
+    let scale = reader.defaulted(&fields, "scale", 1.0);
     let raw = read(file?, path, import::csv, session)?;
     let factor = unit?.map_or(1.0, |unit| unit.value) * scale?.value;
     let (x, z) = (x?.value.to_mm(), z?.value.to_mm());
@@ -112,9 +112,9 @@ pub(super) fn airfoil(
     let side = fields
         .required_value("side", reader.reports)
         .and_then(|expr| reader.word("side", expr, SIDES));
-    let chord = reader.required::<Length>(&fields, "chord", SIZE);
-    let x = reader.defaulted(&fields, "x", COORDINATE, Length::ZERO);
-    let z = reader.defaulted(&fields, "z", COORDINATE, Length::ZERO);
+    let chord = reader.required::<Length>(&fields, "chord");
+    let x = reader.defaulted(&fields, "x", Length::ZERO);
+    let z = reader.defaulted(&fields, "z", Length::ZERO);
     let flip = reader.choice(&fields, "flip", FLIPS);
     let file = file?;
     let airfoil = read(file, path, import::airfoil, session)?;

@@ -147,11 +147,11 @@ pub(super) fn read(
 fn read_options(format: &Format, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Options> {
     let layer = reader.text(fields, "layer");
     let side = reader.choice(fields, "side", SIDES);
-    let tolerance = reader.defaulted(fields, "tolerance", JOINING, JOINED);
+    let tolerance = reader.defaulted(fields, "tolerance", JOINED);
     let unit = reader.choice(fields, "unit", format.units);
-    let scale = reader.defaulted(fields, "scale", SCALE, 1.0);
-    let x = reader.defaulted(fields, "x", COORDINATE, Length::ZERO);
-    let z = reader.defaulted(fields, "z", COORDINATE, Length::ZERO);
+    let scale = reader.defaulted(fields, "scale", 1.0);
+    let x = reader.defaulted(fields, "x", Length::ZERO);
+    let z = reader.defaulted(fields, "z", Length::ZERO);
     Ok(Options {
         layer: layer?,
         side: side?.map(|side| side.value),

@@ -6,7 +6,7 @@ use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::sema::eval::Scope;
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, bounds, limit};
 use vcutc_job::sema::quantity::{Measured, Quantity};
-use vcutc_job::sema::range::{LONGEST_TIME, MOST_CUTS, Range, SIZE, SWING};
+use vcutc_job::sema::range::{LONGEST_TIME, MOST_CUTS, SIZE, SWING};
 use vcutc_job::sema::read::Reader;
 use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
@@ -38,13 +38,13 @@ pub(super) fn check(inner: Option<&Block>, scope: Scope<'_>, session: &mut Sessi
         scope,
         reports: &mut session.reports,
     };
-    let swing = both(&fields, "swing", SWING, &mut reader);
-    let layer = both(&fields, "layer", SIZE, &mut reader);
-    let step = both(&fields, "step", SIZE, &mut reader);
-    let scallop = reader.optional(&fields, "scallop", SIZE);
-    let edge = reader.optional(&fields, "edge", SIZE);
-    let time = reader.optional(&fields, "time", LONGEST_TIME);
-    let cuts = reader.optional(&fields, "cuts", MOST_CUTS);
+    let swing = both(&fields, "swing", &mut reader);
+    let layer = both(&fields, "layer", &mut reader);
+    let step = both(&fields, "step", &mut reader);
+    let scallop = reader.optional(&fields, "scallop");
+    let edge = reader.optional(&fields, "edge");
+    let time = reader.optional(&fields, "time");
+    let cuts = reader.optional(&fields, "cuts");
     Ok(Limits {
         swing: swing?,
         layer: layer?,
@@ -61,11 +61,10 @@ pub(super) fn check(inner: Option<&Block>, scope: Scope<'_>, session: &mut Sessi
 fn both<T: Measured + Copy + PartialOrd>(
     fields: &Fields<'_>,
     name: &str,
-    range: Range,
     reader: &mut Reader<'_>,
 ) -> Checked<Bounds<T>> {
-    let least: Checked<Option<Sourced<T>>> = reader.least(fields, name, range);
-    let most: Checked<Option<Sourced<T>>> = reader.optional(fields, name, range);
+    let least: Checked<Option<Sourced<T>>> = reader.least(fields, name);
+    let most: Checked<Option<Sourced<T>>> = reader.optional(fields, name);
     let bounds = Bounds {
         least: least?,
         most: most?,

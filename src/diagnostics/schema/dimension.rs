@@ -3,6 +3,7 @@
 //! The plane angle counts as a dimension of its own (unlike in the SI), so that `rake = 60` and `sin(3 mm)` are
 //! caught and degrees never mix with pure numbers.
 
+use crate::number::number;
 use core::f64::consts::PI;
 use std::fmt::Write as _;
 
@@ -121,6 +122,12 @@ impl Dimension {
             above.push('1');
         }
         above + &below
+    }
+
+    /// A number of these units, with the unit: `34.16 deg`.
+    pub fn show(self, number_of_units: f64) -> String {
+        let text = format!("{} {}", number(number_of_units), self.unit());
+        text.trim_end().to_owned()
     }
 
     /// How much one of [`Self::unit`] is in the units that values are held in (mm, rad, s, kg).

@@ -1,10 +1,10 @@
-//! The table of a kind of block: its fields, how they are written, and what they take.
+//! The fields that a block of a job or a table of a sheet has: their names, how they are written, and what they take.
 //!
-//! [`super::fields`] sorts what stands in a block by it. Need and value are for those who help people to write
-//! ([`super::vocabulary`]): the checks read values by themselves, and tests hold the two against each other.
+//! Readers and editors use the same description: a reader looks up here which fields are unknown or missing and which range
+//! a value must be in, an editor what to offer.
 
+use super::dimension::Dimension;
 use super::range::Range;
-use vcutc_syntax::ast::Relation;
 
 /// What kind of entry a field is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,33 +21,6 @@ pub enum Form {
     Points,
 }
 
-/// How an entry is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Written {
-    /// `name = value`.
-    Value,
-    /// `name { ... }`.
-    Block,
-    /// `name <= value` or `name >= value`.
-    Limit(Relation),
-    /// `name (x, z) (x, z) ...`.
-    Points,
-}
-
-impl Form {
-    /// Whether a field of this form is written so.
-    pub const fn takes(self, written: Written) -> bool {
-        match (self, written) {
-            (Self::Value, Written::Value)
-            | (Self::Block, Written::Block)
-            | (Self::Limit, Written::Limit(Relation::AtMost))
-            | (Self::Bounds, Written::Limit(Relation::AtMost | Relation::AtLeast))
-            | (Self::Points, Written::Points) => true,
-            (Self::Value | Self::Block | Self::Limit | Self::Bounds | Self::Points, _) => false,
-        }
-    }
-}
-
 /// Whether a block must have a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
@@ -57,11 +30,10 @@ pub enum Need {
     Optional,
 }
 
-/// What the value of a field is. The blocks' own checks read it; this is for those who help to write it, and tests hold the
-/// two against each other.
+/// What the value of a field is.
 #[derive(Clone, Copy, Debug)]
 pub enum Takes {
-    /// Nothing that can be said in advance.
+    /// What the description does not state.
     Anything,
     /// A value of a range.
     Quantity(Range),
@@ -138,6 +110,19 @@ impl FieldSpec {
         }
     }
 
+    /// The range of its values; all values of a dimension where the description states none.
+    pub fn range(&self, dimension: Dimension) -> Range {
+        match self.takes {
+            Takes::Quantity(range) => range,
+            Takes::Anything
+            | Takes::Words(_)
+            | Takes::Blade
+            | Takes::Machine
+            | Takes::Calls(_)
+            | Takes::Fields(_) => Range::all(dimension),
+        }
+    }
+
     /// The whole field with its typical value.
     pub fn sample(&self) -> String {
         match self.form {
@@ -151,6 +136,11 @@ impl FieldSpec {
 /// A field of the form `name = value`.
 pub const fn value(name: &'static str, typical: &'static str) -> FieldSpec {
     FieldSpec::new(name, Form::Value, typical)
+}
+
+/// A field that may be left out and has no typical value, such as a source.
+pub const fn optional(name: &'static str) -> FieldSpec {
+    value(name, "")
 }
 
 /// A field of the form `name { ... }`.
