@@ -7,7 +7,7 @@ use super::console::{Console, Failure};
 use super::files::load_file;
 use super::output::one_file;
 use std::path::Path;
-use vcutc_diagnostics::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_bytes};
+use vcutc_diagnostics::source::{FileId, LoadError, SourceMap, Span, Spanned, join_path, text_from_bytes};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_driver::manifest::{Manifest, Tolerance};
 use vcutc_driver::numbers::Numbers;
@@ -19,8 +19,8 @@ pub(super) struct Keeper {
     path: String,
     /// Where the list names it.
     named_at: Span,
-    /// By how much figures may become worse, and where the list says so.
-    tolerances: Vec<(Tolerance, Span)>,
+    /// By how much figures may become worse.
+    tolerances: Vec<Tolerance>,
     /// What it has; none when its figures are about to be replaced.
     records: Option<Vec<Record>>,
 }
@@ -41,21 +41,17 @@ impl Keeper {
                 Ok(None)
             };
         };
-        let path = join_path(list, &baseline.file.value);
-        let named_at = Span::of_bytes(file, baseline.file.span.clone());
+        let path = join_path(list, &baseline.file.node);
+        let named_at = baseline.file.span;
         let records = if args.accept {
             None
         } else {
             Some(records(&path, named_at, sources)?)
         };
-        let placed = |tolerance: &Tolerance| {
-            let span = Span::of_bytes(file, tolerance.percent.span.clone());
-            (tolerance.clone(), span)
-        };
         Ok(Some(Self {
             path,
             named_at,
-            tolerances: baseline.tolerances.iter().map(placed).collect(),
+            tolerances: baseline.tolerances.clone(),
             records,
         }))
     }
@@ -70,15 +66,15 @@ impl Keeper {
         };
         self.tolerances
             .iter()
-            .filter_map(|(tolerance, span)| {
-                let percent = tolerance.percent.value;
-                let found = worse(tolerance.figure, percent, &record.numbers, numbers)?;
-                Some(self.complaint(name, found, percent, *span))
+            .filter_map(|tolerance| {
+                let percent = tolerance.percent;
+                let found = worse(tolerance.figure, percent.node, &record.numbers, numbers)?;
+                Some(self.complaint(name, found, percent))
             })
             .collect()
     }
 
-    fn complaint(&self, name: &Name, found: Worse, percent: f64, span: Span) -> Diagnostic {
+    fn complaint(&self, name: &Name, found: Worse, percent: Spanned<f64>) -> Diagnostic {
         let (figure, job) = (found.figure, &name.job);
         let grown = match found.percent() {
             // Never rounded down to what is allowed.
@@ -94,8 +90,8 @@ impl Keeper {
                 figure.show(found.was),
                 figure.show(found.is)
             ),
-            span,
-            format!("{grown}, {percent} % are allowed"),
+            percent.span,
+            format!("{grown}, {} % are allowed", percent.node),
         )
         .and(self.named_at, "the figures it is compared with")
         .help("undo what made it worse, or accept the new figures with `vcutc build --accept`")
@@ -147,7 +143,9 @@ impl Keeper {
             Err(LoadError::NotFound) => return Ok(Vec::new()),
             Err(reason) => return Err(format!("cannot read {}: {reason}", self.path)),
         };
-        let read = text_from_bytes(bytes).ok().map(|text| baseline::read(&text));
+        let read = text_from_bytes(bytes)
+            .ok()
+            .map(|text| baseline::read(FileId::ALONE, &text));
         match read {
             Some(Ok(records)) => Ok(records),
             Some(Err(_)) | None => Err(format!(
@@ -178,13 +176,8 @@ fn records(path: &str, named_at: Span, sources: &mut SourceMap) -> Result<Vec<Re
     let Ok(text) = text_from_bytes(bytes) else {
         return Err(unusable(format!("{path} is not UTF-8 text"), "no text"));
     };
-    baseline::read(&text).map_err(|flaw| {
-        let file = sources.add(path.to_owned(), text.clone());
-        vec![
-            flaw.diagnostic(Code::BadBaseline, file)
-                .and(named_at, "named here"),
-        ]
-    })
+    let file = sources.add(path.to_owned(), text.clone());
+    baseline::read(file, &text).map_err(|fault| vec![fault.and(named_at, "named here")])
 }
 
 fn nothing_to_accept(file: FileId) -> Diagnostic {

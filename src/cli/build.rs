@@ -12,11 +12,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::backend::Backend;
-use vcutc_diagnostics::source::{FileId, LoadError, SourceMap, Span, join_path, text_from_bytes};
+use vcutc_diagnostics::source::{FileId, LoadError, SourceMap, Span, Spanned, join_path, text_from_bytes};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_driver::manifest::pattern::Pattern;
-use vcutc_driver::manifest::{self, Entry, FILE_NAME, Manifest, Placed};
+use vcutc_driver::manifest::{self, Entry, FILE_NAME, Manifest};
 use vcutc_driver::numbers::baseline::Name;
 
 /// Most names that are looked at for one pattern. A pattern that begins high up in a disk would never end.
@@ -36,11 +36,10 @@ pub(super) fn build(args: &BuildArgs, targets: &Targets, console: &Console) -> E
     };
     let mut sources = SourceMap::default();
     let file = sources.add(path.clone(), text.clone());
-    let manifest = match manifest::parse(&text) {
+    let manifest = match manifest::parse(file, &text) {
         Ok(manifest) => manifest,
-        Err(flaws) => {
-            let told = flaws.iter().map(|flaw| flaw.diagnostic(Code::BadManifest, file));
-            console.diagnostics(&told.collect::<Vec<_>>(), &sources);
+        Err(faults) => {
+            console.diagnostics(&faults, &sources);
             return Exit::JobHasErrors;
         }
     };
@@ -180,7 +179,8 @@ impl List<'_> {
             );
         }
         if units.len() > MOST_PROGRAMS {
-            let place = self.span(&manifest.entries.first().and_then(|entry| entry.jobs.first()));
+            let first = manifest.entries.first().and_then(|entry| entry.jobs.first());
+            let place = first.map_or(Span::of_bytes(self.file, 0..0), |pattern| pattern.span);
             let message = format!(
                 "the list has {} programs, at most {MOST_PROGRAMS} are built in one run",
                 units.len()
@@ -200,7 +200,7 @@ impl List<'_> {
     fn unit(
         &self,
         entry: &Entry,
-        pattern: &Placed<Pattern>,
+        pattern: &Spanned<Pattern>,
         job: &str,
         backend: &'static dyn Backend,
     ) -> Unit {
@@ -220,23 +220,19 @@ impl List<'_> {
             machine: entry.machine.clone(),
             options: entry.options.clone(),
             beside: self.path.clone(),
-            asked_at: Some(self.span(&Some(pattern))),
+            asked_at: Some(pattern.span),
         }
     }
 
-    fn span<T>(&self, placed: &Option<&Placed<T>>) -> Span {
-        Span::of_bytes(self.file, placed.map_or(0..0, |placed| placed.span.clone()))
-    }
-
-    fn backend(&self, target: &Placed<String>) -> Result<&'static dyn Backend, Box<Diagnostic>> {
-        let id = &target.value;
+    fn backend(&self, target: &Spanned<String>) -> Result<&'static dyn Backend, Box<Diagnostic>> {
+        let id = &target.node;
         if let Ok(backend) = targets::find(self.targets, id, &|| Driven::Unknown) {
             return Ok(backend);
         }
         let diagnostic = Diagnostic::new(
             Code::NoSuchTarget,
             format!("there is no target `{id}`, or it does not answer"),
-            self.span(&Some(target)),
+            target.span,
             "not a target",
         );
         let near = nearest(id, self.targets.iter().map(|backend| backend.id()));
@@ -247,16 +243,16 @@ impl List<'_> {
     }
 
     /// The files of a pattern, by their paths from the folder of the list, in order.
-    fn jobs(&self, pattern: &Placed<Pattern>) -> Result<Vec<String>, Box<Diagnostic>> {
-        let text = pattern.value.text();
+    fn jobs(&self, pattern: &Spanned<Pattern>) -> Result<Vec<String>, Box<Diagnostic>> {
+        let text = pattern.node.text();
         let from_here = |path: &str| join_path(&self.path, path);
-        let found = if pattern.value.is_plain() {
+        let found = if pattern.node.is_plain() {
             let is_there = Path::new(&from_here(text)).is_file();
             is_there.then(|| text.to_owned()).into_iter().collect()
         } else {
-            walk(&pattern.value, &from_here).map_err(|reason| {
+            walk(&pattern.node, &from_here).map_err(|reason| {
                 Box::new(
-                    Diagnostic::new(Code::NoSuchJob, reason, self.span(&Some(pattern)), "this pattern")
+                    Diagnostic::new(Code::NoSuchJob, reason, pattern.span, "this pattern")
                         .help("begin it with the folder that holds the jobs, such as `jobs/**/*.vcut`"),
                 )
             })?
@@ -264,12 +260,12 @@ impl List<'_> {
         match found {
             found if !found.is_empty() => Ok(found),
             _ => {
-                let (message, label) = if pattern.value.is_plain() {
+                let (message, label) = if pattern.node.is_plain() {
                     (format!("there is no file {}", from_here(text)), "no such file")
                 } else {
                     (format!("no file matches {}", from_here(text)), "matches nothing")
                 };
-                let diagnostic = Diagnostic::new(Code::NoSuchJob, message, self.span(&Some(pattern)), label);
+                let diagnostic = Diagnostic::new(Code::NoSuchJob, message, pattern.span, label);
                 Err(Box::new(
                     diagnostic.help(format!("paths are relative to the folder of {FILE_NAME}")),
                 ))

@@ -8,8 +8,6 @@ use super::console::{Console, Failure};
 use super::files::Disk;
 use serde_json::{Value, json};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, Maker};
-use vcutc_diagnostics::Code;
-use vcutc_diagnostics::document::flaw::Flaw;
 use vcutc_diagnostics::source::{Loader, SourceMap, text_from_bytes};
 use vcutc_machine::catalogue::Summary;
 use vcutc_machine::facts::{Dynamics, Facts, FkCheck};
@@ -86,23 +84,19 @@ fn of_file(path: &str, kind: FileKind, console: &Console) -> Result<Description,
             at + 1
         ))
     })?;
-    let description = match kind {
-        FileKind::Sheet => sheet::parse(&text).map(|sheet| Description::of_sheet(sheet, path)),
-        FileKind::Urdf => machine::read(path, kind, &text).map(|model| Description { model, sheet: None }),
-    };
-    description.map_err(|flaws| tell(&flaws, path, text, console))
-}
-
-/// Tells what is wrong with a file.
-fn tell(flaws: &[Flaw], path: &str, text: String, console: &Console) -> Exit {
     let mut sources = SourceMap::default();
-    let file = sources.add(path, text);
-    let diagnostics: Vec<_> = flaws
-        .iter()
-        .map(|flaw| flaw.diagnostic(Code::BadMachineFile, file))
-        .collect();
-    console.diagnostics(&diagnostics, &sources);
-    Exit::JobHasErrors
+    let file = sources.add(path, text.clone());
+    let description = match kind {
+        FileKind::Sheet => sheet::parse(file, &text).map(|sheet| Description::of_sheet(sheet, path)),
+        FileKind::Urdf => {
+            let model = machine::read(path, kind, file, &text);
+            model.map(|model| Description { model, sheet: None })
+        }
+    };
+    description.map_err(|faults| {
+        console.diagnostics(&faults, &sources);
+        Exit::JobHasErrors
+    })
 }
 
 /// The machines whose name or model holds a word that is the name of none of them.

@@ -1,77 +1,82 @@
-//! Texts in TOML as people write them: read once, with all flaws at their places.
+//! Texts in TOML as people write them: read once, with all faults at their places.
 
-pub mod flaw;
 pub mod table;
 
-use flaw::Flaw;
+use crate::source::{FileId, Span};
+use crate::{Code, Diagnostic};
 use table::Table;
 use toml::de::DeTable;
 
-/// What a document is called in messages, and looks like.
+/// A kind of document, for messages.
 #[derive(Clone, Copy, Debug)]
 pub struct Wording {
     /// Its name, such as `sheet`.
     pub name: &'static str,
     /// What lines of it look like.
     pub looks: &'static str,
+    /// The code of its faults.
+    pub code: Code,
 }
 
 /// Largest document in bytes. Sheets of the catalogue are below 10 000.
 pub const LARGEST: usize = 1 << 18;
 
-/// Most flaws of one document that are told.
-pub const MOST_FLAWS: usize = 20;
+/// Most faults of one document that are reported.
+pub const MOST_FAULTS: usize = 20;
 
 /// Reads a document.
 ///
 /// # Errors
-/// What is wrong with it, in the order of the text; the first [`MOST_FLAWS`] of it.
+/// What is wrong with it, in the order of the text; the first [`MOST_FAULTS`] of it.
 pub fn parse<T>(
+    file: FileId,
     text: &str,
     wording: Wording,
-    read: impl FnOnce(&Table<'_>, &mut Vec<Flaw>) -> Option<T>,
-) -> Result<T, Vec<Flaw>> {
+    read: impl FnOnce(Table<'_>, &mut Vec<Diagnostic>) -> Option<T>,
+) -> Result<T, Vec<Diagnostic>> {
     if text.len() > LARGEST {
-        return Err(vec![too_large(text.len(), wording)]);
+        return Err(vec![too_large(file, text.len(), wording)]);
     }
     let (root, errors) = DeTable::parse_recoverable(text);
-    let mut flaws: Vec<Flaw> = errors
+    let mut faults: Vec<Diagnostic> = errors
         .iter()
-        .map(|error| unreadable(error, text, wording))
+        .map(|error| unreadable(error, file, text, wording))
         .collect();
-    // What could be read of a broken file would only add complaints about what seems to be missing.
-    let document = if flaws.is_empty() {
-        read(&Table::root(root.get_ref(), wording.name), &mut flaws)
+    // What could be read of a broken file would only add messages about what seems to be missing.
+    let document = if faults.is_empty() {
+        read(Table::root(root.get_ref(), file, wording), &mut faults)
     } else {
         None
     };
     match document {
-        Some(document) if flaws.is_empty() => Ok(document),
+        Some(document) if faults.is_empty() => Ok(document),
         Some(_) | None => {
-            flaws.sort_by_key(|flaw| (flaw.span.start, flaw.span.end));
-            flaws.truncate(MOST_FLAWS);
-            Err(flaws)
+            faults.sort_by_key(|fault| fault.primary.span);
+            faults.truncate(MOST_FAULTS);
+            Err(faults)
         }
     }
 }
 
-fn too_large(size: usize, wording: Wording) -> Flaw {
+fn too_large(file: FileId, size: usize, wording: Wording) -> Diagnostic {
     let (size, most, name) = (size / 1000, LARGEST / 1000, wording.name);
-    Flaw::new(
-        0..0,
+    Diagnostic::new(
+        wording.code,
         format!("the {name} has {size} kB, at most {most} kB are read"),
+        Span::of_bytes(file, 0..0),
         "too large",
     )
 }
 
-fn unreadable(error: &toml::de::Error, text: &str, wording: Wording) -> Flaw {
-    let Wording { name, looks } = wording;
+fn unreadable(error: &toml::de::Error, file: FileId, text: &str, wording: Wording) -> Diagnostic {
+    let Wording { name, looks, code } = wording;
     let span = error.span().unwrap_or(0..0);
     let end = span.end.min(text.len());
     let reason = error.message().lines().next().unwrap_or_default();
-    Flaw::new(
-        span.start.min(end)..end,
+    Diagnostic::new(
+        code,
         format!("the {name} is not TOML: {reason}"),
+        Span::of_bytes(file, span.start.min(end)..end),
         "cannot be read",
     )
     .help(format!("a {name} has lines such as {looks}"))

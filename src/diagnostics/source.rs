@@ -10,6 +10,11 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(u32);
 
+impl FileId {
+    /// Of a text that is read by itself, such as a sheet of the catalogue: the first file of its source map.
+    pub const ALONE: Self = Self(0);
+}
+
 /// A stretch of bytes in a file.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {

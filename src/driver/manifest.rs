@@ -1,4 +1,4 @@
-//! The list of a repository's programs, `vcut.toml`, read with every flaw at its place.
+//! The list of a repository's programs, `vcut.toml`, read with every fault at its place.
 //!
 //! It says which jobs are compiled for which targets into which folders, so that one command does, or checks, all of them.
 //! Nothing is looked up here: which files a pattern names is for who holds the files, which targets exist for who has them.
@@ -6,11 +6,13 @@
 pub mod pattern;
 
 use crate::numbers::Figure;
-use core::ops::Range;
 use pattern::Pattern;
-use vcutc_diagnostics::document::flaw::Flaw;
 use vcutc_diagnostics::document::table::Table;
 use vcutc_diagnostics::document::{self, Wording};
+use vcutc_diagnostics::schema::faults;
+use vcutc_diagnostics::schema::field::{FieldSpec, optional, value};
+use vcutc_diagnostics::source::{FileId, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// The name of the file, looked for in the current folder and those above it.
 pub const FILE_NAME: &str = "vcut.toml";
@@ -18,6 +20,7 @@ pub const FILE_NAME: &str = "vcut.toml";
 const WORDING: Wording = Wording {
     name: "list of programs",
     looks: "`jobs = \"jobs/*.vcut\"` below headings `[[program]]`",
+    code: Code::BadManifest,
 };
 
 const PROGRAM: &str = "program";
@@ -32,20 +35,22 @@ const OPTIONS: &str = "options";
 const BASELINE: &str = "baseline";
 const FILE: &str = "file";
 
-const KEYS: &[&str] = &[NAME, JOBS, TARGET, TARGETS, OUTPUT, MACHINE, SET, OPTIONS];
+const FIELDS: &[FieldSpec] = &[
+    optional(NAME),
+    value(JOBS, "\"jobs/*.vcut\"").required(),
+    optional(TARGET),
+    optional(TARGETS),
+    value(OUTPUT, "\"programs\"").required(),
+    optional(MACHINE),
+    optional(SET),
+    optional(OPTIONS),
+];
 
 /// Largest tolerance.
 const MOST_PERCENT: f64 = 1000.0;
 
 /// Places in a folder's name that are filled in for each program.
 const BLANKS: [&str; 2] = ["{job}", "{target}"];
-
-/// A value with where it stands, in bytes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Placed<T> {
-    pub value: T,
-    pub span: Range<usize>,
-}
 
 /// The programs of a repository.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,7 +65,7 @@ pub struct Manifest {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Baseline {
     /// The file with the figures, relative to the folder of the list.
-    pub file: Placed<String>,
+    pub file: Spanned<String>,
     /// By how much each may become worse; at least one.
     pub tolerances: Vec<Tolerance>,
 }
@@ -70,7 +75,7 @@ pub struct Baseline {
 pub struct Tolerance {
     pub figure: Figure,
     /// By how many percent; zero or more.
-    pub percent: Placed<f64>,
+    pub percent: Spanned<f64>,
 }
 
 /// One section: some jobs, some targets, and what goes for all of them.
@@ -78,8 +83,8 @@ pub struct Tolerance {
 pub struct Entry {
     /// A name by which `vcutc build NAME` chooses it.
     pub name: Option<String>,
-    pub jobs: Vec<Placed<Pattern>>,
-    pub targets: Vec<Placed<String>>,
+    pub jobs: Vec<Spanned<Pattern>>,
+    pub targets: Vec<Spanned<String>>,
     /// Where programs go, relative to the folder of the list; may hold `{job}` and `{target}`.
     pub output: String,
     /// As `--machine`.
@@ -116,46 +121,38 @@ impl Entry {
 ///
 /// # Errors
 /// What is wrong with it, in the order of the text.
-pub fn parse(text: &str) -> Result<Manifest, Vec<Flaw>> {
-    document::parse(text, WORDING, read)
+pub fn parse(file: FileId, text: &str) -> Result<Manifest, Vec<Diagnostic>> {
+    document::parse(file, text, WORDING, |root, faults| read(&root, faults))
 }
 
-fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Manifest> {
-    root.allow(&[PROGRAM, BASELINE], flaws);
-    let sections = root.tables(PROGRAM, KEYS, flaws);
+fn read(root: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Manifest> {
+    root.allow(&[PROGRAM, BASELINE], faults);
+    let sections = root.tables(PROGRAM, FIELDS, faults);
     if !root.has(PROGRAM) {
-        flaws.push(
-            Flaw::new(0..0, "the list has no programs", "no section `[[program]]`")
+        faults.push(
+            root.fault(root.span(), "the list has no programs", "no section `[[program]]`")
                 .help("add `[[program]]` with `jobs = \"jobs/*.vcut\"`, `target = \"krl\"` and `output = \"programs\"`"),
         );
     }
-    let entries: Vec<_> = sections.iter().map(|section| entry(section, flaws)).collect();
-    twice(&sections, flaws);
+    let entries: Vec<_> = sections.iter().map(|section| entry(section, faults)).collect();
+    twice(&sections, faults);
     let entries: Option<Vec<Entry>> = entries.into_iter().collect();
-    let baseline = baseline(root, flaws);
+    let baseline = baseline(root, faults);
     Some(Manifest {
         entries: entries?,
         baseline,
     })
 }
 
-fn entry(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Entry> {
-    for (key, line) in [
-        (JOBS, "jobs = \"jobs/*.vcut\""),
-        (OUTPUT, "output = \"programs\""),
-    ] {
-        if !section.has(key) {
-            flaws.push(lacks(section, key, &format!("add a line such as `{line}`")));
-        }
-    }
-    let jobs = jobs(section, flaws);
-    let targets = targets(section, flaws);
-    let output = output(section, flaws);
+fn entry(section: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Entry> {
+    let jobs = jobs(section, faults);
+    let targets = targets(section, faults);
+    let output = output(section, faults);
     Some(Entry {
-        name: section.text(NAME, flaws).map(str::to_owned),
-        machine: section.text(MACHINE, flaws).map(str::to_owned),
-        set: section.texts(SET, flaws),
-        options: section.texts(OPTIONS, flaws),
+        name: section.text(NAME, faults).map(str::to_owned),
+        machine: section.text(MACHINE, faults).map(str::to_owned),
+        set: section.texts(SET, faults),
+        options: section.texts(OPTIONS, faults),
         jobs: jobs?,
         targets: targets?,
         output: output?,
@@ -163,15 +160,15 @@ fn entry(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Entry> {
 }
 
 /// None when there is none, or a faulty one.
-fn baseline(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Baseline> {
+fn baseline(root: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Baseline> {
     let names = Figure::ALL.map(|(name, _)| name);
-    let keys: Vec<&str> = core::iter::once(FILE).chain(names).collect();
-    let section = root.table(BASELINE, &keys, flaws)?;
-    section.require(&[(FILE, "file = \"numbers.json\"")], flaws);
+    let file = value(FILE, "\"numbers.json\"").required();
+    let fields: Vec<FieldSpec> = core::iter::once(file).chain(names.map(optional)).collect();
+    let section = root.table(BASELINE, &fields, faults)?;
     let tolerances: Vec<Tolerance> = Figure::ALL
         .iter()
         .filter_map(|&(name, figure)| {
-            let percent = percent(&section, name, flaws)?;
+            let percent = percent(&section, name, faults)?;
             Some(Tolerance { figure, percent })
         })
         .collect();
@@ -181,48 +178,55 @@ fn baseline(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Baseline> {
             "add a line such as `time = \"2 %\"`; figures are {}",
             names.join(", ")
         );
-        flaws.push(Flaw::new(section.span(), message, "no figure").help(help));
+        faults.push(section.fault(section.span(), message, "no figure").help(help));
     }
-    let value = section.text(FILE, flaws)?.to_owned();
-    let span = section.span_of(FILE);
-    if value.is_empty() {
-        flaws.push(nothing(&section, FILE, "name a file, such as `numbers.json`"));
+    let file = placed_text(&section, FILE, faults)?;
+    if file.node.is_empty() {
+        faults.push(nothing(&section, FILE, "name a file, such as `numbers.json`"));
     }
-    Some(Baseline {
-        file: Placed { value, span },
-        tolerances,
-    })
+    Some(Baseline { file, tolerances })
 }
 
 /// A tolerance such as `2 %`.
-fn percent(section: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Placed<f64>> {
-    let text = section.text(name, flaws)?;
-    let span = section.span_of(name);
+fn percent(section: &Table<'_>, name: &str, faults: &mut Vec<Diagnostic>) -> Option<Spanned<f64>> {
+    let text = placed_text(section, name, faults)?;
     let number = text
+        .node
         .strip_suffix('%')
         .and_then(|number| number.trim().parse::<f64>().ok());
-    match number {
-        Some(value) if (0.0..=MOST_PERCENT).contains(&value) => Some(Placed { value, span }),
-        Some(_) | None => {
-            let message = format!("`{name}` takes from 0 to {MOST_PERCENT} percent, not `{text}`");
-            flaws.push(Flaw::new(span, message, "not such a share").help("write it like \"2 %\""));
-            None
-        }
+    let legal = number.filter(|number| (0.0..=MOST_PERCENT).contains(number));
+    if legal.is_none() {
+        let message = format!(
+            "`{name}` takes from 0 to {MOST_PERCENT} percent, not `{}`",
+            text.node
+        );
+        faults.push(
+            section
+                .fault(text.span, message, "not such a share")
+                .help("write it like \"2 %\""),
+        );
     }
+    Some(Spanned::new(legal?, text.span))
 }
 
-fn jobs(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<Pattern>>> {
-    let texts = section.placed_texts(JOBS, flaws);
+fn placed_text(section: &Table<'_>, key: &str, faults: &mut Vec<Diagnostic>) -> Option<Spanned<String>> {
+    let text = section.text(key, faults)?;
+    Some(Spanned::new(text.to_owned(), section.span_of(key)))
+}
+
+fn jobs(section: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Vec<Spanned<Pattern>>> {
+    let texts = section.placed_texts(JOBS, faults);
     if section.has(JOBS) && texts.is_empty() {
-        flaws.push(nothing(section, JOBS, "name a job: `jobs = \"jobs/rib.vcut\"`"));
+        faults.push(nothing(section, JOBS, "name a job: `jobs = \"jobs/rib.vcut\"`"));
     }
     let jobs: Vec<_> = texts
         .into_iter()
-        .map(|(text, span)| match Pattern::new(text) {
-            Ok(value) => Some(Placed { value, span }),
+        .map(|text| match Pattern::new(text.node) {
+            Ok(pattern) => Some(Spanned::new(pattern, text.span)),
             Err(why) => {
                 let message = format!("`{JOBS}` takes paths relative to the folder of {FILE_NAME}: {why}");
-                flaws.push(Flaw::new(span, message, "not such a path").help("write it like `jobs/*.vcut`"));
+                let fault = section.fault(text.span, message, "not such a path");
+                faults.push(fault.help("write it like `jobs/*.vcut`"));
                 None
             }
         })
@@ -230,56 +234,42 @@ fn jobs(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<Pattern
     jobs.into_iter().collect()
 }
 
-fn targets(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Vec<Placed<String>>> {
+fn targets(section: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Vec<Spanned<String>>> {
     match (section.has(TARGET), section.has(TARGETS)) {
         (false, false) => {
+            let missing = faults::missing(Code::BadManifest, "`[[program]]`", &[TARGET], section.span());
             let help = "add `target = \"krl\"`, or `targets = [\"krl\", \"rapid\"]`";
-            flaws.push(lacks(section, TARGET, help));
+            faults.push(missing.help(help));
             None
         }
         (true, true) => {
-            flaws.push(
-                Flaw::new(
-                    section.span_of(TARGETS),
-                    format!("`{TARGET}` and `{TARGETS}` say the same thing"),
-                    "one of the two is enough",
-                )
-                .help(format!(
-                    "put all of them into `{TARGETS}`, and leave `{TARGET}` out"
-                )),
-            );
+            let message = format!("`{TARGET}` and `{TARGETS}` say the same thing");
+            let fault = section.fault(section.span_of(TARGETS), message, "one of the two is enough");
+            faults.push(fault.help(format!(
+                "put all of them into `{TARGETS}`, and leave `{TARGET}` out"
+            )));
             None
         }
-        (true, false) => {
-            let value = section.text(TARGET, flaws)?.to_owned();
-            let span = section.span_of(TARGET);
-            Some(vec![Placed { value, span }])
-        }
+        (true, false) => Some(vec![placed_text(section, TARGET, faults)?]),
         (false, true) => {
-            let texts = section.placed_texts(TARGETS, flaws);
+            let texts = section.placed_texts(TARGETS, faults);
             if texts.is_empty() {
-                flaws.push(nothing(section, TARGETS, "name a target: `targets = [\"krl\"]`"));
+                faults.push(nothing(section, TARGETS, "name a target: `targets = [\"krl\"]`"));
             }
-            let placed = |(text, span): (&str, Range<usize>)| Placed {
-                value: text.to_owned(),
-                span,
-            };
-            Some(texts.into_iter().map(placed).collect())
+            Some(texts.into_iter().map(|text| text.map(str::to_owned)).collect())
         }
     }
 }
 
-fn lacks(section: &Table<'_>, key: &str, help: &str) -> Flaw {
-    let message = format!("`[[{PROGRAM}]]` lacks `{key}`");
-    Flaw::new(section.span(), message, format!("missing: `{key}`")).help(help)
+fn nothing(section: &Table<'_>, key: &str, help: &str) -> Diagnostic {
+    let message = format!("`{key}` is empty");
+    section
+        .fault(section.span_of(key), message, "nothing here")
+        .help(help)
 }
 
-fn nothing(section: &Table<'_>, key: &str, help: &str) -> Flaw {
-    Flaw::new(section.span_of(key), format!("`{key}` is empty"), "nothing here").help(help)
-}
-
-fn output(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<String> {
-    let output = section.text(OUTPUT, flaws)?;
+fn output(section: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<String> {
+    let output = section.text(OUTPUT, faults)?;
     let fault = if output.is_empty() {
         Some("is empty".to_owned())
     } else if output.contains(['\n', '\r']) {
@@ -290,13 +280,11 @@ fn output(section: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<String> {
     match fault {
         None => Some(output.to_owned()),
         Some(fault) => {
-            flaws.push(
-                Flaw::new(
-                    section.span_of(OUTPUT),
-                    format!("`{OUTPUT}` {fault}"),
-                    "not a folder's name",
-                )
-                .help("write it like `programs`, `programs/{target}` or `programs/{job}`"),
+            let message = format!("`{OUTPUT}` {fault}");
+            faults.push(
+                section
+                    .fault(section.span_of(OUTPUT), message, "not a folder's name")
+                    .help("write it like `programs`, `programs/{target}` or `programs/{job}`"),
             );
             None
         }
@@ -319,7 +307,7 @@ fn unknown_blank(output: &str) -> Option<&str> {
 }
 
 /// Reports names that two sections have.
-fn twice(sections: &[Table<'_>], flaws: &mut Vec<Flaw>) {
+fn twice(sections: &[Table<'_>], faults: &mut Vec<Diagnostic>) {
     let mut ignored = Vec::new();
     let mut seen = std::collections::BTreeSet::new();
     for section in sections {
@@ -327,13 +315,14 @@ fn twice(sections: &[Table<'_>], flaws: &mut Vec<Flaw>) {
             continue;
         };
         if !seen.insert(name) {
-            flaws.push(
-                Flaw::new(
-                    section.span_of(NAME),
-                    format!("two programs are called `{name}`"),
-                    "named again here",
-                )
-                .help("give each a different name, or none"),
+            faults.push(
+                section
+                    .fault(
+                        section.span_of(NAME),
+                        format!("two programs are called `{name}`"),
+                        "named again here",
+                    )
+                    .help("give each a different name, or none"),
             );
         }
     }

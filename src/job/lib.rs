@@ -19,7 +19,7 @@ use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_geometry::profile::Profile;
-use vcutc_machine::Model;
+use vcutc_machine::{LimitPlaces, Model};
 
 /// A value and where it was written; `None` when it is a default.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,7 +161,7 @@ pub struct Machine {
     /// Where the model's name stands.
     pub model_span: Span,
     /// Where the file of the machine states the limits of its axes; empty for machines of the catalogue.
-    pub limit_spans: Vec<LimitSpans>,
+    pub limit_spans: Vec<LimitPlaces>,
     /// Blade frame seen from the flange.
     pub tool: Sourced<PlacedFrame>,
     /// Workpiece frame seen from the machine's root.
@@ -176,15 +176,6 @@ pub struct Machine {
     pub ready: Sourced<Ready>,
     /// Options for targets: one for each nested block such as `krl { ... }`.
     pub targets: Vec<TargetOptions>,
-}
-
-/// Where the limits of an axis are stated.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LimitSpans {
-    /// The range of its values.
-    pub range: Option<Span>,
-    /// Its highest rate.
-    pub rate: Option<Span>,
 }
 
 /// Options of one target, evaluated but not yet held against what the target takes.

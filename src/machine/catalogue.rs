@@ -5,6 +5,7 @@
 use super::Model;
 use super::sheet::{self, Confidence, Sheet};
 use vcutc_backend_api::ir::MachineKind;
+use vcutc_diagnostics::source::FileId;
 use vcutc_diagnostics::suggest::closest;
 
 /// Names and sheets, in the order of the names.
@@ -144,7 +145,7 @@ pub fn text(name: &str) -> Option<&'static str> {
 /// The sheet of that name. That every sheet of the catalogue can be read is tested.
 #[must_use]
 pub fn sheet(name: &str) -> Option<Sheet> {
-    sheet::parse(text(name)?).ok()
+    sheet::parse(FileId::ALONE, text(name)?).ok()
 }
 
 /// The machine of that name.
@@ -213,7 +214,8 @@ mod tests {
     #[test]
     fn every_sheet_is_a_machine_with_limits_and_sources() {
         for (name, text) in SHEETS {
-            let sheet = sheet::parse(text).unwrap_or_else(|flaws| panic!("{name}: {flaws:#?}"));
+            let sheet =
+                sheet::parse(FileId::ALONE, text).unwrap_or_else(|flaws| panic!("{name}: {flaws:#?}"));
             assert!(sheet.confidence.is_some(), "{name}");
             match sheet.kind() {
                 MachineKind::Robot => {

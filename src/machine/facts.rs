@@ -1,12 +1,14 @@
 //! What people want to know of a machine besides what is computed with: sources, disagreements, published poses, masses.
 
 use crate::kinematics::{Joints, Mechanism};
-use core::ops::Range;
+use crate::ranges::{ANGLE, LENGTH, MASS, QUATERNION_PART, TOLERANCE};
 use glam::DVec3;
 use vcutc_backend_api::geometry::{Frame, Orientation};
 use vcutc_backend_api::ir::{Axis, AxisKind};
-use vcutc_diagnostics::document::flaw::Flaw;
-use vcutc_diagnostics::document::table::{ANGLE, LENGTH, MASS, Measure, SHARE, Table};
+use vcutc_diagnostics::document::table::Table;
+use vcutc_diagnostics::schema::field::{FieldSpec, optional, value};
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// For people.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,8 +55,8 @@ pub struct FkCheck {
     pub independence: Option<String>,
     /// What else there is to know.
     pub note: Option<String>,
-    /// Where it stands in the sheet.
-    pub span: Range<usize>,
+    /// Where it is in the sheet.
+    pub span: Span,
 }
 
 impl FkCheck {
@@ -81,17 +83,18 @@ impl FkCheck {
         (apart, turned)
     }
 
-    /// The flaw of a sheet whose mechanism does not meet the pose.
-    pub(super) fn missed(&self, mechanism: &Mechanism, axes: &[Axis]) -> Option<Flaw> {
+    /// The fault of a sheet whose mechanism does not reach the pose.
+    pub(super) fn missed(&self, mechanism: &Mechanism, axes: &[Axis]) -> Option<Diagnostic> {
         let (apart, turned) = self.apart(mechanism, axes);
         if apart <= self.position_tolerance_mm && turned <= self.rotation_tolerance_deg {
             return None;
         }
-        let missed = Flaw::new(
-            self.span.clone(),
+        let missed = Diagnostic::new(
+            Code::BadMachineFile,
             format!(
                 "the numbers of this sheet put the flange {apart:.3} mm and {turned:.3} deg away from a known pose"
             ),
+            self.span,
             format!(
                 "known to {} mm and {} deg",
                 self.position_tolerance_mm, self.rotation_tolerance_deg
@@ -123,69 +126,82 @@ pub struct Link {
     pub centre_mm: [f64; 3],
 }
 
-/// Keys of a sheet that hold facts.
-pub(super) const KEYS: &[&str] = &[
-    "standard_dh_equivalent",
-    "reach_check",
-    "reference_pose",
-    "verification",
-    "notes",
-    "paper_variant",
-    "dynamics",
-    "fk_check",
+/// The part of a sheet that holds facts.
+pub(super) const FIELDS: &[FieldSpec] = &[
+    optional("standard_dh_equivalent"),
+    optional("reach_check"),
+    optional("reference_pose"),
+    optional("verification"),
+    optional("notes"),
+    optional("paper_variant"),
+    optional("dynamics"),
+    optional("fk_check"),
 ];
 
 /// Sections that are kept for people who read the sheet itself.
 const LOOSE: &[&str] = &["standard_dh_equivalent", "reference_pose", "verification"];
 
-const FK_CHECK_KEYS: &[&str] = &[
-    "joints_deg",
-    "xyz_mm",
-    "quat_wxyz",
-    "abc_deg",
-    "source",
-    "independence",
-    "position_tolerance_mm",
-    "rotation_tolerance_deg",
-    "residual_mm",
-    "residual_deg",
-    "note",
+const REACH: &[FieldSpec] = &[
+    optional("wrist_reach_mm").within(LENGTH),
+    optional("formula"),
+    optional("designation_reach_mm").within(LENGTH),
+    optional("difference_mm"),
 ];
 
-const TOLERANCE: Measure = Measure {
-    unit: "",
-    min: 0.0,
-    max: 1000.0,
-};
+const FK_CHECK: &[FieldSpec] = &[
+    value("joints_deg", "[0.0, -90.0, 90.0, 0.0, 0.0, 0.0]")
+        .required()
+        .within(ANGLE),
+    value("xyz_mm", "[1990.0, 0.0, 1984.0]").required().within(LENGTH),
+    optional("quat_wxyz").within(QUATERNION_PART),
+    optional("abc_deg"),
+    optional("source"),
+    optional("independence"),
+    optional("position_tolerance_mm").within(TOLERANCE),
+    optional("rotation_tolerance_deg").within(TOLERANCE),
+    optional("residual_mm"),
+    optional("residual_deg"),
+    optional("note"),
+];
+
+const DYNAMICS: &[FieldSpec] = &[
+    optional("kind"),
+    optional("source"),
+    optional("note"),
+    optional("frame"),
+    optional("total_mass_kg").within(MASS),
+    optional("link"),
+];
+
+const LINK: &[FieldSpec] = &[
+    value("name", "\"link_1\"").required(),
+    value("mass_kg", "395.7").required().within(MASS),
+    value("com_mm", "[76.2, 10.2, 127.5]").required().within(LENGTH),
+    optional("inertia_kg_m2"),
+];
 
 /// Tolerance of a check that states none, in mm and in deg.
 const USUAL_TOLERANCE: f64 = 0.01;
 
 /// Reads the facts of a sheet.
-pub(super) fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Facts {
+pub(super) fn read(root: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Facts {
     for key in LOOSE {
-        root.loose_table(key, flaws);
+        root.loose_table(key, faults);
     }
     let mut facts = Facts {
-        fk_checks: fk_checks(root, flaws),
-        dynamics: dynamics(root, flaws),
+        fk_checks: fk_checks(root, faults),
+        dynamics: dynamics(root, faults),
         ..Facts::default()
     };
-    let reach_keys = &[
-        "wrist_reach_mm",
-        "formula",
-        "designation_reach_mm",
-        "difference_mm",
-    ];
-    if let Some(reach) = root.table("reach_check", reach_keys, flaws) {
-        facts.wrist_reach = reach.number("wrist_reach_mm", LENGTH, flaws);
-        facts.designated_reach = reach.number("designation_reach_mm", LENGTH, flaws);
+    if let Some(reach) = root.table("reach_check", REACH, faults) {
+        facts.wrist_reach = reach.number("wrist_reach_mm", faults);
+        facts.designated_reach = reach.number("designation_reach_mm", faults);
     }
-    if let Some(notes) = root.table("notes", &["disagreements"], flaws) {
-        facts.disagreements = notes.texts("disagreements", flaws);
+    if let Some(notes) = root.table("notes", &[optional("disagreements")], faults) {
+        facts.disagreements = notes.texts("disagreements", faults);
     }
-    if let Some(variant) = root.loose_table("paper_variant", flaws) {
-        let assessment = variant.text("assessment", flaws);
+    if let Some(variant) = root.loose_table("paper_variant", faults) {
+        let assessment = variant.text("assessment", faults);
         facts
             .remarks
             .extend(assessment.map(|text| format!("values of a research paper: {text}")));
@@ -193,39 +209,32 @@ pub(super) fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Facts {
     facts
 }
 
-fn fk_checks(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Vec<FkCheck> {
-    let tables = root.tables("fk_check", FK_CHECK_KEYS, flaws);
-    tables.iter().filter_map(|check| fk_check(check, flaws)).collect()
+fn fk_checks(root: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Vec<FkCheck> {
+    let tables = root.tables("fk_check", FK_CHECK, faults);
+    tables
+        .iter()
+        .filter_map(|check| fk_check(check, faults))
+        .collect()
 }
 
 /// How far the length of a rotation's quaternion may be from 1: figures are printed with some decimals only.
 const UNIT_WITHIN: f64 = 1e-3;
 
-fn fk_check(check: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<FkCheck> {
-    check.require(
-        &[
-            ("joints_deg", "joints_deg = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0]"),
-            ("xyz_mm", "xyz_mm = [1990.0, 0.0, 1984.0]"),
-        ],
-        flaws,
-    );
-    let joints = check.numbers("joints_deg", ANGLE, flaws);
-    let xyz = check.numbers("xyz_mm", LENGTH, flaws);
-    let quaternion: Option<[f64; 4]> = check.numbers("quat_wxyz", SHARE, flaws);
+fn fk_check(check: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<FkCheck> {
+    let joints = check.numbers("joints_deg", faults);
+    let xyz = check.numbers("xyz_mm", faults);
+    let quaternion: Option<[f64; 4]> = check.numbers("quat_wxyz", faults);
     if let Some(parts) = quaternion {
         let length = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         if (length - 1.0).abs() > UNIT_WITHIN {
-            flaws.push(Flaw::new(
-                check.span(),
-                format!("`quat_wxyz` has the length {length:.3}, a rotation has 1"),
-                "not a rotation",
-            ));
+            let message = format!("`quat_wxyz` has the length {length:.3}, a rotation has 1");
+            faults.push(check.fault(check.span(), message, "not a rotation"));
             return None;
         }
     }
-    let mut text = |key| check.text(key, flaws).map(str::to_owned);
+    let mut text = |key| check.text(key, faults).map(str::to_owned);
     let (source, independence, note) = (text("source"), text("independence"), text("note"));
-    let mut tolerance = |key| check.number(key, TOLERANCE, flaws).unwrap_or(USUAL_TOLERANCE);
+    let mut tolerance = |key| check.number(key, faults).unwrap_or(USUAL_TOLERANCE);
     Some(FkCheck {
         joints_deg: joints?,
         xyz_mm: xyz?,
@@ -239,30 +248,21 @@ fn fk_check(check: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<FkCheck> {
     })
 }
 
-fn dynamics(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Dynamics> {
-    let keys = &["kind", "source", "note", "frame", "total_mass_kg", "link"];
-    let table = root.table("dynamics", keys, flaws)?;
-    let links = table.tables("link", &["name", "mass_kg", "com_mm", "inertia_kg_m2"], flaws);
+fn dynamics(root: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Dynamics> {
+    let table = root.table("dynamics", DYNAMICS, faults)?;
+    let links = table.tables("link", LINK, faults);
     Some(Dynamics {
-        note: table.text("note", flaws).map(str::to_owned),
-        sources: table.texts("source", flaws),
-        total_mass: table.number("total_mass_kg", MASS, flaws),
-        links: links.iter().filter_map(|link| read_link(link, flaws)).collect(),
+        note: table.text("note", faults).map(str::to_owned),
+        sources: table.texts("source", faults),
+        total_mass: table.number("total_mass_kg", faults),
+        links: links.iter().filter_map(|link| read_link(link, faults)).collect(),
     })
 }
 
-fn read_link(link: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Link> {
-    link.require(
-        &[
-            ("name", "name = \"link_1\""),
-            ("mass_kg", "mass_kg = 395.7"),
-            ("com_mm", "com_mm = [76.2, 10.2, 127.5]"),
-        ],
-        flaws,
-    );
-    let name = link.text("name", flaws).map(str::to_owned);
-    let mass = link.number("mass_kg", MASS, flaws);
-    let centre = link.numbers("com_mm", LENGTH, flaws);
+fn read_link(link: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Link> {
+    let name = link.text("name", faults).map(str::to_owned);
+    let mass = link.number("mass_kg", faults);
+    let centre = link.numbers("com_mm", faults);
     Some(Link {
         name: name?,
         mass: mass?,

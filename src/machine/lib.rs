@@ -7,6 +7,7 @@ pub mod habits;
 pub mod kinematics;
 mod limit_places;
 pub mod path_limits;
+mod ranges;
 mod reach;
 pub mod sheet;
 pub mod urdf;
@@ -18,7 +19,8 @@ pub use usual_home::usual_home;
 use crate::kinematics::Mechanism;
 use path_limits::PathLimits;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
-use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::FileId;
 
 /// A machine as the compiler needs it, wherever its description came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,19 +76,19 @@ impl Origin {
 ///
 /// # Errors
 /// What is wrong with the description, in the order of the text.
-pub fn read(name: &str, kind: FileKind, text: &str) -> Result<Model, Vec<Flaw>> {
+pub fn read(name: &str, kind: FileKind, file: FileId, text: &str) -> Result<Model, Vec<Diagnostic>> {
     match kind {
-        FileKind::Sheet => sheet::parse(text).map(|sheet| sheet.machine(name)),
-        FileKind::Urdf => urdf::parse(name, text, urdf::Flange::ByConvention),
+        FileKind::Sheet => sheet::parse(file, text).map(|sheet| sheet.machine(name)),
+        FileKind::Urdf => urdf::parse(name, file, text, urdf::Flange::ByConvention),
     }
 }
 
 /// The places of the limits of all axes of a machine that was read from this text.
 #[must_use]
-pub fn limit_places(kind: FileKind, text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
+pub fn limit_places(kind: FileKind, file: FileId, text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
     match kind {
-        FileKind::Sheet => sheet::limit_places(text, axes),
-        FileKind::Urdf => urdf::limit_places(text, axes),
+        FileKind::Sheet => sheet::limit_places(file, text, axes),
+        FileKind::Urdf => urdf::limit_places(file, text, axes),
     }
 }
 

@@ -1,25 +1,27 @@
 //! Where the file of a machine states the limits of its axes, so that a message about a limit can point at its line.
 
-use core::ops::Range;
+use vcutc_diagnostics::source::Span;
 
-/// Where the limits of an axis are, in bytes of the text; none for a limit that the file does not state.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// Where the limits of an axis are, none for a limit that the file does not state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LimitPlaces {
     /// The range of its values.
-    pub range: Option<Range<usize>>,
+    pub range: Option<Span>,
     /// Its highest rate.
-    pub rate: Option<Range<usize>>,
+    pub rate: Option<Span>,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{FileKind, limit_places, read};
+    use vcutc_diagnostics::source::FileId;
 
     fn stated(kind: FileKind, text: &str) -> Vec<(String, Option<&str>, Option<&str>)> {
-        let axes = read("machine", kind, text).map_or_else(|flaws| panic!("{flaws:?}"), |model| model.axes);
-        let places = limit_places(kind, text, &axes);
-        let stated = |place: Option<Range<usize>>| place.and_then(|place| text.get(place));
+        let axes = read("machine", kind, FileId::ALONE, text)
+            .map_or_else(|flaws| panic!("{flaws:?}"), |model| model.axes);
+        let places = limit_places(kind, FileId::ALONE, text, &axes);
+        let stated = |place: Option<Span>| place.and_then(|place| text.get(place.bytes()));
         axes.iter()
             .zip(places)
             .map(|(axis, places)| (axis.name.clone(), stated(places.range), stated(places.rate)))

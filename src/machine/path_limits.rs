@@ -12,26 +12,21 @@
 //! Limits of the axes stand with the axes. A key that is left out is not known, and limits nothing.
 
 use super::facts::Sources;
-use vcutc_diagnostics::document::flaw::Flaw;
-use vcutc_diagnostics::document::table::{
-    SLIDING_ACCELERATION, SLIDING_JERK, TURNING_ACCELERATION, TURNING_JERK, Table,
-};
+use super::ranges::{SLIDING_ACCELERATION, SLIDING_JERK, TURNING_ACCELERATION, TURNING_JERK};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::document::table::Table;
+use vcutc_diagnostics::schema::field::{FieldSpec, optional};
 
 /// The heading of the table.
 pub(super) const KEY: &str = "path";
 
-const ACCELERATION: &str = "acceleration_mm_s2";
-const JERK: &str = "jerk_mm_s3";
-const TURNING_ACCELERATION_KEY: &str = "turning_acceleration_deg_s2";
-const TURNING_JERK_KEY: &str = "turning_jerk_deg_s3";
-
-const KEYS: &[&str] = &[
-    ACCELERATION,
-    JERK,
-    TURNING_ACCELERATION_KEY,
-    TURNING_JERK_KEY,
-    "source",
-    "note",
+const FIELDS: &[FieldSpec] = &[
+    optional("acceleration_mm_s2").within(SLIDING_ACCELERATION),
+    optional("jerk_mm_s3").within(SLIDING_JERK),
+    optional("turning_acceleration_deg_s2").within(TURNING_ACCELERATION),
+    optional("turning_jerk_deg_s3").within(TURNING_JERK),
+    optional("source"),
+    optional("note"),
 ];
 
 /// What a controller keeps along the way of the tip, whatever its axes could do; each number when known.
@@ -62,24 +57,21 @@ pub(super) fn read(
     root: &Table<'_>,
     sources: &mut Vec<Sources>,
     remarks: &mut Vec<String>,
-    flaws: &mut Vec<Flaw>,
+    faults: &mut Vec<Diagnostic>,
 ) -> PathLimits {
-    let Some(table) = root.table(KEY, KEYS, flaws) else {
+    let Some(table) = root.table(KEY, FIELDS, faults) else {
         return PathLimits::UNKNOWN;
     };
     sources.push(Sources {
         of: "path",
-        list: table.texts("source", flaws),
+        list: table.texts("source", faults),
     });
-    remarks.extend(table.text("note", flaws).map(str::to_owned));
+    remarks.extend(table.text("note", faults).map(str::to_owned));
+    let mut number = |key| table.number(key, faults);
     PathLimits {
-        acceleration: table.number(ACCELERATION, SLIDING_ACCELERATION, flaws),
-        jerk: table.number(JERK, SLIDING_JERK, flaws),
-        turning_acceleration: table
-            .number(TURNING_ACCELERATION_KEY, TURNING_ACCELERATION, flaws)
-            .map(f64::to_radians),
-        turning_jerk: table
-            .number(TURNING_JERK_KEY, TURNING_JERK, flaws)
-            .map(f64::to_radians),
+        acceleration: number("acceleration_mm_s2"),
+        jerk: number("jerk_mm_s3"),
+        turning_acceleration: number("turning_acceleration_deg_s2").map(f64::to_radians),
+        turning_jerk: number("turning_jerk_deg_s3").map(f64::to_radians),
     }
 }

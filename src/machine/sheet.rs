@@ -12,11 +12,14 @@ use super::LimitPlaces;
 use super::Model;
 use super::facts::{self, Facts, FkCheck};
 use super::path_limits::{self, PathLimits};
+use super::ranges;
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
-use vcutc_diagnostics::document::flaw::Flaw;
-use vcutc_diagnostics::document::table::{MASS, Table};
+use vcutc_diagnostics::document::table::Table;
 use vcutc_diagnostics::document::{self, Wording};
+use vcutc_diagnostics::schema::field::{FieldSpec, optional, value};
+use vcutc_diagnostics::source::FileId;
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// A machine with what is known about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,35 +81,36 @@ const KINDS: &[(&str, MachineKind)] = &[
     ("five_axis", MachineKind::FiveAxis),
 ];
 
-/// Keys of every sheet.
-const COMMON_KEYS: &[&str] = &[
-    "id",
-    "kind",
-    "manufacturer",
-    "model",
-    "rated_payload_kg",
-    "payload_source",
-    "confidence",
-    path_limits::KEY,
+/// The fields of every sheet.
+const FIELDS: &[FieldSpec] = &[
+    optional("id"),
+    optional("kind"),
+    optional("manufacturer"),
+    value("model", "\"KUKA KR 210 R3100 ultra\"").required(),
+    optional("rated_payload_kg").within(ranges::MASS),
+    optional("payload_source"),
+    optional("confidence"),
+    optional(path_limits::KEY),
 ];
 
 /// How messages speak of sheets.
 const WORDING: Wording = Wording {
     name: "sheet",
     looks: "`c2_mm = 1350.0` below headings such as `[opw]`",
+    code: Code::BadMachineFile,
 };
 
 /// Reads a sheet.
 ///
 /// # Errors
-/// What is wrong with it, in the order of the text; the first [`document::MOST_FLAWS`] of it.
-pub fn parse(text: &str) -> Result<Sheet, Vec<Flaw>> {
-    document::parse(text, WORDING, read)
+/// What is wrong with it, in the order of the text; the first [`document::MOST_FAULTS`] of it.
+pub fn parse(file: FileId, text: &str) -> Result<Sheet, Vec<Diagnostic>> {
+    document::parse(file, text, WORDING, read)
 }
 
-fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
+fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
     let kind = if root.has("kind") {
-        root.word("kind", KINDS, flaws)?
+        root.word("kind", KINDS, faults)?
     } else {
         MachineKind::Robot
     };
@@ -114,21 +118,20 @@ fn read(root: &Table<'_>, flaws: &mut Vec<Flaw>) -> Option<Sheet> {
         MachineKind::Robot => robot::FORM,
         MachineKind::FiveAxis => five_axis::FORM,
     };
-    root.allow(&[COMMON_KEYS, facts::KEYS, form.keys].concat(), flaws);
-    root.require(&[("model", "model = \"KUKA KR 210 R3100 ultra\"")], flaws);
-    root.text("id", flaws);
-    let model = root.text("model", flaws);
-    let manufacturer = root.text("manufacturer", flaws);
-    let payload = root.number("rated_payload_kg", MASS, flaws);
-    let confidence = root.word("confidence", CONFIDENCES, flaws);
-    let mut facts = facts::read(root, flaws);
-    let body = (form.read)(root, maker(manufacturer), flaws)?;
+    let root = &root.with(&[FIELDS, facts::FIELDS, form.fields].concat(), faults);
+    root.text("id", faults);
+    let model = root.text("model", faults);
+    let manufacturer = root.text("manufacturer", faults);
+    let payload = root.number("rated_payload_kg", faults);
+    let confidence = root.word("confidence", CONFIDENCES, faults);
+    let mut facts = facts::read(root, faults);
+    let body = (form.read)(root, maker(manufacturer), faults)?;
     facts.sources.extend(body.sources);
     facts.remarks.extend(body.remarks);
-    let path = path_limits::read(root, &mut facts.sources, &mut facts.remarks, flaws);
+    let path = path_limits::read(root, &mut facts.sources, &mut facts.remarks, faults);
     let mechanism = body.mechanism?;
     let missed = |check: &FkCheck| check.missed(&mechanism, &body.axes);
-    flaws.extend(facts.fk_checks.iter().filter_map(missed));
+    faults.extend(facts.fk_checks.iter().filter_map(missed));
     Some(Sheet {
         model: model?.to_owned(),
         manufacturer: manufacturer.map(str::to_owned),
@@ -176,13 +179,13 @@ impl Sheet {
 }
 
 /// Where a sheet states the limits of its axes; nowhere in one that cannot be read.
-pub(crate) fn limit_places(text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
-    let places = |root: &Table<'_>, flaws: &mut Vec<Flaw>| Some(places_in(root, axes, flaws));
-    document::parse(text, WORDING, places).unwrap_or_default()
+pub(crate) fn limit_places(file: FileId, text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
+    let places = |root: Table<'_>, faults: &mut Vec<Diagnostic>| Some(places_in(&root, axes, faults));
+    document::parse(file, text, WORDING, places).unwrap_or_default()
 }
 
-fn places_in(root: &Table<'_>, axes: &[Axis], flaws: &mut Vec<Flaw>) -> Vec<LimitPlaces> {
-    if let Some(tables) = root.loose_table("axis", flaws) {
+fn places_in(root: &Table<'_>, axes: &[Axis], faults: &mut Vec<Diagnostic>) -> Vec<LimitPlaces> {
+    if let Some(tables) = root.loose_table("axis", faults) {
         let of_axis = |axis: &Axis| {
             let table = tables.loose_table(&axis.name.to_lowercase(), &mut Vec::new())?;
             let stated = |keys: [&str; 2]| {
@@ -200,14 +203,14 @@ fn places_in(root: &Table<'_>, axes: &[Axis], flaws: &mut Vec<Flaw>) -> Vec<Limi
             .map(|axis| of_axis(axis).unwrap_or_default())
             .collect();
     }
-    let Some(limits) = root.loose_table("limits", flaws) else {
+    let Some(limits) = root.loose_table("limits", faults) else {
         return Vec::new();
     };
     let ranges = limits.spans_of_elements("limits_deg");
     let rates = limits.spans_of_elements("speeds_deg_s");
     let places = |index: usize| LimitPlaces {
-        range: ranges.get(index).cloned(),
-        rate: rates.get(index).cloned(),
+        range: ranges.get(index).copied(),
+        rate: rates.get(index).copied(),
     };
     (0..axes.len()).map(places).collect()
 }

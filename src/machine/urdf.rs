@@ -23,16 +23,15 @@ use super::LimitPlaces;
 use super::Model;
 use super::path_limits::PathLimits;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::serial::{JointAxis, SerialArm};
+use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Mechanism, recognise};
-use elements::{Kind, MovingJoint};
-use glam::DVec3;
+use elements::{Kind, MovingJoint, Read};
 use tree::Tree;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, Maker};
-use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::source::{FileId, Span};
 
-/// Most flaws that are told of one file.
-const MOST_FLAWS: usize = 20;
+/// Most faults of one file that are reported.
+const MOST_FAULTS: usize = 20;
 
 /// Which link of a URDF the flange is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,19 +45,19 @@ pub enum Flange<'a> {
 /// Reads a robot of six turning joints. `name` is what the job calls it.
 ///
 /// # Errors
-/// What is wrong with the description, in the order of the text; at most 20 flaws.
-pub fn parse(name: &str, text: &str, flange: Flange<'_>) -> Result<Model, Vec<Flaw>> {
-    read(name, text, flange).map_err(|mut flaws| {
-        flaws.sort_by_key(|flaw| (flaw.span.start, flaw.span.end));
-        flaws.truncate(MOST_FLAWS);
-        flaws
+/// What is wrong with the description, in the order of the text; at most 20 faults.
+pub fn parse(name: &str, file: FileId, text: &str, flange: Flange<'_>) -> Read<Model> {
+    read(name, file, text, flange).map_err(|mut faults| {
+        faults.sort_by_key(|fault| fault.primary.span);
+        faults.truncate(MOST_FAULTS);
+        faults
     })
 }
 
-fn read(name: &str, text: &str, flange: Flange<'_>) -> Result<Model, Vec<Flaw>> {
-    let document = elements::document(text).map_err(|flaw| vec![flaw])?;
-    let tree = Tree::of(&document)?;
-    let flange = tree.flange(flange).map_err(|flaw| vec![flaw])?;
+fn read(name: &str, file: FileId, text: &str, flange: Flange<'_>) -> Read<Model> {
+    let document = elements::document(file, text)?;
+    let tree = Tree::of(file, &document)?;
+    let flange = tree.flange(flange)?;
     let root_in_tree = tree.controllers_root();
     let chain = Chain::along(&tree.chain(flange))?;
     let joints: [MovingJoint; MOST_AXES] = chain
@@ -92,8 +91,8 @@ fn axis(joint: &MovingJoint) -> Axis {
 }
 
 /// Where a URDF states the limits of its axes; nowhere in one that cannot be read.
-pub(super) fn limit_places(text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
-    let Ok(document) = elements::document(text) else {
+pub(super) fn limit_places(file: FileId, text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
+    let Ok(document) = elements::document(file, text) else {
         return Vec::new();
     };
     let limit_of = |axis: &Axis| {
@@ -106,11 +105,12 @@ pub(super) fn limit_places(text: &str, axes: &[Axis]) -> Vec<LimitPlaces> {
     let places = |axis: &Axis| {
         let limit = limit_of(axis);
         let value = |name: &str| Some(limit?.attribute_node(name)?.range_value());
+        let span = |bytes| Span::of_bytes(file, bytes);
         LimitPlaces {
             range: value("lower")
                 .zip(value("upper"))
-                .map(|(lower, upper)| lower.start.min(upper.start)..lower.end.max(upper.end)),
-            rate: value("velocity"),
+                .map(|(lower, upper)| span(lower.start.min(upper.start)..lower.end.max(upper.end))),
+            rate: value("velocity").map(span),
         }
     };
     axes.iter().map(places).collect()
@@ -123,36 +123,28 @@ struct Chain {
 }
 
 impl Chain {
-    fn along(path: &[&elements::Joint<'_>]) -> Result<Self, Vec<Flaw>> {
-        let mut flaws = Vec::new();
+    fn along(path: &[&elements::Joint<'_>]) -> Read<Self> {
+        let mut faults = Vec::new();
         let mut joints = Vec::new();
         let mut end_in_tree = Pose::IDENTITY;
         for joint in path {
             match joint.origin() {
                 Ok(origin) => end_in_tree = end_in_tree * origin,
-                Err(found) => flaws.extend(found),
+                Err(found) => faults.extend(found),
             }
             match joint.kind {
                 Kind::Fixed => {}
                 Kind::Revolute | Kind::Continuous => match joint.moving(&end_in_tree) {
                     Ok(moving) => joints.push(moving),
-                    Err(found) => flaws.extend(found),
+                    Err(found) => faults.extend(found),
                 },
-                Kind::Prismatic | Kind::Planar | Kind::Floating => flaws.push(joint.does_not_turn()),
+                Kind::Prismatic | Kind::Planar | Kind::Floating => faults.push(joint.does_not_turn()),
             }
         }
-        if flaws.is_empty() {
+        if faults.is_empty() {
             Ok(Self { joints, end_in_tree })
         } else {
-            Err(flaws)
+            Err(faults)
         }
-    }
-}
-
-/// A joint's axis in the tree, from the pose of the joint and the direction in it.
-fn axis_in_tree(joint_in_tree: &Pose, direction: DVec3) -> JointAxis {
-    JointAxis {
-        point: joint_in_tree.position,
-        direction: joint_in_tree.rotation * direction,
     }
 }

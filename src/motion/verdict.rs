@@ -25,7 +25,8 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::PlannedJob;
-use vcutc_job::{CheckedJob, LimitSpans, Machine, Setup};
+use vcutc_job::{CheckedJob, Machine, Setup};
+use vcutc_machine::LimitPlaces;
 
 /// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
 /// they were wanted.
@@ -512,7 +513,7 @@ impl<'s> Scene<'s> {
     }
 
     /// Where the machine's own file states the limits of an axis.
-    fn limits_of(&self, index: usize) -> LimitSpans {
+    fn limits_of(&self, index: usize) -> LimitPlaces {
         self.machine.limit_spans.get(index).copied().unwrap_or_default()
     }
 

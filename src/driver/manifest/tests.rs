@@ -2,6 +2,10 @@
 
 use super::*;
 
+fn parse(text: &str) -> Result<Manifest, Vec<Diagnostic>> {
+    super::parse(FileId::ALONE, text)
+}
+
 const SMALL: &str = r#"
 [[program]]
 name = "large"
@@ -13,14 +17,14 @@ set = ["width=90mm"]
 options = "lines_per_part=0"
 "#;
 
-fn flaws(old: &str, new: &str) -> Vec<(String, String)> {
+fn faults(old: &str, new: &str) -> Vec<(String, String)> {
     assert!(SMALL.contains(old));
     let text = SMALL.replace(old, new);
-    let place = |flaw: &Flaw| text.get(flaw.span.clone()).unwrap().to_owned();
+    let place = |fault: &Diagnostic| text.get(fault.primary.span.bytes()).unwrap().to_owned();
     let found = parse(&text).unwrap_err();
     found
         .iter()
-        .map(|flaw| (place(flaw), flaw.message.clone()))
+        .map(|fault| (place(fault), fault.message.clone()))
         .collect()
 }
 
@@ -30,7 +34,7 @@ fn a_section_says_all_there_is_to_say() {
     let [entry] = manifest.entries.as_slice() else {
         panic!("{manifest:?}")
     };
-    let jobs: Vec<_> = entry.jobs.iter().map(|job| job.value.text()).collect();
+    let jobs: Vec<_> = entry.jobs.iter().map(|job| job.node.text()).collect();
     assert_eq!(jobs, ["jobs/*.vcut", "rib.vcut"]);
     assert_eq!(entry.targets.len(), 2);
     assert_eq!(entry.folder("rib", "krl"), "programs/krl/rib");
@@ -66,10 +70,10 @@ fn every_fault_is_told_at_its_place() {
         ("\"large_cell\"", "\"large_cell", ""),
     ];
     for (old, new, place) in cases {
-        let found = flaws(old, new);
+        let found = faults(old, new);
         assert!(found.iter().any(|(at, _)| at == place), "{new}: {found:?}");
     }
-    let found = flaws("[[program]]", "[[programs]]");
+    let found = faults("[[program]]", "[[programs]]");
     assert!(
         found.iter().any(|(_, message)| message.contains("`programs`")),
         "{found:?}"
@@ -84,7 +88,7 @@ fn every_fault_is_told_at_its_place() {
 }
 
 #[test]
-fn hostile_lists_end_in_flaws() {
+fn hostile_lists_end_in_faults() {
     let hostile = [
         "a.".repeat(100_000) + "a = 1",
         "[[program]]\n".repeat(10_000),
@@ -95,9 +99,9 @@ fn hostile_lists_end_in_flaws() {
     ];
     for text in hostile {
         let found = parse(&text).unwrap_err();
-        assert!((1..=document::MOST_FLAWS).contains(&found.len()));
-        for flaw in found {
-            assert!(text.get(flaw.span.clone()).is_some(), "{flaw:?}");
+        assert!((1..=document::MOST_FAULTS).contains(&found.len()));
+        for fault in found {
+            assert!(text.get(fault.primary.span.bytes()).is_some(), "{fault:?}");
         }
     }
 }
@@ -111,28 +115,28 @@ fn a_baseline_is_read_and_its_faults_are_told() {
     .unwrap()
     .baseline
     .unwrap();
-    assert_eq!(baseline.file.value, "numbers.json");
+    assert_eq!(baseline.file.node, "numbers.json");
     let tolerances: Vec<_> = baseline
         .tolerances
         .iter()
-        .map(|tolerance| (tolerance.figure, tolerance.percent.value))
+        .map(|tolerance| (tolerance.figure, tolerance.percent.node))
         .collect();
     assert_eq!(tolerances, [(Figure::Time, 2.0), (Figure::Scallop, 0.5)]);
     let cases = [
-        ("time = \"2 %\"", "lacks"),
+        ("time = \"2 %\"", "needs `file`"),
         ("file = \"a.json\"", "does not limit any figure"),
         ("file = \"a.json\"\ntime = \"2\"", "not `2`"),
         ("file = \"a.json\"\ntime = \"-1 %\"", "not `-1 %`"),
         ("file = \"a.json\"\ntime = \"nan %\"", "not `nan %`"),
         ("file = \"a.json\"\ntime = 2", "time"),
-        ("file = \"a.json\"\ntimes = \"2 %\"", "has no `times`"),
+        ("file = \"a.json\"\ntimes = \"2 %\"", "has no field `times`"),
         ("file = \"\"\ntime = \"2 %\"", "`file` is empty"),
     ];
     for (section, message) in cases {
-        let flaws = parse(&list(section)).unwrap_err();
+        let faults = parse(&list(section)).unwrap_err();
         assert!(
-            flaws.iter().any(|flaw| flaw.message.contains(message)),
-            "{section}: {flaws:?}"
+            faults.iter().any(|fault| fault.message.contains(message)),
+            "{section}: {faults:?}"
         );
     }
 }

@@ -4,7 +4,8 @@
 use super::{Figure, Numbers};
 use serde::{Deserialize, Serialize};
 use serde_json::error::Category;
-use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::source::{FileId, Span};
+use vcutc_diagnostics::{Code, Diagnostic};
 
 /// Largest file that is read, in bytes: the most programs of one run, at some hundred bytes each, fit in.
 pub const LARGEST: usize = 1 << 23;
@@ -32,11 +33,14 @@ pub struct Record {
 ///
 /// # Errors
 /// The first thing that is wrong with it, at its place.
-pub fn read(text: &str) -> Result<Vec<Record>, Flaw> {
+pub fn read(file: FileId, text: &str) -> Result<Vec<Record>, Box<Diagnostic>> {
+    let fault = |at: usize, message: String, label: &str| {
+        Diagnostic::new(Code::BadBaseline, message, Span::of_bytes(file, at..at), label)
+    };
     if text.len() > LARGEST {
         let (size, most) = (text.len() / 1000, LARGEST / 1000);
         let message = format!("the file has {size} kB, at most {most} kB are read");
-        return Err(Flaw::new(0..0, message, "too large"));
+        return Err(Box::new(fault(0, message, "too large")));
     }
     // Some editors on Windows begin files with a mark of their byte order.
     let json = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -47,12 +51,11 @@ pub fn read(text: &str) -> Result<Vec<Record>, Flaw> {
             Category::Eof => "the text ends too early",
             Category::Syntax | Category::Io => "the text is not JSON",
         };
-        Flaw::new(
-            place..place,
-            format!("these are not the figures of programs: {reason}"),
-            "cannot be read from here on",
+        let message = format!("these are not the figures of programs: {reason}");
+        Box::new(
+            fault(place, message, "cannot be read from here on")
+                .help("restore the committed file, or delete it and let `vcutc build --accept` create it"),
         )
-        .help("restore the committed file, or delete it and let `vcutc build --accept` create it")
     })
 }
 
@@ -142,8 +145,11 @@ mod tests {
     fn what_is_written_is_read_and_a_line_each() {
         let text = write(vec![record("b.vcut"), record("a\"\u{e9}.vcut")]);
         assert_eq!(text.lines().count(), 4);
-        assert_eq!(read(&text).unwrap(), [record("a\"\u{e9}.vcut"), record("b.vcut")]);
-        assert_eq!(read(&write(Vec::new())).unwrap(), []);
+        assert_eq!(
+            read(FileId::ALONE, &text).unwrap(),
+            [record("a\"\u{e9}.vcut"), record("b.vcut")]
+        );
+        assert_eq!(read(FileId::ALONE, &write(Vec::new())).unwrap(), []);
     }
 
     #[test]
@@ -151,12 +157,16 @@ mod tests {
         let text = write(vec![record("a.vcut"), record("b.vcut")]);
         for (old, new) in [("\"cuts\":112", "\"cuts\":-1"), ("]\n", "\n"), ("time_s", "t")] {
             let broken = text.replacen(old, new, 1);
-            let flaw = read(&broken).unwrap_err();
-            assert!(broken.is_char_boundary(flaw.span.start), "{flaw:?}");
+            let fault = read(FileId::ALONE, &broken).unwrap_err();
             assert!(
-                flaw.message
+                broken.is_char_boundary(fault.primary.span.start as usize),
+                "{fault:?}"
+            );
+            assert!(
+                fault
+                    .message
                     .starts_with("these are not the figures of programs: "),
-                "{flaw:?}"
+                "{fault:?}"
             );
         }
         assert_eq!(place("ab\nc\u{e9}d", 2, 3), 4);
@@ -166,8 +176,14 @@ mod tests {
     #[test]
     fn a_mark_of_the_byte_order_is_passed_over() {
         let text = write(vec![record("a.vcut")]);
-        assert_eq!(read(&format!("\u{feff}{text}")).unwrap(), [record("a.vcut")]);
-        assert_eq!(read("\u{feff}x").unwrap_err().span.start, 3);
+        assert_eq!(
+            read(FileId::ALONE, &format!("\u{feff}{text}")).unwrap(),
+            [record("a.vcut")]
+        );
+        assert_eq!(
+            read(FileId::ALONE, "\u{feff}x").unwrap_err().primary.span.start,
+            3
+        );
     }
 
     #[test]

@@ -3,18 +3,16 @@
 use super::files::{Relative, not_loaded, text_of};
 use super::report::Checked;
 use super::session::Session;
-use vcutc_diagnostics::document::flaw::Flaw;
 use vcutc_diagnostics::source::{FileId, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
 
-/// What a file describes. Its flaws are told under a code, each with the place where the file is named.
+/// What a file describes. Each of its faults is reported with the place where the file is named.
 pub(crate) fn read<T>(
     path: &str,
     relative: Relative,
     named_at: Span,
     session: &mut Session<'_>,
-    code: Code,
-    parse: impl FnOnce(FileId, &str) -> Result<T, Vec<Flaw>>,
+    parse: impl FnOnce(FileId, &str) -> Result<T, Vec<Diagnostic>>,
 ) -> Checked<T> {
     let bytes = session.loader.load(path).map_err(|error| {
         let diagnostic = not_loaded(&named_at, path, relative, &error, session);
@@ -25,13 +23,9 @@ pub(crate) fn read<T>(
         return Err(reported);
     }
     let text = session.sources.get(file).map_or("", |file| file.text.as_str());
-    parse(file, text).map_err(|flaws| {
-        let told = |flaw: &Flaw| {
-            flaw.diagnostic(code, file)
-                .and(named_at, "the file is named here")
-        };
-        let found: Vec<Diagnostic> = flaws.iter().map(told).collect();
-        match session.reports.append(found) {
+    parse(file, text).map_err(|faults| {
+        let named = |fault: Diagnostic| fault.and(named_at, "the file is named here");
+        match session.reports.append(faults.into_iter().map(named).collect()) {
             Some(reported) => reported,
             None => session.reports.push(unexplained(path, named_at)),
         }

@@ -7,11 +7,9 @@ use super::machine::Head;
 use super::names::did_you_mean;
 use super::report::{Checked, Reports};
 use super::session::Session;
-use crate::LimitSpans;
-use core::ops::Range;
 use std::sync::Arc;
 use vcutc_backend_api::ir::MachineKind;
-use vcutc_diagnostics::source::{Span, Spanned, join_path};
+use vcutc_diagnostics::source::{Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_machine::{self as machine, FileKind, LimitPlaces, Model, Origin, catalogue, limit_places};
 
@@ -19,7 +17,7 @@ use vcutc_machine::{self as machine, FileKind, LimitPlaces, Model, Origin, catal
 #[derive(Clone, Debug)]
 pub(crate) struct Described {
     pub(crate) model: Arc<Model>,
-    pub(crate) limits: Vec<LimitSpans>,
+    pub(crate) limits: Vec<LimitPlaces>,
 }
 
 /// The model, which is of the kind that the head says.
@@ -86,26 +84,13 @@ fn from_file(kind: FileKind, model: Spanned<&str>, session: &mut Session<'_>) ->
     if let Some(known) = session.machines.get(&path) {
         return known.clone();
     }
-    let machine = described::read(
-        &path,
-        Relative::ToItsFile,
-        model.span,
-        session,
-        Code::BadMachineFile,
-        |file, text| {
-            let model = machine::read(model.node, kind, text)?;
-            let places = limit_places(kind, text, &model.axes).into_iter();
-            let span = |place: Option<Range<usize>>| place.map(|place| Span::of_bytes(file, place));
-            let limits = places.map(|LimitPlaces { range, rate }| LimitSpans {
-                range: span(range),
-                rate: span(rate),
-            });
-            Ok(Described {
-                limits: limits.collect(),
-                model: Arc::new(model),
-            })
-        },
-    );
+    let machine = described::read(&path, Relative::ToItsFile, model.span, session, |file, text| {
+        let model = machine::read(model.node, kind, file, text)?;
+        Ok(Described {
+            limits: limit_places(kind, file, text, &model.axes),
+            model: Arc::new(model),
+        })
+    });
     session.machines.insert(path, machine.clone());
     machine
 }

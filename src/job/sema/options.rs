@@ -188,14 +188,7 @@ fn profile(
             "" => Relative::ToTheCurrentFolder,
             _ => Relative::ToItsFile,
         };
-        let profile = described::read(
-            &path,
-            relative,
-            value.span,
-            session,
-            Code::BadProfile,
-            |_, text| habits::parse(text),
-        );
+        let profile = described::read(&path, relative, value.span, session, habits::parse);
         session.profiles.insert(path.clone(), profile);
     }
     let profile = session

@@ -26,29 +26,34 @@ use super::types::{Body, Form};
 use crate::facts::Sources;
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense, Unfit};
-use core::ops::Range;
+use crate::ranges::{
+    ANGLE, LENGTH, SLIDING_ACCELERATION, SLIDING_JERK, SLIDING_RATE, TURNING_ACCELERATION, TURNING_JERK,
+    TURNING_RATE,
+};
 use glam::DVec3;
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
-use vcutc_diagnostics::document::flaw::Flaw;
-use vcutc_diagnostics::document::table::{
-    ANGLE, LENGTH, Measure, SLIDING_ACCELERATION, SLIDING_JERK, SLIDING_RATE, TURNING_ACCELERATION,
-    TURNING_JERK, TURNING_RATE, Table,
-};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::document::table::Table;
+use vcutc_diagnostics::schema::field::{FieldSpec, block, optional, value};
+use vcutc_diagnostics::source::Span;
 
 /// Sheets of five-axis machines.
 pub(super) const FORM: Form = Form {
-    keys: &["arrangement", "axis"],
+    fields: &[
+        block("arrangement", "[arrangement]").required(),
+        block("axis", "[axis.x]").required(),
+    ],
     read,
 };
 
-const ARRANGEMENT_KEYS: &[&str] = &[
-    "head", "table", "spindle", "nose_mm", "mount_mm", "source", "note",
-];
-const ARRANGEMENT_LINES: &[(&str, &str)] = &[
-    ("head", "head = [\"b\", \"a\"]"),
-    ("table", "table = []"),
-    ("nose_mm", "nose_mm = [0.0, 0.0, 0.0]"),
-    ("mount_mm", "mount_mm = [0.0, 0.0, -800.0]"),
+const ARRANGEMENT: &[FieldSpec] = &[
+    value("head", "[\"b\", \"a\"]").required(),
+    value("table", "[]").required(),
+    optional("spindle"),
+    value("nose_mm", "[0.0, 0.0, 0.0]").required().within(LENGTH),
+    value("mount_mm", "[0.0, 0.0, -800.0]").required().within(LENGTH),
+    optional("source"),
+    optional("note"),
 ];
 
 /// Names that rotary axes may have. What an axis turns about is not said by its name but by `about`: a machine can have two
@@ -56,29 +61,33 @@ const ARRANGEMENT_LINES: &[(&str, &str)] = &[
 const ROTARY_NAMES: &[&str] = &["a", "b", "c", "s"];
 const LINEAR_NAMES: [&str; 3] = ["x", "y", "z"];
 
-const LINEAR_KEYS: &[&str] = &[
-    "travel_mm",
-    "rate_mm_s",
-    "acceleration_mm_s2",
-    "jerk_mm_s3",
-    "source",
+const LINEAR: &[FieldSpec] = &[
+    value("travel_mm", "[-1000.0, 1000.0]").required().within(LENGTH),
+    optional("rate_mm_s").within(SLIDING_RATE),
+    optional("acceleration_mm_s2").within(SLIDING_ACCELERATION),
+    optional("jerk_mm_s3").within(SLIDING_JERK),
+    optional("source"),
 ];
-const ROTARY_KEYS: &[&str] = &[
-    "about",
-    "centre_mm",
-    "range_deg",
-    "rate_deg_s",
-    "acceleration_deg_s2",
-    "jerk_deg_s3",
-    "source",
+const RANGE: FieldSpec = value("range_deg", "[-110.0, 110.0]").required().within(ANGLE);
+const RATE: FieldSpec = optional("rate_deg_s").within(TURNING_RATE);
+const ACCELERATION: FieldSpec = optional("acceleration_deg_s2").within(TURNING_ACCELERATION);
+const JERK: FieldSpec = optional("jerk_deg_s3").within(TURNING_JERK);
+const ROTARY: &[FieldSpec] = &[
+    value("about", "\"+Y\"").required(),
+    value("centre_mm", "[0.0, 0.0, 250.0]").required().within(LENGTH),
+    RANGE,
+    RATE,
+    ACCELERATION,
+    JERK,
+    optional("source"),
 ];
-const SPINDLE_KEYS: &[&str] = &[
-    "about",
-    "range_deg",
-    "rate_deg_s",
-    "acceleration_deg_s2",
-    "jerk_deg_s3",
-    "source",
+const SPINDLE: &[FieldSpec] = &[
+    value("about", "\"+Z\"").required(),
+    RANGE,
+    RATE,
+    ACCELERATION,
+    JERK,
+    optional("source"),
 ];
 
 const DIRECTIONS: &[(&str, Direction)] = &[
@@ -105,7 +114,7 @@ struct Names<'t> {
 
 impl Names<'_> {
     /// Where in `[arrangement]` an axis is named; the last place if it has several.
-    fn place(&self, table: &Table<'_>, name: &str) -> Range<usize> {
+    fn place(&self, table: &Table<'_>, name: &str) -> Span {
         table.span_of(if self.spindle == Some(name) {
             "spindle"
         } else if self.table.contains(&name) {
@@ -116,26 +125,24 @@ impl Names<'_> {
     }
 }
 
-fn read(root: &Table<'_>, _: Maker, flaws: &mut Vec<Flaw>) -> Option<Body> {
-    root.require(&[("arrangement", "[arrangement]"), ("axis", "[axis.x]")], flaws);
+fn read(root: &Table<'_>, _: Maker, faults: &mut Vec<Diagnostic>) -> Option<Body> {
     let mut body = Body::default();
-    let table = root.table("arrangement", ARRANGEMENT_KEYS, flaws)?;
-    table.require(ARRANGEMENT_LINES, flaws);
+    let table = root.table("arrangement", ARRANGEMENT, faults)?;
     body.sources.push(Sources {
         of: "arrangement",
-        list: table.texts("source", flaws),
+        list: table.texts("source", faults),
     });
-    body.remarks.extend(table.text("note", flaws).map(str::to_owned));
-    let names = names(&table, flaws);
-    let nose = table.numbers("nose_mm", LENGTH, flaws).map(DVec3::from_array);
-    let mount = table.numbers("mount_mm", LENGTH, flaws).map(DVec3::from_array);
+    body.remarks.extend(table.text("note", faults).map(str::to_owned));
+    let names = names(&table, faults);
+    let nose = table.numbers("nose_mm", faults).map(DVec3::from_array);
+    let mount = table.numbers("mount_mm", faults).map(DVec3::from_array);
     let names = names?;
-    let axes = axis_tables(root, &names, flaws)?;
-    let linear = LINEAR_NAMES.map(|name| linear_axis(&axes, name, flaws));
-    let mut rotary = |name: &&str| rotary_axis(&axes, name, flaws);
+    let axes = axis_tables(root, &names, faults)?;
+    let linear = LINEAR_NAMES.map(|name| linear_axis(&axes, name, faults));
+    let mut rotary = |name: &&str| rotary_axis(&axes, name, faults);
     let head: Vec<_> = names.head.iter().map(&mut rotary).collect();
     let below: Vec<_> = names.table.iter().map(&mut rotary).collect();
-    let spindle = names.spindle.map(|name| spindle_axis(&axes, name, flaws));
+    let spindle = names.spindle.map(|name| spindle_axis(&axes, name, faults));
     let (mut rotaries, mut parts) = (Vec::new(), linear.into_iter().collect::<Option<Vec<Axis>>>()?);
     for found in head.into_iter().chain(below) {
         let (rotary, axis) = found?;
@@ -154,63 +161,69 @@ fn read(root: &Table<'_>, _: Maker, flaws: &mut Vec<Flaw>) -> Option<Body> {
     let arrangement = arranged(&names, &rotaries)?;
     match FiveAxis::new(arrangement, sense, nose?, mount?) {
         Ok(machine) => body.mechanism = Some(Mechanism::FiveAxis(machine)),
-        Err(unfit) => flaws.push(cannot_tilt(&table, &names, unfit)),
+        Err(unfit) => faults.push(cannot_tilt(&table, &names, unfit)),
     }
     Some(body)
 }
 
-fn names<'t>(table: &Table<'t>, flaws: &mut Vec<Flaw>) -> Option<Names<'t>> {
-    let before = flaws.len();
+fn names<'t>(table: &Table<'t>, faults: &mut Vec<Diagnostic>) -> Option<Names<'t>> {
+    let before = faults.len();
     let names = Names {
-        head: table.names("head", flaws),
-        table: table.names("table", flaws),
-        spindle: table.text("spindle", flaws),
+        head: table.names("head", faults),
+        table: table.names("table", faults),
+        spindle: table.text("spindle", faults),
     };
     let count = names.head.len() + names.table.len();
-    if flaws.len() == before && count != 2 {
-        flaws.push(
-            Flaw::new(
-                table.span_of("head"),
-                format!("head and table have {count} rotary axes together, a five-axis machine has 2"),
-                format!("with `table`, {count} rotary axes"),
-            )
-            .help("name two in `head` and `table`; one that turns the blade about itself goes to `spindle`"),
+    if faults.len() == before && count != 2 {
+        faults.push(
+            table
+                .fault(
+                    table.span_of("head"),
+                    format!("head and table have {count} rotary axes together, a five-axis machine has 2"),
+                    format!("with `table`, {count} rotary axes"),
+                )
+                .help(
+                    "name two in `head` and `table`; one that turns the blade about itself goes to `spindle`",
+                ),
         );
         return None;
     }
     let all = || names.head.iter().chain(&names.table).chain(&names.spindle);
     if let Some(name) = all().find(|name| !ROTARY_NAMES.contains(name)) {
-        flaws.push(
-            Flaw::new(
-                names.place(table, name),
-                format!("a rotary axis cannot be called \"{name}\""),
-                "names a rotary axis",
-            )
-            .help(format!("call rotary axes one of {}", ROTARY_NAMES.join(", "))),
+        faults.push(
+            table
+                .fault(
+                    names.place(table, name),
+                    format!("a rotary axis cannot be called \"{name}\""),
+                    "names a rotary axis",
+                )
+                .help(format!("call rotary axes one of {}", ROTARY_NAMES.join(", "))),
         );
     }
     if let Some(name) = all().find(|name| all().filter(|other| other == name).count() > 1) {
-        flaws.push(
-            Flaw::new(
-                names.place(table, name),
-                format!("two rotary axes are called \"{name}\""),
-                "names an axis that has that name",
-            )
-            .help("give each axis its own name; an orientable spindle can be called \"s\""),
+        faults.push(
+            table
+                .fault(
+                    names.place(table, name),
+                    format!("two rotary axes are called \"{name}\""),
+                    "names an axis that has that name",
+                )
+                .help("give each axis its own name; an orientable spindle can be called \"s\""),
         );
     }
-    (flaws.len() == before).then_some(names)
+    (faults.len() == before).then_some(names)
 }
 
 /// `[axis]` with a table for each axis of the arrangement.
-fn axis_tables<'t>(root: &Table<'t>, names: &Names<'t>, flaws: &mut Vec<Flaw>) -> Option<Table<'t>> {
+fn axis_tables<'t>(root: &Table<'t>, names: &Names<'t>, faults: &mut Vec<Diagnostic>) -> Option<Table<'t>> {
     let rotary = names.head.iter().chain(&names.table).chain(&names.spindle);
     let known: Vec<&str> = LINEAR_NAMES.iter().chain(rotary).copied().collect();
-    let axes = root.table("axis", &known, flaws)?;
-    let before = flaws.len();
+    let axes = root.loose_table("axis", faults)?;
+    axes.allow(&known, faults);
+    let before = faults.len();
     for name in known.iter().filter(|name| !axes.has(name)) {
-        flaws.push(
-            Flaw::new(
+        faults.push(
+            root.fault(
                 root.span_of("axis"),
                 format!("the sheet lacks `[axis.{name}]`"),
                 format!("no axis {}", name.to_uppercase()),
@@ -218,16 +231,14 @@ fn axis_tables<'t>(root: &Table<'t>, names: &Names<'t>, flaws: &mut Vec<Flaw>) -
             .help(format!("add a table `[axis.{name}]` with its range")),
         );
     }
-    (flaws.len() == before).then_some(axes)
+    (faults.len() == before).then_some(axes)
 }
 
-fn linear_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Axis> {
-    let table = axes.table(name, LINEAR_KEYS, flaws)?;
-    table.require(&[("travel_mm", "travel_mm = [-1000.0, 1000.0]")], flaws);
-    let range = table.range("travel_mm", LENGTH, LONGEST_TRAVEL, flaws);
-    let rate = optional(&table, "rate_mm_s", SLIDING_RATE, flaws);
-    let acceleration = optional(&table, "acceleration_mm_s2", SLIDING_ACCELERATION, flaws);
-    let jerk = optional(&table, "jerk_mm_s3", SLIDING_JERK, flaws);
+fn linear_axis(axes: &Table<'_>, name: &str, faults: &mut Vec<Diagnostic>) -> Option<Axis> {
+    let table = axes.table(name, LINEAR, faults)?;
+    let range = table.range("travel_mm", LONGEST_TRAVEL, faults);
+    let keys = ["rate_mm_s", "acceleration_mm_s2", "jerk_mm_s3"];
+    let [rate, acceleration, jerk] = keys.map(|key| given(&table, key, faults));
     let (min, max) = range?;
     Some(Axis {
         name: name.to_uppercase(),
@@ -240,18 +251,11 @@ fn linear_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Ax
     })
 }
 
-fn rotary_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<(Rotary, Axis)> {
-    let table = axes.table(name, ROTARY_KEYS, flaws)?;
-    table.require(
-        &[
-            ("about", "about = \"+Y\""),
-            ("centre_mm", "centre_mm = [0.0, 0.0, 250.0]"),
-        ],
-        flaws,
-    );
-    let about = table.word("about", DIRECTIONS, flaws);
-    let centre = table.numbers("centre_mm", LENGTH, flaws);
-    let axis = turning_axis(&table, name, flaws);
+fn rotary_axis(axes: &Table<'_>, name: &str, faults: &mut Vec<Diagnostic>) -> Option<(Rotary, Axis)> {
+    let table = axes.table(name, ROTARY, faults)?;
+    let about = table.word("about", DIRECTIONS, faults);
+    let centre = table.numbers("centre_mm", faults);
+    let axis = turning_axis(&table, name, faults);
     let rotary = Rotary {
         about: about?,
         centre: DVec3::from_array(centre?),
@@ -259,36 +263,33 @@ fn rotary_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<(R
     Some((rotary, axis?))
 }
 
-fn spindle_axis(axes: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<(SpindleSense, Axis)> {
-    let table = axes.table(name, SPINDLE_KEYS, flaws)?;
-    table.require(&[("about", "about = \"+Z\"")], flaws);
-    let sense = table.word("about", SENSES, flaws);
-    let axis = turning_axis(&table, name, flaws);
+fn spindle_axis(axes: &Table<'_>, name: &str, faults: &mut Vec<Diagnostic>) -> Option<(SpindleSense, Axis)> {
+    let table = axes.table(name, SPINDLE, faults)?;
+    let sense = table.word("about", SENSES, faults);
+    let axis = turning_axis(&table, name, faults);
     Some((sense?, axis?))
 }
 
-fn turning_axis(table: &Table<'_>, name: &str, flaws: &mut Vec<Flaw>) -> Option<Axis> {
-    table.require(&[("range_deg", "range_deg = [-110.0, 110.0]")], flaws);
-    let range = table.range("range_deg", ANGLE, WIDEST_RANGE, flaws);
-    let rate = optional(table, "rate_deg_s", TURNING_RATE, flaws);
-    let acceleration = optional(table, "acceleration_deg_s2", TURNING_ACCELERATION, flaws);
-    let jerk = optional(table, "jerk_deg_s3", TURNING_JERK, flaws);
+fn turning_axis(table: &Table<'_>, name: &str, faults: &mut Vec<Diagnostic>) -> Option<Axis> {
+    let range = table.range(RANGE.name, WIDEST_RANGE, faults);
+    let numbers = [RATE, ACCELERATION, JERK].map(|field| given(table, field.name, faults));
+    let [rate, acceleration, jerk] = numbers.map(|number| Some(number?.map(f64::to_radians)));
     let (min, max) = range?;
     Some(Axis {
         name: name.to_uppercase(),
         kind: AxisKind::Rotary,
         min: min.to_radians(),
         max: max.to_radians(),
-        rate: rate?.map(f64::to_radians),
-        acceleration: acceleration?.map(f64::to_radians),
-        jerk: jerk?.map(f64::to_radians),
+        rate: rate?,
+        acceleration: acceleration?,
+        jerk: jerk?,
     })
 }
 
 /// A number that may be left out; none when it is there and faulty.
-fn optional(table: &Table<'_>, key: &str, measure: Measure, flaws: &mut Vec<Flaw>) -> Option<Option<f64>> {
+fn given(table: &Table<'_>, key: &str, faults: &mut Vec<Diagnostic>) -> Option<Option<f64>> {
     if table.has(key) {
-        table.number(key, measure, flaws).map(Some)
+        table.number(key, faults).map(Some)
     } else {
         Some(None)
     }
@@ -308,7 +309,7 @@ fn arranged(names: &Names<'_>, rotaries: &[Rotary]) -> Option<Arrangement> {
     }
 }
 
-fn cannot_tilt(table: &Table<'_>, names: &Names<'_>, unfit: Unfit) -> Flaw {
+fn cannot_tilt(table: &Table<'_>, names: &Names<'_>, unfit: Unfit) -> Diagnostic {
     let at_blade = match names.head.len() {
         0 => names.table.first(),
         _ => names.head.last(),
@@ -316,13 +317,13 @@ fn cannot_tilt(table: &Table<'_>, names: &Names<'_>, unfit: Unfit) -> Flaw {
     let at_blade = at_blade.copied().unwrap_or_default();
     let name = at_blade.to_uppercase();
     match unfit {
-        Unfit::Parallel => Flaw::new(
+        Unfit::Parallel => table.fault(
             names.place(table, at_blade),
             "the two rotary axes are parallel, so the blade tilts in only one direction",
             "parallel axes",
         )
         .help("write `about` of one of them along another axis of the machine"),
-        Unfit::AlongSpindle => Flaw::new(
+        Unfit::AlongSpindle => table.fault(
             names.place(table, at_blade),
             format!("axis {name} lies along the spindle, so the blade tilts in only one direction"),
             format!("{name} does not tilt the blade"),

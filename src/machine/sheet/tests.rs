@@ -4,7 +4,11 @@ use super::*;
 use crate::kinematics::opw::Coupling;
 use proptest::prelude::*;
 use vcutc_backend_api::ir::AxisKind;
-use vcutc_diagnostics::document::{LARGEST, MOST_FLAWS};
+use vcutc_diagnostics::document::{LARGEST, MOST_FAULTS};
+
+fn parse(text: &str) -> Result<Sheet, Vec<Diagnostic>> {
+    super::parse(FileId::ALONE, text)
+}
 
 /// The least a user writes.
 const SMALL: &str = r#"
@@ -23,29 +27,29 @@ joint_signs = [1, 1, 1, 1, 1, 1]
 limits_deg = [[-180.0, 180.0], [-60.0, 80.0], [-70.0, 160.0], [-300.0, 300.0], [-120.0, 120.0], [-360.0, 360.0]]
 "#;
 
-/// The flaws of the small sheet after a change, each with the text it points at.
-fn flaws(from: &str, to: &str) -> Vec<(String, String)> {
+/// The faults of the small sheet after a change, each with the text it points at.
+fn faults(from: &str, to: &str) -> Vec<(String, String)> {
     assert!(SMALL.contains(from), "{from}");
     let text = SMALL.replacen(from, to, 1);
-    let flaws = parse(&text).expect_err(to);
-    flaws
+    let faults = parse(&text).expect_err(to);
+    faults
         .into_iter()
-        .map(|flaw| {
-            let place = text.get(flaw.span).expect("a place in the text");
-            (place.to_owned(), flaw.message)
+        .map(|fault| {
+            let place = text.get(fault.primary.span.bytes()).expect("a place in the text");
+            (place.to_owned(), fault.message)
         })
         .collect()
 }
 
-/// The only flaw after a change.
-fn flaw(from: &str, to: &str) -> (String, String) {
-    let mut found = flaws(from, to);
+/// The only fault after a change.
+fn fault(from: &str, to: &str) -> (String, String) {
+    let mut found = faults(from, to);
     assert_eq!(found.len(), 1, "{found:#?}");
     found.remove(0)
 }
 
-fn assert_flaw(from: &str, to: &str, place: &str, message: &str) {
-    assert_eq!(flaw(from, to), (place.to_owned(), message.to_owned()));
+fn assert_fault(from: &str, to: &str, place: &str, message: &str) {
+    assert_eq!(fault(from, to), (place.to_owned(), message.to_owned()));
 }
 
 #[test]
@@ -86,35 +90,40 @@ fn a_maker_and_rates_and_coupling_are_optional() {
 
 #[test]
 fn what_is_missing_is_listed() {
-    let (place, message) = flaw("c2_mm = 900.0\nc3_mm = 1_000.0\n", "");
+    let (place, message) = fault("c2_mm = 900.0\nc3_mm = 1_000.0\n", "");
     assert!(place.starts_with("[opw]"), "{place}");
-    assert_eq!(message, "`[opw]` lacks `c2_mm`, `c3_mm`");
-    assert_eq!(flaw("model = \"Shop arm\"", "").1, "the sheet lacks `model`");
+    assert_eq!(message, "`[opw]` needs `c2_mm`, `c3_mm`");
+    assert_eq!(fault("model = \"Shop arm\"", "").1, "a sheet needs `model`");
     let limits = &SMALL[SMALL.find("[limits]").unwrap()..];
-    assert_eq!(flaw(limits, "").1, "the sheet lacks `limits`");
-    assert_eq!(flaw(limits, "[limits]").1, "`[limits]` lacks `limits_deg`");
+    assert_eq!(fault(limits, "").1, "a sheet needs `limits`");
+    assert_eq!(fault(limits, "[limits]").1, "`[limits]` needs `limits_deg`");
 }
 
 #[test]
 fn numbers_are_finite_numbers_in_range() {
-    assert_flaw("300", "nan", "nan", "`a1_mm` takes a finite number");
-    assert_flaw("300", "-inf", "-inf", "`a1_mm` takes a finite number");
-    assert_flaw("300", "1e999", "1e999", "`a1_mm` takes a finite number");
-    assert_flaw("300", "\"300\"", "\"300\"", "`a1_mm` takes a number, not a text");
-    assert_flaw(
+    assert_fault("300", "nan", "nan", "`a1_mm` takes a finite number");
+    assert_fault("300", "-inf", "-inf", "`a1_mm` takes a finite number");
+    assert_fault("300", "1e999", "1e999", "`a1_mm` takes a finite number");
+    assert_fault("300", "\"300\"", "\"300\"", "`a1_mm` takes a number, not a text");
+    assert_fault(
         "300",
         "1e6",
         "1e6",
-        "`a1_mm` is from -100000 to 100000 mm, not 1000000 mm",
+        "`a1_mm` must be at least -100 m and at most 100 m, but is 1000000 mm",
     );
-    assert_flaw("900.0", "0.0", "0.0", "`c2_mm` is from 1 to 100000 mm, not 0 mm");
-    assert_flaw(
+    assert_fault(
+        "900.0",
+        "0.0",
+        "0.0",
+        "`c2_mm` must be at least 1 mm and at most 100 m, but is 0 mm",
+    );
+    assert_fault(
         "1_000.0",
         "-5.0",
         "-5.0",
-        "`c3_mm` is from 1 to 100000 mm, not -5 mm",
+        "`c3_mm` must be at least 1 mm and at most 100 m, but is -5 mm",
     );
-    assert_flaw(
+    assert_fault(
         "[0.0, 0.0, -90.0, 0.0, 0.0, 0.0]",
         "[0.0, 0.0, -90.0]",
         "[0.0, 0.0, -90.0]",
@@ -124,32 +133,32 @@ fn numbers_are_finite_numbers_in_range() {
 
 #[test]
 fn senses_are_plus_or_minus_one() {
-    let (place, message) = flaw("[1, 1, 1, 1, 1, 1]", "[1, 1, 0, 1, 1, 1]");
+    let (place, message) = fault("[1, 1, 1, 1, 1, 1]", "[1, 1, 0, 1, 1, 1]");
     assert_eq!(place, "[1, 1, 0, 1, 1, 1]");
     assert_eq!(message, "a sense of rotation is 1 or -1, not 0");
 }
 
 #[test]
 fn limits_are_ranges() {
-    assert_flaw(
+    assert_fault(
         "[-60.0, 80.0]",
         "[80.0, -60.0]",
         "[80.0, -60.0]",
         "a range of `limits_deg` ends before it begins: 80 deg is not below -60 deg",
     );
-    assert_flaw(
+    assert_fault(
         "[-360.0, 360.0]",
         "[-600.0, 600.0]",
         "[-600.0, 600.0]",
         "a range of `limits_deg` is 1200 deg wide, at most 1080 deg can be handled",
     );
-    assert_flaw(
+    assert_fault(
         "[-60.0, 80.0]",
         "-60.0",
         "-60.0",
         "`limits_deg` takes a list of 2 numbers, not a number",
     );
-    let (place, message) = flaw(", [-360.0, 360.0]]", "]");
+    let (place, message) = fault(", [-360.0, 360.0]]", "]");
     assert!(place.starts_with("[[-180"), "{place}");
     assert_eq!(message, "`limits_deg` takes 6 entries, not 5");
 }
@@ -158,11 +167,13 @@ fn limits_are_ranges() {
 fn rates_are_above_nothing() {
     for bad in ["0", "-10"] {
         let line = format!("[limits]\nspeeds_deg_s = [100, {bad}, 100, 150, 150, 200]\n");
-        let (place, message) = flaw("[limits]\n", &line);
+        let (place, message) = fault("[limits]\n", &line);
         assert_eq!(place, bad);
         assert_eq!(
             message,
-            format!("`speeds_deg_s` is from 0.001 to 100000 deg/s, not {bad} deg/s")
+            format!(
+                "`speeds_deg_s` must be at least 0.001 deg/s and at most 100000 deg/s, but is {bad} deg/s"
+            )
         );
     }
 }
@@ -171,11 +182,12 @@ fn rates_are_above_nothing() {
 fn unknown_keys_are_told_with_what_was_meant() {
     let text = SMALL.replace("c4_mm", "c4");
     let found = parse(&text).unwrap_err();
-    let messages: Vec<_> = found.iter().map(|flaw| flaw.message.as_str()).collect();
-    assert_eq!(messages, ["`[opw]` lacks `c4_mm`", "`[opw]` has no `c4`"]);
+    let messages: Vec<_> = found.iter().map(|fault| fault.message.as_str()).collect();
+    assert_eq!(messages, ["`[opw]` needs `c4_mm`", "`[opw]` has no field `c4`"]);
     let found = parse(&SMALL.replace("[limits]", "[limit]")).unwrap_err();
-    let helps: Vec<_> = found.iter().filter_map(|flaw| flaw.help.as_deref()).collect();
-    assert!(helps.contains(&"did you mean `limits`?"), "{helps:?}");
+    let fixes = found.iter().flat_map(|fault| &fault.fixes);
+    let titles: Vec<_> = fixes.map(|fix| fix.title.as_str()).collect();
+    assert!(titles.contains(&"did you mean `limits`?"), "{titles:?}");
 }
 
 #[test]
@@ -207,35 +219,35 @@ fn a_known_pose_is_a_rotation() {
 
 #[test]
 fn texts_can_be_shown() {
-    let (place, message) = flaw("Shop arm", "Shop \\u001b[2J arm");
+    let (place, message) = fault("Shop arm", "Shop \\u001b[2J arm");
     assert!(place.contains("u001b"), "{place}");
     assert_eq!(
         message,
         "the text of `model` has a character that cannot be shown"
     );
     let key = "k".repeat(1000);
-    let (_, message) = flaw("model", &format!("{key} = 1\nmodel"));
-    assert_eq!(message, format!("a sheet has no `{}...`", "k".repeat(40)));
+    let (_, message) = fault("model", &format!("{key} = 1\nmodel"));
+    assert_eq!(message, format!("a sheet has no field `{}...`", "k".repeat(40)));
 }
 
 #[test]
 fn words_are_known_words() {
-    let (place, message) = flaw("model", "confidence = \"hihg\"\nmodel");
+    let (place, message) = fault("model", "confidence = \"hihg\"\nmodel");
     assert_eq!(
         (place.as_str(), message.as_str()),
-        ("\"hihg\"", "`confidence` cannot be \"hihg\"")
+        ("\"hihg\"", "`confidence` cannot be `\"hihg\"`")
     );
-    let (place, _) = flaw("model", "kind = \"robt\"\nmodel");
+    let (place, _) = fault("model", "kind = \"robt\"\nmodel");
     assert_eq!(place, "\"robt\"");
 }
 
 #[test]
 fn limits_that_nobody_checks_are_refused() {
-    let (place, message) = flaw("[limits]\n", "[limits]\nelbow_angle_limit_deg = [-70.0, 70.0]\n");
+    let (place, message) = fault("[limits]\n", "[limits]\nelbow_angle_limit_deg = [-70.0, 70.0]\n");
     assert_eq!(place, "[-70.0, 70.0]");
     assert!(message.contains("each axis separately"), "{message}");
     let coupled = "[coupling]\nwrist_4_5_6_coupling_in_joint_space = true\n[limits]";
-    assert_eq!(flaw("[limits]", coupled).0, "true");
+    assert_eq!(fault("[limits]", coupled).0, "true");
 }
 
 #[test]
@@ -246,21 +258,21 @@ fn several_faults_are_told_at_once_in_the_order_of_the_text() {
         .replace("[-60.0, 80.0]", "[80.0, -60.0]");
     let found = parse(&text).unwrap_err();
     assert_eq!(found.len(), 3, "{found:#?}");
-    assert!(found.is_sorted_by_key(|flaw| flaw.span.start));
+    assert!(found.is_sorted_by_key(|fault| fault.primary.span.start));
 }
 
 #[test]
 fn what_is_no_toml_is_told_where() {
-    let (place, message) = flaws("a2_mm = -100.0", "a2_mm = = 3").remove(0);
+    let (place, message) = faults("a2_mm = -100.0", "a2_mm = = 3").remove(0);
     assert!(message.starts_with("the sheet is not TOML: "), "{message}");
     assert!(place.len() < 10, "{place}");
-    let (_, twice) = flaws("b_mm = 0.0", "b_mm = 0.0\nb_mm = 1.0").remove(0);
+    let (_, twice) = faults("b_mm = 0.0", "b_mm = 0.0\nb_mm = 1.0").remove(0);
     assert!(twice.contains("duplicate"), "{twice}");
 }
 
 /// Deep trees are dropped by recursion, wide ones take time.
 #[test]
-fn hostile_sheets_end_in_flaws() {
+fn hostile_sheets_end_in_faults() {
     let dots = "a.".repeat(100_000);
     let lists = "[".repeat(250_000);
     let tables = "{a=".repeat(80_000);
@@ -277,15 +289,15 @@ fn hostile_sheets_end_in_flaws() {
     ];
     for text in hostile {
         let found = parse(&text).unwrap_err();
-        assert!((1..=MOST_FLAWS).contains(&found.len()));
-        for flaw in found {
-            assert!(text.get(flaw.span.clone()).is_some(), "{flaw:?}");
+        assert!((1..=MOST_FAULTS).contains(&found.len()));
+        for fault in found {
+            assert!(text.get(fault.primary.span.bytes()).is_some(), "{fault:?}");
         }
     }
 }
 
 proptest! {
-    /// Whatever one byte of a sheet becomes: a machine of finite numbers, or flaws with a place in the text.
+    /// Whatever one byte of a sheet becomes: a machine of finite numbers, or faults with a place in the text.
     #[test]
     fn no_change_of_a_sheet_makes_nonsense(at in 0..SMALL.len(), letter in "[ -~\\n]") {
         let mut text = SMALL.to_owned();
@@ -298,10 +310,10 @@ proptest! {
                 let pose = sheet.mechanism.flange_in_root(&[0.1; 6]);
                 prop_assert!(pose.position.is_finite() && pose.rotation.is_finite());
             }
-            Err(flaws) => {
-                prop_assert!(!flaws.is_empty());
-                for flaw in flaws {
-                    prop_assert!(text.get(flaw.span.clone()).is_some(), "{:?}", flaw);
+            Err(faults) => {
+                prop_assert!(!faults.is_empty());
+                for fault in faults {
+                    prop_assert!(text.get(fault.primary.span.bytes()).is_some(), "{:?}", fault);
                 }
             }
         }
@@ -320,9 +332,9 @@ fn jerks_and_numbers_of_the_path_are_optional() {
     assert_eq!(path.acceleration, Some(2000.0));
     assert_eq!((path.jerk, path.turning_acceleration), (None, None));
     assert_eq!(path.turning_jerk, Some(180_f64.to_radians()));
-    let flaws = parse(&text.replace("= 2000", "= 0")).unwrap_err();
+    let faults = parse(&text.replace("= 2000", "= 0")).unwrap_err();
     assert_eq!(
-        &text[..flaws[0].span.start].lines().last(),
+        &text[..faults[0].primary.span.start as usize].lines().last(),
         &Some("acceleration_mm_s2 = ")
     );
 }

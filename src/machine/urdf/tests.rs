@@ -1,8 +1,8 @@
 //! URDF of real robots' dimensions, against chains of nalgebra and published numbers.
 
-mod flaws;
+mod faults;
 
-use super::{Flange, parse};
+use super::{FileId, Flange, parse};
 use crate::kinematics::recognise::FIT;
 use crate::kinematics::samples::{pose, ur10e};
 use crate::kinematics::{Joints, Mechanism};
@@ -308,7 +308,7 @@ fn chain(rows: &[Row], joints: &Joints) -> Isometry3<f64> {
 }
 
 fn model(rows: &[Row]) -> Model {
-    parse("shop/arm.urdf", &text(rows), Flange::ByConvention).expect("a good URDF")
+    parse("shop/arm.urdf", FileId::ALONE, &text(rows), Flange::ByConvention).expect("a good URDF")
 }
 
 /// The rows without those that lead off the way to the flange.
@@ -388,7 +388,7 @@ fn names_limits_and_rates_are_kept() {
 #[test]
 fn rounded_right_angles_still_give_the_closed_form() {
     let rounded = text(KR210).replace("1.5707963267948966", "1.5708");
-    let model = parse("arm", &rounded, Flange::ByConvention).expect("a good URDF");
+    let model = parse("arm", FileId::ALONE, &rounded, Flange::ByConvention).expect("a good URDF");
     let joints = [0.4, -1.2, 1.4, -0.6, 1.1, 0.3];
     let (apart, _) = model
         .mechanism
@@ -399,11 +399,12 @@ fn rounded_right_angles_still_give_the_closed_form() {
 
 #[test]
 fn the_flange_can_be_named() {
-    let all_to = |link| parse("arm", &text(UR10E), Flange::Link(link)).expect("a good URDF");
+    let all_to = |link| parse("arm", FileId::ALONE, &text(UR10E), Flange::Link(link)).expect("a good URDF");
     let joints = [0.4, -1.2, 1.4, -0.6, 1.1, 0.3];
     let [flange, tool0] = ["flange", "tool0"].map(|link| all_to(link).mechanism.flange_in_root(&joints));
     assert!(flange.position.distance(tool0.position) < 1e-9);
     assert!(flange.apart(&tool0).1 > 1.0);
-    let unknown = parse("arm", &text(UR10E), Flange::Link("tool1")).expect_err("there is none");
+    let unknown =
+        parse("arm", FileId::ALONE, &text(UR10E), Flange::Link("tool1")).expect_err("there is none");
     assert_eq!(unknown[0].message, "the file has no link `tool1`");
 }

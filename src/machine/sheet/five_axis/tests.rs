@@ -3,10 +3,15 @@
 use crate::catalogue;
 use crate::kinematics::Mechanism;
 use crate::kinematics::five_axis::FiveAxis;
-use crate::sheet::parse;
+use crate::sheet::{self, Sheet};
 use glam::DVec3;
 use vcutc_backend_api::ir::AxisKind;
-use vcutc_diagnostics::document::flaw::Flaw;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_diagnostics::source::FileId;
+
+fn parse(text: &str) -> Result<Sheet, Vec<Diagnostic>> {
+    sheet::parse(FileId::ALONE, text)
+}
 
 fn machine(name: &str) -> FiveAxis {
     match catalogue::find(name).unwrap().mechanism {
@@ -104,43 +109,43 @@ fn positive_angles_turn_the_blade_right_handed_against_the_work() {
     }
 }
 
-fn flaws(name: &str, from: &str, to: &str) -> Vec<Flaw> {
+fn faults(name: &str, from: &str, to: &str) -> Vec<Diagnostic> {
     let text = catalogue::text(name).unwrap();
     assert!(text.contains(from), "{from}");
     parse(&text.replacen(from, to, 1)).expect_err(to)
 }
 
-/// The only flaw after a change of a sheet: the text it points at, and what it says.
-fn flaw(name: &str, from: &str, to: &str) -> (String, String) {
+/// The only fault after a change of a sheet: the text it points at, and what it says.
+fn fault(name: &str, from: &str, to: &str) -> (String, String) {
     let text = catalogue::text(name).unwrap().replacen(from, to, 1);
-    let mut found = flaws(name, from, to);
+    let mut found = faults(name, from, to);
     assert_eq!(found.len(), 1, "{found:#?}");
-    let flaw = found.remove(0);
-    (text[flaw.span].to_owned(), flaw.message)
+    let fault = found.remove(0);
+    (text[fault.primary.span.bytes()].to_owned(), fault.message)
 }
 
-fn assert_flaw(from: &str, to: &str, place: &str, message: &str) {
-    let found = flaw("generic/head_head_ac_spindle", from, to);
+fn assert_fault(from: &str, to: &str, place: &str, message: &str) {
+    let found = fault("generic/head_head_ac_spindle", from, to);
     assert_eq!((found.0.as_str(), found.1.as_str()), (place, message));
 }
 
 #[test]
 fn arrangements_have_two_rotary_axes_with_names_of_their_own() {
-    assert_flaw(
+    assert_fault(
         "[\"c\", \"a\"]",
         "[\"c\"]",
         "[\"c\"]",
         "head and table have 1 rotary axes together, a five-axis machine has 2",
     );
-    assert_flaw("\"s\"", "\"w\"", "\"w\"", "a rotary axis cannot be called \"w\"");
-    assert_flaw("\"s\"", "\"c\"", "\"c\"", "two rotary axes are called \"c\"");
-    assert_flaw(
+    assert_fault("\"s\"", "\"w\"", "\"w\"", "a rotary axis cannot be called \"w\"");
+    assert_fault("\"s\"", "\"c\"", "\"c\"", "two rotary axes are called \"c\"");
+    assert_fault(
         "[\"c\", \"a\"]",
         "\"ca\"",
         "\"ca\"",
         "`head` takes a list of names, not a text",
     );
-    assert_flaw(
+    assert_fault(
         "[\"c\", \"a\"]",
         "[\"c\", 1]",
         "1",
@@ -150,54 +155,56 @@ fn arrangements_have_two_rotary_axes_with_names_of_their_own() {
 
 #[test]
 fn rotary_axes_have_to_tilt_the_blade() {
-    assert_flaw(
+    assert_fault(
         "[\"c\", \"a\"]",
         "[\"a\", \"c\"]",
         "[\"a\", \"c\"]",
         "axis C lies along the spindle, so the blade tilts in only one direction",
     );
-    let (place, message) = flaw("generic/head_head_ba", "\"+Y\"", "\"-X\"");
+    let (place, message) = fault("generic/head_head_ba", "\"+Y\"", "\"-X\"");
     assert_eq!(place, "[\"b\", \"a\"]");
     assert_eq!(
         message,
         "the two rotary axes are parallel, so the blade tilts in only one direction"
     );
-    let (place, _) = flaw("generic/table_table_ac", "[\"a\", \"c\"]", "[\"c\", \"a\"]");
+    let (place, _) = fault("generic/table_table_ac", "[\"a\", \"c\"]", "[\"c\", \"a\"]");
     assert_eq!(place, "[\"c\", \"a\"]");
 }
 
 #[test]
 fn every_axis_has_a_table_with_its_range() {
     let name = "generic/head_head_ac_spindle";
-    let missing = flaws(name, "[axis.s]", "[axis.t]");
+    let missing = faults(name, "[axis.s]", "[axis.t]");
     assert!(
         missing
             .iter()
-            .any(|flaw| flaw.message == "the sheet lacks `[axis.s]`"),
+            .any(|fault| fault.message == "the sheet lacks `[axis.s]`"),
         "{missing:#?}"
     );
     assert!(
-        missing.iter().any(|flaw| flaw.message == "`[axis]` has no `t`"),
+        missing
+            .iter()
+            .any(|fault| fault.message == "`[axis]` has no field `t`"),
         "{missing:#?}"
     );
-    let (_, message) = flaw(name, "travel_mm = [-1000.0, 1000.0]\n", "");
-    assert_eq!(message, "`[axis.x]` lacks `travel_mm`");
-    assert_flaw(
+    let (_, message) = fault(name, "travel_mm = [-1000.0, 1000.0]\n", "");
+    assert_eq!(message, "`[axis.x]` needs `travel_mm`");
+    assert_fault(
         "[-1000.0, 1000.0]",
         "[1000.0, -1000.0]",
         "[1000.0, -1000.0]",
         "a range of `travel_mm` ends before it begins: 1000 mm is not below -1000 mm",
     );
-    assert_flaw(
+    assert_fault(
         "rate_deg_s = 120.0",
         "rate_deg_s = nan",
         "nan",
         "`rate_deg_s` takes a finite number",
     );
-    let (place, message) = flaw(name, "about = \"+X\"", "about = \"X\"");
+    let (place, message) = fault(name, "about = \"+X\"", "about = \"X\"");
     assert_eq!(
         (place.as_str(), message.as_str()),
-        ("\"X\"", "`about` cannot be \"X\"")
+        ("\"X\"", "`about` cannot be `\"X\"`")
     );
 }
 

@@ -1,11 +1,11 @@
-//! Every flaw of a URDF at its place, and hostile text.
+//! Every fault of a URDF at its place, and hostile text.
 
-use super::super::{Flange, parse};
+use super::super::{FileId, Flange, parse};
 use super::{KR210, text};
 use proptest::prelude::*;
 
 /// Edits of the KUKA's text, the message that follows, and the text that it points at.
-const FLAWS: &[(&str, &str, &str, &str)] = &[
+const FAULTS: &[(&str, &str, &str, &str)] = &[
     (
         "</robot>",
         "",
@@ -177,8 +177,8 @@ const FLAWS: &[(&str, &str, &str, &str)] = &[
 ];
 
 #[test]
-fn every_flaw_is_told_at_its_place() {
-    for (from, to, message, place) in FLAWS {
+fn every_fault_is_told_at_its_place() {
+    for (from, to, message, place) in FAULTS {
         let good = text(KR210);
         let bad = if *from == "robot" {
             good.replace(from, to)
@@ -186,34 +186,35 @@ fn every_flaw_is_told_at_its_place() {
             good.replacen(from, to, 1)
         };
         assert_ne!(good, bad, "{from}");
-        let flaws = parse("arm", &bad, Flange::ByConvention).expect_err(message);
-        let told = flaws.iter().find(|flaw| flaw.message.starts_with(message));
-        let told = told.unwrap_or_else(|| panic!("{message}\n{flaws:#?}"));
-        assert_eq!(&bad[told.span.clone()], *place, "{message}");
+        let faults = parse("arm", FileId::ALONE, &bad, Flange::ByConvention).expect_err(message);
+        let told = faults.iter().find(|fault| fault.message.starts_with(message));
+        let told = told.unwrap_or_else(|| panic!("{message}\n{faults:#?}"));
+        assert_eq!(&bad[told.primary.span.bytes()], *place, "{message}");
     }
 }
 
 #[test]
-fn several_flaws_come_in_the_order_of_the_text() {
+fn several_faults_come_in_the_order_of_the_text() {
     let bad = text(KR210)
         .replace("velocity=\"2.0\"", "velocity=\"0\"")
         .replace("0 0 -1", "0 0 0");
-    let flaws = parse("arm", &bad, Flange::ByConvention).expect_err("seven");
-    assert_eq!(flaws.len(), 7);
-    assert!(flaws.is_sorted_by_key(|flaw| flaw.span.start));
+    let faults = parse("arm", FileId::ALONE, &bad, Flange::ByConvention).expect_err("seven");
+    assert_eq!(faults.len(), 7);
+    assert!(faults.is_sorted_by_key(|fault| fault.primary.span.start));
 }
 
 #[test]
 fn two_ends_are_one_too_many() {
     let without_names = text(KR210).replace("\"tool0\"", "\"tip\"");
-    assert!(parse("arm", &without_names, Flange::ByConvention).is_ok());
+    assert!(parse("arm", FileId::ALONE, &without_names, Flange::ByConvention).is_ok());
     let second = "<link name=\"camera\"/><joint name=\"c\" type=\"fixed\"><parent link=\"link_5\"/><child link=\"camera\"/></joint></robot>";
     let two = without_names.replace("</robot>", second);
-    let flaws = parse("arm", &two, Flange::ByConvention).expect_err("which one");
-    assert_eq!(flaws[0].message, "the robot ends in `tip` and in `camera`");
+    let faults = parse("arm", FileId::ALONE, &two, Flange::ByConvention).expect_err("which one");
+    assert_eq!(faults[0].message, "the robot ends in `tip` and in `camera`");
     assert!(
         parse(
             "arm",
+            FileId::ALONE,
             &text(KR210).replace("</robot>", second),
             Flange::ByConvention
         )
@@ -221,6 +222,7 @@ fn two_ends_are_one_too_many() {
     );
     let none = parse(
         "arm",
+        FileId::ALONE,
         "<robot><link name=\"base\"/></robot>",
         Flange::ByConvention,
     )
@@ -256,17 +258,17 @@ fn hostile_xml_is_refused_in_bounded_time() {
         format!("<robot>{}</robot>", "<é:joint/>".repeat(9)),
     ];
     for text in texts {
-        let flaws = parse("arm", &text, Flange::ByConvention).expect_err("hostile");
-        assert!(!flaws.is_empty() && flaws.len() <= 20);
-        for flaw in flaws {
-            assert!(text.get(flaw.span.clone()).is_some(), "{flaw:?}");
-            assert!(flaw.message.len() < 1000 && flaw.label.len() < 1000);
+        let faults = parse("arm", FileId::ALONE, &text, Flange::ByConvention).expect_err("hostile");
+        assert!(!faults.is_empty() && faults.len() <= 20);
+        for fault in faults {
+            assert!(text.get(fault.primary.span.bytes()).is_some(), "{fault:?}");
+            assert!(fault.message.len() < 1000 && fault.primary.text.len() < 1000);
         }
     }
 }
 
 proptest! {
-    /// Whatever is done to the text, the answer is a model of finite numbers or flaws that point into the text.
+    /// Whatever is done to the text, the answer is a model of finite numbers or faults that point into the text.
     #[test]
     fn damaged_text_never_brings_the_reader_down(
         at in 0_usize..4000, length in 0_usize..40, put in "[<>/\"é&0-9a-z. ]{0,12}"
@@ -275,15 +277,15 @@ proptest! {
         let start = at.min(good.len());
         let end = (start + length).min(good.len());
         let bad = format!("{}{put}{}", &good[..start], &good[end..]);
-        match parse("arm", &bad, Flange::ByConvention) {
+        match parse("arm", FileId::ALONE, &bad, Flange::ByConvention) {
             Ok(model) => {
                 let pose = model.mechanism.flange_in_root(&[0.3; 6]);
                 prop_assert!(pose.position.is_finite() && pose.rotation.is_finite());
             }
-            Err(flaws) => {
-                prop_assert!(!flaws.is_empty());
-                for flaw in flaws {
-                    prop_assert!(bad.get(flaw.span.clone()).is_some(), "{:?}", flaw);
+            Err(faults) => {
+                prop_assert!(!faults.is_empty());
+                for fault in faults {
+                    prop_assert!(bad.get(fault.primary.span.bytes()).is_some(), "{:?}", fault);
                 }
             }
         }
